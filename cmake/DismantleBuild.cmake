@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+# Settings every target shares, and the functions that declare a library component and a test.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+# Floating-point results must not depend on the compiler's mood: no contraction, never fast-math.
+add_library(dismantle_build_settings INTERFACE)
+target_compile_options(dismantle_build_settings INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-unknown-pragmas)
+target_compile_definitions(dismantle_build_settings INTERFACE
+  $<$<BOOL:${DISMANTLE_CONTRACTS}>:DISMANTLE_CONTRACTS=1>)
+if(DISMANTLE_WERROR)
+  target_compile_options(dismantle_build_settings INTERFACE -Werror)
+endif()
+if(DISMANTLE_SANITIZE)
+  add_compile_options(-fsanitize=${DISMANTLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${DISMANTLE_SANITIZE})
+endif()
+install(TARGETS dismantle_build_settings EXPORT dismantleTargets)
+
+# dismantle_component(NAME
+#   SOURCES a.cpp ...           absent for a header-only component
+#   DEPENDS core math ...       other components: the only ones this one may include (tools/check_layers)
+#   LIBRARIES ...               third-party targets that users of this component also need
+#   PRIVATE_LIBRARIES ...)      third-party targets that only this component's .cpp files see
+function(dismantle_component name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  set(target dismantle_${name})
+  if(arg_SOURCES)
+    add_library(${target} STATIC ${arg_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${arg_PRIVATE_LIBRARIES}>)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(dismantle::${name} ALIAS ${target})
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(${target} ${scope} dismantle_build_settings)
+  foreach(dep IN LISTS arg_DEPENDS)
+    target_link_libraries(${target} ${scope} dismantle_${dep})
+  endforeach()
+  target_link_libraries(${target} ${scope} ${arg_LIBRARIES})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT dismantleTargets ARCHIVE DESTINATION lib)
+  set_property(GLOBAL APPEND PROPERTY DISMANTLE_COMPONENTS ${name})
+endfunction()
+
+# dismantle_test(NAME SOURCES ... DEPENDS component ... [LIBRARIES ...]): one test program for one folder of tests.
+function(dismantle_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  set(target test_${name})
+  add_executable(${target} ${arg_SOURCES})
+  foreach(dep IN LISTS arg_DEPENDS)
+    target_link_libraries(${target} PRIVATE dismantle_${dep})
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE
+    DISMANTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DISMANTLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/assembly/pair_state.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+std::string_view name_of(PairState state) {
+  switch (state) {
+    case PairState::Clear:
+      return "clear";
+    case PairState::Near:
+      return "near";
+    case PairState::Contact:
+      return "contact";
+    case PairState::Fit:
+      return "fit";
+    case PairState::Embedded:
+      return "embedded";
+  }
+  return "";
+}
+
+const ComponentPair* PairStates::find(ComponentId a, ComponentId b) const {
+  if (b < a) std::swap(a, b);
+  const auto place = std::lower_bound(
+      pairs.begin(), pairs.end(), std::pair(a, b),
+      [](const ComponentPair& p, const auto& key) { return p.a != key.first ? p.a < key.first : p.b < key.second; });
+  return place != pairs.end() && place->a == a && place->b == b ? &*place : nullptr;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace dismantle {
+
+/// What a kernel appends to: writes past the capacity are counted but not stored, so that nothing is lost unnoticed.
+/// The position is taken by one atomic addition (the paper's global lock, section 4.3).
+template <class T>
+class AppendView {
+ public:
+  AppendView() = default;
+  AppendView(Span<T> storage, std::atomic<std::size_t>* needed) : storage_(storage), needed_(needed) {}
+
+  void append(const T& value) const {
+    const std::size_t place = needed_->fetch_add(1, std::memory_order_relaxed);
+    if (place < storage_.size()) storage_[place] = value;
+  }
+
+ private:
+  Span<T> storage_;
+  std::atomic<std::size_t>* needed_ = nullptr;
+};
+
+/// Owns the storage of an AppendView. After the kernel: if overflowed(), call grow() and run the same kernel again from
+/// the same inputs ("grow and replay"): no value is ever lost.
+template <class T>
+class AppendBuffer {
+ public:
+  explicit AppendBuffer(std::size_t capacity = 1024) : storage_(capacity > 0 ? capacity : 1) {}
+
+  /// Empties the buffer and gives the view for a kernel to append to.
+  AppendView<T> start() {
+    needed_.store(0, std::memory_order_relaxed);
+    return AppendView<T>(Span<T>(storage_), &needed_);
+  }
+  bool overflowed() const { return needed() > storage_.size(); }
+  /// How many values were appended, kept or not.
+  std::size_t needed() const { return needed_.load(std::memory_order_relaxed); }
+  std::size_t capacity() const { return storage_.size(); }
+  /// Makes room for what was needed, and half as much again.
+  void grow() { storage_.resize(needed() + needed() / 2); }
+  /// The values appended, in no particular order. @pre !overflowed()
+  Span<T> values() {
+    DISMANTLE_EXPECT(!overflowed());
+    return Span<T>(storage_).subspan(0, needed());
+  }
+  Span<const T> values() const {
+    DISMANTLE_EXPECT(!overflowed());
+    return Span<const T>(storage_).subspan(0, needed());
+  }
+
+ private:
+  std::vector<T> storage_;
+  std::atomic<std::size_t> needed_{0};
+};
+
+/// Runs `kernel(view)` and, as long as it appended more than there was room for, grows the buffer and runs it again.
+/// @return how many runs it took
+template <class T, class Run>
+int append_with_replay(AppendBuffer<T>& buffer, const Run& run) {
+  int runs = 1;
+  run(buffer.start());
+  while (buffer.overflowed()) {
+    buffer.grow();
+    run(buffer.start());
+    ++runs;
+  }
+  return runs;
+}
+
+}  // namespace dismantle

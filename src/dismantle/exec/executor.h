@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace dismantle {
+
+/// How an Executor runs its items. All give the same results: only wall time differs.
+enum class ExecutorKind {
+  Serial,    ///< One after another, on the calling thread.
+  Threads,   ///< On oneTBB's worker threads.
+  Shuffled,  ///< One after another in a scrambled order: tests use it to show that order does not matter.
+};
+
+/// Runs kernels: functors of views, called once an item with the item's index. Cheap to copy; copies share their
+/// threads.
+class Executor {
+ public:
+  /// Serial.
+  Executor();
+  /// @param thread_count for Threads: how many; 0 means all that the machine has. Ignored otherwise.
+  explicit Executor(ExecutorKind kind, int thread_count = 0);
+
+  ExecutorKind kind() const { return kind_; }
+  int thread_count() const { return thread_count_; }
+
+  /// Calls kernel(i) for every i in [0, count), in any order and possibly at the same time.
+  template <class Kernel>
+  void for_each(std::size_t count, const Kernel& kernel) const {
+    run_chunks(count, kItemsPerChunk, [&kernel](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) kernel(i);
+    });
+  }
+
+  /// As for_each, for items that are each worth a task of their own (a component, a file).
+  template <class Kernel>
+  void for_each_heavy(std::size_t count, const Kernel& kernel) const {
+    run_chunks(count, 1, [&kernel](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) kernel(i);
+    });
+  }
+
+  /// Sorts keys ascending.
+  void sort(Span<std::uint64_t> keys) const;
+
+ private:
+  static constexpr std::size_t kItemsPerChunk = 256;
+  void run_chunks(std::size_t count, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& run) const;
+
+  struct Arena;
+  ExecutorKind kind_;
+  int thread_count_;
+  std::shared_ptr<Arena> arena_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/id.h"
+#include "dismantle/geometry/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace dismantle {
+
+/// Counts of edges that keep a mesh from being a closed, consistently oriented surface.
+struct EdgeFaults {
+  std::size_t boundary = 0;
+  std::size_t nonmanifold = 0;
+  std::size_t misoriented = 0;
+};
+
+EdgeFaults edge_faults(const TriangleMesh& mesh);
+
+/// Which of its features a triangle stands for, so that every vertex and edge is tested once though several triangles
+/// share it (representative triangles, Curtis, Tamstorf, Manocha 2008). Bit k (0-2): its corner k; bit 3+k: its edge
+/// from corner k to corner (k+1)%3. Every used vertex and every edge has exactly one triangle that stands for it. Shape
+/// [face_count].
+std::vector<std::uint8_t> representative_features(const TriangleMesh& mesh);
+
+}  // namespace dismantle
