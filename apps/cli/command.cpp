@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/command.h"
+
+#include "dismantle/io/load_assembly.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <map>
+
+namespace dismantle::cli {
+
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+void interrupt(int) {
+  if (g_interrupted) std::_Exit(static_cast<int>(ExitCode::Failed));  // a second Ctrl+C does not wait
+  g_interrupted = 1;
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& o) {
+  static const std::map<std::string, PairRule> kRules{{"auto", PairRule::Auto}, {"paper", PairRule::Paper}};
+  const std::string group = "Common options";
+  command.add_option("--units", o.import.units, "Unit of the input's coordinates (mm, cm, m, um, in, ft)")
+      ->check(CLI::IsMember({"mm", "cm", "m", "um", "in", "ft"}))
+      ->group(group);
+  command.add_option("--deflection", o.import.deflection, "STEP: largest distance of a triangle from its surface")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command.add_option("--angular-deflection", o.import.angular_deflection, "STEP: largest turn from facet to facet")
+      ->type_name("RAD")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command
+      .add_option("--tolerance", o.tolerance, "Penetration that counts as touching (default: by size and deflection)")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command.add_option("--fit", o.fit, "Deepest initial overlap that is a fit (default: 1% of the smaller component)")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command
+      .add_option("--pairs", o.pairs,
+                  "What overlapping pairs may do: auto (contact, fit, embedded) or paper (all free)")
+      ->transform(CLI::CheckedTransformer(kRules))
+      ->type_name("auto|paper")
+      ->group(group);
+  command.add_option("--simplify", o.simplify, "Simplify to about N triangles after loading")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command.add_option("--device", o.device, "Where to compute: cpu, cuda or auto")
+      ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+      ->group(group);
+  command.add_option("--threads", o.threads, "Threads (default: all)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->group(group);
+  command.add_flag("--json", o.json, "Print the result as JSON")->group(group);
+  command.add_flag("--quiet", o.quiet, "Print no progress")->group(group);
+}
+
+void add_assembly_argument(CLI::App& command, CommonOptions& o) {
+  command.add_option("ASSEMBLY", o.assembly_file, "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes")->required();
+}
+
+ProgressCallback progress_printer(const CommonOptions& options) {
+  std::signal(SIGINT, interrupt);
+  const bool show = !options.quiet && isatty(STDERR_FILENO);
+  return [show](std::string_view stage, double fraction) {
+    if (show) {
+      const int percent = fraction < 0 ? 0 : static_cast<int>(100 * fraction);
+      std::fprintf(stderr, "\r\033[K%.*s %d%%%s", static_cast<int>(stage.size()), stage.data(), percent,
+                   fraction >= 1 ? "\r\033[K" : "");
+      std::fflush(stderr);
+    }
+    return g_interrupted == 0;
+  };
+}
+
+Result<Executor> make_executor(const CommonOptions& options) {
+  if (options.device == "cuda")
+    return Error{ErrorKind::Usage,
+                 "no CUDA device can be used (this build has no CUDA backend); use --device cpu or auto"};
+  return Executor(options.threads == 1 ? ExecutorKind::Serial : ExecutorKind::Threads, options.threads);
+}
+
+Result<Assembly> load(const CommonOptions& options) {
+  ImportOptions import = options.import;
+  import.progress = progress_printer(options);
+  return load_assembly(options.assembly_file, import);
+}
+
+Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance) {
+  Result<Executor> executor = make_executor(options);
+  if (!executor) return executor.error();
+  ClassifyOptions classify;
+  classify.tolerance = options.tolerance;
+  classify.fit = options.fit;
+  classify.clearance = clearance;
+  classify.rule = options.pairs;
+  classify.executor = *executor;
+  classify.progress = progress_printer(options);
+  return classify_pairs(assembly, classify);
+}
+
+ExitCode report(const Error& error) {
+  std::fprintf(stderr, "dismantle: %s\n", error.message.c_str());
+  switch (error.kind) {
+    case ErrorKind::Usage:
+      return ExitCode::Usage;
+    case ErrorKind::Unreadable:
+      return ExitCode::Unreadable;
+    case ErrorKind::Failed:
+      return ExitCode::Failed;
+  }
+  return ExitCode::Failed;
+}
+
+}  // namespace dismantle::cli

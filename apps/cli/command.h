@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/pair_state.h"
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/core/result.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/io/import_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+/// What the commands of the program share. A command is one file, command_<name>.cpp, with one function
+/// add_<name>_command(app, exit_code) that declares its options and sets the callback; main.cpp lists them.
+namespace dismantle::cli {
+
+/// FORMATS, "Command line".
+enum class ExitCode { Done = 0, No = 1, Usage = 2, Unreadable = 3, Failed = 4 };
+
+/// The options that every command knows.
+struct CommonOptions {
+  std::string assembly_file;
+  ImportOptions import;
+  double tolerance = 0;
+  double fit = 0;
+  PairRule pairs = PairRule::Auto;
+  std::size_t simplify = 0;
+  std::string device = "auto";
+  int threads = 0;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Declares the common options on a command. `options` must outlive the parse.
+void add_common_options(CLI::App& command, CommonOptions& options);
+/// Declares the positional ASSEMBLY argument.
+void add_assembly_argument(CLI::App& command, CommonOptions& options);
+
+/// Prints progress on one line of stderr where that is a terminal, and cancels on Ctrl+C.
+ProgressCallback progress_printer(const CommonOptions& options);
+
+/// The threads that the user asked for. Usage error where the device is not there.
+Result<Executor> make_executor(const CommonOptions& options);
+
+/// Loads and, where asked for, simplifies the assembly.
+Result<Assembly> load(const CommonOptions& options);
+
+/// The pair states by the user's tolerance, fit and rule.
+Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance = 0);
+
+/// Prints "dismantle: <message>" on stderr and gives the exit code of the error's kind.
+ExitCode report(const Error& error);
+
+}  // namespace dismantle::cli

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string describe_faults(const MeshFaults& f) {
+  std::string text;
+  const auto add = [&text](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add(f.degenerate_faces, "degenerate triangles dropped");
+  add(f.boundary_edges, "boundary edges");
+  add(f.nonmanifold_edges, "non-manifold edges");
+  add(f.misoriented_edges, "misoriented edges");
+  if (f.inside_out) text += fmt::format("{}inside out", text.empty() ? "" : ", ");
+  return text.empty() ? "closed" : text;
+}
+
+Json to_json(Vec3 p) {
+  return Json::array({p.x, p.y, p.z});
+}
+
+Json to_json(const Assembly& a) {
+  const Aabb box = assembled_bounds(a);
+  Json components = Json::array();
+  for (const Component& c : a.components) {
+    const Aabb b = assembled_bounds(c);
+    const MeshFaults& f = c.faults;
+    components.push_back({{"name", c.name},
+                          {"triangles", c.mesh->faces.size()},
+                          {"vertices", c.mesh->vertices.size()},
+                          {"bounds", {to_json(b.lower), to_json(b.upper)}},
+                          {"closed", f.closed()},
+                          {"degenerate_triangles", f.degenerate_faces},
+                          {"boundary_edges", f.boundary_edges},
+                          {"nonmanifold_edges", f.nonmanifold_edges},
+                          {"misoriented_edges", f.misoriented_edges},
+                          {"inside_out", f.inside_out}});
+  }
+  return {{"format", "dismantle-info"},
+          {"version", 1},
+          {"assembly",
+           {{"file", a.source_file},
+            {"sha256", a.source_sha256},
+            {"units", a.source_units},
+            {"components", a.components.size()},
+            {"triangles", triangle_count(a)},
+            {"bounds", {to_json(box.lower), to_json(box.upper)}},
+            {"deflection_mm", a.deflection},
+            {"simplification_error_mm", a.simplification_error},
+            {"default_tolerance_mm", default_tolerance(a)}}},
+          {"components", components}};
+}
+
+void print_text(const Assembly& a) {
+  const Aabb box = assembled_bounds(a);
+  const Vec3 size = box.size();
+  fmt::print("{}: {} components, {} triangles\n", a.source_file, a.components.size(), triangle_count(a));
+  fmt::print("units {}, size {:.6g} x {:.6g} x {:.6g} mm, default tolerance {:.4g} mm\n", a.source_units, size.x,
+             size.y, size.z, default_tolerance(a));
+  if (a.deflection > 0) fmt::print("tessellation deflection {:.4g} mm\n", a.deflection);
+  if (a.simplification_error > 0)
+    fmt::print("simplification moved the surface by at most {:.4g} mm\n", a.simplification_error);
+  std::size_t width = 9;
+  for (const Component& c : a.components) width = std::max(width, c.name.size());
+  fmt::print("\n{:<{}}  {:>9}  {}\n", "component", width, "triangles", "mesh");
+  for (const Component& c : a.components)
+    fmt::print("{:<{}}  {:>9}  {}\n", c.name, width, c.mesh->faces.size(), describe_faults(c.faults));
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand("info", "Components, triangles, units and mesh faults of an assembly");
+  auto options = std::make_shared<CommonOptions>();
+  add_assembly_argument(*command, *options);
+  add_common_options(*command, *options);
+  command->callback([options, &exit_code] {
+    const Result<Assembly> assembly = load(*options);
+    if (!assembly) {
+      exit_code = report(assembly.error());
+    } else if (options->json) {
+      fmt::print("{}\n", to_json(*assembly).dump(2, ' ', false, Json::error_handler_t::replace));
+    } else {
+      print_text(*assembly);
+    }
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "apps/cli/command.h"
+
+namespace dismantle::cli {
+
+// In the order of the help text. Each declares one subcommand and puts its result into `exit_code`.
+void add_info_command(CLI::App& app, ExitCode& exit_code);
+
+}  // namespace dismantle::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+
+#include <exception>
+#include <new>
+
+int main(int argc, char** argv) {
+  using namespace dismantle::cli;
+  CLI::App app{
+      "dismantle: take CAD assemblies apart, with continuous collision handling.\n"
+      "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' tells what a command takes."};
+  app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 the answer is \"no\", 2 wrong usage, 3 unreadable input, 4 failed on the way.");
+
+  ExitCode exit_code = ExitCode::Done;
+  add_info_command(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(report({dismantle::ErrorKind::Failed,
+                                    "out of memory (the assembly is too large for this machine); try --simplify N"}));
+  } catch (const std::exception& error) {
+    return static_cast<int>(report({dismantle::ErrorKind::Failed, std::string("internal failure (") + error.what() +
+                                                                      "); please report it with the command line"}));
+  }
+  return static_cast<int>(exit_code);
+}
