@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/result.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace dismantle {
+
+/// The bytes of a regular file. Errors: Unreadable where it is missing, empty, a folder, no regular file (a device, a
+/// pipe), not permitted, or larger than `limit_bytes`; nothing is allocated before its size is known to be within.
+Result<std::string> read_file(const std::filesystem::path& file, std::size_t limit_bytes);
+
+}  // namespace dismantle
