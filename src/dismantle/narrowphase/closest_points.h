@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/geometry/triangle.h"
+
+namespace dismantle {
+
+/// A point of one feature and a point of another, as near to each other as rounding lets them be found. *Inexact*: good
+/// for a direction to try or a test with a tolerance, never for a proof.
+struct ClosestPoints {
+  Vec3 point_a, point_b;  ///< [mm]
+};
+
+/// The point itself (`point_a`) and the point of the closed triangle nearest to it (`point_b`). Zero-area triangles are
+/// taken as the segment or point that they are. (Ericson, Real-Time Collision Detection, 5.1.5.)
+DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, const Triangle& face) {
+  const Vec3 ab = face[1] - face[0], ac = face[2] - face[0], ap = p - face[0];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {p, face[0]};
+  const Vec3 bp = p - face[1];
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {p, face[1]};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return {p, face[0] + (d1 / (d1 - d3)) * ab};
+  const Vec3 cp = p - face[2];
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {p, face[2]};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return {p, face[0] + (d2 / (d2 - d6)) * ac};
+  const double va = d3 * d6 - d5 * d4;
+  const double along = d4 - d3, back = d5 - d6;
+  if (va <= 0 && along >= 0 && back >= 0 && along + back > 0)
+    return {p, face[1] + (along / (along + back)) * (face[2] - face[1])};
+  const double area = va + vb + vc;
+  if (!(area > 0)) return {p, face[0]};
+  return {p, face[0] + (vb / area) * ab + (vc / area) * ac};
+}
+
+namespace detail {
+
+DISMANTLE_HOST_DEVICE inline double clamped_to_unit(double s) {
+  return s > 0 ? (s < 1 ? s : 1) : 0;
+}
+
+}  // namespace detail
+
+/// The nearest points of two closed segments; of parallel ones one of the pairs, of zero-length ones the point.
+/// (Ericson, Real-Time Collision Detection, 5.1.9.)
+DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_edge_edge(const Vec3 (&a)[2], const Vec3 (&b)[2]) {
+  const Vec3 along_a = a[1] - a[0], along_b = b[1] - b[0], between = a[0] - b[0];
+  const double aa = length_squared(along_a), bb = length_squared(along_b);
+  const double f = dot(along_b, between);
+  if (!(aa > 0)) return {a[0], bb > 0 ? b[0] + detail::clamped_to_unit(f / bb) * along_b : b[0]};
+  const double c = dot(along_a, between);
+  if (!(bb > 0)) return {a[0] + detail::clamped_to_unit(-c / aa) * along_a, b[0]};
+
+  const double ab = dot(along_a, along_b);
+  const double denominator = aa * bb - ab * ab;
+  double s = denominator > 0 ? detail::clamped_to_unit((ab * f - c * bb) / denominator) : 0;
+  double t = ab * s + f;
+  if (t < 0) {
+    t = 0;
+    s = detail::clamped_to_unit(-c / aa);
+  } else if (t > bb) {
+    t = 1;
+    s = detail::clamped_to_unit((ab - c) / aa);
+  } else {
+    t /= bb;
+  }
+  return {a[0] + s * along_a, b[0] + t * along_b};
+}
+
+}  // namespace dismantle
