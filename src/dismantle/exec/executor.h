@@ -45,6 +45,19 @@ class Executor {
     });
   }
 
+  /// As for_each, but calls kernel(begin, end) for ranges of at most `items_per_range` items that make up [0, count):
+  /// for kernels that stage what they append, and for items whose worth is known.
+  template <class Kernel>
+  void for_each_range(std::size_t count, std::size_t items_per_range, const Kernel& kernel) const {
+    const std::size_t ranges = (count + items_per_range - 1) / items_per_range;
+    run_chunks(ranges, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t first = i * items_per_range;
+        kernel(first, first + items_per_range < count ? first + items_per_range : count);
+      }
+    });
+  }
+
   /// Sorts keys ascending.
   void sort(Span<std::uint64_t> keys) const;
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+#include "dismantle/math/rigid_transform.h"
+
+namespace dismantle {
+
+/// S_v0, S_tm -> S_v(n+1) for the vertices of one component (Du et al. 2015, section 4.2). Item: a vertex of the range.
+struct VertexUpdateKernel {
+  RigidTransform transform;
+  Span<const Vec3> assembled;
+  Span<Vec3> moved;
+
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const { moved[i] = transform * assembled[i]; }
+};
+
+}  // namespace dismantle

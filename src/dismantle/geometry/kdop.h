@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/host_device.h"
+#include "dismantle/math/vec3.h"
+
+#include <limits>
+
+namespace dismantle {
+
+/// Infinity as device code can name it.
+inline constexpr float kKdopInfinity = std::numeric_limits<float>::infinity();
+
+/// A discrete oriented polytope over 8 fixed axes (16 half-spaces): the bounding volume of the collision streams (Du et
+/// al. 2015, section 5; Klosowski et al. 1998). One cache line. Axes, not normalised: x, y, z, x+y, x+z, y+z, x-y, x-z.
+/// In float32, rounded outward only: it contains every point that it was extended by, exactly. Empty by default.
+struct alignas(64) Kdop16 {
+  static constexpr int kAxisCount = 8;
+  float lower[kAxisCount];
+  float upper[kAxisCount];
+
+  DISMANTLE_HOST_DEVICE Kdop16() {
+    for (int k = 0; k < kAxisCount; ++k) {
+      lower[k] = kKdopInfinity;
+      upper[k] = -kKdopInfinity;
+    }
+  }
+  DISMANTLE_HOST_DEVICE bool empty() const { return lower[0] > upper[0]; }
+  friend bool operator==(const Kdop16&, const Kdop16&) = default;
+};
+
+/// Coordinates up to this size [mm] can be bounded in float32.
+inline constexpr double kKdopLargestCoordinate = 1e36;
+
+/// How far outward a bound is moved, relative to its size: at least one unit in the last place of float32, more than
+/// the half unit of rounding a projection to float and the error of its sum in double together.
+inline constexpr float kKdopRelativeRounding = 1.1920929e-7f;
+/// The same for bounds near zero, where float32 loses relative accuracy.
+inline constexpr float kKdopAbsoluteRounding = 1.1754944e-38f;
+
+/// The smallest float k-DOP of points, before its bounds are rounded outward: projections are rounded to nearest, which
+/// keeps their order. Build one from points, then take rounded_outward of it.
+struct KdopOfPoints {
+  Kdop16 nearest;
+
+  /// @pre finite coordinates within kKdopLargestCoordinate
+  DISMANTLE_HOST_DEVICE void extend(Vec3 p) {
+    const double along[Kdop16::kAxisCount] = {p.x, p.y, p.z, p.x + p.y, p.x + p.z, p.y + p.z, p.x - p.y, p.x - p.z};
+    for (int k = 0; k < Kdop16::kAxisCount; ++k) {
+      const float value = static_cast<float>(along[k]);
+      nearest.lower[k] = value < nearest.lower[k] ? value : nearest.lower[k];
+      nearest.upper[k] = nearest.upper[k] < value ? value : nearest.upper[k];
+    }
+  }
+
+  /// The k-DOP that certainly contains the points, grown by `margin` [mm, >= 0] along every axis (by at least the
+  /// margin's length in space: the diagonal axes are sqrt(2) long, so their bounds grow by 1.5 times as much).
+  DISMANTLE_HOST_DEVICE Kdop16 rounded_outward(float margin) const {
+    Kdop16 result;
+    for (int k = 0; k < Kdop16::kAxisCount; ++k) {
+      const float grow = k < 3 ? margin : 1.5f * margin;
+      const float low = nearest.lower[k], high = nearest.upper[k];
+      const float low_size = low < 0 ? -low : low, high_size = high < 0 ? -high : high;
+      // Two roundings of `low - grow - pad` are covered by doubling the pad.
+      result.lower[k] = low - (grow + (2 * kKdopRelativeRounding * (low_size + grow) + kKdopAbsoluteRounding));
+      result.upper[k] = high + (grow + (2 * kKdopRelativeRounding * (high_size + grow) + kKdopAbsoluteRounding));
+    }
+    return result;
+  }
+};
+
+/// The k-DOP around both: exact, so that a parent contains its children bit for bit.
+DISMANTLE_HOST_DEVICE inline Kdop16 united(const Kdop16& a, const Kdop16& b) {
+  Kdop16 result;
+  for (int k = 0; k < Kdop16::kAxisCount; ++k) {
+    result.lower[k] = a.lower[k] < b.lower[k] ? a.lower[k] : b.lower[k];
+    result.upper[k] = a.upper[k] > b.upper[k] ? a.upper[k] : b.upper[k];
+  }
+  return result;
+}
+
+/// False only where one of the axes separates the closed k-DOPs: what contains two touching things overlaps.
+DISMANTLE_HOST_DEVICE inline bool overlaps(const Kdop16& a, const Kdop16& b) {
+  int apart = 0;
+  for (int k = 0; k < Kdop16::kAxisCount; ++k) apart |= (a.lower[k] > b.upper[k]) | (b.lower[k] > a.upper[k]);
+  return apart == 0;
+}
+
+/// True where `outer` contains `inner`, bound by bound.
+DISMANTLE_HOST_DEVICE inline bool contains(const Kdop16& outer, const Kdop16& inner) {
+  int outside = 0;
+  for (int k = 0; k < Kdop16::kAxisCount; ++k)
+    outside |= (inner.lower[k] < outer.lower[k]) | (inner.upper[k] > outer.upper[k]);
+  return outside == 0;
+}
+
+/// A size to compare k-DOPs by: the sum of the three box edges [mm].
+DISMANTLE_HOST_DEVICE inline float extent(const Kdop16& a) {
+  return (a.upper[0] - a.lower[0]) + (a.upper[1] - a.lower[1]) + (a.upper[2] - a.lower[2]);
+}
+
+}  // namespace dismantle
