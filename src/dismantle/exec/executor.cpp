@@ -2,12 +2,15 @@
 #include "dismantle/exec/executor.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <thread>
 #include <vector>
@@ -15,7 +18,12 @@
 namespace dismantle {
 
 struct Executor::Arena {
-  explicit Arena(int thread_count) : tasks(thread_count) {}
+  explicit Arena(int thread_count) : tasks(thread_count) {
+    // oneTBB makes no more workers than the machine has cores unless it is told to.
+    if (thread_count > tbb::info::default_concurrency())
+      more_threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(thread_count));
+  }
+  std::optional<tbb::global_control> more_threads;
   tbb::task_arena tasks;
 };
 
