@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/render/image.h"
 
+#include "dismantle/io/atomic_file.h"
+
 #include <png.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <string_view>
 
 namespace dismantle {
 
@@ -27,15 +27,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 
 Result<Done> write_png(const Image& image, const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) {
-    const std::string why = errno != 0 ? std::strerror(errno) : "the device refused the data";
-    return Error{ErrorKind::Failed, "cannot write " + file.string() + " (" + why + "); choose another output file"};
-  }
-  return Done{};
+  return write_file(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace dismantle

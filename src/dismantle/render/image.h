@@ -33,7 +33,7 @@ struct Image {
 /// The picture as the bytes of a PNG file (8-bit RGB). Same picture, same bytes. @pre width and height positive
 std::vector<std::uint8_t> encode_png(const Image& image);
 
-/// Writes the picture as a PNG file. Errors: Failed, where the file cannot be written.
+/// Writes the picture as a PNG file, whole or not at all. Errors: Failed.
 Result<Done> write_png(const Image& image, const std::filesystem::path& file);
 
 }  // namespace dismantle
