@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/io/read_file.h"
 
+#include "tests/io/parse_expectations.h"
 #include "tests/io/scratch_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 namespace dismantle {
-
-namespace {
-
-std::string message_of(const Result<std::string>& result) {
-  return result ? "" : result.error().message;
-}
-
-}  // namespace
 
 TEST(ReadFile, GivesEveryByte) {
   const ScratchFolder folder;

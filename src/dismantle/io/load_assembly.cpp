@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/io/load_assembly.h"
+
+#include "dismantle/io/mesh_source.h"
+#include "dismantle/io/read_mesh.h"
+#include "dismantle/io/read_urdf.h"
+#include "dismantle/io/text_scan.h"
+
+#include <new>
+#include <stdexcept>
+
+namespace dismantle {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(file, ignored);
+  if (fs::is_directory(status)) return read_mesh_folder(file, options);
+  if (!fs::exists(status))
+    return Error{ErrorKind::Unreadable, file.string() + " cannot be read (no such file); check the path"};
+
+  if (is_mesh_file(file)) return read_mesh(file, options);
+  const std::string extension = lower_case(file.extension().string());
+  if (extension == ".urdf") return read_urdf(file, options);
+  return Error{ErrorKind::Unreadable,
+               file.string() + " is no assembly that dismantle reads (extension " + in_quotes(extension) +
+                   "); convert it to STEP, glTF, OBJ, STL, PLY or URDF, or give a folder of meshes"};
+}
+
+}  // namespace
+
+Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
+  try {
+    return dispatch(file, options);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
+  } catch (const std::length_error&) {
+    return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
+  }
+}
+
+}  // namespace dismantle

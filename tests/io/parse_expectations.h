@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/result.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+namespace dismantle {
+
+/// The result's error as text; "" where there is none.
+template <class T>
+std::string message_of(const Result<T>& result) {
+  return result ? "" : result.error().message;
+}
+
+/// An Error of kind Unreadable, one sentence "<problem> (<why>); <what to do>" that says `why`.
+template <class T>
+void expect_unreadable(const Result<T>& result, std::string_view why) {
+  ASSERT_FALSE(result.ok()) << "expected an error about " << why;
+  const std::string& message = result.error().message;
+  EXPECT_EQ(result.error().kind, ErrorKind::Unreadable) << message;
+  EXPECT_NE(message.find(why), std::string::npos) << message;
+  EXPECT_NE(message.find(" ("), std::string::npos) << message;
+  EXPECT_NE(message.find("); "), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+}  // namespace dismantle
