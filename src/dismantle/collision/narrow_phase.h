@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/moving_streams.h"
+#include "dismantle/collision/narrow_phase_kernel.h"
+#include "dismantle/exec/append_buffer.h"
+
+namespace dismantle {
+
+/// What the narrow phase looks at.
+struct NarrowPhaseInput {
+  Span<const std::uint64_t> triangle_pairs;  ///< S_t
+  const MovingStreams* streams = nullptr;
+  PairRulesView rules;
+  ElementaryTest test = ElementaryTest::Certified;
+  double path_deviation = 0;  ///< [mm]
+};
+
+/// Runs the narrow phase over S_t and keeps what it found, in no particular order: sort before use.
+class NarrowPhase {
+ public:
+  explicit NarrowPhase(std::size_t initial_capacity) : contacts_(initial_capacity), intersections_(initial_capacity) {}
+
+  /// Tests all of S_t.
+  void run(const NarrowPhaseInput& input, const Executor& executor);
+  /// Tests `pairs`, which belong to a component pair that parts at time `from`, as ordinary ones over the rest of the
+  /// step: certified, with the tolerance as allowance. Adds to the contacts.
+  void run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from, const Executor& executor);
+
+  Span<const TrianglePairContact> contacts() const { return found_; }
+  /// The triangle pairs of components a < b, in S_i, that intersect at the end of the step; ascending.
+  std::vector<std::uint64_t> intersections_of(const NarrowPhaseInput& input, ComponentId a, ComponentId b) const;
+  std::size_t tests() const { return tests_; }
+  std::size_t replays() const { return replays_; }
+
+ private:
+  AppendBuffer<TrianglePairContact> contacts_;
+  AppendBuffer<std::uint64_t> intersections_;
+  std::vector<TrianglePairContact> found_;
+  std::size_t tests_ = 0;
+  std::size_t replays_ = 0;
+};
+
+/// The triangle pairs of S_t that belong to components a < b; ascending where S_t is.
+std::vector<std::uint64_t> triangle_pairs_of(Span<const std::uint64_t> triangle_pairs, const MovingStreams& streams,
+                                             ComponentId a, ComponentId b);
+
+}  // namespace dismantle

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/collision_engine.h"
+#include "dismantle/collision/pair_rules.h"
+#include "dismantle/front/front_kernel.h"
+#include "dismantle/geometry/kdop.h"
+#include "dismantle/geometry/triangle_mesh.h"
+#include "dismantle/narrowphase/ccd_triangle_triangle.h"
+#include "dismantle/narrowphase/elementary_triangle_triangle.h"
+#include "dismantle/narrowphase/intersect_triangle_triangle.h"
+
+namespace dismantle {
+
+/// A triangle pair of S_t in contact.
+struct TrianglePairContact {
+  std::uint64_t key = 0;  ///< pair_key of the two leaves
+  double toi = 0;
+  friend bool operator==(const TrianglePairContact&, const TrianglePairContact&) = default;
+};
+
+/// The triangles of a step.
+struct StepTriangles {
+  Span<const Vec3> vertices_t0, vertices_t1;  ///< S_v(n), S_v(n+1) [mm]
+  Span<const Face> faces;                     ///< In leaf order.
+
+  DISMANTLE_HOST_DEVICE TriangleMotion motion(NodeIndex leaf) const {
+    const Face face = faces[leaf];
+    TriangleMotion m;
+    for (int k = 0; k < 3; ++k) {
+      m.t0[k] = vertices_t0[face.v[k]];
+      m.t1[k] = vertices_t1[face.v[k]];
+    }
+    return m;
+  }
+  DISMANTLE_HOST_DEVICE Triangle end(NodeIndex leaf) const {
+    const Face face = faces[leaf];
+    return {{vertices_t1[face.v[0]], vertices_t1[face.v[1]], vertices_t1[face.v[2]]}};
+  }
+};
+
+/// Shortens an allowance by a relative 1e-6 before it is compared in float32: more than the rounding of a difference
+/// of bounds.
+inline constexpr double kAllowanceRounding = 1 - 1e-6;
+
+/// True where an axis shows that two things with these bounds are never deeper in each other than `allowed` [mm].
+DISMANTLE_HOST_DEVICE inline bool within_allowance(const Kdop16& a, const Kdop16& b, double allowed) {
+  // A depth along a diagonal axis is sqrt(2) times as long in the axis's own measure; 1.4 is less.
+  const float straight = static_cast<float>(allowed * kAllowanceRounding);
+  const float diagonal = 1.4f * straight;
+  int apart = 0;
+  for (int k = 0; k < Kdop16::kAxisCount; ++k) {
+    const float depth = k < 3 ? straight : diagonal;
+    apart |= (a.upper[k] - b.lower[k] < depth) | (b.upper[k] - a.lower[k] < depth);
+  }
+  return apart != 0;
+}
+
+/// How much of an allowance the true paths may take: one deviation for each of the two components that moves.
+DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double deviation, bool a_moves, bool b_moves) {
+  const double left = allowed - ((a_moves ? deviation : 0) + (b_moves ? deviation : 0));
+  return left > 0 ? left : 0;
+}
+
+/// S_t -> contacts and intersections (Du et al. 2015, algorithm 1, lines 6 to 14): TID for pairs of S_i, a continuous
+/// test for all others.
+/// The sink takes what is found:
+///   sink.contact({key, toi})   the pair stops the motion
+///   sink.intersection(key)     a pair of S_i that intersects at the end of the step
+///   sink.tested(count)         elementary tests, or certified tests of a pair, that filters left
+struct NarrowPhaseKernel {
+  Span<const std::uint64_t> pairs;  ///< S_t
+  StepTriangles triangles;
+  Span<const Kdop16> bounds;
+  Span<const std::uint32_t> component_of;  ///< Of each leaf.
+  Span<const std::uint8_t> features;       ///< Of each leaf: the features that it stands for.
+  Span<const std::uint32_t> motion_class;  ///< Of each component: 0 where it stands still.
+  PairRulesView rules;
+  ElementaryTest test = ElementaryTest::Certified;
+  double path_deviation = 0;  ///< [mm]
+
+  template <class Sink>
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
+    const NodePair p = pair_of_key(pairs[i]);
+    const std::uint32_t a = component_of[p.a], b = component_of[p.b];
+    const PairRule rule = rules.find(a, b);
+    if (rule.test == PairTest::Discrete) {
+      if (intersect_triangle_triangle(triangles.end(p.a), triangles.end(p.b))) sink.intersection(pairs[i]);
+    } else if (rule.test == PairTest::Ordinary && test == ElementaryTest::Elementary) {
+      elementary(i, p, sink);
+    } else {
+      const double allowed =
+          allowed_on_chords(rule.allowed_penetration, path_deviation, motion_class[a] != 0, motion_class[b] != 0);
+      certified(i, p, allowed, sink);
+    }
+  }
+
+ private:
+  template <class Sink>
+  DISMANTLE_HOST_DEVICE void certified(std::size_t i, NodePair p, double allowed, Sink& sink) const {
+    if (within_allowance(bounds[p.a], bounds[p.b], allowed)) return;
+    sink.tested(1);
+    const CcdResult ccd = ccd_triangle_triangle(triangles.motion(p.a), triangles.motion(p.b), allowed);
+    if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], ccd.toi});
+  }
+
+  template <class Sink>
+  DISMANTLE_HOST_DEVICE void elementary(std::size_t i, NodePair p, Sink& sink) const {
+    const ElementaryPairResult found =
+        elementary_triangle_triangle({triangles.motion(p.a), features[p.a]}, {triangles.motion(p.b), features[p.b]});
+    sink.tested(static_cast<std::size_t>(found.elementary_tests));
+    if (found.ccd.status == CcdStatus::Contact) sink.contact({pairs[i], found.ccd.toi});
+  }
+};
+
+}  // namespace dismantle
