@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/audit_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dismantle::audit {
+
+namespace {
+
+double distance_to_segment(Vec3 a, Vec3 b, Vec3 point) {
+  const Vec3 edge = b - a;
+  const double squared = dot(edge, edge);
+  double s = squared > 0 ? dot(point - a, edge) / squared : 0;
+  s = s < 0 ? 0 : (s > 1 ? 1 : s);
+  return length(point - (a + s * edge));
+}
+
+double squared_distance_to_box(const BoxNode& node, Vec3 point) {
+  const Vec3 offset = point - node.center;
+  double squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double outside = std::fabs(offset[i]) - node.half[i];
+    if (outside > 0) squared += outside * outside;
+  }
+  return squared;
+}
+
+/// Orthonormal frames whose third rows are ray directions that no CAD model has a plane along.
+const Mat3* ray_frames(int& count) {
+  static const auto frames = [] {
+    std::vector<Mat3> made;
+    const Vec3 directions[] = {{0.5257311, 0.2763932, 0.8044721},
+                               {-0.4472135, 0.7236068, 0.5257312},
+                               {0.3137085, -0.8712904, 0.3774128},
+                               {-0.6180340, -0.3715981, 0.6927563},
+                               {0.8944272, 0.1316725, -0.4270510}};
+    for (const Vec3& direction : directions) {
+      const Vec3 d = normalized(direction);
+      const Vec3 u = normalized(cross(d, Vec3{0.6123724, 0.3535534, -0.7071068}));
+      made.push_back({{u, cross(d, u), d}});
+    }
+    return made;
+  }();
+  count = static_cast<int>(frames.size());
+  return frames.data();
+}
+
+/// Twice the signed area of (point, a, b) in the plane across the ray. Swapping a and b negates it exactly, so that two
+/// triangles always agree on which side of their edge the ray is.
+double side_of_edge(Vec3 a, Vec3 b, Vec3 point) {
+  return (a.x - point.x) * (b.y - point.y) - (b.x - point.x) * (a.y - point.y);
+}
+
+bool ray_meets_box(const BoxNode& node, Vec3 point, Vec3 direction, double margin) {
+  double first = 0, last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double half = node.half[i] + margin;
+    const double near = (node.center[i] - half - point[i]) / direction[i];
+    const double far = (node.center[i] + half - point[i]) / direction[i];
+    first = std::max(first, std::min(near, far));
+    last = std::min(last, std::max(near, far));
+  }
+  return first <= last;
+}
+
+}  // namespace
+
+double distance_to_triangle(const Triangle& t, Vec3 point) {
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const double squared = dot(normal, normal);
+  if (squared > 0) {
+    bool above = true;
+    for (int k = 0; k < 3 && above; ++k) above = dot(cross(normal, t[(k + 1) % 3] - t[k]), point - t[k]) >= 0;
+    if (above) return std::fabs(dot(normal, point - t[0])) / std::sqrt(squared);
+  }
+  return std::min({distance_to_segment(t[0], t[1], point), distance_to_segment(t[1], t[2], point),
+                   distance_to_segment(t[2], t[0], point)});
+}
+
+AuditBody::AuditBody(const Component& component)
+    : mesh_(assembled_mesh(component)), closed_(component.faults.closed()) {
+  const Aabb box = bounds(mesh_);
+  if (box.empty()) return;
+  center_ = box.center();
+  coordinate_bound_ = std::max(max_abs(box.lower), max_abs(box.upper));
+  for (Vec3& p : mesh_.vertices) p = p - center_;
+  if (mesh_.faces.empty()) return;
+
+  std::vector<Vec3> centroids;
+  centroids.reserve(mesh_.faces.size());
+  for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    const Triangle t = triangle(f);
+    centroids.push_back((t[0] + t[1] + t[2]) / 3.0);
+  }
+  std::vector<std::uint32_t> order(mesh_.faces.size());
+  std::iota(order.begin(), order.end(), 0u);
+  nodes_.reserve(2 * mesh_.faces.size());
+  build(0, static_cast<std::uint32_t>(order.size()), order, centroids);
+  find_pieces();
+}
+
+RigidTransform AuditBody::world_from_body(const Pose& pose) const {
+  const Mat3 rotation = mat3_from_quat(pose.rotation);
+  return {rotation, rotation * center_ + pose.position};
+}
+
+std::uint32_t AuditBody::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,
+                               const std::vector<Vec3>& centroids) {
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  Aabb box, spread;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    for (const std::uint32_t v : mesh_.faces[order[i]].v) box.extend(mesh_.vertices[v]);
+    spread.extend(centroids[order[i]]);
+  }
+  BoxNode node;
+  node.center = box.center();
+  node.half = max(box.upper - node.center, node.center - box.lower);
+  node.radius = length(node.half);
+  node.reach = length(node.center) + node.radius;
+  node.face = order[first];
+  nodes_.push_back(node);
+  if (count == 1) return index;
+
+  const Vec3 size = spread.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const std::uint32_t half = count / 2;
+  const auto begin = order.begin() + first;
+  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const double at_a = centroids[a][axis], at_b = centroids[b][axis];
+    return at_a != at_b ? at_a < at_b : a < b;
+  });
+  build(first, half, order, centroids);
+  nodes_[index].right = build(first + half, count - half, order, centroids);
+  return index;
+}
+
+void AuditBody::find_pieces() {
+  std::vector<std::uint32_t> parent(mesh_.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&parent](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Face& f : mesh_.faces) {
+    parent[root(f.v[1])] = root(f.v[0]);
+    parent[root(f.v[2])] = root(f.v[0]);
+  }
+  for (std::uint32_t v = 0; v < parent.size(); ++v)
+    if (root(v) == v) piece_vertices_.push_back(v);
+}
+
+SurfacePoint AuditBody::closest(Vec3 point, std::uint32_t hint) const {
+  SurfacePoint best{distance_to_triangle(triangle(hint), point), hint};
+  std::uint32_t stack[128];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const BoxNode& node = nodes_[i];
+    if (squared_distance_to_box(node, point) >= best.distance * best.distance) continue;
+    if (node.leaf()) {
+      const double distance = distance_to_triangle(triangle(node.face), point);
+      if (distance < best.distance) best = {distance, node.face};
+      continue;
+    }
+    const bool left_is_nearer =
+        squared_distance_to_box(nodes_[i + 1], point) <= squared_distance_to_box(nodes_[node.right], point);
+    stack[depth++] = left_is_nearer ? node.right : i + 1;
+    stack[depth++] = left_is_nearer ? i + 1 : node.right;
+  }
+  return best;
+}
+
+AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
+  constexpr double kUndecided = 1e-13;
+  const double margin = 1e-9 * nodes_[0].reach;
+  const Vec3 origin = frame * point;
+  Winding result;
+  std::uint32_t stack[128];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const BoxNode& node = nodes_[i];
+    if (!ray_meets_box(node, point, frame.row[2], margin)) continue;
+    if (!node.leaf()) {
+      stack[depth++] = node.right;
+      stack[depth++] = i + 1;
+      continue;
+    }
+    const Triangle t = triangle(node.face);
+    const Vec3 p[3] = {frame * t[0], frame * t[1], frame * t[2]};
+    const double s[3] = {side_of_edge(p[1], p[2], origin), side_of_edge(p[2], p[0], origin),
+                         side_of_edge(p[0], p[1], origin)};
+    const bool positive = s[0] > 0 && s[1] > 0 && s[2] > 0, negative = s[0] < 0 && s[1] < 0 && s[2] < 0;
+    const double undecided = kUndecided * nodes_[0].reach * (nodes_[0].reach + length(point));
+    const bool outside_surely = (s[0] > undecided || s[1] > undecided || s[2] > undecided) &&
+                                (s[0] < -undecided || s[1] < -undecided || s[2] < -undecided);
+    if (outside_surely) continue;
+    for (const double value : s)
+      if (std::fabs(value) <= undecided) result.certain = false;
+    if (!positive && !negative) continue;
+    const double height = (s[0] * p[0].z + s[1] * p[1].z + s[2] * p[2].z) / (s[0] + s[1] + s[2]);
+    if (height > origin.z) result.number += positive ? 1 : -1;
+  }
+  return result;
+}
+
+bool AuditBody::contains(Vec3 point) const {
+  for (int i = 0; i < 3; ++i)
+    if (std::fabs(point[i] - nodes_[0].center[i]) > nodes_[0].half[i]) return false;
+  int count = 0;
+  const Mat3* frames = ray_frames(count);
+  Winding last;
+  for (int k = 0; k < count; ++k) {
+    last = winding(point, frames[k]);
+    if (last.certain) break;
+  }
+  return last.number != 0;
+}
+
+}  // namespace dismantle::audit

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/sweep_vertices.h"
+
+#include <algorithm>
+
+namespace dismantle::audit {
+
+namespace {
+
+double breach_depth(const VertexSweep& sweep) {
+  return sweep.limit * (1 + 1e-9) + sweep.rounding;
+}
+
+class VertexWalk {
+ public:
+  VertexWalk(const VertexSweep& sweep, std::uint32_t vertex) : sweep_(sweep), point_(sweep.points->vertex(vertex)) {}
+
+  /// Follows the vertex through a segment. @return whether it may be inside at the end
+  bool advance(std::uint32_t segment, bool may_cross) {
+    const RelativeMotion& motion = sweep_.motions[segment];
+    const double speed = length(motion.velocity(motion.start * point_));
+    double outside_for = 0;  // the way that it can go before it meets the surface, where it was seen outside
+    for (double s = 0; s < 1;) {
+      const Vec3 x = motion.at(s) * point_;
+      const double rest = 1 - s;
+      double step = time_near_surface(motion, x, s);
+      if (step < rest) {
+        ++findings.samples;
+        const SurfacePoint near = sweep_.solid->closest(x, face_);
+        if (near.face != face_) {
+          face_ = near.face;
+          step = time_near_surface(motion, x, s);
+        }
+        if (near.distance > breach_depth(sweep_)) {
+          if (!(outside_for > 0) && sweep_.solid->contains(x)) {
+            findings.breach.add(segment, s, near.distance);
+            return true;
+          }
+          if (!may_cross || near.distance > speed * rest) return false;
+          step = (near.distance + sweep_.limit + sweep_.resolution / 2) / speed;
+          outside_for = near.distance;
+        }
+      }
+      if (speed > 0) step = std::max(step, sweep_.resolution / speed);
+      outside_for -= step * speed;
+      s += step;
+    }
+    return true;
+  }
+
+  VertexFindings findings;
+
+ private:
+  static constexpr int kHalvings = 20;
+
+  /// How long the vertex, at `x` at time s, is certain to stay within the limit of the triangle that it was last seen
+  /// closest to, and so no deeper; 0 where it is not within it now. The distance from a triangle is convex along a
+  /// chord, and the path leaves its chord by at most acceleration * time^2 / 8.
+  double time_near_surface(const RelativeMotion& motion, Vec3 x, double s) const {
+    const Triangle triangle = sweep_.solid->triangle(face_);
+    const double now = distance_to_triangle(triangle, x);
+    if (now > breach_depth(sweep_)) return 0;
+    const double acceleration = motion.acceleration(motion.velocity(x));
+    double time = 1 - s;
+    for (int k = 0; k < kHalvings; ++k, time /= 2) {
+      const double then = distance_to_triangle(triangle, motion.at(s + time) * point_);
+      const double astray = acceleration * time * time / 8;
+      if (std::max(now, then) + astray <= sweep_.limit + sweep_.resolution / 2) return time;
+    }
+    return 0;
+  }
+
+  const VertexSweep& sweep_;
+  const Vec3 point_;
+  std::uint32_t face_ = 0;
+};
+
+}  // namespace
+
+VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool tracked,
+                            Span<const CrossingVertex> crossings) {
+  VertexWalk walk(sweep, vertex);
+  std::size_t next = 0;
+  for (std::uint32_t k = sweep.first_active; k < sweep.motions.size(); ++k) {
+    while (next < crossings.size() && crossings[next].first_segment + kSpanSegments <= k) ++next;
+    if (!tracked && next == crossings.size()) break;
+    const bool listed = next < crossings.size() && crossings[next].first_segment <= k;
+    const bool may_cross = listed && ((crossings[next].segments >> (k - crossings[next].first_segment)) & 1u) != 0;
+    if (!tracked && !may_cross) continue;
+    tracked = walk.advance(k, may_cross);
+    if (walk.findings.breach.depth > 0) break;
+  }
+  walk.findings.tracked = tracked;
+  return walk.findings;
+}
+
+InsideVertices find_inside_vertices(const VertexSweep& sweep) {
+  InsideVertices found;
+  if (sweep.solid->empty()) return found;
+  const RigidTransform& place = sweep.motions.front().start;
+  std::uint32_t face = 0;
+  for (std::uint32_t v = 0; v < sweep.points->vertex_count(); ++v) {
+    const Vec3 x = place * sweep.points->vertex(v);
+    if (!sweep.solid->contains(x)) continue;
+    ++found.samples;
+    const SurfacePoint near = sweep.solid->closest(x, face);
+    face = near.face;
+    found.vertices.push_back(v);
+    if (near.distance > breach_depth(sweep)) found.breach.add(0, 0, near.distance);
+  }
+  return found;
+}
+
+}  // namespace dismantle::audit

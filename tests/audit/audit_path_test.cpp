@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/audit_path.h"
+
+#include "tests/audit/audit_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+using audit_scenes::count;
+using audit_scenes::messages;
+using audit_scenes::move_through;
+using audit_scenes::path_of;
+using audit_scenes::shifted;
+using audit_scenes::turned_about_z;
+using scenes::assembly;
+using scenes::box;
+using scenes::component;
+using scenes::tube;
+
+constexpr double kTolerance = 0.01;
+
+/// A unit cube above a plate, `gap` between them:
+///      +--+
+///      |  |        cube (moves)
+///      +--+
+///   ==========     plate, its top at z = 0
+Assembly cube_over_plate(double gap, double plate_thickness = 1) {
+  return assembly({component("plate", box({-10, -10, -plate_thickness}, {10, 10, 0})),
+                   component("cube", box({-0.5, -0.5, gap}, {0.5, 0.5, gap + 1}))});
+}
+
+AuditReport audit(const Assembly& a, std::vector<Move> moves, std::vector<PathPair> pairs = {}) {
+  Path path = path_of(a, kTolerance);
+  path.moves = std::move(moves);
+  path.pairs = std::move(pairs);
+  return audit_path(a, path);
+}
+
+TEST(AuditPath, HoldsForAnEmptyPathOfAnAssemblyWithoutOverlaps) {
+  const AuditReport report = audit(cube_over_plate(0), {});
+  EXPECT_TRUE(report.holds()) << messages(report);
+  EXPECT_TRUE(audit_path(Assembly{}, Path{}).holds());
+}
+
+TEST(AuditPath, FindsAThinPlateThatIsTunnelledThroughInOneFrame) {
+  const Assembly a = cube_over_plate(5, 0.001);
+  const AuditReport report = audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})});
+  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
+  ASSERT_FALSE(report.violations.empty());
+  EXPECT_NEAR(report.violations[0].time, 0.1 * 5 / 20, 1e-4);
+}
+
+TEST(AuditPath, FindsASheetThatIsTunnelledThroughInOneFrame) {
+  TriangleMesh sheet;
+  sheet.vertices = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}};
+  sheet.faces = {{{0, 1, 2}}, {{0, 2, 3}}};
+  const Assembly a = assembly({component("sheet", sheet), component("cube", box({0, 0, 5}, {1, 1, 6}))});
+  EXPECT_TRUE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -4.9)})}).holds());
+  EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})}).holds());
+}
+
+/// A cube turns by a right angle about its centre, over a plate: its edge reaches sqrt(1/2) below the centre half way.
+AuditReport audit_turning_cube(double overlap) {
+  const double reach = std::sqrt(0.5);
+  const Assembly a = assembly({component("plate", box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10})),
+                               component("cube", box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}))});
+  return audit(a, {move_through({"cube"}, {Pose{}, turned_about_z(std::acos(0.0), {})})});
+}
+
+TEST(AuditPath, FindsAGrazeInMidFrameThatIsClearAtBothFrames) {
+  const AuditReport report = audit_turning_cube(1.5 * kTolerance);
+  ASSERT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
+  EXPECT_NEAR(report.violations[0].time, 0.05, 0.01);
+  EXPECT_LE(report.violations[0].depth, 1.5 * kTolerance + 1e-9);
+}
+
+TEST(AuditPath, AcceptsAGrazeWithinTheTolerance) {
+  const AuditReport report = audit_turning_cube(0.9 * kTolerance);
+  EXPECT_TRUE(report.holds()) << messages(report);
+  EXPECT_FALSE(audit_turning_cube(1.06 * kTolerance).holds());
+}
+
+TEST(AuditPath, FindsAGrazeOfAScrewThatIsClearAtBothFrames) {
+  const auto run = [](double overlap) {
+    const double reach = std::sqrt(0.5);
+    const Assembly a = assembly({component("plate", box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10})),
+                                 component("cube", box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}))});
+    Pose end = turned_about_z(std::acos(0.0), {});
+    end.position.z = 3;
+    return audit(a, {move_through({"cube"}, {Pose{}, end})});
+  };
+  EXPECT_FALSE(run(1.5 * kTolerance).holds());
+  EXPECT_TRUE(run(0.9 * kTolerance).holds());
+}
+
+TEST(AuditPath, AcceptsSlidingInExactContact) {
+  const Assembly a = cube_over_plate(0);
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 20; ++k) poses.push_back({{0.35 * k, 0.1 * k, 0}, quat_about({0, 0, 1}, 0.05 * k)});
+  const AuditReport report = audit(a, {move_through({"cube"}, poses)});
+  EXPECT_TRUE(report.holds()) << messages(report);
+  EXPECT_LT(report.samples, 20000u);
+}
+
+TEST(AuditPath, AcceptsStandingInTheToleranceAndRefusesDeeper) {
+  const Assembly a = cube_over_plate(0);
+  EXPECT_TRUE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -0.9 * kTolerance)})}).holds());
+  EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -1.1 * kTolerance)})}).holds());
+}
+
+/// A pin of 24 sides in a hole of 24 sides, `clearance` between them; negative: pressed in.
+Assembly pin_in_hole(double clearance) {
+  return assembly({component("housing", tube(10, 5, 0, 10, 24)), component("pin", tube(5 - clearance, 0, 1, 12, 24))});
+}
+
+TEST(AuditPath, AcceptsAPinThatLeavesItsHoleWithTinyClearance) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0, 0, 0.5 * k));
+  const AuditReport report = audit(pin_in_hole(0.001), {move_through({"pin"}, poses)});
+  EXPECT_TRUE(report.holds()) << messages(report);
+}
+
+TEST(AuditPath, FindsAPinThatLeavesThroughTheWall) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0.7 * k, 0, 0));
+  const AuditReport report = audit(pin_in_hole(0.001), {move_through({"pin"}, poses)});
+  EXPECT_FALSE(report.holds());
+}
+
+TEST(AuditPath, FindsAnUndeclaredFitAndAcceptsADeclaredOne) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0, 0, 0.5 * k));
+  const Assembly a = pin_in_hole(-0.05);
+  const AuditReport undeclared = audit(a, {move_through({"pin"}, poses)});
+  ASSERT_FALSE(undeclared.holds());
+  EXPECT_EQ(undeclared.violations[0].move, AuditViolation::kAssembledState);
+  EXPECT_EQ(undeclared.violations[0].kind, AuditViolationKind::TrianglesIntersect);
+
+  ASSERT_EQ(undeclared.depths.size(), 1u);
+  const double depth = undeclared.depths[0].deepest;
+  EXPECT_GT(depth, 0.04);
+  const PathPair fit{"pin", "housing", PairState::Fit, depth + kTolerance};
+  const AuditReport declared = audit(a, {move_through({"pin"}, poses)}, {fit});
+  EXPECT_TRUE(declared.holds()) << messages(declared);
+}
+
+TEST(AuditPath, FindsAFitThatGoesDeeperThanDeclared) {
+  const Assembly a = pin_in_hole(-0.05);
+  const PathPair fit{"pin", "housing", PairState::Fit, 0.06};
+  EXPECT_FALSE(audit(a, {move_through({"pin"}, {Pose{}, shifted(0.3, 0, 0)})}, {fit}).holds());
+}
+
+TEST(AuditPath, FreesAnEmbeddedPairUntilItPartsAndFindsItMeetingAgain) {
+  const Assembly a = cube_over_plate(-0.5);
+  const PathPair embedded{"cube", "plate", PairState::Embedded, 0};
+  const std::vector<Pose> away = {Pose{}, shifted(1, 0, 0), shifted(1, 0, -0.2), shifted(1, 0, 2)};
+  EXPECT_TRUE(audit(a, {move_through({"cube"}, away)}, {embedded}).holds());
+  EXPECT_FALSE(audit(a, {move_through({"cube"}, away)}).holds());
+
+  const Move back = move_through({"cube"}, {away.back(), shifted(1, 0, 0)});
+  const AuditReport report = audit(a, {move_through({"cube"}, away), back}, {embedded});
+  EXPECT_EQ(count(report, AuditViolationKind::EmbeddedMetAgain), report.violations.size());
+  EXPECT_FALSE(report.violations.empty());
+  const Move touch = move_through({"cube"}, {away.back(), shifted(1, 0, 0.5)});
+  EXPECT_TRUE(audit(a, {move_through({"cube"}, away), touch}, {embedded}).holds());
+}
+
+TEST(AuditPath, TakesAnEmbeddedPartInsideAnotherForNotApart) {
+  const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
+                               component("ball", box({-1, -1, -1}, {1, 1, 1}))});
+  const PathPair embedded{"block", "ball", PairState::Embedded, 0};
+  EXPECT_TRUE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2, 0, 0), shifted(20, 0, 0)})}, {embedded}).holds());
+}
+
+TEST(AuditPath, FindsAComponentSwallowedWholeInTheAssembledState) {
+  const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
+                               component("ball", box({-1, -1, -1}, {1, 1, 1}))});
+  const AuditReport report = audit(a, {});
+  ASSERT_EQ(count(report, AuditViolationKind::VertexInside), 1u);
+  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 0u);
+  EXPECT_DOUBLE_EQ(report.violations[0].depth, 4);
+}
+
+/// A surface tessellated finer than the tolerance is permeable to rule 1: its triangles are never deep in anything.
+TEST(AuditPath, FindsATinyComponentThatIsSwallowedOnTheWay) {
+  const double size = 0.5 * kTolerance;
+  const Assembly a = assembly(
+      {component("block", box({-5, -5, -5}, {5, 5, 5})), component("grain", box({0, 0, 6}, {size, size, 6 + size}))});
+  const std::vector<Pose> in = {Pose{}, shifted(0, 0, -0.6), shifted(0, 0, -1.5), shifted(0, 0, -3)};
+  const AuditReport report = audit(a, {move_through({"grain"}, in)});
+  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
+  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 0u) << messages(report);
+  const AuditReport mirrored = audit(a, {move_through({"block"}, {Pose{}, shifted(0, 0, 0.6), shifted(0, 0, 3)})});
+  EXPECT_EQ(count(mirrored, AuditViolationKind::VertexInside), 1u) << messages(mirrored);
+}
+
+TEST(AuditPath, FindsATinyComponentThatPassesThroughInOneFrame) {
+  const double size = 0.5 * kTolerance;
+  const Assembly a = assembly(
+      {component("block", box({-5, -5, -5}, {5, 5, 5})), component("grain", box({0, 0, 6}, {size, size, 6 + size}))});
+  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -20)})});
+  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
+}
+
+TEST(AuditPath, AcceptsAComponentInTheCavityOfAnother) {
+  TriangleMesh shell = box({-5, -5, -5}, {5, 5, 5});
+  TriangleMesh cavity = box({-3, -3, -3}, {3, 3, 3});
+  for (Face face : cavity.faces) {
+    std::swap(face.v[1], face.v[2]);
+    for (std::uint32_t& v : face.v) v += 8;
+    shell.faces.push_back(face);
+  }
+  shell.vertices.insert(shell.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+  const Assembly a = assembly({component("shell", shell), component("ball", box({-1, -1, -1}, {1, 1, 1}))});
+  const AuditReport report = audit(a, {move_through({"ball"}, {Pose{}, shifted(2, 2, 2), shifted(-2, 0, 1)})});
+  EXPECT_TRUE(report.holds()) << messages(report);
+  EXPECT_FALSE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2.2, 0, 0)})}).holds());
+}
+
+TEST(AuditPath, LooksAtPairsOfWhichOneMovesOnly) {
+  const Assembly a =
+      assembly({component("plate", box({-10, -10, -1}, {10, 10, 0})), component("left", box({-3, 0, 0}, {-2, 1, 1})),
+                component("right", box({2, 0.5, 0}, {3, 1.5, 1}))});
+  const Move both = move_through({"left", "right"}, {Pose{}, shifted(5, 0, 0)});
+  EXPECT_TRUE(audit(a, {both}).holds());
+  const Move left = move_through({"left"}, {Pose{}, shifted(5, 0, 0)});
+  const AuditReport report = audit(a, {left});
+  ASSERT_FALSE(report.violations.empty());
+  for (const AuditViolation& violation : report.violations) {
+    EXPECT_EQ(violation.a, ComponentId(1));
+    EXPECT_EQ(violation.b, ComponentId(2));
+  }
+}
+
+TEST(AuditPath, GoesOnFromWhereTheMovesBeforeEnded) {
+  const Assembly a = cube_over_plate(5);
+  const Move sideways = move_through({"cube"}, {Pose{}, shifted(20, 0, 0)});
+  const Move down = move_through({"cube"}, {shifted(20, 0, 0), shifted(20, 0, -8)});
+  EXPECT_TRUE(audit(a, {sideways, down}).holds());
+  const Move plate_up = move_through({"plate"}, {Pose{}, shifted(20, 0, 0), shifted(20, 0, 6)});
+  EXPECT_FALSE(audit(a, {sideways, plate_up}).holds());
+}
+
+TEST(AuditPath, GivesTheSameReportForEveryExecutor) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 100; ++k) poses.push_back({{0.05 * k, 0, 0.02 * k}, quat_about({1, 0, 0}, 0.01 * k)});
+  const Assembly a = pin_in_hole(0.02);
+  Path path = path_of(a, kTolerance);
+  path.moves = {move_through({"pin"}, poses)};
+  const AuditReport serial = audit_path(a, path);
+  EXPECT_FALSE(serial.holds());
+  for (const Executor& executor :
+       {Executor(ExecutorKind::Threads, 2), Executor(ExecutorKind::Threads, 7), Executor(ExecutorKind::Shuffled)}) {
+    const AuditReport other = audit_path(a, path, {executor, {}});
+    EXPECT_EQ(other.violations, serial.violations);
+    EXPECT_EQ(other.depths, serial.depths);
+    EXPECT_EQ(other.samples, serial.samples);
+  }
+}
+
+TEST(AuditPath, IsNotCompleteWhenCancelled) {
+  const Assembly a = cube_over_plate(0);
+  Path path = path_of(a, kTolerance);
+  path.moves = {move_through({"cube"}, {Pose{}, shifted(1, 0, 0)})};
+  int calls = 0;
+  AuditOptions options;
+  options.progress = [&calls](std::string_view, double) { return ++calls < 3; };
+  const AuditReport report = audit_path(a, path, options);
+  EXPECT_FALSE(report.complete);
+  EXPECT_FALSE(report.holds());
+  double last = -1;
+  options.progress = [&last](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  };
+  EXPECT_TRUE(audit_path(a, path, options).holds());
+  EXPECT_EQ(last, 1);
+}
+
+TEST(AuditPath, WorksFarFromTheOriginAndAtAllScales) {
+  for (const double scale : {1e-2, 1.0, 1e2}) {
+    const Vec3 far{1e4, -2e4, 1.5e4};
+    const auto scaled_box = [&](Vec3 lower, Vec3 upper) { return box(far + scale * lower, far + scale * upper); };
+    const Assembly a = assembly({component("plate", scaled_box({-10, -10, -1}, {10, 10, 0})),
+                                 component("cube", scaled_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}))});
+    const double tolerance = 1e-3 * scale;
+    const auto holds = [&](double dip) {
+      Path path = path_of(a, tolerance);
+      // Turns about the cube's own upright axis and dips by so many tolerances on the way.
+      const Quat q = quat_about({0, 0, 1}, 1);
+      const Vec3 across = far - mat3_from_quat(q) * far;
+      path.moves = {move_through({"cube"}, {Pose{}, {across - Vec3{0, 0, dip * tolerance}, q}})};
+      return audit_path(a, path).holds();
+    };
+    EXPECT_TRUE(holds(0.9)) << scale;
+    EXPECT_FALSE(holds(1.1)) << scale;
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
