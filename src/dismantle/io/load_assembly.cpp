@@ -3,8 +3,8 @@
 
 #include "dismantle/io/mesh_source.h"
 #include "dismantle/io/read_mesh.h"
-#include "dismantle/io/read_step.h"
 #include "dismantle/io/read_urdf.h"
+#include "dismantle/io/text_name.h"
 #include "dismantle/io/text_scan.h"
 
 #include <new>
@@ -25,18 +25,26 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
 
   if (is_mesh_file(file)) return read_mesh(file, options);
   const std::string extension = lower_case(file.extension().string());
-  if (extension == ".step" || extension == ".stp") return read_step(file, options);
   if (extension == ".urdf") return read_urdf(file, options);
   return Error{ErrorKind::Unreadable,
                file.string() + " is no assembly that dismantle reads (extension " + in_quotes(extension) +
                    "); convert it to STEP, glTF, OBJ, STL, PLY or URDF, or give a folder of meshes"};
 }
 
+/// Names from files may hold anything; from here on they can stand in JSON and on a terminal.
+void clean_names(Assembly& assembly) {
+  for (TreeNode& node : assembly.tree) node.name = clean_name(node.name);
+  for (Component& component : assembly.components) component.name = clean_name(component.name);
+  make_names_unique(assembly.components);
+}
+
 }  // namespace
 
 Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
   try {
-    return dispatch(file, options);
+    Result<Assembly> assembly = dispatch(file, options);
+    if (assembly) clean_names(*assembly);
+    return assembly;
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
   } catch (const std::length_error&) {

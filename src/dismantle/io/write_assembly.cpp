@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/io/write_assembly.h"
+
+#include "dismantle/io/mesh_source.h"
+#include "dismantle/io/text_scan.h"
+#include "dismantle/io/write_mesh.h"
+
+namespace dismantle {
+
+Result<Done> write_assembly(const std::filesystem::path& file, const Assembly& assembly, const WriteOptions& options) {
+  const std::string extension = lower_case(file.extension().string());
+  if (extension == ".obj") return write_obj(file, assembly);
+  if (extension == ".stl") return write_stl(file, assembly, options.stl);
+  if (extension == ".ply") return write_ply(file, assembly);
+  if (extension.empty() || !file.has_filename()) return write_mesh_folder(file, assembly);
+  return Error{ErrorKind::Usage, file.string() + " cannot be written (unknown extension " + in_quotes(extension) +
+                                     "); end it with .obj, .stl or .ply, or with nothing for a folder"};
+}
+
+}  // namespace dismantle
