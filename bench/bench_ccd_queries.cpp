@@ -10,6 +10,8 @@
 // kRepeats times in a row between two clock readings and the time of an empty measurement is taken off; there the
 // branch predictor has seen the query before, so ns_median and ns_p99 lean low against ns_mean.
 #include "bench/ccd_query_file.h"
+#include "dismantle/narrowphase/ccd_edge_edge.h"
+#include "dismantle/narrowphase/ccd_vertex_face.h"
 #include "dismantle/narrowphase/elementary_edge_edge.h"
 #include "dismantle/narrowphase/elementary_vertex_face.h"
 #include "dismantle/narrowphase/nonpenetration_filter.h"
@@ -28,6 +30,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kPasses = 5;
 constexpr int kRepeats = 32;
+
+struct Certified {
+  static constexpr const char* kName = "certified";
+  static bool hit(const VertexFaceMotion& m) { return ccd_vertex_face(m).status == CcdStatus::Contact; }
+  static bool hit(const EdgeEdgeMotion& m) { return ccd_edge_edge(m).status == CcdStatus::Contact; }
+};
 
 struct Elementary {
   static constexpr const char* kName = "elementary";
@@ -141,7 +149,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: bench_ccd_queries FILE.ccdq...\n");
     return 2;
   }
-  Tally elementary, filtered;
+  Tally certified, elementary, filtered;
   std::printf("file\ttest\tn\thits\tfalse_positives\tfalse_negatives\tns_mean\tns_median\tns_p99\n");
   for (int i = 1; i < argc; ++i) {
     const auto file = read_ccdq(argv[i]);
@@ -150,10 +158,12 @@ int main(int argc, char** argv) {
       return 3;
     }
     const std::string name = std::filesystem::path(argv[i]).filename().string();
+    bench<Certified>(name, *file, certified);
     bench<Elementary>(name, *file, elementary);
     bench<ElementaryFiltered>(name, *file, filtered);
   }
   if (argc > 2) {
+    print("total", Certified::kName, certified);
     print("total", Elementary::kName, elementary);
     print("total", ElementaryFiltered::kName, filtered);
   }

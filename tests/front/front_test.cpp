@@ -158,7 +158,7 @@ TEST(Front, LeavesAloneWhatDoesNotMove) {
   EXPECT_GT(front.triangle_pairs().size(), 1000u);
 }
 
-TEST(Front, StartsAnewWhenItHasGrownTooFar) {
+TEST(Front, StartsAnewWhenLookingAtWhatItHasGrownByCostsMore) {
   MovingScene scene(scenes::assembly({scenes::component("plate", scenes::tube(40, 0, 0, 1, 200, 10)),
                                       scenes::component("pin", scenes::tube(1, 0, 1.2, 4, 40, 20))}));
   Front front(1 << 10);

@@ -25,10 +25,10 @@ struct FrontUpdate {
   int rounds = 0;           ///< Launches of the kernel.
 };
 
-/// The front is started anew from the root when it has grown to this many times the size that it had after the last
-/// start or change of what moves, plus kFrontGrowthAllowance: it is never pruned.
-inline constexpr std::size_t kFrontGrowthLimit = 3;
-inline constexpr std::size_t kFrontGrowthAllowance = 4096;
+/// The front is never pruned, so it is started anew from the root now and then: when the nodes that were looked at for
+/// nothing since the last start, beyond the number that it had then, add up to this many times that number (which is
+/// about what a start costs). So the front costs at most about twice as much as with the best choice of starts.
+inline constexpr std::size_t kFrontRestartShare = 4;
 
 /// The front stream S_f: a cut through the bounding volume traversal tree (BVTT), kept from step to step and only ever
 /// sprouted (Du et al. 2015, section 4.3). Node pairs whose components do not move against each other rest: they stay
@@ -65,7 +65,9 @@ class Front {
 
   std::vector<std::uint64_t> active_, resting_;
   std::vector<std::uint32_t> motion_class_;  // that active_ and resting_ are separated by
-  std::size_t fresh_size_ = 0;               // 0: to be measured after the next update
+  std::size_t fresh_size_ = 0;               // of active_ after the last start; 0: to be measured after the next update
+  std::size_t excess_ = 0;                   // nodes looked at beyond fresh_size_ since then, summed over the updates
+  std::vector<std::uint64_t> scratch_;
   AppendBuffer<std::uint64_t> triangle_pairs_, kept_, rested_, sprouted_;
   AppendBuffer<std::uint64_t> pending_[2];
 };

@@ -20,7 +20,7 @@ struct ImportOptions {
   std::string units;  ///< "mm", "cm", "m", "um", "in", "ft": overrides what the file says; empty: as the file says, mm
                       ///< where it does not.
   double deflection = 0;  ///< STEP: largest distance of a triangle from its surface [mm]; 0: kDefaultRelativeDeflection
-                          ///< of the component's size.
+                          ///< of the assembly's size.
   double angular_deflection =
       0;  ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
   ImportLimits limits;

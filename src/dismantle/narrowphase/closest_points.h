@@ -9,6 +9,7 @@ namespace dismantle {
 /// for a direction to try or a test with a tolerance, never for a proof.
 struct ClosestPoints {
   Vec3 point_a, point_b;  ///< [mm]
+  bool interior = false;  ///< Both points are inside their features, on no border.
 };
 
 /// The point itself (`point_a`) and the point of the closed triangle nearest to it (`point_b`). Zero-area triangles are
@@ -33,7 +34,7 @@ DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, co
     return {p, face[1] + (along / (along + back)) * (face[2] - face[1])};
   const double area = va + vb + vc;
   if (!(area > 0)) return {p, face[0]};
-  return {p, face[0] + (vb / area) * ab + (vc / area) * ac};
+  return {p, face[0] + (vb / area) * ab + (vc / area) * ac, true};
 }
 
 namespace detail {
@@ -67,7 +68,7 @@ DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_edge_edge(const Vec3 (
   } else {
     t /= bb;
   }
-  return {a[0] + s * along_a, b[0] + t * along_b};
+  return {a[0] + s * along_a, b[0] + t * along_b, s > 0 && s < 1 && t > 0 && t < 1};
 }
 
 }  // namespace dismantle

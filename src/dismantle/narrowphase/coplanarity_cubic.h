@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/narrowphase/ccd_result.h"
+#include "dismantle/narrowphase/separating_axis.h"
 
 namespace dismantle {
 
@@ -29,8 +29,9 @@ DISMANTLE_HOST_DEVICE inline BernsteinCubic coplanarity_cubic(const Vec3 (&p)[2]
   cubic.c[3] = dot(end, r[1]);
 
   const auto largest = [](const Vec3(&v)[2]) {
-    const double start_size = max_abs(v[0]), end_size = max_abs(v[1]);
-    return start_size > end_size ? start_size : end_size;
+    const Vec3 m = max(absolute(v[0]), absolute(v[1]));
+    const double xy = m.x > m.y ? m.x : m.y;
+    return xy > m.z ? xy : m.z;
   };
   // The last term stands for products that underflow.
   cubic.error = kCoplanarityRelativeError * (largest(p) * largest(q) * largest(r)) + 0x1p-1020 * (largest(r) + 1);

@@ -36,7 +36,7 @@ DISMANTLE_HOST_DEVICE inline double value_at(const BernsteinCubic& cubic, double
 
 DISMANTLE_HOST_DEVICE inline double largest_coefficient(const BernsteinCubic& cubic) {
   double largest = 0;
-  for (const double c : cubic.c) largest = largest > (c < 0 ? -c : c) ? largest : (c < 0 ? -c : c);
+  for (const double c : cubic.c) largest = largest > absolute(c) ? largest : absolute(c);
   return largest;
 }
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/core/result.h"
+#include "dismantle/core/span.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace dismantle {
+
+/// Takes the next piece of a stream of bytes.
+using ByteSink = std::function<void(const void* data, std::size_t size)>;
+
+/// Writes an assembly bit for bit, each shared mesh once, in this process's own byte order: for another process of the
+/// same program, not for files.
+void write_assembly_bytes(const Assembly& assembly, const ByteSink& sink);
+
+/// The assembly that write_assembly_bytes wrote, meshes shared as they were; nothing where the bytes are not one
+/// (every count and index is checked).
+std::optional<Assembly> assembly_from_bytes(Span<const std::byte> bytes);
+
+}  // namespace dismantle

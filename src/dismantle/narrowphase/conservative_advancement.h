@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/narrowphase/separating_axis.h"
+
+namespace dismantle {
+
+/// How many steps a test may take before it calls the rest of the motion contact.
+inline constexpr int kAdvancementLimit = 64;
+
+/// A step that gains less than this part of the motion counts as no progress.
+inline constexpr double kLeastProgress = 0x1p-26;
+
+/// How a certified test ended, and the axis that it ended on: the one to try first on the pair's next motion.
+struct AxisCcdResult {
+  CcdResult ccd;
+  /// From a to b, of any length. It separated the pair up to `toi`; zero where nothing did.
+  Vec3 axis;
+};
+
+/// A direction to try, and whether the closest points that it comes from are in the interiors of both features.
+struct AxisGuess {
+  Vec3 axis;
+  bool interior = false;
+};
+
+/// The axis that separates furthest of those looked at, among those that separate at the present time. An axis that has
+/// used part of the allowance by then may only be left for one within a right angle of it, or one that separates by
+/// more than the allowance: else two flat faces, which have no thickness, could pass through each other.
+template <int kCountA, int kCountB>
+class FurthestAxis {
+ public:
+  DISMANTLE_HOST_DEVICE FurthestAxis(const RelativeHulls<kCountA, kCountB>& hulls, double allowed, Vec3 hint)
+      : hulls_(hulls), allowed_(allowed), axis_(hint) {
+    start(0);
+  }
+
+  /// Begins a step at `now`, until which axis() separates.
+  DISMANTLE_HOST_DEVICE void start(double now) {
+    now_ = now;
+    end_ = -1;
+    if (!(allowed_ > 0)) return;
+    guard_ = axis_;
+    guarded_ = separates_now(axis_, allowed_) && !separates_now(axis_, 0);
+  }
+
+  /// Looks at an axis that points from A to B.
+  DISMANTLE_HOST_DEVICE void consider(Vec3 w) {
+    if (refused(w)) return;
+    const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
+    if (projections.gap(0) > 0 && projections.gap(1) > 0) {
+      end_ = 1;
+      axis_ = w;
+    } else {
+      keep_if_further(projections, w);
+    }
+  }
+
+  /// Looks at an axis that may point either way.
+  DISMANTLE_HOST_DEVICE void consider_both_ways(Vec3 w) {
+    AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
+    if (!refused(w)) keep_if_further(projections, w);
+    projections.turn();
+    if (!refused(-w)) keep_if_further(projections, -w);
+  }
+
+  DISMANTLE_HOST_DEVICE Vec3 axis() const { return axis_; }
+  /// Until when the best axis of this step certainly separates; below `now` where none does.
+  DISMANTLE_HOST_DEVICE double end() const { return end_; }
+
+ private:
+  DISMANTLE_HOST_DEVICE void keep_if_further(const AxisProjections<kCountA, kCountB>& projections, Vec3 w) {
+    const TimeInterval times = projections.separated();
+    if (!times.contains(now_) || times.end <= end_) return;
+    end_ = times.end;
+    axis_ = w;
+  }
+
+  DISMANTLE_HOST_DEVICE bool refused(Vec3 w) const {
+    return guarded_ && dot(w, guard_) < 0 && !separates_now(w, -allowed_);
+  }
+
+  DISMANTLE_HOST_DEVICE bool separates_now(Vec3 w, double allowed) const {
+    return AxisProjections<kCountA, kCountB>(hulls_, w, allowed).separated().contains(now_);
+  }
+
+  const RelativeHulls<kCountA, kCountB>& hulls_;
+  double allowed_;
+  double now_ = 0, end_ = -1;
+  Vec3 axis_, guard_;
+  bool guarded_ = false;
+};
+
+/// Conservative advancement (DESIGN section 4; after Mirtich 1996, and Catto's time of impact): from the time up to
+/// which the motion is certainly allowed, jump to the end of the best certificate, until one lasts to the end (Free) or
+/// none gains anything (Contact). Sound whatever axes are tried. `Pair` knows the features:
+///   start(best)          tries what is cheap at time 0; true where that proves the pair free
+///   guess(t)             an axis from the (inexact) closest points at t
+///   advance(t)           a time up to which, from t on, another certificate holds; t where it has none
+///   look_ahead(best, t)  tries an axis foreseen for later
+///   consider_all(best, t) tries every candidate axis at t
+template <class Pair>
+DISMANTLE_HOST_DEVICE AxisCcdResult conservative_advancement(Pair& pair, typename Pair::Axes best) {
+  double t = 0, advanced = -1;
+  if (pair.start(best)) return {{CcdStatus::Free, 1, 0}, best.axis()};
+  for (int i = 1; i <= kAdvancementLimit; ++i) {
+    const AxisGuess guess = pair.guess(t);
+    best.consider(guess.axis);
+    if (best.end() >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
+
+    double reached = best.end() > t ? best.end() : t;
+    if (i > 1) {
+      pair.look_ahead(best, t);
+      if (best.end() > reached) reached = best.end();
+      if (reached > advanced) reached = advanced = pair.advance(reached);
+    }
+    if (reached < t + kLeastProgress && !guess.interior) {
+      pair.consider_all(best, t);
+      reached = best.end() > reached ? best.end() : reached;
+    }
+    if (reached >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
+    if (reached < t + kLeastProgress) return {{CcdStatus::Contact, t, i}, best.axis()};
+    t = reached;
+    best.start(t);
+  }
+  return {{CcdStatus::Contact, t, kAdvancementLimit}, best.axis()};
+}
+
+}  // namespace dismantle

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/narrowphase/ccd_result.h"
+
+namespace dismantle {
+
+/// Half the distance from 1 to the next double: the unit roundoff.
+inline constexpr double kUnitRoundoff = 0x1p-53;
+
+/// The error bound of a projected gap, in units of u * (|w_x| M_x + |w_y| M_y + |w_z| M_z), M the largest coordinates
+/// relative to the local origin. docs/design/0001-certified-ccd.md derives 10 u + O(u^2); the rest is margin for the
+/// rounding of the bound itself.
+inline constexpr double kGapErrorFactor = 12 * kUnitRoundoff;
+
+/// Stands for all products of a projection that underflow (each is off by at most 2^-1075).
+inline constexpr double kUnderflowError = 0x1p-1022;
+
+/// Every quotient of two gaps here is off by at most 8 u relatively; scaling by these rounds it down or up for certain.
+inline constexpr double kRoundDown = 1 - 16 * kUnitRoundoff;
+inline constexpr double kRoundUp = 1 + 16 * kUnitRoundoff;
+
+inline constexpr double kLargestDouble = 0x1.fffffffffffffp1023;
+
+/// The absolute value; exact, and unlike a comparison with zero it takes no branch.
+DISMANTLE_HOST_DEVICE inline double absolute(double x) {
+  using std::fabs;
+  return fabs(x);
+}
+
+DISMANTLE_HOST_DEVICE inline Vec3 absolute(Vec3 v) {
+  return {absolute(v.x), absolute(v.y), absolute(v.z)};
+}
+
+/// Two convex hulls of points that move linearly, seen from the first point of A, which stays at the origin: at either
+/// end its position is taken off all others. A difference of doubles is off by at most u relatively, so unlike a common
+/// origin this costs no accuracy however far out the points are.
+template <int kCountA, int kCountB>
+struct RelativeHulls {
+  static constexpr int kA = kCountA, kB = kCountB;
+  Vec3 a[2][kCountA];  ///< [end][point]; point 0 is zero.
+  Vec3 b[2][kCountB];  ///< [end][point]
+  Vec3 reach[2];       ///< The largest absolute value of each coordinate at that end.
+
+  DISMANTLE_HOST_DEVICE RelativeHulls(const Vec3 (&a_t0)[kCountA], const Vec3 (&a_t1)[kCountA],
+                                      const Vec3 (&b_t0)[kCountB], const Vec3 (&b_t1)[kCountB]) {
+    for (int i = 1; i < kCountA; ++i) {
+      add(0, a[0][i] = a_t0[i] - a_t0[0]);
+      add(1, a[1][i] = a_t1[i] - a_t1[0]);
+    }
+    for (int j = 0; j < kCountB; ++j) {
+      add(0, b[0][j] = b_t0[j] - a_t0[0]);
+      add(1, b[1][j] = b_t1[j] - a_t1[0]);
+    }
+  }
+
+ private:
+  DISMANTLE_HOST_DEVICE void add(int end, Vec3 p) { reach[end] = max(reach[end], absolute(p)); }
+};
+
+/// A part of the motion, [begin, end] within [0, 1]; empty where begin > end.
+struct TimeInterval {
+  double begin = 1, end = 0;
+  DISMANTLE_HOST_DEVICE bool contains(double t) const { return begin <= t && t <= end; }
+};
+
+/// The length of `w`, certainly not above the exact one if `down`, certainly not below it otherwise.
+DISMANTLE_HOST_DEVICE inline double length_rounded(Vec3 w, bool down) {
+  using std::sqrt;
+  const double square = length_squared(w);
+  // A smaller square may have lost its leading bits to underflow.
+  if (!(square > 0x1p-900)) return down ? 0 : absolute(w.x) + absolute(w.y) + absolute(w.z) + kUnderflowError;
+  return sqrt(square) * (down ? kRoundDown : kRoundUp);
+}
+
+/// The hulls' projections on an axis at both ends, and what has to be added to a difference so that, where it is
+/// positive, the exact gap certainly exceeds -allowed * |axis| (with a negative `allowed`: a distance that is asked
+/// for).
+template <int kCountA, int kCountB>
+struct AxisProjections {
+  double a[2][kCountA], b[2][kCountB];
+  double margin[2];
+
+  DISMANTLE_HOST_DEVICE AxisProjections(const RelativeHulls<kCountA, kCountB>& hulls, Vec3 w, double allowed) {
+    const double allowance = allowed == 0 ? 0 : allowed * length_rounded(w, allowed > 0);
+    const Vec3 size = absolute(w);
+    for (int end = 0; end < 2; ++end) {
+      a[end][0] = 0;
+      for (int i = 1; i < kCountA; ++i) a[end][i] = dot(w, hulls.a[end][i]);
+      for (int j = 0; j < kCountB; ++j) b[end][j] = dot(w, hulls.b[end][j]);
+      margin[end] = allowance - (kGapErrorFactor * dot(size, hulls.reach[end]) + kUnderflowError);
+    }
+  }
+
+  /// The certified gap at an end, with B on the side that the axis points to; > 0 is proof.
+  DISMANTLE_HOST_DEVICE double gap(int end) const { return (least(b[end]) - most(a[end])) + margin[end]; }
+  /// The same for the axis turned round.
+  DISMANTLE_HOST_DEVICE double gap_turned(int end) const { return (least(a[end]) - most(b[end])) + margin[end]; }
+
+  /// Turns the axis round.
+  DISMANTLE_HOST_DEVICE void turn() {
+    for (int end = 0; end < 2; ++end) {
+      for (double& x : a[end]) x = -x;
+      for (double& x : b[end]) x = -x;
+    }
+  }
+
+  /// All times at which the axis certainly separates: every projected difference of a point of B and one of A is linear
+  /// in time, so each gives a half line.
+  DISMANTLE_HOST_DEVICE TimeInterval separated() const {
+    TimeInterval times{0, 1};
+    for (int i = 0; i < kCountA; ++i)
+      for (int j = 0; j < kCountB; ++j) {
+        const double start = (b[0][j] - a[0][i]) + margin[0], finish = (b[1][j] - a[1][i]) + margin[1];
+        if (start > 0 && finish > 0) continue;
+        const double change = finish - start;
+        if (start > 0 && change < 0 && change >= -kLargestDouble) {
+          const double last = start / -change * kRoundDown;
+          times.end = last < times.end ? last : times.end;
+        } else if (finish > 0 && change > 0 && change <= kLargestDouble) {
+          const double first = -start / change * kRoundUp + kUnderflowError;
+          times.begin = first > times.begin ? first : times.begin;
+        } else {
+          return {};
+        }
+      }
+    return times;
+  }
+
+ private:
+  template <int kCount>
+  DISMANTLE_HOST_DEVICE static double least(const double (&x)[kCount]) {
+    double m = x[0];
+    for (int i = 1; i < kCount; ++i) m = x[i] < m ? x[i] : m;
+    return m;
+  }
+  template <int kCount>
+  DISMANTLE_HOST_DEVICE static double most(const double (&x)[kCount]) {
+    double m = x[0];
+    for (int i = 1; i < kCount; ++i) m = x[i] > m ? x[i] : m;
+    return m;
+  }
+};
+
+}  // namespace dismantle
