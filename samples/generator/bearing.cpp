@@ -59,15 +59,26 @@ BearingProducts make_tapered_bearing(SampleModel& model, const std::string& name
   const double low = middle - length / 2 - 0.2, high = width;
   const double rib = inner_race(0) + 0.45 * (mean_radius - inner_race(middle));
   const double bore = bearing.bore / 2;
-  const Solid inner = revolved({{bore, 0}, {rib, 0}, {rib, low - 0.3}, {inner_race(low - 0.3), low - 0.3}, {inner_race(high), high}, {bore, high}});
-  const Solid outer = revolved({{outer_race(0.1 * width), 0.1 * width}, {bearing.outer_diameter / 2, 0.1 * width}, {bearing.outer_diameter / 2, width}, {outer_race(width), width}});
+  const Solid inner = revolved({{bore, 0},
+                                {rib, 0},
+                                {rib, low - 0.3},
+                                {inner_race(low - 0.3), low - 0.3},
+                                {inner_race(high), high},
+                                {bore, high}});
+  const Solid outer = revolved({{outer_race(0.1 * width), 0.1 * width},
+                                {bearing.outer_diameter / 2, 0.1 * width},
+                                {bearing.outer_diameter / 2, width},
+                                {outer_race(width), width}});
 
   // Along its own axis, the distance of a point from the apex gives the roller's radius.
   const double reach = mean_radius / std::sin(axis_angle);
-  auto roller_diameter = [&](double z) { return 2 * ((reach - z) * std::sin(half_angle) / std::cos(half_angle) - kRunningClearance); };
+  auto roller_diameter = [&](double z) {
+    return 2 * ((reach - z) * std::sin(half_angle) / std::cos(half_angle) - kRunningClearance);
+  };
   const double half = length / 2 / std::cos(axis_angle);
   const Solid roller = cone(roller_diameter(-half), roller_diameter(half), -half, half);
-  const Solid pocket = cone(roller_diameter(-half - 0.2) + kPocketClearance, roller_diameter(half + 0.2) + kPocketClearance, -half - 0.2, half + 0.2);
+  const Solid pocket = cone(roller_diameter(-half - 0.2) + kPocketClearance,
+                            roller_diameter(half + 0.2) + kPocketClearance, -half - 0.2, half + 0.2);
 
   BearingProducts products;
   for (const Placement& place : around_z(bearing.rollers, 2 * mean_radius, middle))
@@ -75,7 +86,8 @@ BearingProducts make_tapered_bearing(SampleModel& model, const std::string& name
   const double band = 0.12 * (mean_radius - inner_race(middle)) + 0.4, ring = 0.08 * width;
   const double z0 = middle - length / 2 - ring, z1 = middle + length / 2 + ring;
   auto centre = [&](double z) { return race(z, axis_angle); };
-  const Solid strip = revolved({{centre(z0) - band, z0}, {centre(z0) + band, z0}, {centre(z1) + band, z1}, {centre(z1) - band, z1}});
+  const Solid strip =
+      revolved({{centre(z0) - band, z0}, {centre(z0) + band, z0}, {centre(z1) + band, z1}, {centre(z1) - band, z1}});
   const Solid cage = strip - at_each(pocket, products.ball_places);
 
   products.inner_ring = model.product(name + " cone", inner, kBrightSteel);

@@ -9,18 +9,24 @@ namespace dismantle::samples {
 namespace {
 
 /// Fine enough for the pictures, coarse enough for the triangle budget: sizes grow with the diameter as in the norms.
-double socket_across_flats(double diameter) { return std::round(diameter * 0.8 * 2) / 2; }
+double socket_across_flats(double diameter) {
+  return std::round(diameter * 0.8 * 2) / 2;
+}
 
 Solid cap_head(double diameter) {
   return rod(cap_head_diameter(diameter), 0, diameter) -
          prism(6, socket_across_flats(diameter), 0.45 * diameter, diameter + 1);
 }
 
-double hex_across_flats(double diameter) { return std::round(1.6 * diameter + 0.5); }
+double hex_across_flats(double diameter) {
+  return std::round(1.6 * diameter + 0.5);
+}
 
 }  // namespace
 
-double cap_head_diameter(double diameter) { return std::round((1.5 * diameter + 1) * 2) / 2; }
+double cap_head_diameter(double diameter) {
+  return std::round((1.5 * diameter + 1) * 2) / 2;
+}
 
 Solid cap_screw(double diameter, double length) {
   return cap_head(diameter) + rod(diameter, -length, 0);
@@ -37,9 +43,13 @@ Solid cap_screw_counterbore(double diameter, double depth) {
   return rod(cap_head_diameter(diameter) + 0.5, -diameter - 0.4, 0.0) + rod(1.1 * diameter, -depth, -diameter - 0.4);
 }
 
-Solid clearance_hole(double diameter, double depth) { return rod(1.1 * diameter, -depth, 0); }
+Solid clearance_hole(double diameter, double depth) {
+  return rod(1.1 * diameter, -depth, 0);
+}
 
-Solid tapped_hole(double diameter, double depth) { return rod(diameter - kThreadOverlap, -depth, 0); }
+Solid tapped_hole(double diameter, double depth) {
+  return rod(diameter - kThreadOverlap, -depth, 0);
+}
 
 Solid hex_screw(double diameter, double length) {
   return prism(6, hex_across_flats(diameter), 0, 0.65 * diameter) + rod(diameter, -length, 0);
@@ -55,17 +65,25 @@ Solid slotted_screw(double diameter, double length) {
   return body - block({-head, -half_slot, 0.5 * height}, {head, half_slot, height + 1});
 }
 
-double nut_height(double diameter) { return std::round(0.8 * diameter * 10) / 10; }
+double nut_height(double diameter) {
+  return std::round(0.8 * diameter * 10) / 10;
+}
 
 Solid hex_nut(double diameter) {
   return prism(6, hex_across_flats(diameter), 0, nut_height(diameter)) - rod(diameter - kThreadOverlap, -1, diameter);
 }
 
-double washer_thickness(double diameter) { return std::round(0.16 * diameter * 10) / 10 + 0.1; }
+double washer_thickness(double diameter) {
+  return std::round(0.16 * diameter * 10) / 10 + 0.1;
+}
 
-Solid washer(double diameter) { return tube(2 * diameter, 1.07 * diameter, 0, washer_thickness(diameter)); }
+Solid washer(double diameter) {
+  return tube(2 * diameter, 1.07 * diameter, 0, washer_thickness(diameter));
+}
 
-Solid dowel_pin(double diameter, double length) { return rod(diameter, 0, length); }
+Solid dowel_pin(double diameter, double length) {
+  return rod(diameter, 0, length);
+}
 
 Solid circlip(double inner_diameter, double width, double thickness) {
   const double outer = inner_diameter + 2 * width, half_gap = 0.2 * inner_diameter;

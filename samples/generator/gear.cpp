@@ -9,11 +9,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kPressureAngle = 20 * kPi / 180;
-constexpr double kAddendum = 1.0;    ///< In modules.
-constexpr double kDedendum = 1.25;   ///< In modules: leaves a quarter module at the tip.
-constexpr int kFlankSegments = 3;    ///< Straight pieces that follow an involute.
+constexpr double kAddendum = 1.0;   ///< In modules.
+constexpr double kDedendum = 1.25;  ///< In modules: leaves a quarter module at the tip.
+constexpr int kFlankSegments = 3;   ///< Straight pieces that follow an involute.
 
-double involute(double angle) { return std::tan(angle) - angle; }
+double involute(double angle) {
+  return std::tan(angle) - angle;
+}
 
 /// Half the angle that a tooth fills at that radius.
 double half_tooth_angle(const GearShape& gear, double radius) {
@@ -44,13 +46,17 @@ Outline teeth_outline(const GearShape& gear, double low_radius, double high_radi
 
 }  // namespace
 
-double pitch_diameter(const GearShape& gear) { return gear.module * gear.teeth; }
-double tip_diameter(const GearShape& gear) { return pitch_diameter(gear) + 2 * kAddendum * gear.module; }
+double pitch_diameter(const GearShape& gear) {
+  return gear.module * gear.teeth;
+}
+double tip_diameter(const GearShape& gear) {
+  return pitch_diameter(gear) + 2 * kAddendum * gear.module;
+}
 
 Solid spur_gear(const GearShape& gear, double z0, double z1) {
   const double pitch_radius = pitch_diameter(gear) / 2;
-  return extruded(
-      teeth_outline(gear, pitch_radius - kDedendum * gear.module, pitch_radius + kAddendum * gear.module), z0, z1);
+  return extruded(teeth_outline(gear, pitch_radius - kDedendum * gear.module, pitch_radius + kAddendum * gear.module),
+                  z0, z1);
 }
 
 Solid ring_gear(const GearShape& gear, double outer_diameter, double z0, double z1) {

@@ -17,27 +17,44 @@ constexpr double kLimbBottom = 250, kLimbTop = 286;
 constexpr double kWayFront = -52;       ///< Front of the dovetail on the column.
 constexpr double kWayClearance = 0.03;  ///< Between the dovetail and the carriage [mm].
 constexpr double kCarriageFront = -37, kCarriageLow = 110, kPlatformTop = 156, kStageTop = 164;
-constexpr double kTilt = 20;    ///< Of the turret, and of the objectives in it [degrees].
-constexpr double kApex = 262;   ///< Height where the objectives' axes meet.
-constexpr double kSeat = 55;    ///< From there to the objectives' seats.
+constexpr double kTilt = 20;   ///< Of the turret, and of the objectives in it [degrees].
+constexpr double kApex = 262;  ///< Height where the objectives' axes meet.
+constexpr double kSeat = 55;   ///< From there to the objectives' seats.
 constexpr double kPinionZ = 133;
 constexpr double kRackPitchY = -65;
 const GearShape kRackGear{0.8, 16, 0.08};
 
-double pinion_y() { return kRackPitchY - pitch_diameter(kRackGear) / 2; }
-Placement pinion_axis() { return at(0, pinion_y(), kPinionZ) * along_x(); }
-Placement turret_frame() { return at(0, 0, kApex) * turn_x(kTilt); }
-Placement objective_place(int i) { return turn_z(-90 + 120.0 * i) * turn_y(-kTilt) * at(0, 0, -kSeat); }
+double pinion_y() {
+  return kRackPitchY - pitch_diameter(kRackGear) / 2;
+}
+Placement pinion_axis() {
+  return at(0, pinion_y(), kPinionZ) * along_x();
+}
+Placement turret_frame() {
+  return at(0, 0, kApex) * turn_x(kTilt);
+}
+Placement objective_place(int i) {
+  return turn_z(-90 + 120.0 * i) * turn_y(-kTilt) * at(0, 0, -kSeat);
+}
 /// For a screw that stands on its head.
-Placement upside_down(double x, double y, double z) { return at(x, y, z) * turn_x(180); }
+Placement upside_down(double x, double y, double z) {
+  return at(x, y, z) * turn_x(180);
+}
 /// For a screw whose head faces the user.
-Placement facing_user(double x, double y, double z) { return at(x, y, z) * along_y(); }
+Placement facing_user(double x, double y, double z) {
+  return at(x, y, z) * along_y();
+}
 
 /// The dovetail, grown by `play`, over a height.
 Solid dovetail(double play, double z0, double z1) {
   const double front = kWayFront + play, narrow = 11.5 + 1.5 * play, wide = narrow + 4 + play;
-  return extruded({{-narrow, kColumnFront - 1}, {narrow, kColumnFront - 1}, {narrow, kColumnFront}, {wide, front},
-                   {-wide, front}, {-narrow, kColumnFront}}, z0, z1);
+  return extruded({{-narrow, kColumnFront - 1},
+                   {narrow, kColumnFront - 1},
+                   {narrow, kColumnFront},
+                   {wide, front},
+                   {-wide, front},
+                   {-narrow, kColumnFront}},
+                  z0, z1);
 }
 
 void add_stand(SampleModel& model) {
@@ -54,13 +71,20 @@ void add_stand(SampleModel& model) {
 }
 
 void add_arm(SampleModel& model) {
-  const Solid side = extruded({{kColumnBack, kBaseTop}, {kColumnFront, kBaseTop}, {kColumnFront, kLimbBottom, 24},
-                               {20, kLimbBottom}, {20, kLimbTop}, {kColumnBack, kLimbTop, 70}},
-                              -kHalfColumn, kHalfColumn).placed(side_view());
+  const Solid side = extruded({{kColumnBack, kBaseTop},
+                               {kColumnFront, kBaseTop},
+                               {kColumnFront, kLimbBottom, 24},
+                               {20, kLimbBottom},
+                               {20, kLimbTop},
+                               {kColumnBack, kLimbTop, 70}},
+                              -kHalfColumn, kHalfColumn)
+                         .placed(side_view());
   const Solid body = side + std::vector<Solid>{rod(50, kLimbBottom, kLimbTop), dovetail(0, 96, 190)};
   const Placement pinion = pinion_axis();
   std::vector<Solid> cuts{block({-6.2, -68, 60}, {6.2, kWayFront + 1, 195}),
-                          rod(8.06, -30, 0).placed(pinion), rod(15.2, -8, 8).placed(pinion), rod(16, 8, 30).placed(pinion),
+                          rod(8.06, -30, 0).placed(pinion),
+                          rod(15.2, -8, 8).placed(pinion),
+                          rod(16, 8, 30).placed(pinion),
                           rod(30.05, kLimbBottom - 1, kLimbTop + 1),
                           tapped_hole(4, 20).placed(facing_user(0, 27, 257)),
                           tapped_hole(4, 20).placed(facing_user(0, 27, 279))};
@@ -71,7 +95,8 @@ void add_arm(SampleModel& model) {
 
 void add_lamp(SampleModel& model) {
   const GroupId group = model.group("lamp");
-  model.add(group, "lamp", revolved({{0, kLampSeat}, {17, kLampSeat}, {17, 38}, {13, 38}, {13, 34}, {0, 34}}), kDarkGrey);
+  model.add(group, "lamp", revolved({{0, kLampSeat}, {17, kLampSeat}, {17, 38}, {13, 38}, {13, 34}, {0, 34}}),
+            kDarkGrey);
   model.add(group, "collector lens", rod(26.03, 34, 37), kGlass);
 }
 
@@ -110,14 +135,17 @@ void add_carriage(SampleModel& model) {
 }
 
 /// The thumb screw's thread, in the frame where its axis is z and its tip is at z = 0.
-ThreadForm thumb_thread() { return trapezoidal_thread(8, 3); }
+ThreadForm thumb_thread() {
+  return trapezoidal_thread(8, 3);
+}
 constexpr double kThumbTip = 15.05, kThumbHeight = 136, kThumbPlay = 0.06;
 
 void add_bracket(SampleModel& model) {
   const GroupId group = model.group("stage bracket");
   const double front = kCarriageFront + 8;
   const Solid body = block({-20, kCarriageFront, kCarriageLow}, {20, front, kPlatformTop}) +
-                     std::vector<Solid>{block({-30, kCarriageFront, 148}, {30, 38, kPlatformTop}), block({-20, -20, 128}, {20, 20, 150})};
+                     std::vector<Solid>{block({-30, kCarriageFront, 148}, {30, 38, kPlatformTop}),
+                                        block({-20, -20, 128}, {20, 20, 150})};
   const Placement thumb = facing_user(0, kThumbTip, kThumbHeight);
   const Solid tap = threaded_rod(with_play(thumb_thread(), 0.1, kThumbPlay), -3.5, 12, 0.5 + 0.4 - kThumbPlay, 0.3);
   std::vector<Solid> cuts{rod(30.05, 127, 157), tap.placed(thumb)};
@@ -139,8 +167,9 @@ void add_stage(SampleModel& model) {
   const ProductId screw = model.product("stage screw M4x12", hex_screw(4, 12), kSteel);
   for (const double x : {-22.0, 22.0}) model.place(group, screw, upside_down(x, 30, 148));
   model.add(group, "specimen slide", block({-38, -13, kStageTop}, {38, 13, kStageTop + 1}), kGlass);
-  const Solid clip = (block({-4, 8, kStageTop + 1}, {4, 40, kStageTop + 2.2}) +
-                      block({-4, 28, kStageTop}, {4, 40, kStageTop + 1.5})) + rod(5, 158.5, kStageTop + 1).placed(at(0, 34, 0));
+  const Solid clip =
+      (block({-4, 8, kStageTop + 1}, {4, 40, kStageTop + 2.2}) + block({-4, 28, kStageTop}, {4, 40, kStageTop + 1.5})) +
+      rod(5, 158.5, kStageTop + 1).placed(at(0, 34, 0));
   const ProductId clips = model.product("specimen clip", clip, kBrightSteel);
   for (const double x : {-33.0, 33.0}) model.place(group, clips, at(x, 0, 0));
 }
@@ -168,19 +197,27 @@ Solid turret_body() {
 /// An objective hanging from its seat at z = 0; its cosmetic thread is half a millimetre thicker than the turret's
 /// drilled bore.
 Solid objective(double length) {
-  return revolved({{0, 5.5}, {10.15, 5.5}, {10.15, 0}, {12, 0}, {12, -0.65 * length}, {5, -0.65 * length},
-                   {5, -length}, {0, -length}});
+  return revolved({{0, 5.5},
+                   {10.15, 5.5},
+                   {10.15, 0},
+                   {12, 0},
+                   {12, -0.65 * length},
+                   {5, -0.65 * length},
+                   {5, -length},
+                   {0, -length}});
 }
 
 void add_nosepiece(SampleModel& model) {
   const GroupId group = model.group("nosepiece");
   const Placement frame = turret_frame();
-  const Solid wedge = (rod(58, -28, 40).placed(frame) & block({-60, -60, 150}, {60, 60, kLimbBottom})) + rod(30, 245, 262);
+  const Solid wedge =
+      (rod(58, -28, 40).placed(frame) & block({-60, -60, 150}, {60, 60, kLimbBottom})) + rod(30, 245, 262);
   const Solid pivot_hole = tapped_hole(5, 6.5).placed(frame * at(0, 0, -28) * turn_x(180));
   model.add(group, "nosepiece", wedge - std::vector<Solid>{rod(8, 150, 300), pivot_hole}, kDarkGrey);
   model.add(group, "nosepiece set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 257));
   model.add(group, "turret", turret_body(), kBlackOxide, frame);
-  const Solid pivot = (rod(10, 0, 4) + std::vector<Solid>{rod(6, -22, 0), rod(5, -28, -21)}) - block({-6, -0.8, 2.5}, {6, 0.8, 6});
+  const Solid pivot =
+      (rod(10, 0, 4) + std::vector<Solid>{rod(6, -22, 0), rod(5, -28, -21)}) - block({-6, -0.8, 2.5}, {6, 0.8, 6});
   model.add(group, "turret pivot screw", pivot, kSteel, frame * at(0, 0, -50) * turn_x(180));
   const char* names[] = {"objective 40x", "objective 4x", "objective 10x"};
   const double lengths[] = {38, 22, 30};
@@ -188,17 +225,22 @@ void add_nosepiece(SampleModel& model) {
     model.add(group, names[i], objective(lengths[i]), i == 1 ? kBrass : kBrightSteel, frame * objective_place(i));
 }
 
-Placement tube_axis() { return at(0, -2, 312) * turn_x(-45); }
+Placement tube_axis() {
+  return at(0, -2, 312) * turn_x(-45);
+}
 
 void add_head(SampleModel& model) {
   const GroupId group = model.group("head");
-  const Solid body = extruded({{-24, 286}, {24, 286}, {29.1, 317.7, 6}, {3.7, 343.1, 8}, {-24, 334, 14}}, -21, 21).placed(side_view());
+  const Solid body =
+      extruded({{-24, 286}, {24, 286}, {29.1, 317.7, 6}, {3.7, 343.1, 8}, {-24, 334, 14}}, -21, 21).placed(side_view());
   const Solid body_and_spigot = body + std::vector<Solid>{rod(30, 273, 287)};
-  model.add(group, "head", body_and_spigot - std::vector<Solid>{rod(14, 260, 305), rod(28, 0, 40).placed(tube_axis())}, kCream);
+  model.add(group, "head", body_and_spigot - std::vector<Solid>{rod(14, 260, 305), rod(28, 0, 40).placed(tube_axis())},
+            kCream);
   model.add(group, "head set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 279));
   const Solid tube_body = revolved({{11.65, 17}, {14.015, 17}, {14.015, 26}, {17, 26}, {17, 100}, {11.65, 100}});
   model.add(group, "tube", tube_body, kBlackOxide, tube_axis());
-  const Solid eyepiece = revolved({{0, 60}, {11.6, 60}, {11.6, 100}, {18, 100}, {18, 114}, {8, 114}, {8, 111}, {0, 111}});
+  const Solid eyepiece =
+      revolved({{0, 60}, {11.6, 60}, {11.6, 100}, {18, 100}, {18, 114}, {8, 114}, {8, 111}, {0, 111}});
   model.add(group, "eyepiece", eyepiece, kDarkGrey, tube_axis());
   model.add(group, "eye lens", rod(16.03, 111, 114), kGlass, tube_axis());
 }

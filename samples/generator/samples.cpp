@@ -5,7 +5,9 @@
 
 namespace dismantle::samples {
 
-std::vector<std::string> sample_names() { return {"microscope", "tooling", "lathe", "robot"}; }
+std::vector<std::string> sample_names() {
+  return {"microscope", "tooling", "lathe", "robot"};
+}
 
 SampleModel make_sample(const std::string& name) {
   if (name == "microscope") return make_microscope();

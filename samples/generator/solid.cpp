@@ -43,7 +43,9 @@ Placement turned(const gp_Dir& axis, double degrees) {
   return placement;
 }
 
-gp_Ax2 axis_at(double z) { return gp_Ax2(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1)); }
+gp_Ax2 axis_at(double z) {
+  return gp_Ax2(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1));
+}
 
 TopTools_ListOfShape list_of(const std::vector<Solid>& solids) {
   TopTools_ListOfShape list;
@@ -111,13 +113,27 @@ Placement at(double x, double y, double z) {
   placement.SetTranslation(gp_Vec(x, y, z));
   return placement;
 }
-Placement turn_x(double degrees) { return turned(gp_Dir(1, 0, 0), degrees); }
-Placement turn_y(double degrees) { return turned(gp_Dir(0, 1, 0), degrees); }
-Placement turn_z(double degrees) { return turned(gp_Dir(0, 0, 1), degrees); }
-Placement along_x() { return turn_y(90); }
-Placement along_y() { return turn_x(-90); }
-Placement side_view() { return turn_z(90) * turn_x(90); }
-Placement front_view() { return turn_x(90); }
+Placement turn_x(double degrees) {
+  return turned(gp_Dir(1, 0, 0), degrees);
+}
+Placement turn_y(double degrees) {
+  return turned(gp_Dir(0, 1, 0), degrees);
+}
+Placement turn_z(double degrees) {
+  return turned(gp_Dir(0, 0, 1), degrees);
+}
+Placement along_x() {
+  return turn_y(90);
+}
+Placement along_y() {
+  return turn_x(-90);
+}
+Placement side_view() {
+  return turn_z(90) * turn_x(90);
+}
+Placement front_view() {
+  return turn_x(90);
+}
 
 Solid::Solid(const TopoDS_Shape& shape) {
   int count = 0;
@@ -129,15 +145,25 @@ Solid Solid::placed(const Placement& placement) const {
   return Solid(BRepBuilderAPI_Transform(shape_, placement, true).Shape());
 }
 
-Solid Solid::operator+(const Solid& other) const { return *this + std::vector<Solid>{other}; }
+Solid Solid::operator+(const Solid& other) const {
+  return *this + std::vector<Solid>{other};
+}
 Solid Solid::operator+(const std::vector<Solid>& others) const {
   return with_merged_faces(combined(BRepAlgoAPI_Fuse(), *this, others));
 }
-Solid Solid::operator-(const Solid& other) const { return *this - std::vector<Solid>{other}; }
-Solid Solid::operator-(const std::vector<Solid>& others) const { return combined(BRepAlgoAPI_Cut(), *this, others); }
-Solid Solid::operator&(const Solid& other) const { return combined(BRepAlgoAPI_Common(), *this, {other}); }
+Solid Solid::operator-(const Solid& other) const {
+  return *this - std::vector<Solid>{other};
+}
+Solid Solid::operator-(const std::vector<Solid>& others) const {
+  return combined(BRepAlgoAPI_Cut(), *this, others);
+}
+Solid Solid::operator&(const Solid& other) const {
+  return combined(BRepAlgoAPI_Common(), *this, {other});
+}
 
-Solid block(const gp_XYZ& low, const gp_XYZ& high) { return Solid(BRepPrimAPI_MakeBox(gp_Pnt(low), gp_Pnt(high)).Shape()); }
+Solid block(const gp_XYZ& low, const gp_XYZ& high) {
+  return Solid(BRepPrimAPI_MakeBox(gp_Pnt(low), gp_Pnt(high)).Shape());
+}
 
 Solid rod(double diameter, double z0, double z1) {
   return Solid(BRepPrimAPI_MakeCylinder(axis_at(z0), diameter / 2, z1 - z0).Shape());
@@ -163,7 +189,9 @@ Solid cone(double diameter0, double diameter1, double z0, double z1) {
   return Solid(BRepPrimAPI_MakeCone(axis_at(z0), diameter0 / 2, diameter1 / 2, z1 - z0).Shape());
 }
 
-Solid ball(double diameter) { return Solid(BRepPrimAPI_MakeSphere(diameter / 2).Shape()); }
+Solid ball(double diameter) {
+  return Solid(BRepPrimAPI_MakeSphere(diameter / 2).Shape());
+}
 
 Solid torus(double mean_diameter, double section_diameter) {
   return Solid(BRepPrimAPI_MakeTorus(mean_diameter / 2, section_diameter / 2).Shape());

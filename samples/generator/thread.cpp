@@ -133,12 +133,8 @@ class ThreadSkin {
   void add_top(double z1) {
     const int n = half_turns_;
     const double w = ridge_width(), a = angle(n - 2), b = angle(n - 1), c = angle(n);
-    sewing_.Add(polygon_on(root_, {{a, height(n - 2) + w},
-                                   {b, height(n - 1) + w},
-                                   {b, z1},
-                                   {a, z1},
-                                   {a, height(n) + w},
-                                   {a, height(n)}}));
+    sewing_.Add(polygon_on(
+        root_, {{a, height(n - 2) + w}, {b, height(n - 1) + w}, {b, z1}, {a, z1}, {a, height(n) + w}, {a, height(n)}}));
     sewing_.Add(polygon_on(root_, {{b, height(n - 1) + w}, {c, height(n) + w}, {c, z1}, {b, z1}}));
     add_disc(z1);
   }
