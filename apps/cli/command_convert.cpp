@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "dismantle/io/write_assembly.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace {
+
+struct ConvertCommand {
+  CommonOptions common;
+  std::string output;
+  WriteOptions write;
+};
+
+Result<Assembly> run(const ConvertCommand& command) {
+  Result<Assembly> assembly = load(command.common);
+  if (!assembly) return assembly;
+  const Result<Done> written = write_assembly(command.output, *assembly, command.write);
+  if (!written) return written.error();
+  return assembly;
+}
+
+void print_text(const Assembly& assembly, const std::string& output) {
+  fmt::print("{}: {} components, {} triangles, from {}\n", output, assembly.components.size(), triangle_count(assembly),
+             assembly.source_file);
+}
+
+void print_json(const Assembly& assembly, const std::string& output) {
+  using Json = nlohmann::ordered_json;
+  const Json report{{"format", "dismantle-convert"},
+                    {"version", 1},
+                    {"file", output},
+                    {"components", assembly.components.size()},
+                    {"triangles", triangle_count(assembly)}};
+  fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand("convert", "Write an assembly as meshes in its assembled pose, in mm");
+  auto options = std::make_shared<ConvertCommand>();
+  add_assembly_argument(*command, options->common);
+  command
+      ->add_option(
+          "-o,--output", options->output,
+          "File to write: .obj (a section a component), .stl, .ply (everything in one), or a new folder of OBJ "
+          "files where it has no extension")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag(
+      "--ascii", [options](std::int64_t) { options->write.stl = StlForm::Ascii; },
+      "STL as text, a solid a component, instead of binary");
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    const Result<Assembly> assembly = run(*options);
+    if (!assembly) {
+      exit_code = report(assembly.error());
+    } else if (options->common.json) {
+      print_json(*assembly, options->output);
+    } else {
+      print_text(*assembly, options->output);
+    }
+  });
+}
+
+}  // namespace dismantle::cli
