@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/math/orientation_exact.h"
+
+namespace dismantle {
+
+// Signs of orientation determinants, exact for every finite input: a floating-point filter with a proven bound decides
+// nearly all; what it leaves goes to exact arithmetic. Properties (tested):
+//   1. The sign is that of the determinant of the coordinates as given: no rounding, overflow or underflow shows.
+//   2. Exchanging two points negates the sign; a point in the plane (on the line) gives 0.
+
+/// With u = 2^-53: a term of the 2x2 determinant of rounded differences passes 4 roundings (two differences, a product,
+/// the subtraction), so both terms together are off by less than 2 * 4u(1 + 9u) X Y, with X and Y the largest absolute
+/// rounded differences. 8u, and room for the roundings of the bound itself.
+inline constexpr double kOrient2dError = 9 * 0x1p-53;
+
+/// As above: a term of the 3x3 determinant passes 8 roundings (three differences, two products, the subtraction of the
+/// 2x2 minor, two additions), and two terms share a bound E_y E_z |w_x|: 16u, and room for the bound's own roundings.
+inline constexpr double kOrient3dError = 17 * 0x1p-53;
+
+/// Stands for products that underflow: each loses at most 2^-1075, the minors' losses times a difference. Added both to
+/// the bound of a minor and to that of the determinant.
+inline constexpr double kOrientationUnderflow = 0x1p-1000;
+
+/// Results beyond are not trusted: a partial result may have been infinite.
+inline constexpr double kLargestFinite = 0x1.fffffffffffffp+1023;
+
+/// The sign of (b - a) x (c - a): 1 where a, b, c turn counter-clockwise, 0 where they are on one line. Exact.
+/// @pre all coordinates are finite
+DISMANTLE_HOST_DEVICE inline int orient2d_sign(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 u{b.x - a.x, b.y - a.y}, v{c.x - a.x, c.y - a.y};
+  const double det = u.x * v.y - u.y * v.x;
+  const double x = detail::larger(detail::magnitude(u.x), detail::magnitude(v.x));
+  const double y = detail::larger(detail::magnitude(u.y), detail::magnitude(v.y));
+  const double bound = kOrient2dError * x * y + kOrientationUnderflow;
+  if (det > bound && det <= kLargestFinite) return 1;
+  if (det < -bound && det >= -kLargestFinite) return -1;
+  if (x == 0 || y == 0) return 0;
+  return detail::orient2d_exact(a, b, c);
+}
+
+/// A plane through three points, prepared for asking on which side other points are.
+struct OrientedPlane {
+  Vec3 point[3];
+  Vec3 normal;  ///< (point[1] - point[0]) x (point[2] - point[0]), rounded.
+  Vec3 error;   ///< Per unit of a point's offset: what the filter cannot decide.
+  Vec3 extent;  ///< Largest absolute coordinates of the two differences.
+};
+
+DISMANTLE_HOST_DEVICE inline OrientedPlane oriented_plane(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 u = b - a, v = c - a;
+  const Vec3 e = max(detail::magnitude(u), detail::magnitude(v));
+  const double k = kOrient3dError, t = kOrientationUnderflow;
+  return {{a, b, c}, cross(u, v), {k * (e.y * e.z) + t, k * (e.z * e.x) + t, k * (e.x * e.y) + t}, e};
+}
+
+/// 1 where `d` is on the side that the plane's normal points to, -1 on the other, 0 in the plane; 0 for every point
+/// where the plane's three points are on one line. Exact. @pre all coordinates are finite
+DISMANTLE_HOST_DEVICE inline int side_of_plane(const OrientedPlane& plane, Vec3 d) {
+  const Vec3 w = d - plane.point[0];
+  const double det = dot(plane.normal, w);
+  const Vec3 size = detail::magnitude(w);
+  const double bound = dot(plane.error, size) + kOrientationUnderflow;
+  if (det > bound && det <= kLargestFinite) return 1;
+  if (det < -bound && det >= -kLargestFinite) return -1;
+  // Points in one axis-aligned plane, the common case of contact in CAD models, need no exact arithmetic.
+  const Vec3 extent = max(plane.extent, size);
+  if (extent.x == 0 || extent.y == 0 || extent.z == 0) return 0;
+  return detail::orient3d_exact(plane.point[0], plane.point[1], plane.point[2], d);
+}
+
+/// The sign of ((b - a) x (c - a)) . (d - a). Exact. @pre all coordinates are finite
+DISMANTLE_HOST_DEVICE inline int orient3d_sign(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  return side_of_plane(oriented_plane(a, b, c), d);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/math/expansion.h"
+#include "dismantle/math/vec3.h"
+#include "dismantle/math/wide_integer.h"
+
+namespace dismantle {
+
+/// A point of a coordinate plane [mm].
+struct Vec2 {
+  double x = 0, y = 0;
+};
+
+namespace detail {
+
+DISMANTLE_HOST_DEVICE inline double magnitude(double x) {
+  return x < 0 ? -x : x;
+}
+DISMANTLE_HOST_DEVICE inline Vec3 magnitude(Vec3 p) {
+  return {magnitude(p.x), magnitude(p.y), magnitude(p.z)};
+}
+DISMANTLE_HOST_DEVICE inline double larger(double x, double y) {
+  return x > y ? x : y;
+}
+
+/// Within this range (or 0) the expansions of degree three are exact: the lowest bit of a coordinate is at least
+/// 2^-352, of a product of three differences 2^-1056 > 2^-1074; and no product exceeds 2^905.
+inline constexpr double kExpansionSmallest = 0x1p-300;
+inline constexpr double kExpansionLargest = 0x1p300;
+
+DISMANTLE_HOST_DEVICE inline bool in_expansion_range(double x) {
+  const double size = magnitude(x);
+  return size == 0 || (size >= kExpansionSmallest && size <= kExpansionLargest);
+}
+DISMANTLE_HOST_DEVICE inline bool in_expansion_range(Vec2 p) {
+  return in_expansion_range(p.x) && in_expansion_range(p.y);
+}
+DISMANTLE_HOST_DEVICE inline bool in_expansion_range(Vec3 p) {
+  return in_expansion_range(p.x) && in_expansion_range(p.y) && in_expansion_range(p.z);
+}
+
+/// a b - c d exactly, of doubles and of differences of doubles.
+DISMANTLE_HOST_DEVICE inline Expansion<4> minor_exact(double a, double b, double c, double d) {
+  return expansion_of(two_product(a, b)) + -expansion_of(two_product(c, d));
+}
+DISMANTLE_HOST_DEVICE inline Expansion<16> minor_exact(TwoTerms a, TwoTerms b, TwoTerms c, TwoTerms d) {
+  return expansion_of(a) * expansion_of(b) + -(expansion_of(c) * expansion_of(d));
+}
+
+/// p - q, each coordinate exact.
+struct ExactDifference {
+  TwoTerms x, y, z;
+  DISMANTLE_HOST_DEVICE bool rounded() const { return x.low != 0 || y.low != 0 || z.low != 0; }
+  DISMANTLE_HOST_DEVICE Vec3 high() const { return {x.high, y.high, z.high}; }
+};
+
+DISMANTLE_HOST_DEVICE inline ExactDifference exact_difference(Vec3 p, Vec3 q) {
+  return {two_difference(p.x, q.x), two_difference(p.y, q.y), two_difference(p.z, q.z)};
+}
+
+/// Twice 3u for the terms that share a bound, where u, v and w are replaced by their rounded differences (a relative
+/// change of at most u each); room for the rounding of the bound.
+inline constexpr double kRoundedDifferencesError = 7 * 0x1p-53;
+
+/// As kOrientationUnderflow. The terms are in the expansions' range: only products of tiny differences underflow.
+inline constexpr double kRoundedDifferencesUnderflow = 0x1p-700;
+
+/// u x v . w with the rounded differences, exactly.
+DISMANTLE_HOST_DEVICE inline Expansion<24> determinant_exact(Vec3 u, Vec3 v, Vec3 w) {
+  return minor_exact(u.y, v.z, u.z, v.y) * w.x + minor_exact(u.z, v.x, u.x, v.z) * w.y +
+         minor_exact(u.x, v.y, u.y, v.x) * w.z;
+}
+
+/// How far the exact determinant may be from that of the rounded differences.
+DISMANTLE_HOST_DEVICE inline double rounded_differences_bound(Vec3 u, Vec3 v, Vec3 w) {
+  const Vec3 e = max(magnitude(u), magnitude(v));
+  const Vec3 size = magnitude(w);
+  const double sum = e.y * e.z * size.x + e.z * e.x * size.y + e.x * e.y * size.z;
+  return kRoundedDifferencesError * sum + kRoundedDifferencesUnderflow;
+}
+
+/// @pre all coordinates are in_expansion_range
+DISMANTLE_HOST_DEVICE inline int orient3d_expansion(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const ExactDifference u = exact_difference(b, a), v = exact_difference(c, a), w = exact_difference(d, a);
+  const Expansion<24> rounded = determinant_exact(u.high(), v.high(), w.high());
+  if (!u.rounded() && !v.rounded() && !w.rounded()) return rounded.sign();
+  const double estimate = rounded.estimate(), bound = rounded_differences_bound(u.high(), v.high(), w.high());
+  if (estimate > bound) return 1;
+  if (estimate < -bound) return -1;
+
+  return (minor_exact(u.y, v.z, u.z, v.y) * expansion_of(w.x) + minor_exact(u.z, v.x, u.x, v.z) * expansion_of(w.y) +
+          minor_exact(u.x, v.y, u.y, v.x) * expansion_of(w.z))
+      .sign();
+}
+
+/// @pre all coordinates are in_expansion_range
+DISMANTLE_HOST_DEVICE inline int orient2d_expansion(Vec2 a, Vec2 b, Vec2 c) {
+  return minor_exact(two_difference(b.x, a.x), two_difference(c.y, a.y), two_difference(b.y, a.y),
+                     two_difference(c.x, a.x))
+      .sign();
+}
+
+/// A finite double in units of the smallest: 971 + 1074 + 53 bits, and one for a difference.
+using WideCoordinate = WideInteger<66>;
+
+DISMANTLE_HOST_DEVICE inline int lowest_exponent(double x, int so_far) {
+  const DoubleParts parts = parts_of(x);
+  return parts.sign != 0 && parts.exponent < so_far ? parts.exponent : so_far;
+}
+
+/// For coordinates so large or small that doubles overflow or underflow.
+DISMANTLE_HOST_DEVICE inline int orient3d_wide(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 points[4] = {a, b, c, d};
+  int unit = 971;
+  for (const Vec3& p : points) unit = lowest_exponent(p.x, lowest_exponent(p.y, lowest_exponent(p.z, unit)));
+  WideCoordinate difference[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      difference[i][k] = wide_integer_of<66>(points[i + 1][k], unit) - wide_integer_of<66>(a[k], unit);
+
+  const auto term = [&difference](int i, int j, int k) {
+    const auto& u = difference[0];
+    const auto& v = difference[1];
+    return (u[i] * v[j] - u[j] * v[i]) * difference[2][k];
+  };
+  return (term(1, 2, 0) + term(2, 0, 1) + term(0, 1, 2)).sign;
+}
+
+DISMANTLE_HOST_DEVICE inline int orient2d_wide(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 points[3] = {a, b, c};
+  int unit = 971;
+  for (const Vec2& p : points) unit = lowest_exponent(p.x, lowest_exponent(p.y, unit));
+  const auto difference = [unit](double p, double q) {
+    return wide_integer_of<66>(p, unit) - wide_integer_of<66>(q, unit);
+  };
+  return (difference(b.x, a.x) * difference(c.y, a.y) - difference(b.y, a.y) * difference(c.x, a.x)).sign;
+}
+
+/// The sign of ((b - a) x (c - a)) . (d - a), without a filter. @pre all coordinates are finite
+DISMANTLE_HOST_DEVICE inline int orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const bool in_range =
+      in_expansion_range(a) && in_expansion_range(b) && in_expansion_range(c) && in_expansion_range(d);
+  return in_range ? orient3d_expansion(a, b, c, d) : orient3d_wide(a, b, c, d);
+}
+
+/// The sign of (b - a) x (c - a), without a filter. @pre all coordinates are finite
+DISMANTLE_HOST_DEVICE inline int orient2d_exact(Vec2 a, Vec2 b, Vec2 c) {
+  const bool in_range = in_expansion_range(a) && in_expansion_range(b) && in_expansion_range(c);
+  return in_range ? orient2d_expansion(a, b, c) : orient2d_wide(a, b, c);
+}
+
+}  // namespace detail
+}  // namespace dismantle
