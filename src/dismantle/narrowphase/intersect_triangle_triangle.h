@@ -1,13 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/geometry/triangle.h"
+#include "dismantle/narrowphase/intersect_flat.h"
 
 namespace dismantle {
+
+/// How the planes and point sets of two closed triangles lie to each other.
+enum class TriangleRelation {
+  Apart,     ///< No common point.
+  Flat,      ///< A common point; coplanar, or one triangle has no area.
+  Crossing,  ///< A common point; both have area, in different planes.
+};
+
+namespace detail {
+
+/// A triangle seen from another's plane: `apex` is alone on its side or on the plane, the other two corners are not on
+/// that side. `above`: the apex's side is the one that the plane's normal points to (a corner in the plane counts as
+/// either).
+struct LoneCorner {
+  int apex = 0;
+  bool above = false;
+};
+
+/// @pre the signs are neither all positive, all negative nor all zero
+DISMANTLE_HOST_DEVICE inline LoneCorner lone_corner(const int (&side)[3]) {
+  int positive = 0, negative = 0;
+  for (const int s : side) {
+    positive += s > 0;
+    negative += s < 0;
+  }
+  // One positive: it. Two positive: the other one. None positive: one negative, or the zero above two negative ones.
+  const bool above = positive == 1 || (positive == 0 && negative == 2);
+  for (int i = 0; i < 3; ++i) {
+    const bool is_lone = positive == 1   ? side[i] > 0
+                         : positive == 2 ? side[i] <= 0
+                         : negative == 1 ? side[i] < 0
+                                         : side[i] == 0;
+    if (is_lone) return {i, above};
+  }
+  return {};
+}
+
+/// A triangle's corners from `first` on, in its order or, where `reversed`, against it.
+DISMANTLE_HOST_DEVICE inline Triangle rotated(const Triangle& t, int first, bool reversed) {
+  const int next = first == 2 ? 0 : first + 1, last = first == 0 ? 2 : first - 1;
+  return {{t[first], t[reversed ? last : next], t[reversed ? next : last]}};
+}
+
+/// The sides of a triangle's corners; true where all are strictly on one.
+DISMANTLE_HOST_DEVICE inline bool on_one_side(const OrientedPlane& plane, const Triangle& t, int (&side)[3]) {
+  for (int i = 0; i < 3; ++i) side[i] = side_of_plane(plane, t[i]);
+  return side[0] != 0 && side[0] == side[1] && side[0] == side[2];
+}
+
+DISMANTLE_HOST_DEVICE inline bool all_zero(const int (&side)[3]) {
+  return side[0] == 0 && side[1] == 0 && side[2] == 0;
+}
+
+}  // namespace detail
+
+/// As intersect_triangle_triangle, and exact as that is, telling the kinds of intersection apart.
+DISMANTLE_HOST_DEVICE inline TriangleRelation relation_triangle_triangle(const Triangle& a, const Triangle& b) {
+  int side_a[3], side_b[3];
+  if (detail::on_one_side(oriented_plane(b[0], b[1], b[2]), a, side_a)) return TriangleRelation::Apart;
+  if (detail::on_one_side(oriented_plane(a[0], a[1], a[2]), b, side_b)) return TriangleRelation::Apart;
+  if (detail::all_zero(side_a) || detail::all_zero(side_b))
+    return detail::intersect_flat(a, b) ? TriangleRelation::Flat : TriangleRelation::Apart;
+
+  // Both triangles meet the line of their planes, each in an interval between the two edges at its lone corner. Turned
+  // so that each lone corner is above the other's plane, two signs compare the ends of the intervals.
+  const detail::LoneCorner lone_a = detail::lone_corner(side_a), lone_b = detail::lone_corner(side_b);
+  const Triangle p = detail::rotated(a, lone_a.apex, !lone_b.above);
+  const Triangle q = detail::rotated(b, lone_b.apex, !lone_a.above);
+  const bool meet = orient3d_sign(p[1], q[0], p[0], q[1]) <= 0 && orient3d_sign(p[0], q[0], p[2], q[2]) <= 0;
+  return meet ? TriangleRelation::Crossing : TriangleRelation::Apart;
+}
 
 /// True where the closed triangles share a point (touching counts). Exact for every finite double input, degenerate
 /// triangles included: Devillers and Guigue's orientation signs (INRIA RR-4488; Du et al. 2015, algorithm 2) with the
 /// coplanar case, the signs by a floating-point filter and then by exact arithmetic.
-DISMANTLE_HOST_DEVICE bool intersect_triangle_triangle(const Triangle& a, const Triangle& b);
+DISMANTLE_HOST_DEVICE inline bool intersect_triangle_triangle(const Triangle& a, const Triangle& b) {
+  return relation_triangle_triangle(a, b) != TriangleRelation::Apart;
+}
 
 }  // namespace dismantle
