@@ -4,6 +4,7 @@
 #include "dismantle/simplify/simplify_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <unordered_map>
 
@@ -11,8 +12,11 @@ namespace dismantle {
 
 namespace {
 
-// Rounds of giving the others what components could not go down to, at most.
-constexpr int kShareRounds = 4;
+// Rounds of taking from the others what components could not go down to, at most.
+constexpr int kShareRounds = 3;
+// The search for the error: from this part of the assembly's size to all of it, by so many halvings of the exponent.
+constexpr double kLeastError = 1e-6;
+constexpr int kErrorSteps = 9;
 // A total this much above the target is good enough.
 constexpr double kGoodEnough = 1.01;
 
@@ -37,42 +41,59 @@ MeshTable collect_meshes(const Assembly& assembly) {
   std::unordered_map<const TriangleMesh*, std::size_t> place;
   for (const Component& c : assembly.components) {
     const auto [found, is_new] = place.try_emplace(c.mesh.get(), table.meshes.size());
-    if (is_new) table.meshes.push_back({c.mesh, 0, 0, false, {}, {}});
+    if (is_new) table.meshes.push_back({c.mesh, 0, 0, false, *c.mesh, {}});
     ++table.meshes[found->second].instances;
     table.of_component.push_back(found->second);
   }
   return table;
 }
 
-std::size_t least_count(const SharedMesh& m, std::size_t minimum) {
-  return std::min(minimum, m.original->faces.size());
+std::size_t original_count(const SharedMesh& m) {
+  return m.original->faces.size();
 }
 
-/// Sets the targets: what is left after the stuck meshes and those at their minimum, by share of the triangles.
-void share_budget(std::vector<SharedMesh>& meshes, std::size_t total, std::size_t minimum) {
-  std::vector<SharedMesh*> open;
-  auto left = static_cast<double>(total);
-  for (SharedMesh& m : meshes) {
-    if (m.stuck) left -= static_cast<double>(m.instances * m.result.faces.size());
-    if (!m.stuck) open.push_back(&m);
+/// How many triangles each mesh has where collapses stop at an error that belongs to an error of the whole assembly:
+/// smaller meshes get smaller errors, by the square root of their size, or small parts would lose their shape while
+/// large ones do not change. Shape [mesh_count].
+std::vector<std::size_t> counts_at(const std::vector<SharedMesh>& meshes, double relative_error, double size,
+                                   const SimplifyOptions& options) {
+  std::vector<std::size_t> counts(meshes.size());
+  options.executor.for_each_heavy(meshes.size(), [&](std::size_t i) {
+    const SharedMesh& m = meshes[i];
+    const double own_size = diagonal(bounds(*m.original));
+    const std::size_t least = std::min(options.minimum_triangles, original_count(m));
+    if (m.stuck)
+      counts[i] = m.result.faces.size();
+    else
+      counts[i] = std::max(least, count_simplified(*m.original, relative_error * std::sqrt(own_size * size)));
+  });
+  return counts;
+}
+
+std::size_t total_of(const std::vector<SharedMesh>& meshes, const std::vector<std::size_t>& counts) {
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) total += meshes[i].instances * counts[i];
+  return total;
+}
+
+/// Sets the targets so that the total is `budget`, by searching for the error that gives it.
+void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double size, const SimplifyOptions& options) {
+  std::vector<std::size_t> above, below;  // counts with a total above and not above the budget
+  for (const SharedMesh& m : meshes) above.push_back(m.stuck ? m.result.faces.size() : original_count(m));
+  double least = std::log(kLeastError), largest = 0;
+  below = counts_at(meshes, 1, size, options);
+  for (int step = 0; step < kErrorSteps; ++step) {
+    const double middle = (least + largest) / 2;
+    std::vector<std::size_t> counts = counts_at(meshes, std::exp(middle), size, options);
+    const bool fits = total_of(meshes, counts) <= budget;
+    (fits ? largest : least) = middle;
+    (fits ? below : above) = std::move(counts);
   }
-  for (bool changed = true; changed;) {
-    changed = false;
-    double triangles = 0;
-    for (const SharedMesh* m : open) triangles += static_cast<double>(m->instances * m->original->faces.size());
-    const double ratio = std::clamp(triangles > 0 ? left / triangles : 0, 0.0, 1.0);
-    std::vector<SharedMesh*> still_open;
-    for (SharedMesh* m : open) {
-      m->target = static_cast<std::size_t>(ratio * static_cast<double>(m->original->faces.size()));
-      if (m->target >= least_count(*m, minimum)) {
-        still_open.push_back(m);
-        continue;
-      }
-      m->target = least_count(*m, minimum);
-      left -= static_cast<double>(m->instances * m->target);
-      changed = true;
-    }
-    open = std::move(still_open);
+  const auto low = static_cast<double>(total_of(meshes, below)), high = static_cast<double>(total_of(meshes, above));
+  const double share = high > low ? std::clamp((static_cast<double>(budget) - low) / (high - low), 0.0, 1.0) : 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const auto from = static_cast<double>(below[i]), to = static_cast<double>(std::max(above[i], below[i]));
+    meshes[i].target = static_cast<std::size_t>(from + share * (to - from));
   }
 }
 
@@ -81,7 +102,7 @@ void simplify_meshes(std::vector<SharedMesh>& meshes, const SimplifyOptions& opt
   options.executor.for_each_heavy(meshes.size(), [&](std::size_t i) {
     SharedMesh& m = meshes[i];
     if (m.stuck) return;
-    m.result = simplify_mesh(*m.original, m.target);
+    m.result = simplify_mesh(*m.original, {m.target});
     m.stuck = m.result.faces.size() > m.target + m.target / 50 + 2;
   });
 }
@@ -142,9 +163,11 @@ Result<SimplifiedAssembly> simplify_assembly(const Assembly& assembly, std::size
   const Error cancelled{ErrorKind::Failed, "the assembly is not simplified (cancelled); run it again to have it whole"};
   MeshTable table = collect_meshes(assembly);
   const auto enough = static_cast<std::size_t>(kGoodEnough * static_cast<double>(target_triangles));
-  for (int round = 0; round < kShareRounds; ++round) {
+  const double size = diagonal(assembled_bounds(assembly));
+  const bool small_enough = triangle_count(assembly) <= target_triangles;
+  for (int round = 0; round < kShareRounds && !small_enough; ++round) {
     if (!report_progress(options.progress, "simplifying", static_cast<double>(round) / kShareRounds)) return cancelled;
-    share_budget(table.meshes, target_triangles, options.minimum_triangles);
+    share_budget(table.meshes, target_triangles, size, options);
     simplify_meshes(table.meshes, options);
     if (total_triangles(table.meshes) <= enough) break;
   }

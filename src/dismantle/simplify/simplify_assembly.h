@@ -36,10 +36,11 @@ struct SimplifiedAssembly {
   std::vector<ComponentSimplification> components;  ///< In their order.
 };
 
-/// Simplifies each component's mesh by itself (simplify_mesh), so that the assembly has about `target_triangles`: each
-/// gets a share of them as it has of the triangles now, but not below the minimum. Components that cannot go down to
-/// their share take from the others'. Instances share their simplified mesh. Same result on every executor.
-/// Errors: Failed where `progress` cancelled.
+/// Simplifies each component's mesh by itself (simplify_mesh), so that the assembly has about `target_triangles`. They
+/// are shared out by error: the error at which collapses stop is searched for the whole assembly, a component's being
+/// in proportion to the square root of its size; none is asked to have fewer triangles than the minimum. The total
+/// stays above the target where minima and topology do not allow it. Instances share their simplified mesh. Same result
+/// on every executor. Errors: Failed where `progress` cancelled.
 Result<SimplifiedAssembly> simplify_assembly(const Assembly& assembly, std::size_t target_triangles,
                                              const SimplifyOptions& options = {});
 
