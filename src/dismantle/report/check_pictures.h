@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/pair_state.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/render/image.h"
+#include "dismantle/render/scene.h"
+#include "dismantle/report/intersection_curve.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// The colours of a pair's first and second component, and of where they overlap.
+inline constexpr Color kFirstColor{0.93f, 0.66f, 0.25f};
+inline constexpr Color kSecondColor{0.36f, 0.58f, 0.86f};
+inline constexpr Color kOverlapColor{0.85f, 0.02f, 0.10f, 0.75f};
+
+/// Takes the pictures of a clash report: prepares the assembly once.
+class CheckPictures {
+ public:
+  /// `assembly` must outlive this. @param width, height of each picture [pixels]
+  CheckPictures(const Assembly& assembly, int width, int height, const Executor& executor);
+
+  /// The whole assembly in its colours.
+  Image overview() const;
+  /// The whole assembly looked through, with the curves along which pairs cut each other.
+  Image overlaps(const std::vector<ComponentPair>& pairs) const;
+  /// The place where a pair overlaps, from near: the two highlighted, the others looked through, their common volume
+  /// and the curve along which they cut each other marked.
+  Image closeup(const ComponentPair& pair) const;
+
+ private:
+  Image take(const RenderScene& scene, const std::vector<Vec3>& points) const;
+  std::vector<CurveSegment> curve(const ComponentPair& pair) const;
+
+  const Assembly& assembly_;
+  RenderScene scene_;
+  RenderOptions options_;
+};
+
+}  // namespace dismantle
