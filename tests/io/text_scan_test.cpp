@@ -53,6 +53,11 @@ TEST(TextScan, GivesLinesOfBothKinds) {
   EXPECT_EQ(lines.next(), std::nullopt);
 }
 
+TEST(TextScan, PassesOverAByteOrderMark) {
+  EXPECT_EQ(LineReader("\xef\xbb\xbfply\n").next(), "ply");
+  EXPECT_EQ(WordReader("\xef\xbb\xbfsolid").next(), "solid");
+}
+
 TEST(TextScan, JoinsContinuedLines) {
   LineReader lines("f 1 \\\n2\\\r\n3\nnext\nlast\\");
   EXPECT_EQ(lines.next_joined(), "f 1  2 3");
@@ -63,7 +68,7 @@ TEST(TextScan, JoinsContinuedLines) {
 }
 
 TEST(TextScan, GivesWordsAcrossLines) {
-  WordReader words("solid my part \n facet", 1);
+  WordReader words("solid my part \n facet");
   EXPECT_EQ(words.next(), "solid");
   EXPECT_EQ(words.rest_of_line(), "my part");
   EXPECT_EQ(words.next(), "facet");

@@ -64,7 +64,7 @@ class BinaryNumbers {
 /// The numbers of an ASCII body, one after another.
 class TextNumbers {
  public:
-  explicit TextNumbers(std::string_view body) : words_(body, 1) {}
+  explicit TextNumbers(std::string_view body) : words_(body) {}
 
   /// The next number; nothing where the body ends or something else stands there.
   std::optional<double> next(PlyType) { return to_double(words_.next()); }

@@ -56,7 +56,7 @@ Result<std::vector<MeshPart>> parse_binary(const MeshSource& source, const Impor
 class AsciiStl {
  public:
   AsciiStl(const MeshSource& source, const ImportOptions& options)
-      : source_(source), options_(options), words_(source.bytes, 1) {}
+      : source_(source), options_(options), words_(source.bytes) {}
 
   Result<std::vector<MeshPart>> parse();
 
@@ -147,7 +147,7 @@ bool is_binary_stl(std::string_view bytes) {
     if (bytes.size() == kHeaderBytes + count * kTriangleBytes) return true;
     if (bytes.substr(0, kHeaderBytes).find('\0') != std::string_view::npos) return true;
   }
-  WordReader words(bytes, 1);
+  WordReader words(bytes);
   return lower_case(words.next().substr(0, 6)) != "solid";
 }
 

@@ -29,10 +29,13 @@ std::optional<double> to_double(std::string_view word);
 /// The whole of `word` as an integer; a leading '+' is allowed.
 std::optional<std::int64_t> to_integer(std::string_view word);
 
-/// Gives a text line by line and counts them. Lines end with LF or CR LF.
+/// The text without the byte order mark that some editors put before UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// Gives a text line by line and counts them. Lines end with LF or CR LF; a byte order mark is passed over.
 class LineReader {
  public:
-  explicit LineReader(std::string_view text) : rest_(text) {}
+  explicit LineReader(std::string_view text) : rest_(without_byte_order_mark(text)) {}
 
   /// The next line without its end; nothing at the end of the text.
   std::optional<std::string_view> next();
@@ -51,10 +54,10 @@ class LineReader {
   std::size_t line_ = 0;
 };
 
-/// Gives a text word by word, across lines, and counts the lines.
+/// Gives a text word by word, across lines, and counts the lines; a byte order mark is passed over.
 class WordReader {
  public:
-  WordReader(std::string_view text, std::size_t first_line) : rest_(text), line_(first_line) {}
+  explicit WordReader(std::string_view text) : rest_(without_byte_order_mark(text)) {}
 
   /// The next word; empty at the end of the text.
   std::string_view next();
@@ -68,7 +71,7 @@ class WordReader {
 
  private:
   std::string_view rest_;
-  std::size_t line_;
+  std::size_t line_ = 1;
 };
 
 }  // namespace dismantle
