@@ -25,9 +25,9 @@ TEST(WithinAllowance, HoldsForWhatOverlapsByLessAlongSomeAxis) {
 }
 
 TEST(WithinAllowance, HoldsAlongDiagonalsByTheirTrueLength) {
-  TriangleMesh first, second;  // two points apart along (1, 1, 0) by 0.01
-  first.vertices = {{0, 0, 0}, {-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
-  second.vertices = {{-0.00707, -0.00707, 0}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}};
+  TriangleMesh first, second;  // they overlap along (1, 1, 0) by 0.01, along all other axes by 1 and more
+  first.vertices = {{0, 0, 1}, {0, 0, -1}, {-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
+  second.vertices = {{-0.00707, -0.00707, 1}, {-0.00707, -0.00707, -1}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}};
   EXPECT_TRUE(within_allowance(kdop_of(first), kdop_of(second), 0.0103));
   EXPECT_FALSE(within_allowance(kdop_of(first), kdop_of(second), 0.0097));
 }

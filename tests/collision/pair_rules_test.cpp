@@ -34,13 +34,13 @@ TEST(PairRules, GiveEveryStateItsTest) {
   EXPECT_EQ(rules.view().find(3, 4).allowed_penetration, 0.01);
 }
 
-TEST(PairRules, LetAPartedPairBeOrdinaryForGood) {
+TEST(PairRules, AllowAPartedPairTheToleranceForGood) {
   PairStates states;
   states.tolerance = 0.02;
   states.pairs = {pair(3, 9, PairState::Embedded, std::numeric_limits<double>::infinity())};
   PairRules rules(states);
   rules.part(ComponentId(3), ComponentId(9));
-  EXPECT_EQ(rules.view().find(3, 9).test, PairTest::Ordinary);
+  EXPECT_EQ(rules.view().find(3, 9).test, PairTest::Certified);
   EXPECT_EQ(rules.view().find(3, 9).allowed_penetration, 0.02);
 }
 

@@ -100,6 +100,18 @@ TEST(PartedFrom, IsNeverWhileAFineMeshSlidesWhereNoTrianglePairLasts) {
   EXPECT_EQ(pair.parted(), std::nullopt);
 }
 
+TEST(PartedFrom, StartsTheContinuousTestWithinItsAllowanceWhateverTheDeviation) {
+  for (const double deviation : {0.0, 0.125 * kTolerance, 0.25 * kTolerance}) {
+    const Pair pair(scenes::box({-50, -50, -1}, {50, 50, 0}), scenes::tube(1, 0, -0.5, 3, 32, 8), shift(0.2, 0.1, 2));
+    EmbeddedMotion motion = pair.motion();
+    motion.path_deviation = deviation;
+    const std::optional<double> from = parted_from(motion);
+    ASSERT_TRUE(from.has_value());
+    EXPECT_LE(*from, 0.25);
+    EXPECT_GE(*from, 0.25 - 2 * pair.resolution() - 2 * deviation / 2);
+  }
+}
+
 TEST(PartedFrom, IsAtOnceWhereTwoBoxesOnlyTouch) {
   const Pair pair(scenes::box({0, 0, 0}, {2, 2, 2}), scenes::box({2, 0.5, 0.5}, {3, 1.5, 1.5}), shift(0, 0.3, 0));
   ASSERT_TRUE(pair.parted().has_value());

@@ -260,7 +260,7 @@ TEST(StreamsEngine, ReportsWhatAStepCostAndHowLargeTheStreamsAre) {
 }
 
 TEST(StreamsEngine, TakesAssembliesOfNoneAndOneComponent) {
-  EngineScene none({}, {}, kTolerance, options());
+  EngineScene none(scenes::assembly({}), {}, kTolerance, options());
   EXPECT_TRUE(none.sweep({}).free);
   EngineScene one({{"a", scenes::box({0, 0, 0}, {1, 1, 1})}}, {}, kTolerance, options());
   EXPECT_TRUE(one.move({{0, shift(1, 2, 3)}}).free);

@@ -37,7 +37,7 @@ void PairRules::part(ComponentId a, ComponentId b) {
   for (PairRuleEntry& entry : table_) {
     if (entry.a != a.value || entry.b != b.value) continue;
     DISMANTLE_EXPECT(entry.rule.test == PairTest::Discrete);
-    entry.rule = {PairTest::Ordinary, tolerance_};
+    entry.rule = {PairTest::Certified, tolerance_};
   }
 }
 

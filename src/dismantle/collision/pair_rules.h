@@ -12,7 +12,7 @@ namespace dismantle {
 /// Which test decides the triangle pairs of a component pair.
 enum class PairTest : std::uint8_t {
   Ordinary,   ///< Apart at the start: the continuous test that the options name.
-  Certified,  ///< In contact or fit: the certified test with an allowance.
+  Certified,  ///< In contact, fit or parted: the certified test with an allowance.
   Discrete,   ///< Embedded, in S_i: do they intersect at the end of the step.
 };
 
@@ -56,7 +56,8 @@ class PairRules {
 
   PairRulesView view() const { return {table_, tolerance_}; }
   double tolerance() const { return tolerance_; }
-  /// The pair has parted: it is ordinary from now on. @pre it has been embedded
+  /// The pair has parted: it may be no deeper than the tolerance from now on. Certified, whatever the options name: at
+  /// the moment of parting it may still overlap by less than that. @pre it has been embedded
   void part(ComponentId a, ComponentId b);
 
  private:

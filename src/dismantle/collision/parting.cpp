@@ -5,6 +5,7 @@
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dismantle {
 
@@ -13,36 +14,60 @@ namespace {
 constexpr int kVertexSamples = 64;       // vertices of each component that certificate 4 looks at
 constexpr int kMaximumIntervals = 4096;  // then what is left counts as parted
 
-/// The strict sign that a cubic certainly has all over [0, 1]; 0 where it may change.
-int lasting_sign(const BernsteinCubic& cubic) {
+/// Triangles whose vertices may be off their linear paths by `deviation`.
+struct ShakenPair {
+  const TriangleMotion& a;
+  const TriangleMotion& b;
+  double determinant_change;  // what that can change a determinant of three differences of their corners by
+};
+
+ShakenPair shaken(const TriangleMotion& a, const TriangleMotion& b, double deviation) {
+  double longest = 0;  // difference of two corners, squared, at either end; in between none is longer
+  const auto compare = [&](const TriangleMotion& m, const TriangleMotion& n) {
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        longest = std::max({longest, length_squared(m.t0[k] - n.t0[l]), length_squared(m.t1[k] - n.t1[l])});
+  };
+  compare(a, b);
+  compare(a, a);
+  compare(b, b);
+  const double edge = std::sqrt(longest), shift = 2 * deviation;
+  return {a, b, (3 * edge * edge + 3 * edge * shift + shift * shift) * shift * (1 + 1e-9)};
+}
+
+/// The strict sign that the cubic, changed by up to `change`, certainly has all over [0, 1]; 0 where it may be any.
+int lasting_sign(BernsteinCubic cubic, double change) {
+  cubic.error += change;
   if (!certainly_never_coplanar(cubic)) return 0;
   return cubic.c[0] > 0 ? 1 : -1;
 }
 
-/// Certificate 1 for one edge and one face.
-bool pierces_throughout(const TriangleMotion& edges, int k, const TriangleMotion& face) {
+/// Certificate 1 for edge k of one triangle and the face of the other.
+bool pierces_throughout(const TriangleMotion& edges, int k, const TriangleMotion& face, double change) {
   const int next = (k + 1) % 3;
-  const int side_start = lasting_sign(coplanarity_cubic(VertexFaceMotion{edges.t0[k], edges.t1[k], face.t0, face.t1}));
-  if (side_start == 0) return false;
-  const int side_end =
-      lasting_sign(coplanarity_cubic(VertexFaceMotion{edges.t0[next], edges.t1[next], face.t0, face.t1}));
-  if (side_end != -side_start) return false;
+  const VertexFaceMotion first{edges.t0[k], edges.t1[k], face.t0, face.t1};
+  const VertexFaceMotion second{edges.t0[next], edges.t1[next], face.t0, face.t1};
+  const int side = lasting_sign(coplanarity_cubic(first), change);
+  if (side == 0 || lasting_sign(coplanarity_cubic(second), change) != -side) return false;
   int around = 0;
   for (int j = 0; j < 3; ++j) {
     const int j_next = (j + 1) % 3;
-    const int sign = lasting_sign(coplanarity_cubic(EdgeEdgeMotion{{edges.t0[k], edges.t0[next]},
-                                                                   {edges.t1[k], edges.t1[next]},
-                                                                   {face.t0[j], face.t0[j_next]},
-                                                                   {face.t1[j], face.t1[j_next]}}));
+    const EdgeEdgeMotion past{{edges.t0[k], edges.t0[next]},
+                              {edges.t1[k], edges.t1[next]},
+                              {face.t0[j], face.t0[j_next]},
+                              {face.t1[j], face.t1[j_next]}};
+    const int sign = lasting_sign(coplanarity_cubic(past), change);
     if (sign == 0 || sign == -around) return false;
     around = sign;
   }
   return true;
 }
 
-bool pierces_throughout(const TriangleMotion& a, const TriangleMotion& b) {
-  for (int k = 0; k < 3; ++k)
-    if (pierces_throughout(a, k, b) || pierces_throughout(b, k, a)) return true;
+bool pierces_throughout(const ShakenPair& pair) {
+  for (int k = 0; k < 3; ++k) {
+    if (pierces_throughout(pair.a, k, pair.b, pair.determinant_change)) return true;
+    if (pierces_throughout(pair.b, k, pair.a, pair.determinant_change)) return true;
+  }
   return false;
 }
 
@@ -73,7 +98,7 @@ class PartingSearch {
   bool certain(double begin, double end, Span<const std::uint64_t> intersecting_at_begin) const {
     if (any_pierces(begin, end, intersecting_at_begin)) return true;
     if (intersecting_at_begin.empty() && one_inside_other(begin) && none_meets(begin, end)) return true;
-    const double displacement = m_.displacement * (end - begin);
+    const double displacement = m_.displacement * (end - begin) + 2 * m_.path_deviation;
     return any_deeper(begin, displacement, intersecting_at_begin) ||
            some_vertex_deeper(begin, displacement, m_.a, m_.b, m_.b_closed) ||
            some_vertex_deeper(begin, displacement, m_.b, m_.a, m_.a_closed);
@@ -82,7 +107,9 @@ class PartingSearch {
   bool any_pierces(double begin, double end, Span<const std::uint64_t> keys) const {
     return std::any_of(keys.begin(), keys.end(), [&](std::uint64_t key) {
       const NodePair p = pair_of_key(key);
-      return pierces_throughout(part_of(m_.step.motion(p.a), begin, end), part_of(m_.step.motion(p.b), begin, end));
+      const TriangleMotion a = part_of(m_.step.motion(p.a), begin, end);
+      const TriangleMotion b = part_of(m_.step.motion(p.b), begin, end);
+      return pierces_throughout(shaken(a, b, m_.path_deviation));
     });
   }
 

@@ -70,7 +70,7 @@ class StreamsEngine final : public CollisionEngine {
 
  private:
   NarrowPhaseInput narrow_phase_input(double path_deviation) const;
-  EmbeddedMotion embedded_motion(const ComponentPair& pair) const;
+  EmbeddedMotion embedded_motion(const ComponentPair& pair, double path_deviation) const;
   void test_embedded_pairs(const NarrowPhaseInput& input);
   void part(const std::vector<ComponentPair>& parted);
   std::vector<CollisionContact> contacts() const;
@@ -122,7 +122,7 @@ SweepResult StreamsEngine::sweep(Span<const RigidTransform> next, double path_de
   return result;
 }
 
-EmbeddedMotion StreamsEngine::embedded_motion(const ComponentPair& pair) const {
+EmbeddedMotion StreamsEngine::embedded_motion(const ComponentPair& pair, double path_deviation) const {
   EmbeddedMotion motion;
   motion.streams = &streams_.fixed();
   motion.step = {streams_.vertices_t0(), streams_.vertices_t1(), streams_.fixed().faces};
@@ -134,13 +134,14 @@ EmbeddedMotion StreamsEngine::embedded_motion(const ComponentPair& pair) const {
   for (const ComponentId c : {pair.a, pair.b})
     motion.displacement += longest_way(boxes_[c.value], streams_.state()[c.value], next_[c.value]);
   motion.tolerance = rules_.tolerance();
+  motion.path_deviation = path_deviation;
   return motion;
 }
 
 void StreamsEngine::test_embedded_pairs(const NarrowPhaseInput& input) {
   for (const ComponentPair& pair : embedded_) {
     if (streams_.motion_class()[pair.a.value] == streams_.motion_class()[pair.b.value]) continue;
-    EmbeddedMotion motion = embedded_motion(pair);
+    EmbeddedMotion motion = embedded_motion(pair, input.path_deviation);
     const std::vector<std::uint64_t> intersecting = narrow_phase_.intersections_of(input, pair.a, pair.b);
     motion.intersecting_at_end = intersecting;
     if (pierced_throughout(motion)) continue;
@@ -191,7 +192,7 @@ void StreamsEngine::jump(Span<const RigidTransform> state) {
   parting_.clear();
   std::vector<ComponentPair> apart;
   for (const ComponentPair& pair : embedded_) {
-    EmbeddedMotion motion = embedded_motion(pair);
+    EmbeddedMotion motion = embedded_motion(pair, 0);
     std::vector<std::uint64_t> pairs;
     const std::vector<BvhComponent>& components = streams_.fixed().bvh.components;
     const NodeIndex root_a = components[pair.a.value].root, root_b = components[pair.b.value].root;
