@@ -22,7 +22,8 @@ enum class AuditViolationKind {
 /// it.
 std::string_view name_of(AuditViolationKind kind);
 
-/// One rule broken by one pair in one move: when it was first seen, and the deepest that was seen.
+/// One rule broken by one pair in one move: when it was first seen, and the deepest that was seen in that screw. The
+/// rest of the move is not looked at for the pair.
 struct AuditViolation {
   static constexpr std::size_t kAssembledState = static_cast<std::size_t>(-1);
 
@@ -31,7 +32,7 @@ struct AuditViolation {
   std::size_t frame = 0;               ///< The frame at which the screw starts that breaks the rule first.
   double time = 0;                     ///< When it was first seen [s of the move].
   ComponentId a, b;                    ///< a < b; invalid for PathInconsistent.
-  double depth = 0;                    ///< The deepest seen in this move [mm].
+  double depth = 0;                    ///< The deepest seen in the screw from that frame [mm].
   double allowed = 0;                  ///< What that depth may be [mm].
   std::string message;                 ///< One sentence that says it all.
   friend bool operator==(const AuditViolation&, const AuditViolation&) = default;

@@ -85,6 +85,8 @@ VertexSweep vertex_sweep(const PairTask& task, int side) {
   sweep.resolution = pair.resolution;
   sweep.rounding = pair.rounding;
   sweep.first_active = pair.first_active;
+  sweep.end = static_cast<std::uint32_t>(pair.motions.size());
+  if (task.triangles.depth > 0) sweep.end = task.triangles.segment + 1;
   sweep.motions = pair.motions;
   if (side == 0) std::transform(sweep.motions.begin(), sweep.motions.end(), sweep.motions.begin(), reversed_roles);
   return sweep;
@@ -165,7 +167,7 @@ std::size_t look_at_assembled_pair(const SweepContext& context, const SweepTimes
   for (int side = 0; side < 2; ++side) {
     const VertexSweep sweep = vertex_sweep(task, side);
     if (!sweep.solid->closed()) continue;
-    InsideVertices vertices = find_inside_vertices(sweep);
+    InsideVertices vertices = find_inside_vertices(sweep, 0);
     task.vertices.add(vertices.breach);
     inside[side] = std::move(vertices.vertices);
     samples += vertices.samples;
@@ -353,7 +355,25 @@ class MoveSweep {
       found[i] = sweep_vertex(sweeps[item.sweep], item.vertex, item.tracked, crossing.subspan(item.first, item.count));
     });
     take_vertices(items, found);
+    look_inside_again();
     return go_on;
+  }
+
+  /// Where the triangles broke the rule, nothing was followed to the end: who is inside whom must be found anew.
+  void look_inside_again() {
+    std::vector<std::pair<std::size_t, int>> lost;
+    for (std::size_t t = 0; t < tasks_.size(); ++t)
+      for (int side = 0; side < 2 && tasks_[t].triangles.depth > 0; ++side) lost.emplace_back(t, side);
+    std::vector<std::vector<std::uint32_t>> inside(lost.size());
+    context_.executor.for_each_heavy(lost.size(), [&](std::size_t i) {
+      const VertexSweep sweep = vertex_sweep(tasks_[lost[i].first], lost[i].second);
+      if (sweep.solid->closed())
+        inside[i] = find_inside_vertices(sweep, static_cast<std::uint32_t>(sweep.motions.size()) - 1).vertices;
+    });
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      const PairTask& task = tasks_[lost[i].first];
+      context_.ledger.get(task.low(), task.high()).inside[record_side(task, lost[i].second)] = std::move(inside[i]);
+    }
   }
 
   void take_vertices(const std::vector<VertexItem>& items, const std::vector<VertexFindings>& found) {

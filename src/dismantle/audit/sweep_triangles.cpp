@@ -122,7 +122,7 @@ class TriangleSweep {
 
   void visit(std::uint32_t s, const BoxFrames& frames, std::uint32_t a, std::uint32_t b) {
     const MotionSpan& span = spans_[s];
-    if (span.first + span.count <= pair_.first_active) return;
+    if (span.first + span.count <= pair_.first_active || span.first >= end_) return;
     const BoxNode& node_a = pair_.a->node(a);
     const BoxNode& node_b = pair_.b->node(b);
     if (clear(span, frames, node_a, node_b)) return;
@@ -150,15 +150,16 @@ class TriangleSweep {
       if (widest.gap > needed) return;
       if (widest.gap > kSplitGap * needed) {
         for (const std::uint32_t half : {s + 1, span.right}) {
-          if (spans_[half].first + spans_[half].count <= pair_.first_active) continue;
-          visit_triangles(half, BoxFrames(pair_.motions[spans_[half].middle].start), face_a, leaf_b);
+          const MotionSpan& part = spans_[half];
+          if (part.first + part.count <= pair_.first_active || part.first >= end_) continue;
+          visit_triangles(half, BoxFrames(pair_.motions[part.middle].start), face_a, leaf_b);
         }
         return;
       }
     }
     Vec3 axis;
     const std::uint32_t last = span.first + span.count;
-    for (std::uint32_t k = std::max(span.first, pair_.first_active); k < last; ++k)
+    for (std::uint32_t k = std::max(span.first, pair_.first_active); k < std::min(last, end_); ++k)
       axis = advance(k, face_a, leaf_b.face, axis);
   }
 
@@ -173,6 +174,7 @@ class TriangleSweep {
       const Certificate found = certificate(a, moving, 1 - s, axis);
       if (found.axis.gap < -limit()) {
         findings_.breach.add(segment, s, -found.axis.gap);
+        end_ = findings_.breach.segment + 1;
         mark_all(segment, face_a, face_b);
         return found.axis.axis;
       }
@@ -250,6 +252,7 @@ class TriangleSweep {
   const PairSweep& pair_;
   const std::vector<MotionSpan>& spans_;
   const std::uint32_t first_segment_;
+  std::uint32_t end_ = 0xffffffffu;  // segments from here on are not looked at
   TriangleFindings findings_;
   std::vector<std::uint32_t> marks_[2];   // by vertex: bit k for segment first_segment_ + k
   std::vector<std::uint32_t> marked_[2];  // vertices with any bit
@@ -258,11 +261,12 @@ class TriangleSweep {
 }  // namespace
 
 void Breach::add(std::uint32_t other_segment, double other_s, double other_depth) {
-  if (depth == 0 || other_segment < segment || (other_segment == segment && other_s < s)) {
-    segment = other_segment;
-    s = other_s;
+  if (depth == 0 || other_segment < segment) {
+    *this = {other_segment, other_s, other_depth};
+  } else if (other_segment == segment) {
+    s = std::min(s, other_s);
+    depth = std::max(depth, other_depth);
   }
-  depth = std::max(depth, other_depth);
 }
 
 void Breach::add(const Breach& other) {

@@ -21,12 +21,12 @@ struct PairSweep {
   std::vector<RelativeMotion> motions;  ///< One a segment of the move.
 };
 
-/// The first and the deepest breach of a rule.
+/// Where a rule was broken first.
 struct Breach {
-  std::uint32_t segment = 0;  ///< Of the first one.
-  double s = 0;               ///< When in that segment, in [0, 1].
-  double depth = 0;           ///< Of the deepest one [mm]; 0: there is none.
-  /// Takes in another breach.
+  std::uint32_t segment = 0;  ///< The first in which it was.
+  double s = 0;               ///< When in that segment first, in [0, 1].
+  double depth = 0;           ///< The deepest seen in that segment [mm]; 0: there is no breach.
+  /// Takes in another breach; one in a later segment changes nothing.
   void add(std::uint32_t other_segment, double other_s, double other_depth);
   void add(const Breach& other);
 };
@@ -48,7 +48,8 @@ struct TriangleFindings {
 
 /// Looks at every triangle pair of the sweep within the span, at every instant: rule 1 of the guarantee. Between
 /// samples a certified axis holds, or the pair moves by at most the resolution; so no excursion beyond
-/// allowed + resolution / 2 is missed, and none below allowed is reported.
+/// allowed + resolution / 2 is missed, and none below allowed is reported. Looks no further than the segment with the
+/// first breach.
 TriangleFindings sweep_triangles(const PairSweep& pair, const std::vector<MotionSpan>& spans);
 
 /// True where the components, b at `motion`'s start, have a gap wider than `margin` between all their triangles.

@@ -81,7 +81,7 @@ VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool
                             Span<const CrossingVertex> crossings) {
   VertexWalk walk(sweep, vertex);
   std::size_t next = 0;
-  for (std::uint32_t k = sweep.first_active; k < sweep.motions.size(); ++k) {
+  for (std::uint32_t k = sweep.first_active; k < sweep.end; ++k) {
     while (next < crossings.size() && crossings[next].first_segment + kSpanSegments <= k) ++next;
     if (!tracked && next == crossings.size()) break;
     const bool listed = next < crossings.size() && crossings[next].first_segment <= k;
@@ -94,10 +94,10 @@ VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool
   return walk.findings;
 }
 
-InsideVertices find_inside_vertices(const VertexSweep& sweep) {
+InsideVertices find_inside_vertices(const VertexSweep& sweep, std::uint32_t segment) {
   InsideVertices found;
   if (sweep.solid->empty()) return found;
-  const RigidTransform& place = sweep.motions.front().start;
+  const RigidTransform& place = sweep.motions[segment].start;
   std::uint32_t face = 0;
   for (std::uint32_t v = 0; v < sweep.points->vertex_count(); ++v) {
     const Vec3 x = place * sweep.points->vertex(v);
@@ -106,7 +106,7 @@ InsideVertices find_inside_vertices(const VertexSweep& sweep) {
     const SurfacePoint near = sweep.solid->closest(x, face);
     face = near.face;
     found.vertices.push_back(v);
-    if (near.distance > breach_depth(sweep)) found.breach.add(0, 0, near.distance);
+    if (near.distance > breach_depth(sweep)) found.breach.add(segment, 0, near.distance);
   }
   return found;
 }

@@ -15,7 +15,8 @@ struct VertexSweep {
   double limit = 0;       ///< How deep a vertex may be inside [mm].
   double resolution = 0;  ///< As in PairSweep.
   double rounding = 0;
-  std::uint32_t first_active = 0;
+  std::uint32_t first_active = 0;  ///< Segments before this one, and from `end` on, are not looked at.
+  std::uint32_t end = 0;
   std::vector<RelativeMotion> motions;  ///< Of `points` seen from `solid`, one a segment of the move.
 };
 
@@ -36,13 +37,13 @@ struct VertexFindings {
 VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool tracked,
                             Span<const CrossingVertex> crossings);
 
-/// The vertices that lie inside the solid at the start of the first motion, with the deepest of them if that is deeper
+/// The vertices that lie inside the solid at the start of a segment, with the deepest of them if that is deeper
 /// than the limit.
 struct InsideVertices {
   std::vector<std::uint32_t> vertices;
   Breach breach;
   std::size_t samples = 0;
 };
-InsideVertices find_inside_vertices(const VertexSweep& sweep);
+InsideVertices find_inside_vertices(const VertexSweep& sweep, std::uint32_t segment);
 
 }  // namespace dismantle::audit
