@@ -206,6 +206,78 @@ TEST(AuditPath, FindsATinyComponentThatPassesThroughInOneFrame) {
   EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
 }
 
+/// A grain of `size` (a part of the tolerance: permeable to rule 1) with its bottom `height` over a large block.
+Assembly grain_over_block(double size, double height) {
+  return assembly({component("block", box({-50, -50, -50}, {50, 50, 0})),
+                   component("grain", box({0.1, 0.2, height}, {0.1 + size, 0.2 + size, height + size}))});
+}
+
+TEST(AuditPath, FollowsAVertexThatIsInsideFromMoveToMove) {
+  const double size = 0.5 * kTolerance;
+  const Assembly a = grain_over_block(size, 1);
+  const Pose below = shifted(0, 0, -1 - 1.2 * size);
+  const Move in = move_through({"grain"}, {Pose{}, below});
+  EXPECT_TRUE(audit(a, {in}).holds());
+  const Move deeper = move_through({"grain"}, {below, below * shifted(0, 0, -0.1)});
+  const Move back = move_through({"grain"}, {below, below * shifted(0, 0, 2)});
+  EXPECT_TRUE(audit(a, {in, back}).holds());
+  const AuditReport report = audit(a, {in, deeper});
+  ASSERT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
+  EXPECT_EQ(report.violations[0].move, 1u);
+  const Move block_up = move_through({"block"}, {Pose{}, shifted(0, 0, 0.1)});
+  EXPECT_EQ(count(audit(a, {in, block_up}), AuditViolationKind::VertexInside), 1u);
+}
+
+Pose turned_about_y(double angle, Vec3 point) {
+  const Quat q = quat_about({0, 1, 0}, angle);
+  return {point - mat3_from_quat(q) * point, q};
+}
+
+/// The ends of the arc lie on the surface, its middle below:  ---.       .---
+///                                                               `-----'
+TEST(AuditPath, FollowsAVertexOnItsArcNotOnTheChord) {
+  const double radius = 10;
+  const auto run = [&](double sagitta) {
+    const double half = std::acos(1 - sagitta / radius);
+    const Assembly a = grain_over_block(0.5 * kTolerance, -0.4 * kTolerance);
+    const Vec3 axis{0.1 + radius * std::sin(half), 0, radius * std::cos(half)};
+    return audit(a, {move_through({"grain"}, {Pose{}, turned_about_y(-2 * half, axis)})});
+  };
+  EXPECT_TRUE(run(1.5 * kTolerance).holds());
+  EXPECT_EQ(count(run(2.6 * kTolerance), AuditViolationKind::VertexInside), 1u) << messages(run(2.6 * kTolerance));
+}
+
+/// It starts level with the surface and curves through it, so that only its acceleration says that it crosses.
+TEST(AuditPath, SeesACrossingThatOnlyTheCurvingOfThePathMakes) {
+  const double size = 0.2 * kTolerance, radius = 10;
+  const Assembly a = grain_over_block(size, 0.1 * kTolerance);
+  const double angle = std::acos(1 - 0.5 * kTolerance / radius);
+  const Pose below = turned_about_y(angle, {0.1 + size / 2, 0, -radius});
+  const Pose deep = shifted(0, 0, -1) * below;
+  EXPECT_TRUE(audit(a, {move_through({"grain"}, {Pose{}, below})}).holds());
+  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, below, deep})});
+  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
+}
+
+/// A finely tessellated rod turns by half a turn and more in a few frames; a pin stands where it passes in mid-frame.
+TEST(AuditPath, FindsAPinThatASwingingRodPassesInMidFrame) {
+  const Vec3 pin{9 * std::cos(0.4), 9 * std::sin(0.4), 0};
+  const Assembly a = assembly(
+      {component("pin", box(pin - Vec3{0.2, 0.2, 5}, pin + Vec3{0.2, 0.2, 5})),
+       component("rod", scenes::moved(tube(0.3, 0, -10, 10, 8, 60), {{}, quat_about({0, 1, 0}, std::acos(0.0))}))});
+  const auto swing = [&](int first, int last) {
+    std::vector<Pose> poses;
+    for (int k = first; k <= last; ++k) poses.push_back(turned_about_z(0.8 * k, {}));
+    return poses;
+  };
+  EXPECT_FALSE(audit(a, {move_through({"rod"}, swing(0, 5))}).holds());
+  EXPECT_FALSE(audit(a, {move_through({"rod"}, swing(0, 1))}).holds());
+  Pose lifted = shifted(0, 0, 6);
+  std::vector<Pose> over;
+  for (const Pose& pose : swing(0, 5)) over.push_back(lifted * pose);
+  EXPECT_TRUE(audit(a, {move_through({"rod"}, {Pose{}, lifted}), move_through({"rod"}, over)}).holds());
+}
+
 TEST(AuditPath, AcceptsAComponentInTheCavityOfAnother) {
   TriangleMesh shell = box({-5, -5, -5}, {5, 5, 5});
   TriangleMesh cavity = box({-3, -3, -3}, {3, 3, 3});
