@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/io/path_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct AuditCommand {
+  CommonOptions common;
+  std::string path_file;
+  std::size_t list = 10;
+};
+
+std::size_t frame_count(const Path& path) {
+  std::size_t count = 0;
+  for (const Move& move : path.moves) count += move.frames.size();
+  return count;
+}
+
+Json to_json(const AuditViolation& v, const Assembly& a) {
+  const auto name = [&a](ComponentId id) { return id.valid() ? Json(a[id].name) : Json(nullptr); };
+  return {{"kind", name_of(v.kind)}, {"move", v.move == AuditViolation::kAssembledState ? Json(nullptr) : Json(v.move)},
+          {"frame", v.frame},        {"t", v.time},
+          {"a", name(v.a)},          {"b", name(v.b)},
+          {"depth_mm", v.depth},     {"allowed_mm", v.allowed},
+          {"message", v.message}};
+}
+
+Json to_json(const AuditReport& report, const Assembly& a, const Path& path) {
+  Json violations = Json::array(), pairs = Json::array();
+  for (const AuditViolation& v : report.violations) violations.push_back(to_json(v, a));
+  for (const AuditPairDepth& pair : report.depths)
+    pairs.push_back(
+        {{"a", a[pair.a].name}, {"b", a[pair.b].name}, {"deepest_mm", pair.deepest}, {"allowed_mm", pair.allowed}});
+  return {
+      {"format", "dismantle-audit"},
+      {"version", 1},
+      {"assembly", {{"file", a.source_file}, {"components", a.components.size()}, {"triangles", triangle_count(a)}}},
+      {"moves", path.moves.size()},
+      {"frames", frame_count(path)},
+      {"holds", report.holds()},
+      {"tolerance_mm", report.tolerance},
+      {"resolution_mm", report.resolution},
+      {"samples", report.samples},
+      {"seconds", report.seconds},
+      {"violations", violations},
+      {"pairs", pairs}};
+}
+
+void print_text(const AuditReport& report, const Assembly& a, const Path& path, std::size_t list) {
+  fmt::print("{} moves, {} frames; tolerance {:.4g} mm; {} samples in {:.2f} s\n", path.moves.size(), frame_count(path),
+             report.tolerance, report.samples, report.seconds);
+  const auto deepest = std::max_element(
+      report.depths.begin(), report.depths.end(), [](const AuditPairDepth& p, const AuditPairDepth& q) {
+        return p.deepest / std::max(p.allowed, 1e-300) < q.deepest / std::max(q.allowed, 1e-300);
+      });
+  if (deepest != report.depths.end())
+    fmt::print("deepest for what it may be: \"{}\" and \"{}\", {:.4g} mm (allowed: {:.4g} mm)\n", a[deepest->a].name,
+               a[deepest->b].name, deepest->deepest, deepest->allowed);
+  if (report.holds()) {
+    fmt::print("the guarantee holds\n");
+    return;
+  }
+  fmt::print("the guarantee does not hold: {} violation{}\n", report.violations.size(),
+             report.violations.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < std::min(list, report.violations.size()); ++i) {
+    const AuditViolation& v = report.violations[i];
+    const bool in_move = v.kind == AuditViolationKind::PathInconsistent && v.move != AuditViolation::kAssembledState;
+    fmt::print("  {}: {}{}\n", name_of(v.kind), in_move ? fmt::format("move {}: ", v.move + 1) : "", v.message);
+  }
+  if (report.violations.size() > list) fmt::print("  ... and {} more\n", report.violations.size() - list);
+}
+
+ExitCode run_audit(const AuditCommand& command) {
+  const Result<Executor> executor = make_executor(command.common);
+  if (!executor) return report(executor.error());
+  const Result<Path> path = read_path(command.path_file);
+  if (!path) return report(path.error());
+  const Result<Assembly> assembly = load(command.common);
+  if (!assembly) return report(assembly.error());
+  if (!path->assembly_sha256.empty() && path->assembly_sha256 != assembly->source_sha256)
+    std::fprintf(stderr, "dismantle: note: the path was made from another version of the assembly (SHA-256 differs)\n");
+
+  const AuditReport audit = audit_path(*assembly, *path, {*executor, progress_printer(command.common)});
+  if (!audit.complete) return report({ErrorKind::Failed, "the audit was cancelled; start it again"});
+  if (command.common.json) {
+    fmt::print("{}\n", to_json(audit, *assembly, *path).dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(audit, *assembly, *path, command.list);
+  }
+  return audit.holds() ? ExitCode::Done : ExitCode::No;
+}
+
+}  // namespace
+
+void add_audit_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "audit", "Check that a path holds the guarantee: at no instant do components penetrate more than allowed");
+  auto options = std::make_shared<AuditCommand>();
+  add_assembly_argument(*command, options->common);
+  command->add_option("PATH", options->path_file, "What move or plan wrote (*.path.json)")->required();
+  command->add_option("--list", options->list, "List the first N violations (--json lists all)")
+      ->type_name("N")
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->footer(
+      "Exit code 0: the guarantee holds; 1: it does not. The tolerance and the allowed pairs are the path's own;\n"
+      "--deflection and --simplify must be those that the path was made with.");
+  command->callback([options, &exit_code] { exit_code = run_audit(*options); });
+}
+
+}  // namespace dismantle::cli
