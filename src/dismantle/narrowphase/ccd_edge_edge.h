@@ -15,12 +15,12 @@ class EdgeEdgePair {
  public:
   using Axes = FurthestAxis<2, 2>;
 
-  DISMANTLE_HOST_DEVICE explicit EdgeEdgePair(const EdgeEdgeMotion& m)
-      : hulls_(m.a_t0, m.a_t1, m.b_t0, m.b_t1), cubic_(coplanarity_cubic(m)) {}
+  DISMANTLE_HOST_DEVICE EdgeEdgePair(const EdgeEdgeMotion& m, const BernsteinCubic& cubic)
+      : hulls_(m.a_t0, m.a_t1, m.b_t0, m.b_t1), cubic_(cubic) {}
 
   DISMANTLE_HOST_DEVICE const RelativeHulls<2, 2>& hulls() const { return hulls_; }
 
-  DISMANTLE_HOST_DEVICE bool start(Axes&) const { return certainly_never_coplanar(cubic_); }
+  DISMANTLE_HOST_DEVICE bool start(Axes&) const { return false; }
   DISMANTLE_HOST_DEVICE void look_ahead(Axes&, double) const {}
 
   DISMANTLE_HOST_DEVICE AxisGuess guess(double t) const {
@@ -55,7 +55,7 @@ class EdgeEdgePair {
   }
 
   RelativeHulls<2, 2> hulls_;
-  BernsteinCubic cubic_;
+  const BernsteinCubic& cubic_;
 };
 
 }  // namespace detail
@@ -63,7 +63,9 @@ class EdgeEdgePair {
 /// As ccd_edge_edge(motion), trying `hint` first (from edge a to edge b, any length; zero for none) and giving the axis
 /// that it ended on.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_edge_edge(const EdgeEdgeMotion& motion, Vec3 hint) {
-  detail::EdgeEdgePair pair(motion);
+  const BernsteinCubic cubic = coplanarity_cubic(motion);
+  if (certainly_never_coplanar(cubic)) return {{}, hint};
+  const detail::EdgeEdgePair pair(motion, cubic);
   return conservative_advancement(pair, detail::EdgeEdgePair::Axes(pair.hulls(), 0, hint));
 }
 

@@ -15,12 +15,12 @@ class VertexFacePair {
  public:
   using Axes = FurthestAxis<1, 3>;
 
-  DISMANTLE_HOST_DEVICE explicit VertexFacePair(const VertexFaceMotion& m)
-      : hulls_({m.vertex_t0}, {m.vertex_t1}, m.face_t0.corner, m.face_t1.corner), cubic_(coplanarity_cubic(m)) {}
+  DISMANTLE_HOST_DEVICE VertexFacePair(const VertexFaceMotion& m, const BernsteinCubic& cubic)
+      : hulls_(&m.vertex_t0, &m.vertex_t1, m.face_t0.corner, m.face_t1.corner), cubic_(cubic) {}
 
   DISMANTLE_HOST_DEVICE const RelativeHulls<1, 3>& hulls() const { return hulls_; }
 
-  DISMANTLE_HOST_DEVICE bool start(Axes&) const { return certainly_never_coplanar(cubic_); }
+  DISMANTLE_HOST_DEVICE bool start(Axes&) const { return false; }
   DISMANTLE_HOST_DEVICE void look_ahead(Axes&, double) const {}
 
   DISMANTLE_HOST_DEVICE AxisGuess guess(double t) const {
@@ -43,12 +43,13 @@ class VertexFacePair {
 
  private:
   DISMANTLE_HOST_DEVICE Triangle face_at(double t) const {
-    const Vec3(&f)[2][3] = hulls_.b;
-    return {(1 - t) * f[0][0] + t * f[1][0], (1 - t) * f[0][1] + t * f[1][1], (1 - t) * f[0][2] + t * f[1][2]};
+    Triangle face;
+    for (int j = 0; j < 3; ++j) face[j] = (1 - t) * hulls_.b[0][j] + t * hulls_.b[1][j];
+    return face;
   }
 
   RelativeHulls<1, 3> hulls_;
-  BernsteinCubic cubic_;
+  const BernsteinCubic& cubic_;
 };
 
 }  // namespace detail
@@ -56,7 +57,9 @@ class VertexFacePair {
 /// As ccd_vertex_face(motion), trying `hint` first (from the vertex to the face, any length; zero for none) and giving
 /// the axis that it ended on.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_vertex_face(const VertexFaceMotion& motion, Vec3 hint) {
-  detail::VertexFacePair pair(motion);
+  const BernsteinCubic cubic = coplanarity_cubic(motion);
+  if (certainly_never_coplanar(cubic)) return {{}, hint};
+  const detail::VertexFacePair pair(motion, cubic);
   return conservative_advancement(pair, detail::VertexFacePair::Axes(pair.hulls(), 0, hint));
 }
 

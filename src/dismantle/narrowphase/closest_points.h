@@ -15,26 +15,34 @@ struct ClosestPoints {
 /// The point itself (`point_a`) and the point of the closed triangle nearest to it (`point_b`). Zero-area triangles are
 /// taken as the segment or point that they are. (Ericson, Real-Time Collision Detection, 5.1.5.)
 DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, const Triangle& face) {
-  const Vec3 ab = face[1] - face[0], ac = face[2] - face[0], ap = p - face[0];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {p, face[0]};
-  const Vec3 bp = p - face[1];
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {p, face[1]};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return {p, face[0] + (d1 / (d1 - d3)) * ab};
-  const Vec3 cp = p - face[2];
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {p, face[2]};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return {p, face[0] + (d2 / (d2 - d6)) * ac};
-  const double va = d3 * d6 - d5 * d4;
+  const Vec3 ab = face[1] - face[0], ac = face[2] - face[0], ap = p - face[0], bp = p - face[1], cp = p - face[2];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp);
+  const double d6 = dot(ac, cp);
+  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
   const double along = d4 - d3, back = d5 - d6;
-  if (va <= 0 && along >= 0 && back >= 0 && along + back > 0)
-    return {p, face[1] + (along / (along + back)) * (face[2] - face[1])};
-  const double area = va + vb + vc;
-  if (!(area > 0)) return {p, face[0]};
-  return {p, face[0] + (vb / area) * ab + (vc / area) * ac, true};
+
+  // The weights of the second and third corner. One way out keeps them in registers.
+  double weight_b = 0, weight_c = 0;
+  bool interior = false;
+  if (d1 <= 0 && d2 <= 0) {
+  } else if (d3 >= 0 && d4 <= d3) {
+    weight_b = 1;
+  } else if (d6 >= 0 && d5 <= d6) {
+    weight_c = 1;
+  } else if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) {
+    weight_b = d1 / (d1 - d3);
+  } else if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) {
+    weight_c = d2 / (d2 - d6);
+  } else if (va <= 0 && along >= 0 && back >= 0 && along + back > 0) {
+    weight_c = along / (along + back);
+    weight_b = 1 - weight_c;
+  } else if (va + vb + vc > 0) {
+    const double area = va + vb + vc;
+    weight_b = vb / area;
+    weight_c = vc / area;
+    interior = true;
+  }
+  return {p, face[0] + (weight_b * ab + weight_c * ac), interior};
 }
 
 namespace detail {

@@ -48,7 +48,7 @@ class FurthestAxis {
   DISMANTLE_HOST_DEVICE void consider(Vec3 w) {
     if (refused(w)) return;
     const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
-    if (projections.gap(0) > 0 && projections.gap(1) > 0) {
+    if (projections.separates_throughout()) {
       end_ = 1;
       axis_ = w;
     } else {
@@ -70,9 +70,9 @@ class FurthestAxis {
 
  private:
   DISMANTLE_HOST_DEVICE void keep_if_further(const AxisProjections<kCountA, kCountB>& projections, Vec3 w) {
-    const TimeInterval times = projections.separated();
-    if (!times.contains(now_) || times.end <= end_) return;
-    end_ = times.end;
+    const double until = projections.separates_until(now_);
+    if (until <= end_) return;
+    end_ = until;
     axis_ = w;
   }
 
@@ -81,7 +81,7 @@ class FurthestAxis {
   }
 
   DISMANTLE_HOST_DEVICE bool separates_now(Vec3 w, double allowed) const {
-    return AxisProjections<kCountA, kCountB>(hulls_, w, allowed).separated().contains(now_);
+    return AxisProjections<kCountA, kCountB>(hulls_, w, allowed).separates_until(now_) >= now_;
   }
 
   const RelativeHulls<kCountA, kCountB>& hulls_;
@@ -101,19 +101,16 @@ class FurthestAxis {
 ///   consider_all(best, t) tries every candidate axis at t
 template <class Pair>
 DISMANTLE_HOST_DEVICE AxisCcdResult conservative_advancement(Pair& pair, typename Pair::Axes best) {
-  double t = 0, advanced = -1;
+  double t = 0;
   if (pair.start(best)) return {{CcdStatus::Free, 1, 0}, best.axis()};
   for (int i = 1; i <= kAdvancementLimit; ++i) {
     const AxisGuess guess = pair.guess(t);
     best.consider(guess.axis);
     if (best.end() >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
 
+    pair.look_ahead(best, t);
     double reached = best.end() > t ? best.end() : t;
-    if (i > 1) {
-      pair.look_ahead(best, t);
-      if (best.end() > reached) reached = best.end();
-      if (reached > advanced) reached = advanced = pair.advance(reached);
-    }
+    if (i == 1 || reached >= t + kLeastProgress) reached = pair.advance(reached);
     if (reached < t + kLeastProgress && !guess.interior) {
       pair.consider_all(best, t);
       reached = best.end() > reached ? best.end() : reached;

@@ -6,43 +6,73 @@
 
 namespace dismantle {
 
-/// The rounding of restricting a cubic to [t, 1], relative to its largest coefficient: six weighted means, three deep,
-/// each off by at most 3 u of the largest value (docs/design/0001-certified-ccd.md).
-inline constexpr double kRestrictionError = 12 * kUnitRoundoff;
+/// The rounding of restricting a cubic to a part of [0, 1] and that to its beginning, relative to its largest
+/// coefficient: twice six weighted means, three deep, each off by at most 3 u (docs/design/0001-certified-ccd.md).
+inline constexpr double kRestrictionError = 24 * kUnitRoundoff;
 
 namespace detail {
 
-/// How many times a cubic is cut; convergence to a simple root is quadratic.
+/// How many times a control polygon is cut; convergence to a simple root is quadratic.
 inline constexpr int kClippingLimit = 12;
 
 /// A cut that gains less than this is the last.
 inline constexpr double kClippingLeastProgress = 0x1p-27;
 
-/// The coefficients of the cubic on [t, 1] by de Casteljau's rule.
-DISMANTLE_HOST_DEVICE inline void restrict_to_rest(const double (&c)[4], double t, double (&rest)[4]) {
+/// How far before the root that it expects a first cut is made, as a part of the way.
+inline constexpr double kBeforeRoot = 1 - 0x1p-34;
+
+/// The Bernstein coefficients of a cubic, times the sign of the first, less the error bound: while the polynomial that
+/// they make is positive, the exact one has no root.
+struct CubicHeights {
+  double at[4];
+
+  DISMANTLE_HOST_DEVICE bool all_positive() const { return at[0] > 0 && at[1] > 0 && at[2] > 0 && at[3] > 0; }
+};
+
+/// Of the cubic on [t, 1], by de Casteljau's rule.
+DISMANTLE_HOST_DEVICE inline CubicHeights heights_of_rest(const double (&c)[4], double t, double error) {
   const double s = 1 - t;
   const double c01 = s * c[0] + t * c[1], c12 = s * c[1] + t * c[2], c23 = s * c[2] + t * c[3];
   const double c012 = s * c01 + t * c12, c123 = s * c12 + t * c23;
-  rest[0] = s * c012 + t * c123;
-  rest[1] = c123;
-  rest[2] = c23;
-  rest[3] = c[3];
+  const double start = s * c012 + t * c123;
+  const double sign = start < 0 ? -1 : 1;
+  return {{sign * start - error, sign * c123 - error, sign * c23 - error, sign * c[3] - error}};
 }
 
-/// The part of [0, 1] from 0 on in which the convex hull of the control points stays on the side of the first: a safe
-/// advance, 0 where the first is within `error` of zero, 1 where there is no root. The hull reaches zero where the
-/// first of the lines from a point before it to a point behind it does.
-DISMANTLE_HOST_DEVICE inline double clipped(const double (&c)[4], double error) {
-  const double sign = c[0] < 0 ? -1 : 1;
-  const double height[4] = {sign * c[0] - error, sign * c[1] - error, sign * c[2] - error, sign * c[3] - error};
-  if (!(height[0] > 0)) return 0;
+/// True where the polynomial is positive on [0, x], by the coefficients of that part.
+DISMANTLE_HOST_DEVICE inline bool positive_until(const CubicHeights& h, double x) {
+  const double s = 1 - x;
+  const double c01 = s * h.at[0] + x * h.at[1], c12 = s * h.at[1] + x * h.at[2], c23 = s * h.at[2] + x * h.at[3];
+  const double c012 = s * c01 + x * c12, c123 = s * c12 + x * c23;
+  return h.at[0] > 0 && c01 > 0 && c012 > 0 && s * c012 + x * c123 > 0;
+}
+
+/// Where the first root is expected: two steps of Laguerre's method to the right, from 0. A guess, perhaps not finite.
+DISMANTLE_HOST_DEVICE inline double expected_root(const CubicHeights& h) {
+  using std::sqrt;
+  const double a1 = 3 * (h.at[1] - h.at[0]), a2 = 3 * ((h.at[2] - h.at[1]) - (h.at[1] - h.at[0]));
+  const double a3 = (h.at[3] - h.at[0]) - 3 * (h.at[2] - h.at[1]);
+  double x = 0;
+  for (int i = 0; i < 2; ++i) {
+    const double value = h.at[0] + x * (a1 + x * (a2 + x * a3));
+    const double slope = a1 + x * (2 * a2 + x * (3 * a3)), bend = 2 * a2 + x * (6 * a3);
+    const double square = 4 * slope * slope - 6 * value * bend;
+    x += 3 * value / (sqrt(square > 0 ? square : 0) - slope);
+  }
+  return x;
+}
+
+/// The part of [0, 1] from 0 on in which the convex hull of the control points is positive: 0 where the first is not, 1
+/// where all are. The hull reaches zero where the first of the lines from a point above to a later one below does.
+DISMANTLE_HOST_DEVICE inline double clipped(const CubicHeights& h) {
+  if (!(h.at[0] > 0)) return 0;
   constexpr double kNoCrossing = 4;
   double advance = kNoCrossing;
   for (int j = 1; j < 4; ++j) {
-    if (height[j] > 0) continue;
+    if (h.at[j] > 0) continue;
     for (int i = 0; i < j; ++i) {
-      if (!(height[i] > 0)) continue;
-      const double crossing = i + (j - i) * (height[i] / (height[i] - height[j]));
+      if (!(h.at[i] > 0)) continue;
+      const double crossing = i + (j - i) * (h.at[i] / (h.at[i] - h.at[j]));
       if (!(crossing >= advance)) advance = crossing;
     }
   }
@@ -50,25 +80,37 @@ DISMANTLE_HOST_DEVICE inline double clipped(const double (&c)[4], double error) 
   return advance > 0 ? advance * (kRoundDown / 3) : 0;
 }
 
+/// `part` of the rest of the motion after `t`, certainly not too late.
+DISMANTLE_HOST_DEVICE inline double time_after(double t, double part) {
+  return (t + (1 - t) * part * kRoundDown) * kRoundDown;
+}
+
 }  // namespace detail
 
 /// The largest time that it finds up to which, from `t` on, the four points are certainly never in one plane (so that
-/// their features do not meet): `t` itself where they cannot be told from coplanar there, 1 where they never are. Cuts
-/// the cubic's control polygon again and again (Bezier clipping), which takes no root and no guess.
+/// their features do not meet): `t` itself where they cannot be told from coplanar there, 1 where they never are. First
+/// up to just before a root that it only guesses and need not be one; failing that by cutting the control polygon again
+/// and again (Bezier clipping).
 DISMANTLE_HOST_DEVICE inline double coplanarity_advance(const BernsteinCubic& cubic, double t) {
-  double largest = 0;
-  for (const double c : cubic.c) largest = largest > absolute(c) ? largest : absolute(c);
-  const double error = cubic.error + kRestrictionError * largest;
+  const double error = cubic.error + kRestrictionError * largest_coefficient(cubic);
+  detail::CubicHeights rest = detail::heights_of_rest(cubic.c, t, error);
+  if (!(rest.at[0] > 0)) return t;
+  if (rest.all_positive()) return 1;
+  const double root = detail::expected_root(rest) * detail::kBeforeRoot;
+  if (root > 0 && root < 1 && detail::positive_until(rest, root)) {
+    const double next = detail::time_after(t, root);
+    return next > t ? next : t;
+  }
+
   for (int i = 0; i < detail::kClippingLimit; ++i) {
-    double rest[4];
-    detail::restrict_to_rest(cubic.c, t, rest);
-    const double part = detail::clipped(rest, error);
+    const double part = detail::clipped(rest);
     if (part >= 1) return 1;
-    const double gain = (1 - t) * part * kRoundDown;
-    const double next = (t + gain) * kRoundDown;
+    const double next = detail::time_after(t, part);
     if (!(next > t)) return t;
+    const double gain = next - t;
     t = next;
     if (gain < detail::kClippingLeastProgress) return t;
+    rest = detail::heights_of_rest(cubic.c, t, error);
   }
   return t;
 }

@@ -11,6 +11,15 @@ struct BernsteinCubic {
   double error = 0;  ///< Every coefficient is within this of the exact one that the doubles of the input give.
 };
 
+DISMANTLE_HOST_DEVICE inline double largest_coefficient(const BernsteinCubic& cubic) {
+  double largest = 0;
+  for (const double c : cubic.c) {
+    const double size = absolute(c);
+    largest = largest > size ? largest : size;
+  }
+  return largest;
+}
+
 /// The relative rounding error of one coefficient of coplanarity_cubic: with P, Q, R the largest coordinates of the
 /// three differences, each is an average of at most three triple products of differences. A triple product of rounded
 /// differences is off by at most (7 + 56u)u times the sum of the absolute values of its six terms (Shewchuk 1997,

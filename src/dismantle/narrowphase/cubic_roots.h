@@ -34,12 +34,6 @@ DISMANTLE_HOST_DEVICE inline double value_at(const BernsteinCubic& cubic, double
   return ((cubic.c[0] * s + 3 * cubic.c[1] * t) * s + 3 * cubic.c[2] * (t * t)) * s + cubic.c[3] * (t * t * t);
 }
 
-DISMANTLE_HOST_DEVICE inline double largest_coefficient(const BernsteinCubic& cubic) {
-  double largest = 0;
-  for (const double c : cubic.c) largest = largest > absolute(c) ? largest : absolute(c);
-  return largest;
-}
-
 /// The roots of q0 (1-t)^2 + 2 q1 (1-t) t + q2 t^2 in [0, 1]. A negative discriminant counts as zero: instead of losing
 /// a double root by rounding, the list may hold a time that is none.
 DISMANTLE_HOST_DEVICE inline TimeList<2> quadratic_roots(double q0, double q1, double q2) {

@@ -16,11 +16,16 @@ inline constexpr double kGapErrorFactor = 12 * kUnitRoundoff;
 /// Stands for all products of a projection that underflow (each is off by at most 2^-1075).
 inline constexpr double kUnderflowError = 0x1p-1022;
 
-/// Every quotient of two gaps here is off by at most 8 u relatively; scaling by these rounds it down or up for certain.
+/// Every short chain of products, quotients and roots here is off by at most 8 u relatively; scaling by these rounds it
+/// down or up for certain.
 inline constexpr double kRoundDown = 1 - 16 * kUnitRoundoff;
 inline constexpr double kRoundUp = 1 + 16 * kUnitRoundoff;
 
-inline constexpr double kLargestDouble = 0x1.fffffffffffffp1023;
+/// The relative error of the mean of two gaps is below 4 u of the mean of their sizes.
+inline constexpr double kMeanError = 8 * kUnitRoundoff;
+
+/// Where error bounds and allowances are below this nothing can overflow.
+inline constexpr double kLargestBound = 0x1p900;
 
 /// The absolute value; exact, and unlike a comparison with zero it takes no branch.
 DISMANTLE_HOST_DEVICE inline double absolute(double x) {
@@ -42,8 +47,8 @@ struct RelativeHulls {
   Vec3 b[2][kCountB];  ///< [end][point]
   Vec3 reach[2];       ///< The largest absolute value of each coordinate at that end.
 
-  DISMANTLE_HOST_DEVICE RelativeHulls(const Vec3 (&a_t0)[kCountA], const Vec3 (&a_t1)[kCountA],
-                                      const Vec3 (&b_t0)[kCountB], const Vec3 (&b_t1)[kCountB]) {
+  /// @pre each argument points to as many finite positions as its hull has points.
+  DISMANTLE_HOST_DEVICE RelativeHulls(const Vec3* a_t0, const Vec3* a_t1, const Vec3* b_t0, const Vec3* b_t1) {
     for (int i = 1; i < kCountA; ++i) {
       add(0, a[0][i] = a_t0[i] - a_t0[0]);
       add(1, a[1][i] = a_t1[i] - a_t1[0]);
@@ -56,12 +61,6 @@ struct RelativeHulls {
 
  private:
   DISMANTLE_HOST_DEVICE void add(int end, Vec3 p) { reach[end] = max(reach[end], absolute(p)); }
-};
-
-/// A part of the motion, [begin, end] within [0, 1]; empty where begin > end.
-struct TimeInterval {
-  double begin = 1, end = 0;
-  DISMANTLE_HOST_DEVICE bool contains(double t) const { return begin <= t && t <= end; }
 };
 
 /// The length of `w`, certainly not above the exact one if `down`, certainly not below it otherwise.
@@ -80,23 +79,24 @@ template <int kCountA, int kCountB>
 struct AxisProjections {
   double a[2][kCountA], b[2][kCountB];
   double margin[2];
+  bool usable;  ///< Nothing overflowed. Where false nothing is proved.
 
   DISMANTLE_HOST_DEVICE AxisProjections(const RelativeHulls<kCountA, kCountB>& hulls, Vec3 w, double allowed) {
     const double allowance = allowed == 0 ? 0 : allowed * length_rounded(w, allowed > 0);
     const Vec3 size = absolute(w);
+    double bound[2];
     for (int end = 0; end < 2; ++end) {
       a[end][0] = 0;
       for (int i = 1; i < kCountA; ++i) a[end][i] = dot(w, hulls.a[end][i]);
       for (int j = 0; j < kCountB; ++j) b[end][j] = dot(w, hulls.b[end][j]);
-      margin[end] = allowance - (kGapErrorFactor * dot(size, hulls.reach[end]) + kUnderflowError);
+      bound[end] = kGapErrorFactor * dot(size, hulls.reach[end]) + kUnderflowError;
+      margin[end] = allowance - bound[end];
     }
+    usable = bound[0] < kLargestBound && bound[1] < kLargestBound && absolute(allowance) < kLargestBound;
   }
 
   /// The certified gap at an end, with B on the side that the axis points to; > 0 is proof.
   DISMANTLE_HOST_DEVICE double gap(int end) const { return (least(b[end]) - most(a[end])) + margin[end]; }
-  /// The same for the axis turned round.
-  DISMANTLE_HOST_DEVICE double gap_turned(int end) const { return (least(a[end]) - most(b[end])) + margin[end]; }
-
   /// Turns the axis round.
   DISMANTLE_HOST_DEVICE void turn() {
     for (int end = 0; end < 2; ++end) {
@@ -105,26 +105,25 @@ struct AxisProjections {
     }
   }
 
-  /// All times at which the axis certainly separates: every projected difference of a point of B and one of A is linear
-  /// in time, so each gives a half line.
-  DISMANTLE_HOST_DEVICE TimeInterval separated() const {
-    TimeInterval times{0, 1};
+  /// True where the axis certainly separates during the whole motion.
+  DISMANTLE_HOST_DEVICE bool separates_throughout() const { return usable && gap(0) > 0 && gap(1) > 0; }
+
+  /// Until when the axis certainly separates, from `now` on; -1 where it does not at `now`. Every projected difference
+  /// of a point of B and one of A is linear in time, so each lasts until a time in closed form.
+  DISMANTLE_HOST_DEVICE double separates_until(double now) const {
+    double least_now = kLargestBound, least_at_end = kLargestBound, until = 1;
     for (int i = 0; i < kCountA; ++i)
       for (int j = 0; j < kCountB; ++j) {
         const double start = (b[0][j] - a[0][i]) + margin[0], finish = (b[1][j] - a[1][i]) + margin[1];
-        if (start > 0 && finish > 0) continue;
-        const double change = finish - start;
-        if (start > 0 && change < 0 && change >= -kLargestDouble) {
-          const double last = start / -change * kRoundDown;
-          times.end = last < times.end ? last : times.end;
-        } else if (finish > 0 && change > 0 && change <= kLargestDouble) {
-          const double first = -start / change * kRoundUp + kUnderflowError;
-          times.begin = first > times.begin ? first : times.begin;
-        } else {
-          return {};
-        }
+        const double from_start = (1 - now) * start, from_finish = now * finish;
+        const double here = (from_start + from_finish) - kMeanError * (absolute(from_start) + absolute(from_finish));
+        least_now = here < least_now ? here : least_now;
+        least_at_end = finish < least_at_end ? finish : least_at_end;
+        const double last = start / (start - (finish < 0 ? finish : 0));
+        until = last < until ? last : until;
       }
-    return times;
+    if (!usable || !(least_now > 0)) return -1;
+    return least_at_end > 0 ? 1 : until * kRoundDown - kUnderflowError;
   }
 
  private:

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/ccd_query_file.h"
+#include "dismantle/narrowphase/ccd_edge_edge.h"
+#include "dismantle/narrowphase/ccd_vertex_face.h"
+#include "dismantle/narrowphase/elementary_edge_edge.h"
+#include "dismantle/narrowphase/elementary_vertex_face.h"
+#include "dismantle/narrowphase/nonpenetration_filter.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+CcdResult certified(const VertexFaceMotion& m) {
+  return ccd_vertex_face(m);
+}
+CcdResult certified(const EdgeEdgeMotion& m) {
+  return ccd_edge_edge(m);
+}
+CcdResult elementary(const VertexFaceMotion& m) {
+  return elementary_vertex_face(m);
+}
+CcdResult elementary(const EdgeEdgeMotion& m) {
+  return elementary_edge_edge(m);
+}
+
+struct Counts {
+  int queries = 0, hits = 0;
+  int false_positives = 0, false_negatives = 0;
+  int elementary_false_positives = 0, elementary_false_negatives = 0;
+  int filtered_hits = 0;  ///< Hits that the non-penetration filter called free.
+};
+
+template <class Motion>
+void count(const std::vector<Motion>& motions, const std::vector<CcdTruth>& truth, Counts& c) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (truth[i] == CcdTruth::Unknown) continue;
+    const bool hit = truth[i] == CcdTruth::Hit;
+    const bool found = certified(motions[i]).status == CcdStatus::Contact;
+    const bool found_elementary = elementary(motions[i]).status == CcdStatus::Contact;
+    ++c.queries;
+    c.hits += hit;
+    c.false_positives += found && !hit;
+    c.false_negatives += !found && hit;
+    c.elementary_false_positives += found_elementary && !hit;
+    c.elementary_false_negatives += !found_elementary && hit;
+    c.filtered_hits += hit && nonpenetration_filter(motions[i]);
+  }
+}
+
+/// Public queries with exact truth in the folder of shared data; empty where the folder is missing.
+Counts count_folder(const char* name) {
+  const std::filesystem::path folder =
+      std::filesystem::path(DISMANTLE_SOURCE_DIR) / "../shared/data/ccd-queries" / name;
+  Counts c;
+  if (!std::filesystem::exists(folder)) return c;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".ccdq") continue;
+    const auto file = read_ccdq(entry.path());
+    EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.error().message);
+    if (!file.ok()) continue;
+    count(file->vertex_face, file->truth, c);
+    count(file->edge_edge, file->truth, c);
+  }
+  std::printf("%s: %d queries, %d hits; certified: %d false positives, %d false negatives; elementary: %d, %d\n", name,
+              c.queries, c.hits, c.false_positives, c.false_negatives, c.elementary_false_positives,
+              c.elementary_false_negatives);
+  return c;
+}
+
+TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheHandcraftedHitsAndReportsFewMisses) {
+  const Counts c = count_folder("handcrafted");
+  if (c.queries == 0) GTEST_SKIP() << "../shared/data/ccd-queries is not here";
+  EXPECT_EQ(c.false_negatives, 0);
+  EXPECT_LE(c.false_positives, 222) << "Tight-Inclusion 1.0.6 reports 222";
+  EXPECT_EQ(c.filtered_hits, 0);
+  EXPECT_EQ(c.elementary_false_negatives, 0) << "not proven, but so it is on these";
+}
+
+TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheSimulationHits) {
+  const Counts c = count_folder("simulation");
+  if (c.queries == 0) GTEST_SKIP() << "../shared/data/ccd-queries is not here";
+  EXPECT_EQ(c.false_negatives, 0);
+  EXPECT_LE(c.false_positives, 10);
+  EXPECT_EQ(c.filtered_hits, 0);
+}
+
+}  // namespace
+}  // namespace dismantle
