@@ -2,6 +2,7 @@
 #include "dismantle/io/load_assembly.h"
 
 #include "dismantle/io/mesh_source.h"
+#include "dismantle/io/read_gltf.h"
 #include "dismantle/io/read_mesh.h"
 #include "dismantle/io/read_step.h"
 #include "dismantle/io/read_urdf.h"
@@ -27,6 +28,7 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
   if (is_mesh_file(file)) return read_mesh(file, options);
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".step" || extension == ".stp") return read_step(file, options);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(file, options);
   if (extension == ".urdf") return read_urdf(file, options);
   return Error{ErrorKind::Unreadable,
                file.string() + " is no assembly that dismantle reads (extension " + in_quotes(extension) +

@@ -3,6 +3,7 @@
 
 #include "dismantle/io/mesh_source.h"
 #include "dismantle/io/text_scan.h"
+#include "dismantle/io/write_glb.h"
 #include "dismantle/io/write_mesh.h"
 
 namespace dismantle {
@@ -12,9 +13,10 @@ Result<Done> write_assembly(const std::filesystem::path& file, const Assembly& a
   if (extension == ".obj") return write_obj(file, assembly);
   if (extension == ".stl") return write_stl(file, assembly, options.stl);
   if (extension == ".ply") return write_ply(file, assembly);
+  if (extension == ".glb") return write_glb(assembly, file);
   if (extension.empty() || !file.has_filename()) return write_mesh_folder(file, assembly);
   return Error{ErrorKind::Usage, file.string() + " cannot be written (unknown extension " + in_quotes(extension) +
-                                     "); end it with .obj, .stl or .ply, or with nothing for a folder"};
+                                     "); end it with .obj, .stl, .ply or .glb, or with nothing for a folder"};
 }
 
 }  // namespace dismantle
