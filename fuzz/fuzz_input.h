@@ -48,6 +48,7 @@ inline void require_sound(const Result<Assembly>& assembly) {
     require(component.mesh && !component.mesh->faces.empty(), "a mesh with triangles");
     require(component.tree_node < assembly->tree.size(), "a place in the tree");
     require_sound(*component.mesh);
+    for (const Vec3& p : assembled_vertices(component)) require(is_finite(p), "finite assembled coordinates");
   }
 }
 

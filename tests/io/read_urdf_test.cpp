@@ -172,6 +172,15 @@ TEST(ReadUrdf, SaysWhatIsWrongAndWhere) {
   expect_unreadable(parse(robot(link("a", kBox) + link("b", kBox)), options), "more than 20 triangles");
 }
 
+TEST(ReadUrdf, RefusesPlacesBeyondEverything) {
+  const std::string far = "<origin xyz=\"1e308 1e308 1e308\" rpy=\"1 1 1\"/>";
+  const std::string back = "<origin xyz=\"-1e308 -1e308 -1e308\" rpy=\"2 3 1\"/>";
+  expect_unreadable(parse(robot(link("a", kBox) + link("b", kBox) + link("c", kBox) + link("d", kBox) +
+                                joint("a", "b", far) + joint("b", "c", far) + joint("c", "d", back))),
+                    "is further out than a thousand kilometres");
+  expect_unreadable(parse(robot(link("a", "<box size=\"1e300 1 1\"/>"))), "further out");
+}
+
 TEST(ReadUrdf, SurvivesDeepNesting) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "<a>";

@@ -14,7 +14,24 @@ Error beyond(const std::string& source, const std::string& what) {
   return {ErrorKind::Unreadable, source + " is too large (" + what + "); simplify it or load a part of it"};
 }
 
+bool within_reach(Vec3 p) {
+  return is_finite(p) && max_abs(p) <= kLargestCoordinate;
+}
+
+Error out_of_reach(const std::string& source, std::string_view component) {
+  return {ErrorKind::Unreadable, source + " cannot be used (a coordinate of " + in_quotes(component) +
+                                     " is further out than a thousand kilometres); check the units"};
+}
+
 }  // namespace
+
+Result<Done> check_coordinates(const Assembly& assembly) {
+  for (const Component& component : assembly.components)
+    for (const Vec3& p : component.mesh->vertices)
+      if (!within_reach(p) || !within_reach(component.assembly_from_mesh * p))
+        return out_of_reach(assembly.source_file, component.name);
+  return Done{};
+}
 
 Result<AssemblyBuilder> AssemblyBuilder::create(std::string source_name, std::string_view file_units,
                                                 const ImportOptions& options) {
@@ -43,9 +60,7 @@ std::optional<Error> AssemblyBuilder::add(MeshPart part, const RigidTransform& a
   component.assembly_from_mesh.translation *= scale_;
   for (Vec3& p : part.mesh.vertices) {
     p *= scale_;
-    if (!(max_abs(p) <= kLargestCoordinate) || !(max_abs(component.assembly_from_mesh * p) <= kLargestCoordinate))
-      return Error{ErrorKind::Unreadable, source + " cannot be used (a coordinate of " + in_quotes(part.name) +
-                                              " is further out than a thousand kilometres); check the units"};
+    if (!within_reach(p) || !within_reach(component.assembly_from_mesh * p)) return out_of_reach(source, part.name);
   }
 
   CleanedMesh cleaned = clean_mesh(part.mesh);

@@ -15,6 +15,9 @@ namespace dismantle {
 /// overflow.
 constexpr double kLargestCoordinate = 1e9;
 
+/// That no coordinate, in a component's own frame or assembled, is larger than kLargestCoordinate. Errors: Unreadable.
+Result<Done> check_coordinates(const Assembly& assembly);
+
 /// Makes an Assembly of the parts that a mesh reader finds, in their order: scales them to millimetres, cleans them,
 /// keeps the limits, makes names unique, and builds a tree of one level.
 class AssemblyBuilder {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/io/load_assembly.h"
 
+#include "dismantle/io/assembly_builder.h"
 #include "dismantle/io/mesh_source.h"
 #include "dismantle/io/read_gltf.h"
 #include "dismantle/io/read_mesh.h"
@@ -47,7 +48,9 @@ void clean_names(Assembly& assembly) {
 Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
   try {
     Result<Assembly> assembly = dispatch(file, options);
-    if (assembly) clean_names(*assembly);
+    if (!assembly) return assembly;
+    if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
+    clean_names(*assembly);
     return assembly;
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
