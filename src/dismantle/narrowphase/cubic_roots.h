@@ -50,26 +50,29 @@ DISMANTLE_HOST_DEVICE inline TimeList<2> quadratic_roots(double q0, double q1, d
 
 namespace detail {
 
-/// The crossing in [low, high], where the values have opposite signs: regula falsi, bisection where that is slow.
-/// Returns the side on which the sign is still the one at `low`.
+/// The crossing in [low, high], where the values have opposite signs, by regula falsi that halves the value of an end
+/// which stays (the Illinois rule) and takes a bisection now and then: to where the value is lost in rounding, or to
+/// the last bit.
 DISMANTLE_HOST_DEVICE inline double crossing_between(const BernsteinCubic& cubic, double low, double high) {
+  const double lost = kCubicValueError / 16 * largest_coefficient(cubic);
   double at_low = value_at(cubic, low), at_high = value_at(cubic, high);
+  int same_side = 0;
   for (int i = 0; i < 200; ++i) {
-    const double width = high - low;
-    double middle = low + 0.5 * width;
-    if (i % 3 != 2) {
-      const double chord = low + width * (at_low / (at_low - at_high));
-      if (chord > low && chord < high) middle = chord;
-    }
+    double middle = i % 8 == 7 ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
+    if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
     if (!(middle > low && middle < high)) break;
     const double value = value_at(cubic, middle);
-    if (value == 0) return middle;
+    if (value <= lost && value >= -lost) return middle;
     if ((value < 0) == (at_low < 0)) {
       low = middle;
       at_low = value;
+      if (same_side < 0) at_high *= 0.5;
+      same_side = -1;
     } else {
       high = middle;
       at_high = value;
+      if (same_side > 0) at_low *= 0.5;
+      same_side = 1;
     }
   }
   return low;
