@@ -16,10 +16,11 @@ using namespace dismantle::scenes;
 constexpr int kShownPairs = 5;
 
 void print(const char* family, const PairCheck& c) {
-  std::printf("%s\t%lld\t%lld\t%lld\t%lld\t%lld\t%lld\t%.2g\n", family, static_cast<long long>(c.pairs),
-              static_cast<long long>(c.meeting), static_cast<long long>(c.signs), static_cast<long long>(c.wrong_signs),
-              static_cast<long long>(c.wrong_intersections), static_cast<long long>(c.wrong_depths),
-              c.worst_depth_error);
+  std::printf("%s", family);
+  for (const std::int64_t count :
+       {c.pairs, c.meeting, c.signs, c.wrong_signs, c.wrong_intersections, c.wrong_depths, c.wrong_distances})
+    std::printf("\t%lld", static_cast<long long>(count));
+  std::printf("\t%.2g\t%.2g\n", c.worst_depth_error, c.worst_distance_error);
 }
 
 void show(const char* family, const TrianglePair& pair) {
@@ -51,7 +52,9 @@ int main(int argc, char** argv) {
   }
 
   std::printf("# seed %llu\n", seed);
-  std::printf("family\tpairs\tmeeting\tsigns\twrong_signs\twrong_intersections\twrong_depths\tworst_depth_error\n");
+  std::printf(
+      "family\tpairs\tmeeting\tsigns\twrong_signs\twrong_intersections\twrong_depths\twrong_distances\t"
+      "worst_depth_error\tworst_distance_error\n");
   for (int kind = 0; kind < kKinds; ++kind) {
     print(name_of(static_cast<PairKind>(kind)), per_kind[kind]);
     total.add(per_kind[kind]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/math/orientation.h"
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 #include "tests/support/exact_triangles.h"
@@ -19,12 +20,18 @@ struct PairCheck {
   std::int64_t signs = 0, wrong_signs = 0;  ///< Orientation signs.
   std::int64_t wrong_intersections = 0;     ///< Of a and b, or of b and a.
   std::int64_t wrong_depths = 0;            ///< Beyond the stated error, or not 0 where apart or coplanar.
+  std::int64_t wrong_distances = 0;         ///< Beyond the stated error, or points beside their triangles.
+  double worst_distance_error = 0;          ///< As below.
   double worst_depth_error = 0;             ///< Relative to the largest coordinate difference.
 
-  bool passed() const { return wrong_signs == 0 && wrong_intersections == 0 && wrong_depths == 0; }
+  bool passed() const {
+    return wrong_signs == 0 && wrong_intersections == 0 && wrong_depths == 0 && wrong_distances == 0;
+  }
   void add(const PairCheck& c) {
     pairs += c.pairs, meeting += c.meeting, signs += c.signs, wrong_signs += c.wrong_signs;
     wrong_intersections += c.wrong_intersections, wrong_depths += c.wrong_depths;
+    wrong_distances += c.wrong_distances;
+    worst_distance_error = std::max(worst_distance_error, c.worst_distance_error);
     worst_depth_error = std::max(worst_depth_error, c.worst_depth_error);
   }
 };
@@ -75,6 +82,31 @@ inline void check_depth(PairCheck& check, const TrianglePair& pair, double exact
   }
 }
 
+/// How far the point is from the triangle, exactly, relative to `size`.
+inline double off_triangle(Vec3 p, const Triangle& t, double size) {
+  const exact::Scaled s = exact::scaled({p, p, p, t[0], t[1], t[2]});
+  const exact::Corners point(s.points.begin(), s.points.begin() + 3), face(s.points.begin() + 3, s.points.end());
+  return static_cast<double>(exact::distance(point, face, s.unit)) / size;
+}
+
+inline void check_distance(PairCheck& check, const TrianglePair& pair, bool meet, double exact_distance) {
+  const double difference = largest_difference(pair), size = difference > 0 ? difference : 1;
+  double coordinate = 0;
+  for (const Triangle* t : {&pair.a, &pair.b})
+    for (const Vec3& p : t->corner) coordinate = std::max(coordinate, max_abs(p));
+  const double rounding = 4 * 0x1p-53 * coordinate / size;
+  for (const TrianglePair& order : {pair, TrianglePair{pair.b, pair.a}}) {
+    const TriangleDistance d = distance_triangle_triangle(order.a, order.b);
+    const double error = std::fabs(d.distance - exact_distance) / size;
+    check.worst_distance_error = std::max(check.worst_distance_error, error);
+    const double off = std::max({off_triangle(d.point_a, order.a, size), off_triangle(d.point_b, order.b, size),
+                                 std::fabs(length(d.point_b - d.point_a) - d.distance) / size});
+    const bool zero = d.distance == 0;
+    check.wrong_distances +=
+        !(error <= kDistanceRelativeError) || !(off <= kDistanceRelativeError + rounding) || (meet && !zero);
+  }
+}
+
 /// Everything about one pair.
 inline PairCheck check_pair(const TrianglePair& pair) {
   PairCheck check;
@@ -93,6 +125,7 @@ inline PairCheck check_pair(const TrianglePair& pair) {
     check.wrong_depths += p.depth != 0 && (!meet || coplanar);
 
   check_depth(check, pair, meet ? static_cast<double>(exact::overlap(a, b, s.unit)) : 0);
+  check_distance(check, pair, meet, meet ? 0 : static_cast<double>(exact::distance(a, b, s.unit)));
   return check;
 }
 

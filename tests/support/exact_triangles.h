@@ -181,4 +181,60 @@ inline Real overlap(const Corners& a, const Corners& b, int unit) {
   return found ? ldexp(sqrt(Real(least) / Real(least_scale)), unit) : Real(0);
 }
 
+/// The least of some fractions of positive denominator.
+class LeastFraction {
+ public:
+  void take(const Integer& numerator, const Integer& denominator) {
+    if (found_ && numerator * denominator_ >= numerator_ * denominator) return;
+    found_ = true, numerator_ = numerator, denominator_ = denominator;
+  }
+  Real value() const { return Real(numerator_) / Real(denominator_); }
+
+ private:
+  bool found_ = false;
+  Integer numerator_ = 0, denominator_ = 1;
+};
+
+inline void take_point_segment(LeastFraction& least, const Point& p, const Point& from, const Point& to) {
+  const Point e = to - from, w = p - from;
+  const Integer along = dot(w, e), squared = dot(e, e);
+  if (along <= 0) return least.take(dot(w, w), 1);
+  if (along >= squared) return least.take(dot(p - to, p - to), 1);
+  const Point area = cross(w, e);
+  least.take(dot(area, area), squared);
+}
+
+inline void take_point_face(LeastFraction& least, const Point& p, const Corners& face) {
+  const Point n = cross(face[1] - face[0], face[2] - face[0]);
+  if (is_zero(n)) return;
+  for (int i = 0; i < 3; ++i)
+    if (dot(cross(n, face[(i + 1) % 3] - face[i]), p - face[i]) < 0) return;
+  const Integer height = dot(n, p - face[0]);
+  least.take(height * height, dot(n, n));
+}
+
+/// Where the common normal of the lines meets both segments.
+inline void take_lines(LeastFraction& least, const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
+  const Point e = a1 - a0, f = b1 - b0, n = cross(e, f), w = b0 - a0;
+  const Integer nn = dot(n, n), s = dot(cross(w, f), n), t = dot(cross(w, e), n);
+  if (nn == 0 || s < 0 || s > nn || t < 0 || t > nn) return;
+  const Integer height = dot(w, n);
+  least.take(height * height, nn);
+}
+
+/// The distance of triangles that do not meet.
+inline Real distance(const Corners& a, const Corners& b, int unit) {
+  LeastFraction least;
+  for (int i = 0; i < 3; ++i) {
+    take_point_face(least, a[i], b);
+    take_point_face(least, b[i], a);
+    for (int j = 0; j < 3; ++j) {
+      take_point_segment(least, a[i], b[j], b[(j + 1) % 3]);
+      take_point_segment(least, b[i], a[j], a[(j + 1) % 3]);
+      take_lines(least, a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
+    }
+  }
+  return ldexp(sqrt(least.value()), unit);
+}
+
 }  // namespace dismantle::exact

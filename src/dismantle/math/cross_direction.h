@@ -27,7 +27,7 @@ DISMANTLE_HOST_DEVICE inline ExactDifference operator*(double s, const ExactDiff
   return {{s * d.x.high, s * d.x.low}, {s * d.y.high, s * d.y.low}, {s * d.z.high, s * d.z.low}};
 }
 
-DISMANTLE_HOST_DEVICE inline Vec3 cross_exact(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline Vec3 cross_exact(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
   ExactDifference u = exact_difference(p1, p0), v = exact_difference(q1, q0);
   const double size_u = max_abs(u.high()), size_v = max_abs(v.high());
   if (size_u == 0 || size_v == 0) return {};

@@ -59,12 +59,38 @@ DISMANTLE_HOST_DEVICE inline ExactDifference exact_difference(Vec3 p, Vec3 q) {
   return {two_difference(p.x, q.x), two_difference(p.y, q.y), two_difference(p.z, q.z)};
 }
 
-/// Twice 3u for the terms that share a bound, where u, v and w are replaced by their rounded differences (a relative
-/// change of at most u each); room for the rounding of the bound.
-inline constexpr double kRoundedDifferencesError = 7 * 0x1p-53;
+/// Sums and products of double-doubles: within 4u^2 (|a| + |b|) and 7u^2 |a b| (Joldes, Muller, Popescu, "Tight and
+/// rigorous error bounds for basic building blocks of double-word arithmetic", 2017: 2u^2 and 5u^2 where a and b have
+/// one sign or the sum is taken relative to |a| + |b|).
+DISMANTLE_HOST_DEVICE inline TwoTerms double_double_sum(TwoTerms a, TwoTerms b) {
+  const TwoTerms high = two_sum(a.high, b.high);
+  return fast_two_sum(high.high, high.low + (a.low + b.low));
+}
+DISMANTLE_HOST_DEVICE inline TwoTerms double_double_product(TwoTerms a, TwoTerms b) {
+  const TwoTerms high = two_product(a.high, b.high);
+  return fast_two_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
+}
+DISMANTLE_HOST_DEVICE inline TwoTerms double_double_minor(TwoTerms a, TwoTerms b, TwoTerms c, TwoTerms d) {
+  const TwoTerms subtrahend = double_double_product(c, d);
+  return double_double_sum(double_double_product(a, b), {-subtrahend.high, -subtrahend.low});
+}
 
-/// As kOrientationUnderflow. The terms are in the expansions' range: only products of tiny differences underflow.
-inline constexpr double kRoundedDifferencesUnderflow = 0x1p-700;
+/// A term of the determinant of exact differences passes two products and three sums, 7 + 4 + 7 + 4 + 4 = 26 u^2, and
+/// two terms share a bound: 52 u^2, and room for the rounding of the bound.
+inline constexpr double kDoubleDoubleError = 64 * 0x1p-106;
+
+/// The sign of u x v . w where |u x v . w| is not too small; else 0. @pre in the expansions' range
+DISMANTLE_HOST_DEVICE inline int orient3d_double_double(const ExactDifference& u, const ExactDifference& v,
+                                                        const ExactDifference& w) {
+  const TwoTerms x = double_double_product(double_double_minor(u.y, v.z, u.z, v.y), w.x);
+  const TwoTerms y = double_double_product(double_double_minor(u.z, v.x, u.x, v.z), w.y);
+  const TwoTerms z = double_double_product(double_double_minor(u.x, v.y, u.y, v.x), w.z);
+  const double det = double_double_sum(double_double_sum(x, y), z).high;
+  const Vec3 e = max(magnitude(u.high()), magnitude(v.high())), size = magnitude(w.high());
+  const double sum = e.y * e.z * size.x + e.z * e.x * size.y + e.x * e.y * size.z;
+  const double bound = kDoubleDoubleError * sum + kExpansionSmallest * kExpansionSmallest;
+  return det > bound ? 1 : (det < -bound ? -1 : 0);
+}
 
 /// u x v . w with the rounded differences, exactly.
 DISMANTLE_HOST_DEVICE inline Expansion<24> determinant_exact(Vec3 u, Vec3 v, Vec3 w) {
@@ -72,22 +98,12 @@ DISMANTLE_HOST_DEVICE inline Expansion<24> determinant_exact(Vec3 u, Vec3 v, Vec
          minor_exact(u.x, v.y, u.y, v.x) * w.z;
 }
 
-/// How far the exact determinant may be from that of the rounded differences.
-DISMANTLE_HOST_DEVICE inline double rounded_differences_bound(Vec3 u, Vec3 v, Vec3 w) {
-  const Vec3 e = max(magnitude(u), magnitude(v));
-  const Vec3 size = magnitude(w);
-  const double sum = e.y * e.z * size.x + e.z * e.x * size.y + e.x * e.y * size.z;
-  return kRoundedDifferencesError * sum + kRoundedDifferencesUnderflow;
-}
-
 /// @pre all coordinates are in_expansion_range
 DISMANTLE_HOST_DEVICE inline int orient3d_expansion(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const ExactDifference u = exact_difference(b, a), v = exact_difference(c, a), w = exact_difference(d, a);
-  const Expansion<24> rounded = determinant_exact(u.high(), v.high(), w.high());
-  if (!u.rounded() && !v.rounded() && !w.rounded()) return rounded.sign();
-  const double estimate = rounded.estimate(), bound = rounded_differences_bound(u.high(), v.high(), w.high());
-  if (estimate > bound) return 1;
-  if (estimate < -bound) return -1;
+  const int clear = orient3d_double_double(u, v, w);
+  if (clear != 0) return clear;
+  if (!u.rounded() && !v.rounded() && !w.rounded()) return determinant_exact(u.high(), v.high(), w.high()).sign();
 
   return (minor_exact(u.y, v.z, u.z, v.y) * expansion_of(w.x) + minor_exact(u.z, v.x, u.x, v.z) * expansion_of(w.y) +
           minor_exact(u.x, v.y, u.y, v.x) * expansion_of(w.z))
@@ -110,7 +126,7 @@ DISMANTLE_HOST_DEVICE inline int lowest_exponent(double x, int so_far) {
 }
 
 /// For coordinates so large or small that doubles overflow or underflow.
-DISMANTLE_HOST_DEVICE inline int orient3d_wide(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline int orient3d_wide(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 points[4] = {a, b, c, d};
   int unit = 971;
   for (const Vec3& p : points) unit = lowest_exponent(p.x, lowest_exponent(p.y, lowest_exponent(p.z, unit)));
@@ -127,7 +143,7 @@ DISMANTLE_HOST_DEVICE inline int orient3d_wide(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return (term(1, 2, 0) + term(2, 0, 1) + term(0, 1, 2)).sign;
 }
 
-DISMANTLE_HOST_DEVICE inline int orient2d_wide(Vec2 a, Vec2 b, Vec2 c) {
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline int orient2d_wide(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 points[3] = {a, b, c};
   int unit = 971;
   for (const Vec2& p : points) unit = lowest_exponent(p.x, lowest_exponent(p.y, unit));
@@ -137,15 +153,17 @@ DISMANTLE_HOST_DEVICE inline int orient2d_wide(Vec2 a, Vec2 b, Vec2 c) {
   return (difference(b.x, a.x) * difference(c.y, a.y) - difference(b.y, a.y) * difference(c.x, a.x)).sign;
 }
 
-/// The sign of ((b - a) x (c - a)) . (d - a), without a filter. @pre all coordinates are finite
-DISMANTLE_HOST_DEVICE inline int orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+/// The sign of ((b - a) x (c - a)) . (d - a), without a filter; apart from the code of the filter, which is to stay
+/// small.
+/// @pre all coordinates are finite
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline int orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const bool in_range =
       in_expansion_range(a) && in_expansion_range(b) && in_expansion_range(c) && in_expansion_range(d);
   return in_range ? orient3d_expansion(a, b, c, d) : orient3d_wide(a, b, c, d);
 }
 
-/// The sign of (b - a) x (c - a), without a filter. @pre all coordinates are finite
-DISMANTLE_HOST_DEVICE inline int orient2d_exact(Vec2 a, Vec2 b, Vec2 c) {
+/// The sign of (b - a) x (c - a), as orient3d_exact. @pre all coordinates are finite
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline int orient2d_exact(Vec2 a, Vec2 b, Vec2 c) {
   const bool in_range = in_expansion_range(a) && in_expansion_range(b) && in_expansion_range(c);
   return in_range ? orient2d_expansion(a, b, c) : orient2d_wide(a, b, c);
 }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+const Triangle kFace{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+
+TEST(DistanceTriangleTriangle, IsThatOfACornerAboveTheFace) {
+  const TriangleDistance d = distance_triangle_triangle(kFace, {{{1, 1, 0.5}, {1, 1, 9}, {2, 1, 9}}});
+  EXPECT_EQ(d.distance, 0.5);
+  EXPECT_EQ(d.point_a, (Vec3{1, 1, 0}));
+  EXPECT_EQ(d.point_b, (Vec3{1, 1, 0.5}));
+}
+
+TEST(DistanceTriangleTriangle, IsThatOfTwoEdgesThatPass) {
+  const TriangleDistance d = distance_triangle_triangle(kFace, {{{1, -0.25, -1}, {1, -0.25, 1}, {1, -9, 0}}});
+  EXPECT_EQ(d.distance, 0.25);
+  EXPECT_EQ(d.point_a, (Vec3{1, 0, 0}));
+  EXPECT_EQ(d.point_b, (Vec3{1, -0.25, 0}));
+}
+
+TEST(DistanceTriangleTriangle, GivesACommonPointWhereTheTrianglesIntersect) {
+  const TriangleDistance d = distance_triangle_triangle(kFace, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 1}}});
+  EXPECT_EQ(d.distance, 0);
+  EXPECT_EQ(d.point_a, d.point_b);
+  EXPECT_EQ(d.point_a.z, 0);
+  const TriangleDistance inside = distance_triangle_triangle(kFace, {{{1, 1, 0}, {1.5, 1, 0}, {1, 1.5, 0}}});
+  EXPECT_EQ(inside.distance, 0);
+  EXPECT_EQ(inside.point_a, inside.point_b);
+}
+
+TEST(DistanceTriangleTriangle, TakesTrianglesWithoutAreaAsSegmentsAndPoints) {
+  EXPECT_EQ(distance_triangle_triangle(kFace, {{{1, 1, 2}, {1, 1, 2}, {1, 1, 2}}}).distance, 2);
+  EXPECT_EQ(distance_triangle_triangle(kFace, {{{1, 1, 2}, {1, 1, 3}, {1, 1, 4}}}).distance, 2);
+  EXPECT_EQ(
+      distance_triangle_triangle({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, {{{1, 3, -1}, {1, 3, 1}, {1, 3, 0}}}).distance,
+      3);
+  EXPECT_EQ(
+      distance_triangle_triangle({{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {{{1, 3, 4}, {1, 3, 4}, {1, 3, 4}}}).distance, 5);
+}
+
+TEST(DistanceTriangleTriangle, KeepsItsAccuracyWhereEdgesCrossNearlyParallel) {
+  for (int k = 1; k <= 60; ++k) {
+    // Two edges along x that cross over the middle at height 1e-6, opened by `tilt` only.
+    const double tilt = std::ldexp(1, -k);
+    const TriangleDistance d =
+        distance_triangle_triangle({{{-1, -tilt, 0}, {1.5, 1.5 * tilt, 0}, {0.1, 0.3, -4}}},
+                                   {{{-1.25, 1.25 * tilt, 1e-6}, {1, -tilt, 1e-6}, {0, -0.1, 5}}});
+    EXPECT_NEAR(d.distance, 1e-6, 9 * kDistanceRelativeError) << "tilt 2^-" << k;
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
