@@ -2,12 +2,14 @@
 #include "apps/cli/command.h"
 
 #include "dismantle/io/load_assembly.h"
+#include "dismantle/simplify/simplify_assembly.h"
 
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 namespace dismantle::cli {
 
@@ -94,7 +96,17 @@ Result<Executor> make_executor(const CommonOptions& options) {
 Result<Assembly> load(const CommonOptions& options) {
   ImportOptions import = options.import;
   import.progress = progress_printer(options);
-  return load_assembly(options.assembly_file, import);
+  Result<Assembly> assembly = load_assembly(options.assembly_file, import);
+  if (!assembly || options.simplify == 0) return assembly;
+
+  const Result<Executor> executor = make_executor(options);
+  if (!executor) return executor.error();
+  SimplifyOptions simplify;
+  simplify.executor = *executor;
+  simplify.progress = import.progress;
+  Result<SimplifiedAssembly> simplified = simplify_assembly(*assembly, options.simplify, simplify);
+  if (!simplified) return simplified.error();
+  return std::move(simplified->assembly);
 }
 
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance) {

@@ -15,8 +15,10 @@ int main(int argc, char** argv) {
 
   ExitCode exit_code = ExitCode::Done;
   add_info_command(app, exit_code);
+  add_check_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_audit_command(app, exit_code);
+  add_simplify_command(app, exit_code);
   add_render_command(app, exit_code);
 
   try {

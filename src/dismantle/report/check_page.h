@@ -47,7 +47,7 @@ th { background: #e9edf2; white-space: nowrap; position: sticky; top: 0; }
 th button { all: unset; cursor: pointer; font-weight: 600; } th button:focus-visible { outline: 2px solid #3a6ea5; }
 th[aria-sort=ascending] button::after { content: " \25B2"; }
 th[aria-sort=descending] button::after { content: " \25BC"; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 tbody tr:hover { background: #f0f4fa; }
 .tools { display: flex; flex-wrap: wrap; gap: 12px; align-items: center; margin-bottom: 10px; }
 input { font: inherit; padding: 6px 10px; border: 1px solid #b9c2cd; border-radius: 6px; min-width: 260px; }
@@ -58,9 +58,10 @@ footer { margin-top: 32px; color: var(--soft); font-size: 13px; }
 inline constexpr const char* kTableStart = R"(<section><h2>Pairs</h2>
 <div class="tools"><input id="search" type="search" placeholder="Search names and states"
 aria-label="Search names and states"/><span id="shown"></span></div>
-<table id="pairs"><thead><tr><th><button>#</button></th><th><button>Component</button></th>
-<th><button>with</button></th><th><button>State</button></th><th><button>Depth [mm]</button></th>
-<th><button>Allowed [mm]</button></th><th><button>Distance [mm]</button></th><th><button>Triangle pairs</button></th>
+<table id="pairs"><thead><tr><th class="n"><button>#</button></th><th><button>Component</button></th>
+<th><button>with</button></th><th><button>State</button></th><th class="n"><button>Depth [mm]</button></th>
+<th class="n"><button>Allowed [mm]</button></th><th class="n"><button>Distance [mm]</button></th>
+<th class="n"><button>Triangle pairs</button></th>
 </tr></thead><tbody>
 )";
 

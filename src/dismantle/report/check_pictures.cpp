@@ -10,6 +10,7 @@ namespace dismantle {
 
 namespace {
 
+constexpr int kSamples = 2;          // along a pixel's side
 constexpr float kCurveWidth = 2.0f;  // [pixels]
 // A close-up shows the overlap with this part of it, and of the smaller component, around it.
 constexpr double kOverlapSurroundings = 0.3;
@@ -35,6 +36,7 @@ CheckPictures::CheckPictures(const Assembly& assembly, int width, int height, co
     : assembly_(assembly), scene_(make_scene(assembly)) {
   options_.width = width;
   options_.height = height;
+  options_.samples = kSamples;
   options_.executor = executor;
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "dismantle/io/atomic_file.h"
+#include "dismantle/io/check_report.h"
+#include "dismantle/report/html_check_report.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace dismantle::cli {
+
+namespace {
+
+struct CheckCommand {
+  CommonOptions common;
+  double clearance = 0;
+  std::string html_file;
+  std::size_t pictures = HtmlCheckOptions{}.pictures;
+};
+
+Result<Done> write_html(const Assembly& assembly, const PairStates& states, const CheckCommand& command) {
+  const Result<Executor> executor = make_executor(command.common);
+  if (!executor) return executor.error();
+  HtmlCheckOptions options;
+  options.pictures = command.pictures;
+  options.executor = *executor;
+  options.progress = progress_printer(command.common);
+  const Result<std::string> html = html_check_report(assembly, states, options);
+  if (!html) return html.error();
+  return write_file(command.html_file, *html);
+}
+
+Result<Done> run(const CheckCommand& command) {
+  const Result<Assembly> assembly = load(command.common);
+  if (!assembly) return assembly.error();
+  const Result<PairStates> states = classify(*assembly, command.common, command.clearance);
+  if (!states) return states.error();
+  if (!command.html_file.empty()) {
+    const Result<Done> written = write_html(*assembly, *states, command);
+    if (!written) return written.error();
+  }
+  fmt::print("{}", command.common.json ? check_report_json(*assembly, *states) : check_report_text(*assembly, *states));
+  return Done{};
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("check", "Which components touch, fit into or overlap each other, and how deep");
+  auto options = std::make_shared<CheckCommand>();
+  add_assembly_argument(*command, options->common);
+  command->add_option("--clearance", options->clearance, "List pairs that are apart, too, if by no more than this")
+      ->type_name("MM")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--html", options->html_file, "Write the report as one HTML page with pictures, too")
+      ->type_name("FILE");
+  command->add_option("--pictures", options->pictures, "Pictures of single overlaps in the HTML page, at most")
+      ->type_name("N")
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    const Result<Done> done = run(*options);
+    if (!done) exit_code = report(done.error());
+  });
+}
+
+}  // namespace dismantle::cli
