@@ -54,6 +54,16 @@ TEST(SimplifyMesh, AClosedMeshStaysClosedHoweverFewTrianglesAreAskedFor) {
   }
 }
 
+TEST(SimplifyMesh, StopsAtTheErrorWhereThatComesFirst) {
+  const TriangleMesh mesh = torus(20, 6, 64, 32);
+  const std::size_t fine = simplify_mesh(mesh, {10, 0.05}).faces.size();
+  const std::size_t coarse = simplify_mesh(mesh, {10, 0.5}).faces.size();
+  EXPECT_GT(fine, coarse);
+  EXPECT_GT(coarse, 100u);
+  EXPECT_LT(fine, mesh.faces.size());
+  EXPECT_NEAR(static_cast<double>(count_simplified(mesh, 0.5)), static_cast<double>(coarse), 0.05 * coarse + 4);
+}
+
 TEST(SimplifyMesh, KeepsVerticesOfTheOriginal) {
   const TriangleMesh mesh = torus(20, 6, 32, 16);
   for (const Vec3& v : simplify_mesh(mesh, {200}).vertices)
