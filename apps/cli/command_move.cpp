@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "dismantle/io/atomic_file.h"
+#include "dismantle/io/motion_file.h"
+#include "dismantle/io/path_file.h"
+#include "dismantle/session/play_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace dismantle::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MoveOptions {
+  CommonOptions common;
+  std::string motion_file;
+  std::string output;
+  std::string method = "streams";
+  ElementaryTest test = ElementaryTest::Certified;
+  std::optional<ResponseKind> response;
+  std::string timing_file;
+};
+
+/// A row a simulation step: Table 1 of the paper, and the sizes of the streams.
+std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
+  std::string csv =
+      "step,move,target,time_s,components,reached,contacts,sweeps,vertices_ms,bvh_refit_ms,front_ms,intersection_test_"
+      "ms,"
+      "overall_ms,front,triangle_pairs,intersection_pairs,elementary_tests,replays\n";
+  for (std::size_t i = 0; i < played.steps.size(); ++i) {
+    const PlayedStep& s = played.steps[i];
+    const StepResult& r = s.result;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", i, s.move,
+                       s.target, s.time, motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.contacts.size(),
+                       r.sweeps, r.timings.vertices, r.timings.refit, r.timings.front, r.timings.intersection,
+                       r.timings.overall, r.sizes.front, r.sizes.triangle_pairs, r.sizes.intersection_pairs,
+                       r.sizes.elementary_tests, r.sizes.replays);
+  }
+  return csv;
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<long>(q * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// What happened in one move, for the user: how far it got and who was in the way.
+struct MoveSummary {
+  std::size_t steps = 0, reached = 0;
+  double asked = 0, got = 0;  ///< Distance of the last target and of the last pose from the move's start [mm].
+  std::map<std::string, std::size_t> blocked;  ///< Steps that each component stopped.
+};
+
+std::vector<MoveSummary> summarize(const Assembly& assembly, const Motion& motion, const PlayedMotion& played) {
+  std::vector<MoveSummary> moves(played.path.moves.size());
+  for (const PlayedStep& step : played.steps) {
+    MoveSummary& m = moves[step.move];
+    ++m.steps;
+    m.reached += step.result.reached ? 1 : 0;
+    std::vector<std::string> blockers;
+    for (const CollisionContact& c : step.result.contacts) {
+      const std::string& a = assembly[c.a].name;
+      const std::vector<std::string>& own = motion.moves[step.move].components;
+      blockers.push_back(std::find(own.begin(), own.end(), a) == own.end() ? a : assembly[c.b].name);
+    }
+    std::sort(blockers.begin(), blockers.end());
+    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+    for (const std::string& name : blockers) ++m.blocked[name];
+  }
+  for (std::size_t m = 0; m < moves.size(); ++m) {
+    const Vec3 start = played.path.moves[m].frames.front().pose.position;
+    if (!motion.moves[m].targets.empty()) moves[m].asked = length(motion.moves[m].targets.back().pose.position - start);
+    moves[m].got = length(played.path.moves[m].frames.back().pose.position - start);
+  }
+  return moves;
+}
+
+std::string blockers_text(const MoveSummary& m) {
+  std::string text;
+  for (const auto& [name, count] : m.blocked) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+  return text.empty() ? "nothing" : text;
+}
+
+Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves,
+             const std::vector<double>& overall) {
+  Json list = Json::array();
+  for (std::size_t m = 0; m < moves.size(); ++m) {
+    Json blocked = Json::object();
+    for (const auto& [name, count] : moves[m].blocked) blocked[name] = count;
+    list.push_back({{"label", path.moves[m].label},
+                    {"steps", moves[m].steps},
+                    {"reached", moves[m].reached},
+                    {"asked_mm", moves[m].asked},
+                    {"got_mm", moves[m].got},
+                    {"blocked_by", blocked}});
+  }
+  return {{"format", "dismantle-move"},
+          {"version", 1},
+          {"path", o.output},
+          {"method", o.method},
+          {"tolerance_mm", path.tolerance},
+          {"steps", overall.size()},
+          {"step_ms",
+           {{"median", quantile(overall, 0.5)}, {"p99", quantile(overall, 0.99)}, {"max", quantile(overall, 1)}}},
+          {"moves", list},
+          {"removed", path.removed}};
+}
+
+void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves,
+                const std::vector<double>& overall) {
+  std::size_t width = 4;
+  for (const Move& m : path.moves) width = std::max(width, m.label.size());
+  fmt::print("{:<{}}  {:>6}  {:>7}  {:>10}  {:>10}  stopped by (steps)\n", "move", width, "steps", "reached",
+             "asked mm", "got mm");
+  for (std::size_t m = 0; m < moves.size(); ++m)
+    fmt::print("{:<{}}  {:>6}  {:>7}  {:>10.3f}  {:>10.3f}  {}\n", path.moves[m].label, width, moves[m].steps,
+               moves[m].reached, moves[m].asked, moves[m].got, blockers_text(moves[m]));
+  fmt::print("\n{} steps, {:.3f} ms a step (median), {:.3f} ms (p99); tolerance {:.4g} mm\n", overall.size(),
+             quantile(overall, 0.5), quantile(overall, 0.99), path.tolerance);
+  if (!path.removed.empty()) {
+    std::string names;
+    for (const std::string& n : path.removed) names += (names.empty() ? "" : ", ") + n;
+    fmt::print("taken out: {}\n", names);
+  }
+  fmt::print("wrote {}\n", o.output);
+}
+
+Result<ExitCode> run(const MoveOptions& o) {
+  const Result<Motion> read = read_motion(o.motion_file);
+  if (!read) return read.error();
+  Motion motion = *read;
+  if (o.response) motion.response = *o.response;
+  if (motion.response == ResponseKind::Slide)
+    return Error{ErrorKind::Usage,
+                 "method streams does not slide (its responses are stop and touch, as in the paper); give --response "
+                 "touch or stop"};
+
+  const Result<Assembly> assembly = load(o.common);
+  if (!assembly) return assembly.error();
+  const Result<PairStates> states = classify(*assembly, o.common);
+  if (!states) return states.error();
+  const Result<Executor> executor = make_executor(o.common);
+  if (!executor) return executor.error();
+
+  CollisionOptions collision;
+  collision.test = o.test;
+  collision.executor = *executor;
+  const std::unique_ptr<CollisionEngine> engine = make_streams_engine(*assembly, *states, collision);
+  const Result<PlayedMotion> played = play_motion(*assembly, *states, motion, *engine, progress_printer(o.common));
+  if (!played) return played.error();
+  if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; what was moved until then is in the path\n");
+
+  const Result<Done> written = write_path(o.output, played->path);
+  if (!written) return written.error();
+  if (!o.timing_file.empty()) {
+    const Result<Done> timing = write_file_atomically(o.timing_file, timing_csv(motion, *played));
+    if (!timing) return timing.error();
+  }
+
+  std::vector<double> overall;
+  for (const PlayedStep& s : played->steps) overall.push_back(s.result.timings.overall);
+  const std::vector<MoveSummary> moves = summarize(*assembly, motion, *played);
+  if (o.common.json) {
+    fmt::print("{}\n", to_json(o, played->path, moves, overall).dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(o, played->path, moves, overall);
+  }
+  return played->cancelled ? ExitCode::Failed : ExitCode::Done;
+}
+
+}  // namespace
+
+void add_move_command(CLI::App& app, ExitCode& exit_code) {
+  static const std::map<std::string, ElementaryTest> kTests{{"certified", ElementaryTest::Certified},
+                                                            {"elementary", ElementaryTest::Elementary}};
+  static const std::map<std::string, ResponseKind> kResponses{
+      {"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}};
+  CLI::App* command =
+      app.add_subcommand("move", "Play a motion with collision handling and write the path that really happened");
+  auto options = std::make_shared<MoveOptions>();
+  add_assembly_argument(*command, options->common);
+  command->add_option("MOTION", options->motion_file, "What is asked for (*.motion.json)")->required();
+  command->add_option("-o,--output", options->output, "The path to write (*.path.json)")->required();
+  command->add_option("--method", options->method, "Collision method")
+      ->check(CLI::IsMember({"streams"}))
+      ->capture_default_str();
+  command
+      ->add_option("--ccd", options->test,
+                   "Continuous test: certified (no miss) or elementary (the paper's cubic roots)")
+      ->transform(CLI::CheckedTransformer(kTests))
+      ->type_name("certified|elementary");
+  command
+      ->add_option("--response", options->response,
+                   "At contact: stop before the step, or touch (default: as the motion says)")
+      ->transform(CLI::CheckedTransformer(kResponses))
+      ->type_name("stop|touch");
+  command->add_option("--timing", options->timing_file, "Write the time and sizes of every stage of every step")
+      ->type_name("CSV");
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    const Result<ExitCode> result = run(*options);
+    exit_code = result ? *result : report(result.error());
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/path.h"
+#include "dismantle/collision/collision_engine.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// Components that move as one rigid body.
+struct RigidSet {
+  std::vector<ComponentId> components;
+  Vec3 center;        ///< Of a sphere around all their assembled vertices [mm, assembled state].
+  double radius = 0;  ///< [mm]
+};
+
+/// The set of these components with its bounding sphere.
+RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> components);
+
+/// How one step towards a target ended, and what it cost.
+struct StepResult {
+  Pose pose;             ///< Where the set really is now: on the one screw from its start to the target.
+  bool reached = false;  ///< pose is the target.
+  std::vector<CollisionContact> contacts;  ///< What stopped the motion; empty where reached.
+  int sweeps = 0;                          ///< How many linear sweeps the motion was cut into, and the repeated ones.
+  StepTimings timings;                     ///< Summed over the sweeps.
+  StreamSizes sizes;                       ///< Of the last sweep; tests and replays summed.
+};
+
+/// How far the linear vertex paths of a sweep may be from the true screw, as a share of the tolerance. Motions are cut
+/// until they are that near; the share is taken off every allowance, always, so the guarantee holds for the screw
+/// itself.
+inline constexpr double kPathDeviationShare = 0.125;
+
+/// Moves the set from `start`, where the engine's state has it, along the one screw towards `target`, as far as
+/// `response` allows. The engine's state is then the pose that is returned. Guarantee: the screw from `start` to the
+/// returned pose holds the engine's guarantee, the deviation of the true arcs included. Stop: up to the last sweep that
+/// was free as a whole. Touch: on to the first contact within the sweep that was not.
+/// @pre response is Stop or Touch; tolerance > 0 [mm]
+StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
+                        ResponseKind response, double tolerance);
+
+}  // namespace dismantle
