@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/surface_queries.h"
+
+#include "dismantle/bvh/bvh_build.h"
+#include "dismantle/bvh/bvh_refit.h"
+#include "dismantle/bvh/bvh_traverse.h"
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/narrowphase/intersect_triangle_triangle.h"
+#include "dismantle/narrowphase/penetration_triangle_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dismantle {
+
+namespace {
+
+/// Directions for inside tests, aligned with nothing that a CAD model has.
+constexpr Vec3 kRayDirections[] = {{0.5390625, 0.7265625, 0.42578125},
+                                   {-0.6328125, 0.3515625, 0.69140625},
+                                   {0.2421875, -0.8671875, 0.43359375},
+                                   {-0.4453125, -0.3046875, -0.84375},
+                                   {0.8828125, -0.1796875, -0.43359375}};
+/// A ray that passes an edge by less than this share of the triangle's area is not trusted.
+constexpr double kRayEdgeShare = 1e-9;
+
+/// Squared distance from a point to a node's box (the first three axes of its k-DOP): never above the true one.
+double box_distance_squared(const Kdop16& k, Vec3 p) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double below = static_cast<double>(k.lower[i]) - p[i], above = p[i] - static_cast<double>(k.upper[i]);
+    const double d = std::max({below, above, 0.0});
+    sum += d * d;
+  }
+  return sum;
+}
+
+double box_distance_squared(const Kdop16& a, const Kdop16& b) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double below = static_cast<double>(a.lower[i]) - static_cast<double>(b.upper[i]);
+    const double above = static_cast<double>(b.lower[i]) - static_cast<double>(a.upper[i]);
+    const double d = std::max({below, above, 0.0});
+    sum += d * d;
+  }
+  return sum;
+}
+
+bool ray_meets_box(const Kdop16& k, Vec3 origin, Vec3 direction) {
+  double enter = 0, leave = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double t0 = (static_cast<double>(k.lower[i]) - origin[i]) / direction[i];
+    const double t1 = (static_cast<double>(k.upper[i]) - origin[i]) / direction[i];
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  return enter <= leave * (1 + 1e-12) + 1e-300;
+}
+
+enum class Crossing { No, Yes, Doubtful };
+
+Crossing ray_crosses(const Triangle& t, Vec3 origin, Vec3 direction) {
+  const Vec3 a = t[0] - origin, b = t[1] - origin, c = t[2] - origin;
+  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)), w = dot(direction, cross(a, b));
+  const double total = u + v + w;  // direction . (twice the area vector)
+  const double size = std::abs(u) + std::abs(v) + std::abs(w);
+  const double doubt = kRayEdgeShare * size;
+  const bool inside = (u > doubt && v > doubt && w > doubt) || (u < -doubt && v < -doubt && w < -doubt);
+  if (!inside) {
+    const bool outside = std::min({u, v, w}) < -doubt && std::max({u, v, w}) > doubt;
+    return outside ? Crossing::No : Crossing::Doubtful;
+  }
+  const double height = dot(a, cross(t[1] - t[0], t[2] - t[0])) / total;  // along the ray
+  if (std::abs(height) <= kRayEdgeShare * max_abs(a)) return Crossing::Doubtful;
+  return height > 0 ? Crossing::Yes : Crossing::No;
+}
+
+/// -1 where no answer can be trusted; else how often the ray crosses the component's surface.
+int crossing_count(const AssemblySurface& s, ComponentId component, Vec3 origin, Vec3 direction) {
+  const BvhView tree(s.bvh);
+  std::vector<NodeIndex> open{s.bvh.components[component.value].root};
+  int count = 0;
+  while (!open.empty()) {
+    const NodeIndex node = open.back();
+    open.pop_back();
+    if (!ray_meets_box(s.bounds[node], origin, direction)) continue;
+    if (!tree.is_leaf(node)) {
+      const BvhChildren c = tree.children_of(node);
+      open.push_back(c.left);
+      open.push_back(c.right);
+      continue;
+    }
+    const Crossing crossing = ray_crosses(s.leaf_triangle(node), origin, direction);
+    if (crossing == Crossing::Doubtful) return -1;
+    count += crossing == Crossing::Yes ? 1 : 0;
+  }
+  return count;
+}
+
+/// The component's vertices in regions that are joined by triangles which do not cross the other component.
+class VertexRegions {
+ public:
+  VertexRegions(const AssemblySurface& s, ComponentId component, const std::vector<NodeIndex>& crossing)
+      : begin_(s.vertex_begin[component.value]), parent_(s.vertex_begin[component.value + 1] - begin_) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    const BvhComponent& range = s.bvh.components[component.value];
+    for (NodeIndex leaf = range.leaf_begin; leaf < range.leaf_end; ++leaf) {
+      if (std::binary_search(crossing.begin(), crossing.end(), leaf)) continue;
+      const Face& f = s.leaf_faces[leaf];
+      join(f.v[0], f.v[1]);
+      join(f.v[0], f.v[2]);
+    }
+  }
+  /// The vertex (a global index) that stands for the region of `vertex`.
+  std::uint32_t region_of(std::uint32_t vertex) {
+    std::uint32_t v = vertex - begin_;
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v + begin_;
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) { parent_[region_of(a) - begin_] = region_of(b) - begin_; }
+
+  std::uint32_t begin_;
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor) {
+  AssemblySurface s;
+  const std::size_t count = assembly.components.size();
+  s.vertex_begin.assign(1, 0);
+  s.triangle_begin.assign(1, 0);
+  for (const Component& c : assembly.components) {
+    s.vertex_begin.push_back(s.vertex_begin.back() + static_cast<std::uint32_t>(c.mesh->vertices.size()));
+    s.triangle_begin.push_back(s.triangle_begin.back() + static_cast<std::uint32_t>(c.mesh->faces.size()));
+  }
+  s.vertices.resize(s.vertex_begin.back());
+  std::vector<Face> faces(s.triangle_begin.back());
+  std::vector<Aabb> boxes(faces.size());
+  executor.for_each_heavy(count, [&](std::size_t c) {
+    const std::vector<Vec3> placed = assembled_vertices(assembly.components[c]);
+    std::copy(placed.begin(), placed.end(), s.vertices.begin() + s.vertex_begin[c]);
+    const std::vector<Face>& own = assembly.components[c].mesh->faces;
+    for (std::size_t f = 0; f < own.size(); ++f) {
+      Face& face = faces[s.triangle_begin[c] + f];
+      for (int k = 0; k < 3; ++k) {
+        face.v[k] = own[f].v[k] + s.vertex_begin[c];
+        boxes[s.triangle_begin[c] + f].extend(s.vertices[face.v[k]]);
+      }
+    }
+  });
+  s.bvh = bvh_build({boxes, s.triangle_begin}, executor);
+  s.leaf_faces.resize(faces.size());
+  for (std::size_t leaf = 0; leaf < faces.size(); ++leaf) s.leaf_faces[leaf] = faces[s.bvh.leaf_triangle[leaf]];
+  if (!s.bvh.empty())
+    s.bounds = bvh_fit(s.bvh, bvh_refit_plan(s.bvh), {s.vertices, s.vertices, s.leaf_faces, 0}, executor);
+  return s;
+}
+
+std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& s, double margin,
+                                                                      const Executor& executor) {
+  std::vector<std::pair<ComponentId, ComponentId>> pairs;
+  if (s.bvh.empty()) return pairs;
+  const std::vector<Kdop16> grown =
+      bvh_fit(s.bvh, bvh_refit_plan(s.bvh), {s.vertices, s.vertices, s.leaf_faces, margin / 2}, executor);
+  bvh_traverse_components(s.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, ComponentId b) {
+  SurfaceOverlap overlap;
+  const NodePair start{s.bvh.components[a.value].root, s.bvh.components[b.value].root};
+  if (start.a == kNoNode || start.b == kNoNode) return overlap;
+  bvh_traverse(BvhView(s.bvh), s.bounds, start, [&](NodeIndex leaf_a, NodeIndex leaf_b) {
+    const Triangle ta = s.leaf_triangle(leaf_a), tb = s.leaf_triangle(leaf_b);
+    if (!intersect_triangle_triangle(ta, tb)) return;
+    ++overlap.triangle_pairs;
+    overlap.penetration = std::max(overlap.penetration, penetration_triangle_triangle(ta, tb).depth);
+    overlap.leaves[0].push_back(leaf_a);
+    overlap.leaves[1].push_back(leaf_b);
+  });
+  for (std::vector<NodeIndex>& leaves : overlap.leaves) {
+    std::sort(leaves.begin(), leaves.end());
+    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  }
+  return overlap;
+}
+
+double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
+  const NodePair start{s.bvh.components[a.value].root, s.bvh.components[b.value].root};
+  if (start.a == kNoNode || start.b == kNoNode) return limit;
+  const BvhView tree(s.bvh);
+  const auto least = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
+  double best = limit * limit;
+  std::vector<std::pair<double, NodePair>> open{{least(start), start}};
+  while (!open.empty()) {
+    const auto [bound, pair] = open.back();
+    open.pop_back();
+    if (bound >= best) continue;
+    if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) {
+      const double d = distance_triangle_triangle(s.leaf_triangle(pair.a), s.leaf_triangle(pair.b)).distance;
+      best = std::min(best, d * d);
+      continue;
+    }
+    NodePairChildren next = expanded(tree, s.bounds, pair);
+    if (least(next.pair[0]) < least(next.pair[1]))
+      std::swap(next.pair[0], next.pair[1]);  // the nearer one is taken first
+    for (int k = 0; k < next.count; ++k) open.emplace_back(least(next.pair[k]), next.pair[k]);
+  }
+  return std::sqrt(best);
+}
+
+double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
+  const Triangle dot_triangle{{point, point, point}};
+  const BvhView tree(s.bvh);
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<NodeIndex> open{s.bvh.components[component.value].root};
+  while (!open.empty()) {
+    const NodeIndex node = open.back();
+    open.pop_back();
+    if (box_distance_squared(s.bounds[node], point) >= best) continue;
+    if (tree.is_leaf(node)) {
+      const double d = distance_triangle_triangle(dot_triangle, s.leaf_triangle(node)).distance;
+      best = std::min(best, d * d);
+      continue;
+    }
+    BvhChildren c = tree.children_of(node);
+    if (box_distance_squared(s.bounds[c.left], point) < box_distance_squared(s.bounds[c.right], point))
+      std::swap(c.left, c.right);
+    open.push_back(c.left);
+    open.push_back(c.right);
+  }
+  return std::sqrt(best);
+}
+
+bool surface_contains(const AssemblySurface& s, ComponentId component, Vec3 point) {
+  for (const Vec3& direction : kRayDirections) {
+    const int count = crossing_count(s, component, point, direction);
+    if (count >= 0) return count % 2 == 1;
+  }
+  return false;  // every ray was doubtful: the point is on the surface
+}
+
+double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId outer,
+                      const std::vector<NodeIndex>& crossing) {
+  const NodeIndex root = s.bvh.components[outer.value].root;
+  if (root == kNoNode) return 0;
+  VertexRegions regions(s, inner, crossing);
+  enum : std::uint8_t { kUnknown, kInside, kOutside };
+  const std::uint32_t begin = s.vertex_begin[inner.value], end = s.vertex_begin[inner.value + 1];
+  std::vector<std::uint8_t> side(end - begin, kUnknown);
+  for (std::uint32_t v = begin; v < end; ++v)
+    if (box_distance_squared(s.bounds[root], s.vertices[v]) > 0) side[regions.region_of(v) - begin] = kOutside;
+
+  double deepest = 0;
+  for (std::uint32_t v = begin; v < end; ++v) {
+    std::uint8_t& region_side = side[regions.region_of(v) - begin];
+    if (region_side == kUnknown) region_side = surface_contains(s, outer, s.vertices[v]) ? kInside : kOutside;
+    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.vertices[v]));
+  }
+  return deepest;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/bvh/bvh.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/geometry/kdop.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// The assembled state as one triangle soup with its hierarchy: what questions about two components' surfaces are asked
+/// of.
+struct AssemblySurface {
+  std::vector<Vec3> vertices;                 ///< Of all components, component after component [mm, assembly frame].
+  std::vector<std::uint32_t> vertex_begin;    ///< Shape [component_count + 1].
+  std::vector<std::uint32_t> triangle_begin;  ///< Shape [component_count + 1].
+  std::vector<Face> leaf_faces;               ///< Vertex indices of each leaf's triangle.
+  Bvh bvh;
+  std::vector<Kdop16> bounds;  ///< Of each node, without margin.
+
+  Triangle leaf_triangle(NodeIndex leaf) const {
+    const Face& f = leaf_faces[leaf];
+    return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
+  }
+};
+
+AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor);
+
+/// Pairs of components whose bounds come within `margin` [mm] of each other (a superset), a < b, ordered.
+std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& surface, double margin,
+                                                                      const Executor& executor);
+
+/// How two components' surfaces meet.
+struct SurfaceOverlap {
+  std::size_t triangle_pairs = 0;    ///< That intersect; touching counts.
+  double penetration = 0;            ///< The largest depth of one of them [mm].
+  std::vector<NodeIndex> leaves[2];  ///< Leaves of either component that intersect the other: sorted, each once.
+};
+
+SurfaceOverlap surface_overlap(const AssemblySurface& surface, ComponentId a, ComponentId b);
+
+/// The least distance of two components' surfaces [mm]; `limit` where it is not below that.
+double surface_distance(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);
+
+/// The distance from a point to the component's surface [mm].
+double surface_distance(const AssemblySurface& surface, ComponentId component, Vec3 point);
+
+/// True where the point is inside the component: a ray from it crosses the surface an odd number of times. Rays that
+/// come too near to an edge are replaced by others. Points on the surface may be told either way.
+/// @pre the component is closed
+bool surface_contains(const AssemblySurface& surface, ComponentId component, Vec3 point);
+
+/// The depth of the deepest vertex of `inner` inside `outer` [mm]: its distance to the surface of `outer`; 0 where none
+/// is inside. `crossing` are the leaves of `inner` that intersect `outer` (surface_overlap): vertices that are joined
+/// by other triangles are all inside or all outside, so that one ray a region is enough.
+/// @pre `outer` is closed
+double deepest_vertex(const AssemblySurface& surface, ComponentId inner, ComponentId outer,
+                      const std::vector<NodeIndex>& crossing);
+
+}  // namespace dismantle
