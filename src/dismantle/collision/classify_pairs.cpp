@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <mutex>
 
 namespace dismantle {
 
@@ -77,7 +78,8 @@ Result<PairStates> classify_pairs(const Assembly& assembly, const ClassifyOption
   for (std::size_t c = 0; c < size.size(); ++c) size[c] = diagonal(assembled_bounds(assembly.components[c]));
 
   std::vector<ComponentPair> found(candidates.size());
-  std::atomic<std::size_t> done{0};
+  std::mutex progress_mutex;
+  std::size_t done = 0;
   std::atomic<bool> cancelled{false};
   options.executor.for_each_heavy(candidates.size(), [&](std::size_t i) {
     if (cancelled) return;
@@ -88,6 +90,7 @@ Result<PairStates> classify_pairs(const Assembly& assembly, const ClassifyOption
     pair.a = a;
     pair.b = b;
     found[i] = classify(assembly, surface, pair, options.rule, limits);
+    const std::lock_guard lock(progress_mutex);
     const double fraction = static_cast<double>(++done) / static_cast<double>(candidates.size());
     if (!report_progress(options.progress, "comparing components", fraction)) cancelled = true;
   });

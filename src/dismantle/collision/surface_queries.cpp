@@ -4,6 +4,7 @@
 #include "dismantle/bvh/bvh_build.h"
 #include "dismantle/bvh/bvh_refit.h"
 #include "dismantle/bvh/bvh_traverse.h"
+#include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
@@ -215,7 +216,6 @@ double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, 
 }
 
 double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
-  const Triangle dot_triangle{{point, point, point}};
   const BvhView tree(s.bvh);
   double best = std::numeric_limits<double>::infinity();
   std::vector<NodeIndex> open{s.bvh.components[component.value].root};
@@ -224,8 +224,8 @@ double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 po
     open.pop_back();
     if (box_distance_squared(s.bounds[node], point) >= best) continue;
     if (tree.is_leaf(node)) {
-      const double d = distance_triangle_triangle(dot_triangle, s.leaf_triangle(node)).distance;
-      best = std::min(best, d * d);
+      const ClosestPoints closest = closest_points_vertex_face(point, s.leaf_triangle(node));
+      best = std::min(best, length_squared(closest.point_a - closest.point_b));
       continue;
     }
     BvhChildren c = tree.children_of(node);
