@@ -215,17 +215,22 @@ double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, 
   return std::sqrt(best);
 }
 
-double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
+SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
   const BvhView tree(s.bvh);
+  SurfaceDistance nearest;
   double best = std::numeric_limits<double>::infinity();
-  std::vector<NodeIndex> open{s.bvh.components[component.value].root};
+  std::vector<NodeIndex> open;
+  if (s.bvh.components[component.value].root != kNoNode) open.push_back(s.bvh.components[component.value].root);
   while (!open.empty()) {
     const NodeIndex node = open.back();
     open.pop_back();
     if (box_distance_squared(s.bounds[node], point) >= best) continue;
     if (tree.is_leaf(node)) {
       const ClosestPoints closest = closest_points_vertex_face(point, s.leaf_triangle(node));
-      best = std::min(best, length_squared(closest.point_a - closest.point_b));
+      const double squared = length_squared(closest.point_a - closest.point_b);
+      if (squared >= best) continue;
+      best = squared;
+      nearest.leaf = node;
       continue;
     }
     BvhChildren c = tree.children_of(node);
@@ -234,7 +239,18 @@ double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 po
     open.push_back(c.left);
     open.push_back(c.right);
   }
-  return std::sqrt(best);
+  nearest.distance = std::sqrt(best);
+  return nearest;
+}
+
+SurfaceDepth surface_depth(const AssemblySurface& s, ComponentId component, Vec3 point, double harmless) {
+  const NodeIndex root = s.bvh.components[component.value].root;
+  const double outside_box = root == kNoNode ? std::numeric_limits<double>::infinity()
+                                             : std::sqrt(box_distance_squared(s.bounds[root], point));
+  if (outside_box > 0) return {-outside_box, kNoNode};
+  const SurfaceDistance nearest = surface_distance(s, component, point);
+  const bool inside = nearest.distance <= harmless || surface_contains(s, component, point);
+  return {inside ? nearest.distance : -nearest.distance, nearest.leaf};
 }
 
 bool surface_contains(const AssemblySurface& s, ComponentId component, Vec3 point) {
@@ -260,7 +276,7 @@ double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId o
   for (std::uint32_t v = begin; v < end; ++v) {
     std::uint8_t& region_side = side[regions.region_of(v) - begin];
     if (region_side == kUnknown) region_side = surface_contains(s, outer, s.vertices[v]) ? kInside : kOutside;
-    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.vertices[v]));
+    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.vertices[v]).distance);
   }
   return deepest;
 }

@@ -44,13 +44,28 @@ SurfaceOverlap surface_overlap(const AssemblySurface& surface, ComponentId a, Co
 /// The least distance of two components' surfaces [mm]; `limit` where it is not below that.
 double surface_distance(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);
 
-/// The distance from a point to the component's surface [mm].
-double surface_distance(const AssemblySurface& surface, ComponentId component, Vec3 point);
+/// The distance from a point to the component's surface [mm], and the leaf of the nearest triangle.
+struct SurfaceDistance {
+  double distance = 0;
+  NodeIndex leaf = kNoNode;
+};
+SurfaceDistance surface_distance(const AssemblySurface& surface, ComponentId component, Vec3 point);
 
 /// True where the point is inside the component: a ray from it crosses the surface an odd number of times. Rays that
 /// come too near to an edge are replaced by others. Points on the surface may be told either way.
 /// @pre the component is closed
 bool surface_contains(const AssemblySurface& surface, ComponentId component, Vec3 point);
+
+/// How deep a point is inside a component.
+struct SurfaceDepth {
+  double depth = 0;  ///< The distance to the surface where inside, the negative distance (or less far) outside [mm].
+  NodeIndex leaf = kNoNode;  ///< Of the nearest triangle; kNoNode where the component's box alone gave the answer.
+};
+
+/// An upper bound of the point's depth. Points at most `harmless` [mm] from the surface are taken for inside without
+/// asking, which saves the ray; elsewhere the depth is exact, but for points outside the component's box. @pre the
+/// component is closed
+SurfaceDepth surface_depth(const AssemblySurface& surface, ComponentId component, Vec3 point, double harmless);
 
 /// The depth of the deepest vertex of `inner` inside `outer` [mm]: its distance to the surface of `outer`; 0 where none
 /// is inside. `crossing` are the leaves of `inner` that intersect `outer` (surface_overlap): vertices that are joined

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/collision_engine.h"
+#include "dismantle/collision/surface_queries.h"
+
+#include <memory>
+#include <vector>
+
+namespace dismantle {
+
+/// Keeps the second rule of the guarantee (docs/guarantee.md) where triangle pairs cannot: no vertex of a component
+/// gets deeper than twice the pair's allowance inside another closed component.
+///
+/// A triangle smaller than a fit's allowance is never "too deep" in anything, so a finely tessellated surface would be
+/// permeable for the pair. The guard watches the vertices of such pairs by their signed distance to the other surface,
+/// which changes by at most the path that they travel: each vertex keeps the slack that was found last, less the way
+/// since, and is looked at again only when its slack may be used up.
+class VertexDepthGuard {
+ public:
+  /// Watches the Fit pairs of which some triangle's longest edge is below twice the allowance.
+  VertexDepthGuard(const Assembly& assembly, const PairStates& pairs, const Executor& executor);
+
+  bool watches_nothing() const { return sides_.empty(); }
+
+  /// The vertices that get too deep on the way from state `from` to `to`: one contact a pair of components at most,
+  /// with the toi up to which all its vertices are certainly allowed. Relative motions are screws.
+  std::vector<CollisionContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
+  /// Makes the end of the last sweep the state that the kept slacks are for. @pre that sweep found nothing
+  void commit();
+  /// Forgets all slacks: the state was changed without a sweep.
+  void jump();
+
+ private:
+  /// The vertices of one component against the surface of another.
+  struct Side {
+    ComponentId inner, outer;
+    double limit = 0;               ///< Deepest that a vertex may be [mm].
+    double resolution = 0;          ///< Slacks below this are used up [mm].
+    std::vector<double> slack;      ///< Lower bound of signed distance + limit, a vertex [mm]; below 0: unknown.
+    std::vector<double> slack_end;  ///< The same at the end of the last sweep.
+  };
+  struct Finding {
+    double toi = 1;
+    std::uint32_t vertex = 0;
+    NodeIndex leaf = kNoNode;
+  };
+
+  void watch(const Assembly& assembly, const ComponentPair& pair, double tolerance);
+  Finding sweep_side(Side& side, const RigidTransform& start, const RigidTransform& end) const;
+  CollisionContact contact_of(const Side& side, const Finding& finding) const;
+
+  std::shared_ptr<const AssemblySurface> surface_;
+  std::vector<std::uint32_t> face_of_vertex_;  ///< A face (of its component) at each vertex.
+  std::vector<Side> sides_;
+  Executor executor_;
+};
+
+/// `engine`, with the guard's findings among its contacts; `engine` itself where the guard has nothing to watch.
+std::unique_ptr<CollisionEngine> make_guarded_engine(std::unique_ptr<CollisionEngine> engine, const Assembly& assembly,
+                                                     const PairStates& pairs, const Executor& executor);
+
+}  // namespace dismantle
