@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/surface_queries.h"
 
-#include "dismantle/bvh/bvh_build.h"
-#include "dismantle/bvh/bvh_refit.h"
 #include "dismantle/bvh/bvh_traverse.h"
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
@@ -79,8 +77,8 @@ Crossing ray_crosses(const Triangle& t, Vec3 origin, Vec3 direction) {
 
 /// -1 where no answer can be trusted; else how often the ray crosses the component's surface.
 int crossing_count(const AssemblySurface& s, ComponentId component, Vec3 origin, Vec3 direction) {
-  const BvhView tree(s.bvh);
-  std::vector<NodeIndex> open{s.bvh.components[component.value].root};
+  const BvhView tree(s.streams.bvh);
+  std::vector<NodeIndex> open{s.root_of(component)};
   int count = 0;
   while (!open.empty()) {
     const NodeIndex node = open.back();
@@ -103,12 +101,12 @@ int crossing_count(const AssemblySurface& s, ComponentId component, Vec3 origin,
 class VertexRegions {
  public:
   VertexRegions(const AssemblySurface& s, ComponentId component, const std::vector<NodeIndex>& crossing)
-      : begin_(s.vertex_begin[component.value]), parent_(s.vertex_begin[component.value + 1] - begin_) {
+      : begin_(s.streams.vertex_begin[component.value]), parent_(s.streams.vertex_begin[component.value + 1] - begin_) {
     std::iota(parent_.begin(), parent_.end(), 0u);
-    const BvhComponent& range = s.bvh.components[component.value];
+    const BvhComponent& range = s.streams.bvh.components[component.value];
     for (NodeIndex leaf = range.leaf_begin; leaf < range.leaf_end; ++leaf) {
       if (std::binary_search(crossing.begin(), crossing.end(), leaf)) continue;
-      const Face& f = s.leaf_faces[leaf];
+      const Face& f = s.streams.faces[leaf];
       join(f.v[0], f.v[1]);
       join(f.v[0], f.v[2]);
     }
@@ -131,52 +129,25 @@ class VertexRegions {
 
 AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor) {
   AssemblySurface s;
-  const std::size_t count = assembly.components.size();
-  s.vertex_begin.assign(1, 0);
-  s.triangle_begin.assign(1, 0);
-  for (const Component& c : assembly.components) {
-    s.vertex_begin.push_back(s.vertex_begin.back() + static_cast<std::uint32_t>(c.mesh->vertices.size()));
-    s.triangle_begin.push_back(s.triangle_begin.back() + static_cast<std::uint32_t>(c.mesh->faces.size()));
-  }
-  s.vertices.resize(s.vertex_begin.back());
-  std::vector<Face> faces(s.triangle_begin.back());
-  std::vector<Aabb> boxes(faces.size());
-  executor.for_each_heavy(count, [&](std::size_t c) {
-    const std::vector<Vec3> placed = assembled_vertices(assembly.components[c]);
-    std::copy(placed.begin(), placed.end(), s.vertices.begin() + s.vertex_begin[c]);
-    const std::vector<Face>& own = assembly.components[c].mesh->faces;
-    for (std::size_t f = 0; f < own.size(); ++f) {
-      Face& face = faces[s.triangle_begin[c] + f];
-      for (int k = 0; k < 3; ++k) {
-        face.v[k] = own[f].v[k] + s.vertex_begin[c];
-        boxes[s.triangle_begin[c] + f].extend(s.vertices[face.v[k]]);
-      }
-    }
-  });
-  s.bvh = bvh_build({boxes, s.triangle_begin}, executor);
-  s.leaf_faces.resize(faces.size());
-  for (std::size_t leaf = 0; leaf < faces.size(); ++leaf) s.leaf_faces[leaf] = faces[s.bvh.leaf_triangle[leaf]];
-  if (!s.bvh.empty())
-    s.bounds = bvh_fit(s.bvh, bvh_refit_plan(s.bvh), {s.vertices, s.vertices, s.leaf_faces, 0}, executor);
+  s.streams = make_triangle_streams(assembly, executor);
+  s.bounds = bounds_at(s.streams, s.streams.vertices, 0, executor);
   return s;
 }
 
 std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& s, double margin,
                                                                       const Executor& executor) {
   std::vector<std::pair<ComponentId, ComponentId>> pairs;
-  if (s.bvh.empty()) return pairs;
-  const std::vector<Kdop16> grown =
-      bvh_fit(s.bvh, bvh_refit_plan(s.bvh), {s.vertices, s.vertices, s.leaf_faces, margin / 2}, executor);
-  bvh_traverse_components(s.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
+  const std::vector<Kdop16> grown = bounds_at(s.streams, s.streams.vertices, margin / 2, executor);
+  bvh_traverse_components(s.streams.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, ComponentId b) {
   SurfaceOverlap overlap;
-  const NodePair start{s.bvh.components[a.value].root, s.bvh.components[b.value].root};
+  const NodePair start{s.root_of(a), s.root_of(b)};
   if (start.a == kNoNode || start.b == kNoNode) return overlap;
-  bvh_traverse(BvhView(s.bvh), s.bounds, start, [&](NodeIndex leaf_a, NodeIndex leaf_b) {
+  bvh_traverse(BvhView(s.streams.bvh), s.bounds, start, [&](NodeIndex leaf_a, NodeIndex leaf_b) {
     const Triangle ta = s.leaf_triangle(leaf_a), tb = s.leaf_triangle(leaf_b);
     if (!intersect_triangle_triangle(ta, tb)) return;
     ++overlap.triangle_pairs;
@@ -192,9 +163,9 @@ SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, Componen
 }
 
 double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
-  const NodePair start{s.bvh.components[a.value].root, s.bvh.components[b.value].root};
+  const NodePair start{s.root_of(a), s.root_of(b)};
   if (start.a == kNoNode || start.b == kNoNode) return limit;
-  const BvhView tree(s.bvh);
+  const BvhView tree(s.streams.bvh);
   const auto least = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
   double best = limit * limit;
   std::vector<std::pair<double, NodePair>> open{{least(start), start}};
@@ -216,11 +187,11 @@ double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, 
 }
 
 SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
-  const BvhView tree(s.bvh);
+  const BvhView tree(s.streams.bvh);
   SurfaceDistance nearest;
   double best = std::numeric_limits<double>::infinity();
   std::vector<NodeIndex> open;
-  if (s.bvh.components[component.value].root != kNoNode) open.push_back(s.bvh.components[component.value].root);
+  if (s.root_of(component) != kNoNode) open.push_back(s.root_of(component));
   while (!open.empty()) {
     const NodeIndex node = open.back();
     open.pop_back();
@@ -244,7 +215,7 @@ SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component
 }
 
 SurfaceDepth surface_depth(const AssemblySurface& s, ComponentId component, Vec3 point, double harmless) {
-  const NodeIndex root = s.bvh.components[component.value].root;
+  const NodeIndex root = s.root_of(component);
   const double outside_box = root == kNoNode ? std::numeric_limits<double>::infinity()
                                              : std::sqrt(box_distance_squared(s.bounds[root], point));
   if (outside_box > 0) return {-outside_box, kNoNode};
@@ -263,20 +234,20 @@ bool surface_contains(const AssemblySurface& s, ComponentId component, Vec3 poin
 
 double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId outer,
                       const std::vector<NodeIndex>& crossing) {
-  const NodeIndex root = s.bvh.components[outer.value].root;
+  const NodeIndex root = s.root_of(outer);
   if (root == kNoNode) return 0;
   VertexRegions regions(s, inner, crossing);
   enum : std::uint8_t { kUnknown, kInside, kOutside };
-  const std::uint32_t begin = s.vertex_begin[inner.value], end = s.vertex_begin[inner.value + 1];
+  const std::uint32_t begin = s.streams.vertex_begin[inner.value], end = s.streams.vertex_begin[inner.value + 1];
   std::vector<std::uint8_t> side(end - begin, kUnknown);
   for (std::uint32_t v = begin; v < end; ++v)
-    if (box_distance_squared(s.bounds[root], s.vertices[v]) > 0) side[regions.region_of(v) - begin] = kOutside;
+    if (box_distance_squared(s.bounds[root], s.streams.vertices[v]) > 0) side[regions.region_of(v) - begin] = kOutside;
 
   double deepest = 0;
   for (std::uint32_t v = begin; v < end; ++v) {
     std::uint8_t& region_side = side[regions.region_of(v) - begin];
-    if (region_side == kUnknown) region_side = surface_contains(s, outer, s.vertices[v]) ? kInside : kOutside;
-    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.vertices[v]).distance);
+    if (region_side == kUnknown) region_side = surface_contains(s, outer, s.streams.vertices[v]) ? kInside : kOutside;
+    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.streams.vertices[v]).distance);
   }
   return deepest;
 }

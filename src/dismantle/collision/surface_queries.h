@@ -2,28 +2,23 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
-#include "dismantle/bvh/bvh.h"
-#include "dismantle/exec/executor.h"
-#include "dismantle/geometry/kdop.h"
+#include "dismantle/collision/triangle_streams.h"
 
 #include <vector>
 
 namespace dismantle {
 
-/// The assembled state as one triangle soup with its hierarchy: what questions about two components' surfaces are asked
-/// of.
+/// The assembled state with its hierarchy: what questions about components' surfaces are asked of.
 struct AssemblySurface {
-  std::vector<Vec3> vertices;                 ///< Of all components, component after component [mm, assembly frame].
-  std::vector<std::uint32_t> vertex_begin;    ///< Shape [component_count + 1].
-  std::vector<std::uint32_t> triangle_begin;  ///< Shape [component_count + 1].
-  std::vector<Face> leaf_faces;               ///< Vertex indices of each leaf's triangle.
-  Bvh bvh;
+  TriangleStreams streams;
   std::vector<Kdop16> bounds;  ///< Of each node, without margin.
 
   Triangle leaf_triangle(NodeIndex leaf) const {
-    const Face& f = leaf_faces[leaf];
-    return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
+    const Face& f = streams.faces[leaf];
+    return {{streams.vertices[f.v[0]], streams.vertices[f.v[1]], streams.vertices[f.v[2]]}};
   }
+  /// kNoNode for a component without triangles.
+  NodeIndex root_of(ComponentId component) const { return streams.bvh.components[component.value].root; }
 };
 
 AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor);

@@ -45,12 +45,10 @@ VertexDepthGuard::VertexDepthGuard(const Assembly& assembly, const PairStates& p
     watch(assembly, p, pairs.tolerance);
   }
   if (!surface_) return;
-  face_of_vertex_.assign(surface_->vertices.size(), 0);
-  for (std::size_t c = 0; c < assembly.components.size(); ++c) {
-    const std::vector<Face>& faces = assembly.components[c].mesh->faces;
-    for (std::uint32_t f = 0; f < faces.size(); ++f)
-      for (const std::uint32_t v : faces[f].v) face_of_vertex_[surface_->vertex_begin[c] + v] = f;
-  }
+  const TriangleStreams& streams = surface_->streams;
+  face_of_vertex_.resize(streams.vertices.size());
+  for (std::size_t leaf = 0; leaf < streams.faces.size(); ++leaf)
+    for (const std::uint32_t v : streams.faces[leaf].v) face_of_vertex_[v] = streams.face_of[leaf];
 }
 
 void VertexDepthGuard::watch(const Assembly& assembly, const ComponentPair& pair, double tolerance) {
@@ -69,12 +67,12 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const RigidTr
   const AssemblySurface& s = *surface_;
   const Pose pose_start = pose_from_transform(start), pose_end = pose_from_transform(end);
   const Screw screw = screw_between(pose_start, pose_end);
-  const std::uint32_t begin = s.vertex_begin[side.inner.value];
+  const std::uint32_t begin = s.streams.vertex_begin[side.inner.value];
   side.slack_end = side.slack;
 
   std::vector<Finding> findings(side.slack.size());
   executor_.for_each(side.slack.size(), [&](std::size_t i) {
-    const Vec3 vertex = s.vertices[begin + i];
+    const Vec3 vertex = s.streams.vertices[begin + i];
     const double way = screw_path_length(screw, screw_radius(screw, start * vertex, 0));
     if (side.slack[i] > way) {
       side.slack_end[i] = side.slack[i] - way;
@@ -102,8 +100,8 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const RigidTr
 }
 
 CollisionContact VertexDepthGuard::contact_of(const Side& side, const Finding& finding) const {
-  const FaceId inner_face(face_of_vertex_[surface_->vertex_begin[side.inner.value] + finding.vertex]);
-  const FaceId outer_face(surface_->bvh.leaf_triangle[finding.leaf] - surface_->triangle_begin[side.outer.value]);
+  const FaceId inner_face = face_of_vertex_[surface_->streams.vertex_begin[side.inner.value] + finding.vertex];
+  const FaceId outer_face = surface_->streams.face_of[finding.leaf];
   if (side.inner < side.outer) return {side.inner, side.outer, inner_face, outer_face, finding.toi};
   return {side.outer, side.inner, outer_face, inner_face, finding.toi};
 }

@@ -51,7 +51,7 @@ class VertexDepthGuard {
   CollisionContact contact_of(const Side& side, const Finding& finding) const;
 
   std::shared_ptr<const AssemblySurface> surface_;
-  std::vector<std::uint32_t> face_of_vertex_;  ///< A face (of its component) at each vertex.
+  std::vector<FaceId> face_of_vertex_;  ///< A face at each vertex of the streams.
   std::vector<Side> sides_;
   Executor executor_;
 };
