@@ -15,15 +15,6 @@ namespace dismantle {
 
 namespace {
 
-/// Directions for inside tests, aligned with nothing that a CAD model has.
-constexpr Vec3 kRayDirections[] = {{0.5390625, 0.7265625, 0.42578125},
-                                   {-0.6328125, 0.3515625, 0.69140625},
-                                   {0.2421875, -0.8671875, 0.43359375},
-                                   {-0.4453125, -0.3046875, -0.84375},
-                                   {0.8828125, -0.1796875, -0.43359375}};
-/// A ray that passes an edge by less than this share of the triangle's area is not trusted.
-constexpr double kRayEdgeShare = 1e-9;
-
 /// Squared distance from a point to a node's box (the first three axes of its k-DOP): never above the true one.
 double box_distance_squared(const Kdop16& k, Vec3 p) {
   double sum = 0;
@@ -44,57 +35,6 @@ double box_distance_squared(const Kdop16& a, const Kdop16& b) {
     sum += d * d;
   }
   return sum;
-}
-
-bool ray_meets_box(const Kdop16& k, Vec3 origin, Vec3 direction) {
-  double enter = 0, leave = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double t0 = (static_cast<double>(k.lower[i]) - origin[i]) / direction[i];
-    const double t1 = (static_cast<double>(k.upper[i]) - origin[i]) / direction[i];
-    enter = std::max(enter, std::min(t0, t1));
-    leave = std::min(leave, std::max(t0, t1));
-  }
-  return enter <= leave * (1 + 1e-12) + 1e-300;
-}
-
-enum class Crossing { No, Yes, Doubtful };
-
-Crossing ray_crosses(const Triangle& t, Vec3 origin, Vec3 direction) {
-  const Vec3 a = t[0] - origin, b = t[1] - origin, c = t[2] - origin;
-  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)), w = dot(direction, cross(a, b));
-  const double total = u + v + w;  // direction . (twice the area vector)
-  const double size = std::abs(u) + std::abs(v) + std::abs(w);
-  const double doubt = kRayEdgeShare * size;
-  const bool inside = (u > doubt && v > doubt && w > doubt) || (u < -doubt && v < -doubt && w < -doubt);
-  if (!inside) {
-    const bool outside = std::min({u, v, w}) < -doubt && std::max({u, v, w}) > doubt;
-    return outside ? Crossing::No : Crossing::Doubtful;
-  }
-  const double height = dot(a, cross(t[1] - t[0], t[2] - t[0])) / total;  // along the ray
-  if (std::abs(height) <= kRayEdgeShare * max_abs(a)) return Crossing::Doubtful;
-  return height > 0 ? Crossing::Yes : Crossing::No;
-}
-
-/// -1 where no answer can be trusted; else how often the ray crosses the component's surface.
-int crossing_count(const AssemblySurface& s, ComponentId component, Vec3 origin, Vec3 direction) {
-  const BvhView tree(s.streams.bvh);
-  std::vector<NodeIndex> open{s.root_of(component)};
-  int count = 0;
-  while (!open.empty()) {
-    const NodeIndex node = open.back();
-    open.pop_back();
-    if (!ray_meets_box(s.bounds[node], origin, direction)) continue;
-    if (!tree.is_leaf(node)) {
-      const BvhChildren c = tree.children_of(node);
-      open.push_back(c.left);
-      open.push_back(c.right);
-      continue;
-    }
-    const Crossing crossing = ray_crosses(s.leaf_triangle(node), origin, direction);
-    if (crossing == Crossing::Doubtful) return -1;
-    count += crossing == Crossing::Yes ? 1 : 0;
-  }
-  return count;
 }
 
 /// The component's vertices in regions that are joined by triangles which do not cross the other component.
@@ -220,16 +160,8 @@ SurfaceDepth surface_depth(const AssemblySurface& s, ComponentId component, Vec3
                                              : std::sqrt(box_distance_squared(s.bounds[root], point));
   if (outside_box > 0) return {-outside_box, kNoNode};
   const SurfaceDistance nearest = surface_distance(s, component, point);
-  const bool inside = nearest.distance <= harmless || surface_contains(s, component, point);
+  const bool inside = nearest.distance <= harmless || point_in_component(s.assembled(), point, component);
   return {inside ? nearest.distance : -nearest.distance, nearest.leaf};
-}
-
-bool surface_contains(const AssemblySurface& s, ComponentId component, Vec3 point) {
-  for (const Vec3& direction : kRayDirections) {
-    const int count = crossing_count(s, component, point, direction);
-    if (count >= 0) return count % 2 == 1;
-  }
-  return false;  // every ray was doubtful: the point is on the surface
 }
 
 double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId outer,
@@ -246,7 +178,8 @@ double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId o
   double deepest = 0;
   for (std::uint32_t v = begin; v < end; ++v) {
     std::uint8_t& region_side = side[regions.region_of(v) - begin];
-    if (region_side == kUnknown) region_side = surface_contains(s, outer, s.streams.vertices[v]) ? kInside : kOutside;
+    if (region_side == kUnknown)
+      region_side = point_in_component(s.assembled(), s.streams.vertices[v], outer) ? kInside : kOutside;
     if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.streams.vertices[v]).distance);
   }
   return deepest;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/collision/solid_query.h"
 #include "dismantle/collision/triangle_streams.h"
 
 #include <vector>
@@ -16,6 +17,10 @@ struct AssemblySurface {
   Triangle leaf_triangle(NodeIndex leaf) const {
     const Face& f = streams.faces[leaf];
     return {{streams.vertices[f.v[0]], streams.vertices[f.v[1]], streams.vertices[f.v[2]]}};
+  }
+  /// As solid queries take it.
+  MomentaryTriangles assembled() const {
+    return {&streams, {streams.vertices, streams.vertices, streams.faces}, bounds, 0};
   }
   /// kNoNode for a component without triangles.
   NodeIndex root_of(ComponentId component) const { return streams.bvh.components[component.value].root; }
@@ -45,11 +50,6 @@ struct SurfaceDistance {
   NodeIndex leaf = kNoNode;
 };
 SurfaceDistance surface_distance(const AssemblySurface& surface, ComponentId component, Vec3 point);
-
-/// True where the point is inside the component: a ray from it crosses the surface an odd number of times. Rays that
-/// come too near to an edge are replaced by others. Points on the surface may be told either way.
-/// @pre the component is closed
-bool surface_contains(const AssemblySurface& surface, ComponentId component, Vec3 point);
 
 /// How deep a point is inside a component.
 struct SurfaceDepth {
