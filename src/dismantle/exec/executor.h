@@ -17,6 +17,8 @@ enum class ExecutorKind {
   Shuffled,  ///< One after another in a scrambled order: tests use it to show that order does not matter.
 };
 
+class ThreadBackend;
+
 /// Runs kernels: functors of views, called once an item with the item's index. Cheap to copy; copies share their
 /// threads.
 class Executor {
@@ -65,10 +67,9 @@ class Executor {
   static constexpr std::size_t kItemsPerChunk = 256;
   void run_chunks(std::size_t count, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& run) const;
 
-  struct Arena;
   ExecutorKind kind_;
   int thread_count_;
-  std::shared_ptr<Arena> arena_;
+  std::shared_ptr<const ThreadBackend> threads_;
 };
 
 }  // namespace dismantle

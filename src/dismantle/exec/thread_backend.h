@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace dismantle {
+
+/// The threads behind an Executor of kind Threads. Two implementations, one of them linked: oneTBB, and plain
+/// std::thread for ThreadSanitizer builds, which report races inside Debian's oneTBB that are not there.
+class ThreadBackend {
+ public:
+  virtual ~ThreadBackend() = default;
+  /// Calls run(begin, end) for ranges of about `chunk` items that make up [0, count).
+  virtual void run_chunks(std::size_t count, std::size_t chunk,
+                          const std::function<void(std::size_t, std::size_t)>& run) const = 0;
+  /// Sorts keys ascending.
+  virtual void sort(Span<std::uint64_t> keys) const = 0;
+};
+
+/// @pre thread_count > 0
+std::shared_ptr<const ThreadBackend> make_thread_backend(int thread_count);
+
+}  // namespace dismantle
