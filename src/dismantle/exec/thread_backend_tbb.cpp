@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/exec/thread_backend.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -7,8 +9,6 @@
 #include <tbb/task_arena.h>
 
 #include <optional>
-
-#include "dismantle/exec/thread_backend.h"
 
 namespace dismantle {
 
