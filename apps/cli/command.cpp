@@ -25,7 +25,7 @@ void interrupt(int) {
 }  // namespace
 
 void add_common_options(CLI::App& command, CommonOptions& o) {
-  static const std::map<std::string, PairRule> kRules{{"auto", PairRule::Auto}, {"paper", PairRule::Paper}};
+  static const std::map<std::string, ClassifyRule> kRules{{"auto", ClassifyRule::Auto}, {"paper", ClassifyRule::Paper}};
   const std::string group = "Common options";
   command.add_option("--units", o.import.units, "Unit of the input's coordinates (mm, cm, m, um, in, ft)")
       ->check(CLI::IsMember({"mm", "cm", "m", "um", "in", "ft"}))

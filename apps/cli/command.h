@@ -25,7 +25,7 @@ struct CommonOptions {
   ImportOptions import;
   double tolerance = 0;
   double fit = 0;
-  PairRule pairs = PairRule::Auto;
+  ClassifyRule pairs = ClassifyRule::Auto;
   std::size_t simplify = 0;
   std::string device = "auto";
   int threads = 0;

@@ -17,7 +17,7 @@ using scenes::component;
 using scenes::tube;
 
 PairStates classified(const Assembly& assembly, double tolerance = 0.01, double clearance = 0,
-                      PairRule rule = PairRule::Auto) {
+                      ClassifyRule rule = ClassifyRule::Auto) {
   ClassifyOptions options;
   options.tolerance = tolerance;
   options.clearance = clearance;
@@ -91,7 +91,7 @@ TEST(ClassifyPairs, LeavesASolidInACavityAlone) {
 
 TEST(ClassifyPairs, MakesEveryMeetingPairEmbeddedByThePapersRule) {
   const Assembly touching = two(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1}));
-  EXPECT_EQ(classified(touching, 0.01, 0, PairRule::Paper).pairs.at(0).state, PairState::Embedded);
+  EXPECT_EQ(classified(touching, 0.01, 0, ClassifyRule::Paper).pairs.at(0).state, PairState::Embedded);
 }
 
 TEST(ClassifyPairs, FindsDeepVerticesThatFineTrianglesHide) {

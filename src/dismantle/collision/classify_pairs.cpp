@@ -46,7 +46,7 @@ double deepest_vertex(const Assembly& assembly, const AssemblySurface& s, const 
   return deepest;
 }
 
-ComponentPair classify(const Assembly& assembly, const AssemblySurface& s, ComponentPair pair, PairRule rule,
+ComponentPair classify(const Assembly& assembly, const AssemblySurface& s, ComponentPair pair, ClassifyRule rule,
                        const Limits& limits) {
   const SurfaceOverlap overlap = surface_overlap(s, pair.a, pair.b);
   pair.triangle_pairs = overlap.triangle_pairs;
@@ -55,7 +55,7 @@ ComponentPair classify(const Assembly& assembly, const AssemblySurface& s, Compo
     if (deepest_vertex(assembly, s, pair, overlap) > limits.tolerance) return embedded(pair);
     return apart(pair, surface_distance(s, pair.a, pair.b, std::max(limits.near, 2 * limits.tolerance)), limits);
   }
-  if (rule == PairRule::Paper || overlap.penetration > limits.fit) return embedded(pair);
+  if (rule == ClassifyRule::Paper || overlap.penetration > limits.fit) return embedded(pair);
   // An audit lets vertices be twice as deep as triangles.
   const double depth = std::max(overlap.penetration, deepest_vertex(assembly, s, pair, overlap) / 2);
   if (depth > limits.fit && depth > limits.tolerance) return embedded(pair);

@@ -10,7 +10,7 @@
 namespace dismantle {
 
 /// Which rule says what an intersecting pair may do.
-enum class PairRule {
+enum class ClassifyRule {
   Auto,   ///< Contact, Fit or Embedded by depth (DESIGN section 5).
   Paper,  ///< Every pair that intersects or touches is Embedded: the paper's S_i.
 };
@@ -19,7 +19,7 @@ struct ClassifyOptions {
   double tolerance = 0;  ///< [mm]; 0: default_tolerance(assembly)
   double fit = 0;  ///< Deepest overlap that is a Fit [mm]; 0: kDefaultRelativeFit of the smaller component's diagonal.
   double clearance = 0;  ///< Pairs apart by at most this are listed as Near [mm].
-  PairRule rule = PairRule::Auto;
+  ClassifyRule rule = ClassifyRule::Auto;
   Executor executor;
   ProgressCallback progress;
 };
