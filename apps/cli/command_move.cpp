@@ -166,7 +166,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   const Result<Done> written = write_path(o.output, played->path);
   if (!written) return written.error();
   if (!o.timing_file.empty()) {
-    const Result<Done> timing = write_file_atomically(o.timing_file, timing_csv(motion, *played));
+    const Result<Done> timing = write_file(o.timing_file, timing_csv(motion, *played));
     if (!timing) return timing.error();
   }
 
