@@ -96,7 +96,7 @@ TEST(ClassifyPairs, MakesEveryMeetingPairEmbeddedByThePapersRule) {
 
 TEST(ClassifyPairs, FindsDeepVerticesThatFineTrianglesHide) {
   // A finely tessellated pin 0.2 mm too thick: no triangle of it is deeper than its own size, but its vertices are.
-  const PairStates states = classified(two(tube(5, 0, 1, 19, 400, 400), tube(9, 4.8, 0, 20, 400, 400)));
+  const PairStates states = classified(two(tube(5, 0, 1, 19, 160, 160), tube(9, 4.8, 0, 20, 160, 160)));
   ASSERT_EQ(states.pairs.size(), 1u);
   EXPECT_GE(2 * (states.pairs[0].allowed_penetration - 0.01), 0.199);
 }
