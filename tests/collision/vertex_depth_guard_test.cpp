@@ -17,7 +17,7 @@ constexpr double kTolerance = 0.01;
 /// A pin 0.2 mm too thick for its bore, both finer than that: no triangle pair can be deeper than a triangle's size.
 Assembly fine_press_fit() {
   return scenes::assembly(
-      {component("pin", tube(2, 0, -1, 5, 64, 32)), component("bush", tube(4, 1.8, 0, 4, 64, 24))});
+      {component("pin", tube(2, 0, -1, 5, 100, 50)), component("bush", tube(4, 1.8, 0, 4, 100, 36))});
 }
 
 PairStates states_of(const Assembly& assembly) {
