@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/narrow_phase.h"
 
-#include "dismantle/collision/parting.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>

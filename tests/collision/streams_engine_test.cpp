@@ -196,7 +196,30 @@ std::vector<CollisionContact> brute_force_contacts(const EngineScene& scene, con
   return contacts;
 }
 
-TEST(StreamsEngine, FindsTheContactsOfBruteForce) {
+/// The sweep must report those of all contacts that come first; times of impact are conservative, to within this.
+void expect_first_of(const std::vector<CollisionContact>& all, const SweepResult& result) {
+  constexpr double kSlack = 5e-4;
+  ASSERT_EQ(result.free, all.empty());
+  double first = 1;
+  for (const CollisionContact& contact : all) first = std::min(first, contact.toi);
+  EXPECT_NEAR(result.toi, first, kSlack);
+  const auto same = [](const CollisionContact& x) {
+    return [x](const CollisionContact& y) {
+      return x.a == y.a && x.b == y.b && x.face_a == y.face_a && x.face_b == y.face_b;
+    };
+  };
+  for (const CollisionContact& contact : all) {
+    if (contact.toi > result.toi + kContactWindow - kSlack) continue;
+    EXPECT_EQ(std::count_if(result.contacts.begin(), result.contacts.end(), same(contact)), 1);
+  }
+  for (const CollisionContact& contact : result.contacts) {
+    const auto place = std::find_if(all.begin(), all.end(), same(contact));
+    ASSERT_NE(place, all.end());
+    EXPECT_NEAR(contact.toi, place->toi, kSlack);
+  }
+}
+
+TEST(StreamsEngine, FindsTheFirstContactsOfBruteForce) {
   std::size_t found = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
@@ -207,7 +230,7 @@ TEST(StreamsEngine, FindsTheContactsOfBruteForce) {
       for (RigidTransform& t : next)
         if (random() % 4 == 0) t = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * t;
       const SweepResult result = scene.engine().sweep(next, 0);
-      EXPECT_EQ(result.contacts, brute_force_contacts(scene, next));
+      expect_first_of(brute_force_contacts(scene, next), result);
       found += result.contacts.size();
       if (result.free) scene.engine().commit();
     }
@@ -225,13 +248,14 @@ TEST(StreamsEngine, GivesTheSameBytesOnEveryExecutorFromEveryCapacity) {
     for (const Executor& executor : all_executors())
       for (const std::size_t capacity : {1u, 100'000u})
         engines.push_back(make_streams_engine(assembly, states, {test, executor, capacity}));
-    std::size_t contacts = 0;
-    for (int step = 0; step < 40; ++step) {
+    std::size_t contacts = 0, free = 0;
+    for (int step = 0; step < 60; ++step) {
       std::vector<RigidTransform> next(engines[0]->state().begin(), engines[0]->state().end());
       for (RigidTransform& t : next)
         if (random() % 5 == 0) t = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * t;
       const SweepResult expected = engines[0]->sweep(next, 1e-4);
       contacts += expected.contacts.size();
+      free += expected.free ? 1 : 0;
       for (const auto& engine : engines) {
         const SweepResult result = engine->sweep(next, 1e-4);
         ASSERT_EQ(result.contacts, expected.contacts) << "step " << step;
@@ -243,7 +267,8 @@ TEST(StreamsEngine, GivesTheSameBytesOnEveryExecutorFromEveryCapacity) {
         ASSERT_EQ(engine->embedded_pairs(), engines[0]->embedded_pairs());
       }
     }
-    EXPECT_GT(contacts, 10u);
+    EXPECT_GE(contacts, 10u);
+    EXPECT_GE(free, 5u);
   }
 }
 

@@ -46,11 +46,16 @@ struct CollisionContact {
   friend bool operator==(const CollisionContact&, const CollisionContact&) = default;
 };
 
+/// A sweep reports the contacts of this part of the motion, from the first one on: what comes after it would not
+/// happen.
+inline constexpr double kContactWindow = 0x1p-10;
+
 /// What one sweep found.
 struct SweepResult {
   double toi = 1;  ///< The least toi of all contacts; 1 where the whole motion is free.
   bool free = true;
-  std::vector<CollisionContact> contacts;  ///< Every triangle pair in contact, ordered by (a, b, face_a, face_b).
+  /// Every triangle pair whose own toi is within kContactWindow of the least one, ordered by (a, b, face_a, face_b).
+  std::vector<CollisionContact> contacts;
   StepTimings timings;
   StreamSizes sizes;
 };

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/narrow_phase.h"
 
-#include "dismantle/collision/parting.h"
-
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 
 namespace dismantle {
 
 namespace {
 
+constexpr std::size_t kFirstRound = 512;
+constexpr std::size_t kRoundGrowth = 4;
 constexpr std::size_t kPairsPerRange = 64;  // a pair costs 0.05-1 us
 
 /// Where the kernel's finds go, staged.
@@ -41,26 +42,60 @@ StepTriangles step_triangles(const MovingStreams& streams) {
 
 void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
   const MovingStreams& streams = *input.streams;
-  const NarrowPhaseKernel kernel{
-      input.triangle_pairs,     step_triangles(streams), streams.bounds(), streams.fixed().bvh.component_of,
-      streams.fixed().features, streams.motion_class(),  input.rules,      input.test,
-      input.path_deviation};
-  replays_ = 0;
+  NarrowPhaseKernel kernel{{},
+                           step_triangles(streams),
+                           streams.bounds(),
+                           streams.fixed().bvh.component_of,
+                           streams.fixed().features,
+                           streams.motion_class(),
+                           input.rules,
+                           input.test,
+                           input.path_deviation};
+  found_.clear();
+  intersecting_.clear();
+  tests_ = replays_ = 0;
+  const std::size_t count = input.triangle_pairs.size();
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    end = std::min(count, begin + std::max(kFirstRound, kRoundGrowth * begin));
+    kernel.pairs = input.triangle_pairs.subspan(begin, end - begin);
+    kernel.horizon = horizon();
+    run_round(kernel, executor);
+  }
+}
+
+void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& executor) {
   while (true) {
     std::atomic<std::size_t> tests{0};
     const AppendView<TrianglePairContact> contacts = contacts_.start();
     const AppendView<std::uint64_t> intersections = intersections_.start();
-    executor.for_each_range(input.triangle_pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
+    executor.for_each_range(kernel.pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
       StagedSink sink(contacts, intersections, tests);
       for (std::size_t i = begin; i < end; ++i) kernel(i, sink);
     });
-    tests_ = tests;
-    if (!contacts_.overflowed() && !intersections_.overflowed()) break;
+    if (!contacts_.overflowed() && !intersections_.overflowed()) {
+      tests_ += tests;
+      break;
+    }
     if (contacts_.overflowed()) contacts_.grow();
     if (intersections_.overflowed()) intersections_.grow();
     ++replays_;
   }
-  found_.assign(contacts_.values().begin(), contacts_.values().end());
+  found_.insert(found_.end(), contacts_.values().begin(), contacts_.values().end());
+  intersecting_.insert(intersecting_.end(), intersections_.values().begin(), intersections_.values().end());
+}
+
+double NarrowPhase::horizon() const {
+  double first = 1;
+  for (const TrianglePairContact& contact : found_) first = std::min(first, contact.toi);
+  return std::min(1.0, first + kContactWindow);
+}
+
+std::vector<TrianglePairContact> NarrowPhase::first_contacts() const {
+  const double last = horizon();
+  std::vector<TrianglePairContact> first;
+  std::copy_if(found_.begin(), found_.end(), std::back_inserter(first),
+               [&](const TrianglePairContact& contact) { return contact.toi <= last; });
+  return first;
 }
 
 void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from,
@@ -91,7 +126,7 @@ void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64
 
 std::vector<std::uint64_t> NarrowPhase::intersections_of(const NarrowPhaseInput& input, ComponentId a,
                                                          ComponentId b) const {
-  std::vector<std::uint64_t> keys = triangle_pairs_of(intersections_.values(), *input.streams, a, b);
+  std::vector<std::uint64_t> keys = triangle_pairs_of(intersecting_, *input.streams, a, b);
   std::sort(keys.begin(), keys.end());
   return keys;
 }

@@ -16,27 +16,34 @@ struct NarrowPhaseInput {
   double path_deviation = 0;  ///< [mm]
 };
 
-/// Runs the narrow phase over S_t and keeps what it found, in no particular order: sort before use.
+/// Runs the narrow phase over S_t and keeps what it found.
 class NarrowPhase {
  public:
   explicit NarrowPhase(std::size_t initial_capacity) : contacts_(initial_capacity), intersections_(initial_capacity) {}
 
-  /// Tests all of S_t.
+  /// Tests all of S_t. It does so in rounds, each four times as large as all before: once contacts are known, the
+  /// certified tests of later rounds look no further than kContactWindow beyond the first of them. The rounds depend on
+  /// S_t alone, so results do, too.
   void run(const NarrowPhaseInput& input, const Executor& executor);
-  /// Tests `pairs`, which belong to a component pair that parts at time `from`, as ordinary ones over the rest of the
-  /// step: certified, with the tolerance as allowance. Adds to the contacts.
+  /// Tests `pairs`, which belong to a component pair that parts at time `from`, over the rest of the step: certified,
+  /// with the tolerance as allowance. Adds to the contacts.
   void run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from, const Executor& executor);
 
-  Span<const TrianglePairContact> contacts() const { return found_; }
+  /// Every contact within kContactWindow of the first one; in no particular order: sort before use.
+  std::vector<TrianglePairContact> first_contacts() const;
   /// The triangle pairs of components a < b, in S_i, that intersect at the end of the step; ascending.
   std::vector<std::uint64_t> intersections_of(const NarrowPhaseInput& input, ComponentId a, ComponentId b) const;
   std::size_t tests() const { return tests_; }
   std::size_t replays() const { return replays_; }
 
  private:
+  void run_round(const NarrowPhaseKernel& kernel, const Executor& executor);
+  double horizon() const;
+
   AppendBuffer<TrianglePairContact> contacts_;
   AppendBuffer<std::uint64_t> intersections_;
   std::vector<TrianglePairContact> found_;
+  std::vector<std::uint64_t> intersecting_;
   std::size_t tests_ = 0;
   std::size_t replays_ = 0;
 };

@@ -39,6 +39,16 @@ struct StepTriangles {
   }
 };
 
+/// The part of a linear motion between two of its times.
+DISMANTLE_HOST_DEVICE inline TriangleMotion part_of(const TriangleMotion& motion, double begin, double end) {
+  TriangleMotion part = motion;
+  for (int k = 0; k < 3; ++k) {
+    if (begin > 0) part.t0[k] = (1 - begin) * motion.t0[k] + begin * motion.t1[k];
+    if (end < 1) part.t1[k] = (1 - end) * motion.t0[k] + end * motion.t1[k];
+  }
+  return part;
+}
+
 /// Shortens an allowance by a relative 1e-6 before it is compared in float32: more than the rounding of a difference
 /// of bounds.
 inline constexpr double kAllowanceRounding = 1 - 1e-6;
@@ -78,6 +88,7 @@ struct NarrowPhaseKernel {
   PairRulesView rules;
   ElementaryTest test = ElementaryTest::Certified;
   double path_deviation = 0;  ///< [mm]
+  double horizon = 1;         ///< Certified tests look no further into the step than this time.
 
   template <class Sink>
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
@@ -100,8 +111,9 @@ struct NarrowPhaseKernel {
   DISMANTLE_HOST_DEVICE void certified(std::size_t i, NodePair p, double allowed, Sink& sink) const {
     if (within_allowance(bounds[p.a], bounds[p.b], allowed)) return;
     sink.tested(1);
-    const CcdResult ccd = ccd_triangle_triangle(triangles.motion(p.a), triangles.motion(p.b), allowed);
-    if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], ccd.toi});
+    const CcdResult ccd = ccd_triangle_triangle(part_of(triangles.motion(p.a), 0, horizon),
+                                                part_of(triangles.motion(p.b), 0, horizon), allowed);
+    if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], horizon * ccd.toi});
   }
 
   template <class Sink>

@@ -158,15 +158,6 @@ class PartingSearch {
 
 }  // namespace
 
-TriangleMotion part_of(const TriangleMotion& motion, double begin, double end) {
-  TriangleMotion part = motion;
-  for (int k = 0; k < 3; ++k) {
-    if (begin > 0) part.t0[k] = (1 - begin) * motion.t0[k] + begin * motion.t1[k];
-    if (end < 1) part.t1[k] = (1 - end) * motion.t0[k] + end * motion.t1[k];
-  }
-  return part;
-}
-
 bool pierced_throughout(const EmbeddedMotion& motion) {
   return PartingSearch(motion).any_pierces(0, 1, motion.intersecting_at_end);
 }

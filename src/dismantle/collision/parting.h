@@ -46,7 +46,4 @@ bool pierced_throughout(const EmbeddedMotion& motion);
 /// True where the two components share a point at time `s`: surfaces that meet, or one inside the other.
 bool components_intersect(const EmbeddedMotion& motion, double s);
 
-/// The part of a linear motion between two of its times.
-TriangleMotion part_of(const TriangleMotion& motion, double begin, double end);
-
 }  // namespace dismantle

@@ -157,7 +157,7 @@ void StreamsEngine::test_embedded_pairs(const NarrowPhaseInput& input) {
 std::vector<CollisionContact> StreamsEngine::contacts() const {
   const TriangleStreams& fixed = streams_.fixed();
   std::vector<CollisionContact> result;
-  for (const TrianglePairContact& found : narrow_phase_.contacts()) {
+  for (const TrianglePairContact& found : narrow_phase_.first_contacts()) {
     const NodePair p = pair_of_key(found.key);
     result.push_back({ComponentId(fixed.bvh.component_of[p.a]), ComponentId(fixed.bvh.component_of[p.b]),
                       fixed.face_of[p.a], fixed.face_of[p.b], found.toi});
