@@ -49,8 +49,8 @@ void add_convert_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option(
           "-o,--output", options->output,
-          "File to write: .obj (a section a component), .stl, .ply (everything in one), or a new folder of OBJ "
-          "files where it has no extension")
+          "File to write: .glb (components, tree and colours), .obj (a section a component), .stl, .ply (everything in "
+          "one), or a new folder of OBJ files where it has no extension")
       ->required()
       ->type_name("FILE");
   command->add_flag(
