@@ -40,7 +40,12 @@ Result<Done> run(const CheckCommand& command) {
     const Result<Done> written = write_html(*assembly, *states, command);
     if (!written) return written.error();
   }
-  fmt::print("{}", command.common.json ? check_report_json(*assembly, *states) : check_report_text(*assembly, *states));
+  if (command.common.json) {
+    fmt::print("{}", check_report_json(*assembly, *states));
+  } else {
+    fmt::print("{}", check_report_text(*assembly, *states));
+    if (!command.html_file.empty()) fmt::print("\nReport with pictures: {}\n", command.html_file);
+  }
   return Done{};
 }
 

@@ -61,7 +61,23 @@ TEST(SimplifyMesh, StopsAtTheErrorWhereThatComesFirst) {
   EXPECT_GT(fine, coarse);
   EXPECT_GT(coarse, 100u);
   EXPECT_LT(fine, mesh.faces.size());
-  EXPECT_NEAR(static_cast<double>(count_simplified(mesh, 0.5)), static_cast<double>(coarse), 0.05 * coarse + 4);
+}
+
+TEST(SimplificationCurve, SaysWhatSimplifyMeshGives) {
+  const TriangleMesh mesh = torus(20, 6, 32, 16);
+  const std::vector<SimplificationStep> curve = simplification_curve(mesh);
+  ASSERT_GT(curve.size(), 400u);
+  EXPECT_EQ(curve.front().triangles, mesh.faces.size());
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    EXPECT_LT(curve[i].triangles, curve[i - 1].triangles);
+    EXPECT_GE(curve[i].error, curve[i - 1].error);
+  }
+  EXPECT_EQ(simplify_mesh(mesh, {curve[200].triangles}).faces.size(), curve[200].triangles);
+}
+
+TEST(SimplifyMesh, AFlatFaceStaysExactlyFlat) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0.1, 10.3, 64, 12);
+  for (const Vec3& v : simplify_mesh(mesh, {256}).vertices) EXPECT_TRUE(v.z == 0.1 || v.z == 10.3);
 }
 
 TEST(SimplifyMesh, KeepsVerticesOfTheOriginal) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <unordered_map>
 
@@ -12,20 +13,17 @@ namespace dismantle {
 
 namespace {
 
-// Rounds of taking from the others what components could not go down to, at most.
-constexpr int kShareRounds = 3;
 // The search for the error: from this part of the assembly's size to all of it, by so many halvings of the exponent.
 constexpr double kLeastError = 1e-6;
-constexpr int kErrorSteps = 9;
-// A total this much above the target is good enough.
-constexpr double kGoodEnough = 1.01;
+constexpr int kErrorSteps = 40;
 
 /// A mesh, how often it occurs, and what becomes of it.
 struct SharedMesh {
   std::shared_ptr<const TriangleMesh> original;
   std::size_t instances = 0;
   std::size_t target = 0;
-  bool stuck = false;  // its result has more triangles than its target
+  double size = 0;  // diagonal [mm]
+  std::vector<SimplificationStep> curve;
   TriangleMesh result;
   DistanceBounds error;
 };
@@ -41,7 +39,7 @@ MeshTable collect_meshes(const Assembly& assembly) {
   std::unordered_map<const TriangleMesh*, std::size_t> place;
   for (const Component& c : assembly.components) {
     const auto [found, is_new] = place.try_emplace(c.mesh.get(), table.meshes.size());
-    if (is_new) table.meshes.push_back({c.mesh, 0, 0, false, *c.mesh, {}});
+    if (is_new) table.meshes.push_back({c.mesh, 0, 0, diagonal(bounds(*c.mesh)), {}, *c.mesh, {}});
     ++table.meshes[found->second].instances;
     table.of_component.push_back(found->second);
   }
@@ -56,17 +54,15 @@ std::size_t original_count(const SharedMesh& m) {
 /// smaller meshes get smaller errors, by the square root of their size, or small parts would lose their shape while
 /// large ones do not change. Shape [mesh_count].
 std::vector<std::size_t> counts_at(const std::vector<SharedMesh>& meshes, double relative_error, double size,
-                                   const SimplifyOptions& options) {
-  std::vector<std::size_t> counts(meshes.size());
-  options.executor.for_each_heavy(meshes.size(), [&](std::size_t i) {
-    const SharedMesh& m = meshes[i];
-    const double own_size = diagonal(bounds(*m.original));
-    const std::size_t least = std::min(options.minimum_triangles, original_count(m));
-    if (m.stuck)
-      counts[i] = m.result.faces.size();
-    else
-      counts[i] = std::max(least, count_simplified(*m.original, relative_error * std::sqrt(own_size * size)));
-  });
+                                   std::size_t minimum) {
+  std::vector<std::size_t> counts;
+  for (const SharedMesh& m : meshes) {
+    const double error = relative_error * std::sqrt(m.size * size);
+    const auto past = std::upper_bound(m.curve.begin(), m.curve.end(), error,
+                                       [](double e, const SimplificationStep& step) { return e < step.error; });
+    const std::size_t least = std::min(minimum, original_count(m));
+    counts.push_back(std::max(least, std::prev(past)->triangles));  // the first step's error is 0
+  }
   return counts;
 }
 
@@ -77,14 +73,13 @@ std::size_t total_of(const std::vector<SharedMesh>& meshes, const std::vector<st
 }
 
 /// Sets the targets so that the total is `budget`, by searching for the error that gives it.
-void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double size, const SimplifyOptions& options) {
-  std::vector<std::size_t> above, below;  // counts with a total above and not above the budget
-  for (const SharedMesh& m : meshes) above.push_back(m.stuck ? m.result.faces.size() : original_count(m));
+void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double size, std::size_t minimum) {
+  std::vector<std::size_t> above, below = counts_at(meshes, 1, size, minimum);  // the budget, and not above it
+  for (const SharedMesh& m : meshes) above.push_back(original_count(m));
   double least = std::log(kLeastError), largest = 0;
-  below = counts_at(meshes, 1, size, options);
   for (int step = 0; step < kErrorSteps; ++step) {
     const double middle = (least + largest) / 2;
-    std::vector<std::size_t> counts = counts_at(meshes, std::exp(middle), size, options);
+    std::vector<std::size_t> counts = counts_at(meshes, std::exp(middle), size, minimum);
     const bool fits = total_of(meshes, counts) <= budget;
     (fits ? largest : least) = middle;
     (fits ? below : above) = std::move(counts);
@@ -95,16 +90,6 @@ void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double si
     const auto from = static_cast<double>(below[i]), to = static_cast<double>(std::max(above[i], below[i]));
     meshes[i].target = static_cast<std::size_t>(from + share * (to - from));
   }
-}
-
-/// Runs one round over the meshes that are not stuck.
-void simplify_meshes(std::vector<SharedMesh>& meshes, const SimplifyOptions& options) {
-  options.executor.for_each_heavy(meshes.size(), [&](std::size_t i) {
-    SharedMesh& m = meshes[i];
-    if (m.stuck) return;
-    m.result = simplify_mesh(*m.original, {m.target});
-    m.stuck = m.result.faces.size() > m.target + m.target / 50 + 2;
-  });
 }
 
 /// Measures every changed mesh; false where it was cancelled.
@@ -121,12 +106,6 @@ bool measure_errors(std::vector<SharedMesh>& meshes, const SimplifyOptions& opti
     done += m.original->faces.size();
   }
   return report_progress(options.progress, "measuring the simplification", 1);
-}
-
-std::size_t total_triangles(const std::vector<SharedMesh>& meshes) {
-  std::size_t total = 0;
-  for (const SharedMesh& m : meshes) total += m.instances * m.result.faces.size();
-  return total;
 }
 
 SimplifiedAssembly assemble(const Assembly& assembly, const MeshTable& table) {
@@ -162,14 +141,17 @@ Result<SimplifiedAssembly> simplify_assembly(const Assembly& assembly, std::size
                                              const SimplifyOptions& options) {
   const Error cancelled{ErrorKind::Failed, "the assembly is not simplified (cancelled); run it again to have it whole"};
   MeshTable table = collect_meshes(assembly);
-  const auto enough = static_cast<std::size_t>(kGoodEnough * static_cast<double>(target_triangles));
-  const double size = diagonal(assembled_bounds(assembly));
-  const bool small_enough = triangle_count(assembly) <= target_triangles;
-  for (int round = 0; round < kShareRounds && !small_enough; ++round) {
-    if (!report_progress(options.progress, "simplifying", static_cast<double>(round) / kShareRounds)) return cancelled;
-    share_budget(table.meshes, target_triangles, size, options);
-    simplify_meshes(table.meshes, options);
-    if (total_triangles(table.meshes) <= enough) break;
+  if (triangle_count(assembly) > target_triangles) {
+    if (!report_progress(options.progress, "simplifying", 0)) return cancelled;
+    options.executor.for_each_heavy(table.meshes.size(), [&](std::size_t i) {
+      table.meshes[i].curve = simplification_curve(*table.meshes[i].original);
+    });
+    if (!report_progress(options.progress, "simplifying", 0.5)) return cancelled;
+    const double size = diagonal(assembled_bounds(assembly));
+    share_budget(table.meshes, target_triangles, size, options.minimum_triangles);
+    options.executor.for_each_heavy(table.meshes.size(), [&](std::size_t i) {
+      table.meshes[i].result = simplify_mesh(*table.meshes[i].original, {table.meshes[i].target});
+    });
   }
   if (!measure_errors(table.meshes, options)) return cancelled;
   return assemble(assembly, table);
