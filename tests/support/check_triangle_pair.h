@@ -84,9 +84,9 @@ inline void check_depth(PairCheck& check, const TrianglePair& pair, double exact
 
 /// How far the point is from the triangle, exactly, relative to `size`.
 inline double off_triangle(Vec3 p, const Triangle& t, double size) {
-  const exact::Scaled s = exact::scaled({p, p, p, t[0], t[1], t[2]});
-  const exact::Corners point(s.points.begin(), s.points.begin() + 3), face(s.points.begin() + 3, s.points.end());
-  return static_cast<double>(exact::distance(point, face, s.unit)) / size;
+  const exact::Scaled s = exact::scaled({p, t[0], t[1], t[2]});
+  const exact::Corners face(s.points.begin() + 1, s.points.end());
+  return static_cast<double>(exact::point_distance(s.points[0], face, s.unit)) / size;
 }
 
 inline void check_distance(PairCheck& check, const TrianglePair& pair, bool meet, double exact_distance) {

@@ -222,6 +222,14 @@ inline void take_lines(LeastFraction& least, const Point& a0, const Point& a1, c
   least.take(height * height, nn);
 }
 
+/// The distance of a point from a closed triangle.
+inline Real point_distance(const Point& p, const Corners& face, int unit) {
+  LeastFraction least;
+  take_point_face(least, p, face);
+  for (int i = 0; i < 3; ++i) take_point_segment(least, p, face[i], face[(i + 1) % 3]);
+  return ldexp(sqrt(least.value()), unit);
+}
+
 /// The distance of triangles that do not meet.
 inline Real distance(const Corners& a, const Corners& b, int unit) {
   LeastFraction least;

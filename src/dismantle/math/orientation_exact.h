@@ -135,12 +135,13 @@ DISMANTLE_HOST_DEVICE inline int lowest_exponent(double x, int so_far) {
     for (int k = 0; k < 3; ++k)
       difference[i][k] = wide_integer_of<66>(points[i + 1][k], unit) - wide_integer_of<66>(a[k], unit);
 
-  const auto term = [&difference](int i, int j, int k) {
-    const auto& u = difference[0];
-    const auto& v = difference[1];
-    return (u[i] * v[j] - u[j] * v[i]) * difference[2][k];
-  };
-  return (term(1, 2, 0) + term(2, 0, 1) + term(0, 1, 2)).sign;
+  WideInteger<198> det;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const auto minor = difference[0][i] * difference[1][j] - difference[0][j] * difference[1][i];
+    det = det + minor * difference[2][k];
+  }
+  return det.sign;
 }
 
 [[gnu::noinline]] DISMANTLE_HOST_DEVICE inline int orient2d_wide(Vec2 a, Vec2 b, Vec2 c) {

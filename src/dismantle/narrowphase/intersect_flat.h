@@ -93,8 +93,9 @@ DISMANTLE_HOST_DEVICE inline bool intersect_lines(const Triangle& a, const Trian
   return true;
 }
 
-/// @pre the triangles share a plane, or one of them has no area
-DISMANTLE_HOST_DEVICE inline bool intersect_flat(const Triangle& a, const Triangle& b) {
+/// Apart from the code of the crossing case, which is to stay small. @pre the triangles share a plane, or one of them
+/// has no area
+[[gnu::noinline]] DISMANTLE_HOST_DEVICE inline bool intersect_flat(const Triangle& a, const Triangle& b) {
   if (!overlaps(box_of(a), box_of(b))) return false;
   const int projection_a = faithful_projection(a[0], a[1], a[2]);
   const int projection_b = faithful_projection(b[0], b[1], b[2]);
