@@ -24,21 +24,12 @@ struct LoneCorner {
 
 /// @pre the signs are neither all positive, all negative nor all zero
 DISMANTLE_HOST_DEVICE inline LoneCorner lone_corner(const int (&side)[3]) {
-  int positive = 0, negative = 0;
-  for (const int s : side) {
-    positive += s > 0;
-    negative += s < 0;
-  }
-  // One positive: it. Two positive: the other one. None positive: one negative, or the zero above two negative ones.
-  const bool above = positive == 1 || (positive == 0 && negative == 2);
-  for (int i = 0; i < 3; ++i) {
-    const bool is_lone = positive == 1   ? side[i] > 0
-                         : positive == 2 ? side[i] <= 0
-                         : negative == 1 ? side[i] < 0
-                                         : side[i] == 0;
-    if (is_lone) return {i, above};
-  }
-  return {};
+  // A corner in the plane counts as below where another is above, else as above: then one or two are above.
+  const bool any_above = (side[0] > 0) | (side[1] > 0) | (side[2] > 0);
+  const int least = any_above ? 1 : 0;
+  const bool up[3] = {side[0] >= least, side[1] >= least, side[2] >= least};
+  const bool above = up[0] + up[1] + up[2] == 1;
+  return {up[0] == above ? 0 : (up[1] == above ? 1 : 2), above};
 }
 
 /// A triangle's corners from `first` on, in its order or, where `reversed`, against it.
@@ -50,11 +41,12 @@ DISMANTLE_HOST_DEVICE inline Triangle rotated(const Triangle& t, int first, bool
 /// The sides of a triangle's corners; true where all are strictly on one.
 DISMANTLE_HOST_DEVICE inline bool on_one_side(const OrientedPlane& plane, const Triangle& t, int (&side)[3]) {
   for (int i = 0; i < 3; ++i) side[i] = side_of_plane(plane, t[i]);
-  return side[0] != 0 && side[0] == side[1] && side[0] == side[2];
+  const int sum = side[0] + side[1] + side[2];
+  return sum * sum == 9;
 }
 
 DISMANTLE_HOST_DEVICE inline bool all_zero(const int (&side)[3]) {
-  return side[0] == 0 && side[1] == 0 && side[2] == 0;
+  return (side[0] | side[1] | side[2]) == 0;
 }
 
 }  // namespace detail
