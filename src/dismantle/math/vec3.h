@@ -72,16 +72,18 @@ DISMANTLE_HOST_DEVICE constexpr Vec3T<T> max(Vec3T<T> a, Vec3T<T> b) {
 
 /// The largest absolute coordinate.
 template <class T>
-DISMANTLE_HOST_DEVICE constexpr T max_abs(Vec3T<T> a) {
-  const T x = a.x < 0 ? -a.x : a.x, y = a.y < 0 ? -a.y : a.y, z = a.z < 0 ? -a.z : a.z;
+DISMANTLE_HOST_DEVICE T max_abs(Vec3T<T> a) {
+  using std::fabs;  // a comparison with 0 would become a branch that nothing can predict
+  const T x = fabs(a.x), y = fabs(a.y), z = fabs(a.z);
   const T xy = x > y ? x : y;
   return xy > z ? xy : z;
 }
 
 /// The sum of the absolute coordinates.
 template <class T>
-DISMANTLE_HOST_DEVICE constexpr T norm_one(Vec3T<T> a) {
-  return (a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y) + (a.z < 0 ? -a.z : a.z);
+DISMANTLE_HOST_DEVICE T norm_one(Vec3T<T> a) {
+  using std::fabs;
+  return fabs(a.x) + fabs(a.y) + fabs(a.z);
 }
 
 /// True where no coordinate is infinite or NaN.
