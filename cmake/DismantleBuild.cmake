@@ -12,11 +12,13 @@ endif()
 
 # Floating-point results must not depend on the compiler's mood: no contraction, never fast-math.
 add_library(dismantle_build_settings INTERFACE)
-target_compile_options(dismantle_build_settings INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-unknown-pragmas)
+# Warnings are ours to mend, not for those who use an installed dismantle.
+target_compile_options(dismantle_build_settings INTERFACE -ffp-contract=off
+  $<BUILD_INTERFACE:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>)
 target_compile_definitions(dismantle_build_settings INTERFACE
   $<$<BOOL:${DISMANTLE_CONTRACTS}>:DISMANTLE_CONTRACTS=1>)
 if(DISMANTLE_WERROR)
-  target_compile_options(dismantle_build_settings INTERFACE -Werror)
+  target_compile_options(dismantle_build_settings INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(DISMANTLE_SANITIZE)
   add_compile_options(-fsanitize=${DISMANTLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
