@@ -12,6 +12,7 @@ endif()
 
 # Floating-point results must not depend on the compiler's mood: no contraction, never fast-math.
 add_library(dismantle_build_settings INTERFACE)
+target_compile_features(dismantle_build_settings INTERFACE cxx_std_20)
 # Warnings are ours to mend, not for those who use an installed dismantle.
 target_compile_options(dismantle_build_settings INTERFACE -ffp-contract=off
   $<BUILD_INTERFACE:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>)

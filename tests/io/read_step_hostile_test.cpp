@@ -66,6 +66,25 @@ TEST(ReadStepHostile, RefusesFramesAroundNothingOrNonsense) {
   EXPECT_NE(error_of(folder, step_of("#1=DIRECTION('',(" + std::string(200000, '(') + "));\n")), "");
 }
 
+/// A transformation operator with a parameter missing: OpenCASCADE 7.6.3 follows a null pointer.
+TEST(ReadStepHostile, OutlivesTheCadKernel) {
+  const ScratchFolder folder;
+  StepWriter writer;
+  writer.part("pin", BRepPrimAPI_MakeCylinder(2.0, 9.0).Shape());
+  ASSERT_TRUE(writer.write(folder / "pin.step"));
+  std::string text = bytes_of(folder / "pin.step");
+  const std::size_t shape = text.find("SHAPE_DEFINITION_REPRESENTATION(#4,#10)");
+  ASSERT_NE(shape, std::string::npos);
+  text.replace(shape, 39, "SHAPE_DEFINITION_REPRESENTATION(#4,#9001)");
+  text.replace(text.rfind("ENDSEC;"), 7,
+               "#9001=SHAPE_REPRESENTATION('',(#11,#9002),#9009);\n#9002=MAPPED_ITEM('',#9003,#9004);\n"
+               "#9003=REPRESENTATION_MAP(#11,#10);\n#9005=DIRECTION('',(1.,0.,0.));\n"
+               "#9006=CARTESIAN_POINT('',(5.,0.,0.));\n"
+               "#9004=CARTESIAN_TRANSFORMATION_OPERATOR_3D('',#9005,#9005,#9006,2.,$);\nENDSEC;");
+  const std::string error = error_of(folder, text);
+  EXPECT_NE(error.find("the CAD kernel crashed on it"), std::string::npos) << error;
+}
+
 TEST(ReadStepHostile, RefusesATreeThatExplodes) {
   const ScratchFolder folder;
   StepWriter writer;
