@@ -16,12 +16,21 @@ struct BallBearing {
 
 /// The products of a bearing, shared by its instances.
 struct BearingProducts {
-  ProductId inner_ring, outer_ring, cage, ball;
-  std::vector<Placement> ball_places;
+  ProductId inner_ring, outer_ring, body;
+  ProductId cage;                 ///< None (index -1) in a full-complement bearing.
+  std::vector<Placement> bodies;  ///< Where the balls or rollers sit.
 };
 
 BearingProducts make_ball_bearing(SampleModel& model, const std::string& name, const BallBearing& bearing);
-void place_bearing(SampleModel& model, GroupId group, const BearingProducts& bearing, const Placement& placement);
+
+/// A full-complement cylindrical roller bearing about z: the outer ring is plain and slides off either way, the rollers
+/// then leave outwards.
+struct RollerBearing {
+  double bore = 20, outer_diameter = 42, width = 12;
+  int rollers = 14;
+};
+
+BearingProducts make_roller_bearing(SampleModel& model, const std::string& name, const RollerBearing& bearing);
 
 /// A tapered roller bearing about z; the cup comes off along +z, the rollers then leave outwards.
 struct TaperedBearing {
@@ -30,5 +39,8 @@ struct TaperedBearing {
 };
 
 BearingProducts make_tapered_bearing(SampleModel& model, const std::string& name, const TaperedBearing& bearing);
+
+/// Places a bearing's rings, cage, and rolling bodies.
+void place_bearing(SampleModel& model, GroupId group, const BearingProducts& bearing, const Placement& placement);
 
 }  // namespace dismantle::samples

@@ -100,4 +100,12 @@ Solid ridged_knob(const KnobShape& knob) {
   return extruded(outline, 0, knob.length) - rod(knob.bore, -1, knob.length + 1);
 }
 
+Solid handwheel(const HandwheelShape& wheel) {
+  const double width = wheel.rim_width, radius = wheel.diameter / 2, hub = 1.2 * wheel.bore;
+  const Solid spoke = block({0, -0.35 * width, 0.2 * width}, {radius - 0.5 * width, 0.35 * width, 0.8 * width});
+  std::vector<Solid> parts = at_each(spoke, around_z(3, 0));
+  parts.push_back(rod(2 * hub, 0, 1.6 * width));
+  return (tube(wheel.diameter, wheel.diameter - 2 * width, 0, width) + parts) - rod(wheel.bore, -1, 2 * width);
+}
+
 }  // namespace dismantle::samples

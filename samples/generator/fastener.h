@@ -42,6 +42,13 @@ struct KnobShape {
   double bore = 4;
 };
 Solid ridged_knob(const KnobShape& knob);
+/// Handwheel about z with a rim, three spokes, and a hub from z = 0 to 1.6 rim widths.
+struct HandwheelShape {
+  double diameter = 100;
+  double rim_width = 12;
+  double bore = 12;
+};
+Solid handwheel(const HandwheelShape& wheel);
 /// Diameter of the head of a cap screw; its height is the nominal diameter.
 double cap_head_diameter(double diameter);
 

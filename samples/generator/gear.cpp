@@ -11,7 +11,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kPressureAngle = 20 * kPi / 180;
 constexpr double kAddendum = 1.0;   ///< In modules.
 constexpr double kDedendum = 1.25;  ///< In modules: leaves a quarter module at the tip.
-constexpr int kFlankSegments = 3;   ///< Straight pieces that follow an involute.
+constexpr int kFlankSegments = 2;   ///< Straight pieces that follow an involute.
 
 double involute(double angle) {
   return std::tan(angle) - angle;
@@ -51,6 +51,12 @@ double pitch_diameter(const GearShape& gear) {
 }
 double tip_diameter(const GearShape& gear) {
   return pitch_diameter(gear) + 2 * kAddendum * gear.module;
+}
+
+double meshing_turn(const GearShape& first, double first_turn, const GearShape& second, double direction) {
+  // How many pitches the line of centres lies past a tooth of the first gear; the second turns the other way.
+  const double past_tooth = (direction - first_turn) * first.teeth / 360;
+  return direction + 180 + (past_tooth + 0.5) * 360 / second.teeth;
 }
 
 Solid spur_gear(const GearShape& gear, double z0, double z1) {

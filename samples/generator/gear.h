@@ -15,6 +15,9 @@ struct GearShape {
 
 double pitch_diameter(const GearShape& gear);
 double tip_diameter(const GearShape& gear);
+/// The turn about z [degrees] that lets a gear mesh with one that is turned by `first_turn` and lies in the opposite
+/// direction: `direction` [degrees] points from the first gear to the second.
+double meshing_turn(const GearShape& first, double first_turn, const GearShape& second, double direction);
 /// External gear about z with a tooth pointing along +x, from z0 to z1, without a bore.
 Solid spur_gear(const GearShape& gear, double z0, double z1);
 /// Ring gear with internal teeth and a gap pointing along +x.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/io/motion_file.h"
+#include "samples/generator/sample_motion.h"
 #include "samples/generator/samples.h"
 
 #include <Message.hxx>
@@ -23,6 +25,8 @@ int main(int argc, char** argv) {
     for (const std::string& name : names) {
       const SampleModel model = make_sample(name);
       model.write_step(folder / (name + ".step"));
+      const auto written = dismantle::write_motion(folder / (name + ".motion.json"), make_sample_motion(name));
+      if (!written) throw std::runtime_error(written.error().message);
       std::printf("%s: %zu components\n", name.c_str(), model.occurrences().size());
     }
   } catch (const std::exception& error) {

@@ -61,13 +61,11 @@ void add_stand(SampleModel& model) {
   const GroupId group = model.group("stand");
   std::vector<Solid> cuts{rod(34.1, kLampSeat, kBaseTop + 1), block({-9, -104, -1}, {9, -61, 8})};
   for (const double y : {-72.0, -93.0}) cuts.push_back(rod(8.8, 7, 25).placed(at(0, y, 0)));
-  cuts.push_back(rod(5.98, 12, 25).placed(at(13, -82.5, 0)));
   model.add(group, "base", plate(112, 180, 8, 0, kBaseTop).placed(at(0, -32, 0)) - cuts, kCream);
   const ProductId foot = model.product("foot", block({-9, -9, -6}, {9, 9, 0}), kRubber);
   for (const Placement& corner : at_corners(84, 150)) model.place(group, foot, at(0, -32, 0) * corner);
   const ProductId screw = model.product("arm screw M8x28", hex_screw(8, 28), kSteel);
   for (const double y : {-72.0, -93.0}) model.place(group, screw, upside_down(0, y, 8));
-  model.add(group, "dowel 6x20", dowel_pin(6, 20), kBrightSteel, at(13, -82.5, 12));
 }
 
 void add_arm(SampleModel& model) {
@@ -89,7 +87,6 @@ void add_arm(SampleModel& model) {
                           tapped_hole(4, 20).placed(facing_user(0, 27, 257)),
                           tapped_hole(4, 20).placed(facing_user(0, 27, 279))};
   for (const double y : {-72.0, -93.0}) cuts.push_back(tapped_hole(8, 16).placed(upside_down(0, y, kBaseTop)));
-  cuts.push_back(rod(6.04, kBaseTop - 1, 36).placed(at(13, -82.5, 0)));
   model.add(model.group("arm"), "arm", body - cuts, kCream);
 }
 
@@ -103,17 +100,13 @@ void add_lamp(SampleModel& model) {
 void add_focus_drive(SampleModel& model) {
   const GroupId group = model.group("focus drive");
   const Placement axis = pinion_axis();
-  const Solid shaft = (rod(8, -40, 41) + spur_gear(kRackGear, -7, 7)) -
-                      std::vector<Solid>{rod(4.06, -50, 50), tube(10, 7, -20.1, -18.9)};
+  const Solid shaft = (rod(8, -40, 41) + spur_gear(kRackGear, -7, 7)) - std::vector<Solid>{tube(10, 7, -20.1, -18.9)};
   model.add(group, "pinion shaft", shaft, kBrightSteel, axis * turn_z(11.25));
   model.add(group, "circlip 7", circlip(6.4, 1.3, 1), kBlackOxide, axis * at(0, 0, -20));
   model.add(group, "pinion bush", tube(16.03, 8.06, 8, 21), kBronze, axis);
 
   const ProductId coarse_knob = model.product("coarse knob", ridged_knob({42, 16, 18, 7.98}), kBlackOxide);
   for (const Placement& side : {axis * at(0, 0, -40), axis * at(0, 0, 23)}) model.place(group, coarse_knob, side);
-  model.add(group, "fine shaft", rod(4, -57, 58), kBrightSteel, axis);
-  const ProductId fine_knob = model.product("fine knob", ridged_knob({24, 12, 15, 3.97}), kBlackOxide);
-  for (const double x : {-57.0, 43.0}) model.place(group, fine_knob, axis * at(0, 0, x));
 }
 
 void add_carriage(SampleModel& model) {
@@ -154,7 +147,7 @@ void add_bracket(SampleModel& model) {
   model.add(group, "stage bracket", body - cuts, kDarkGrey);
   const ProductId screw = model.product("bracket screw M4x16", hex_screw(4, 16), kSteel);
   for (const double x : {-13.0, 13.0}) model.place(group, screw, facing_user(x, front, 120));
-  const Solid thumb_screw = threaded_rod(thumb_thread(), 0, 11, 0.4, 0.3) + prism(8, 15, 11, 17);
+  const Solid thumb_screw = threaded_rod(thumb_thread(), 0, 8, 0.4, 0.3) + prism(8, 15, 8, 14);
   model.add(group, "thumb screw threaded", thumb_screw, kBrass, thumb);
 }
 
@@ -176,11 +169,8 @@ void add_stage(SampleModel& model) {
 
 void add_condenser(SampleModel& model) {
   const GroupId group = model.group("condenser");
-  const Solid body = revolved({{0, 116}, {15, 116}, {15, 155}, {10, 155}, {10, 152}, {0, 152}});
+  const Solid body = revolved({{0, 116}, {19, 116}, {19, 120}, {15, 120}, {15, 155}, {0, 155}});
   model.add(group, "condenser", body, kBlackOxide);
-  model.add(group, "condenser lens", rod(20.03, 152, 155), kGlass);
-  const Solid lever = block({17, -2, 120}, {38, 2, 123}).placed(turn_z(50));
-  model.add(group, "iris ring", tube(36, 29.98, 118, 124) + lever, kBrass);
 }
 
 /// A thick disc below the nosepiece, its underside cut square to each objective.
@@ -189,7 +179,7 @@ Solid turret_body() {
   const Solid bore = rod(19.3, -1, 6);
   Solid body = rod(64, -56, -28);
   for (int i = 0; i < 3; ++i) body = body - beyond_seat.placed(objective_place(i));
-  std::vector<Solid> cuts{rod(6.06, -60, 0), rod(11, -60, -50)};
+  std::vector<Solid> cuts{rod(6.06, -60, 0)};
   for (int i = 0; i < 3; ++i) cuts.push_back(bore.placed(objective_place(i)));
   return body - cuts;
 }
@@ -213,12 +203,12 @@ void add_nosepiece(SampleModel& model) {
   const Solid wedge =
       (rod(58, -28, 40).placed(frame) & block({-60, -60, 150}, {60, 60, kLimbBottom})) + rod(30, 245, 262);
   const Solid pivot_hole = tapped_hole(5, 6.5).placed(frame * at(0, 0, -28) * turn_x(180));
-  model.add(group, "nosepiece", wedge - std::vector<Solid>{rod(8, 150, 300), pivot_hole}, kDarkGrey);
+  model.add(group, "nosepiece", wedge - pivot_hole, kDarkGrey);
   model.add(group, "nosepiece set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 257));
   model.add(group, "turret", turret_body(), kBlackOxide, frame);
   const Solid pivot =
-      (rod(10, 0, 4) + std::vector<Solid>{rod(6, -22, 0), rod(5, -28, -21)}) - block({-6, -0.8, 2.5}, {6, 0.8, 6});
-  model.add(group, "turret pivot screw", pivot, kSteel, frame * at(0, 0, -50) * turn_x(180));
+      (rod(10, 0, 4) + std::vector<Solid>{rod(6, -28, 0), rod(5, -34, -27)}) - block({-6, -0.8, 2.5}, {6, 0.8, 6});
+  model.add(group, "turret pivot screw", pivot, kSteel, frame * at(0, 0, -56) * turn_x(180));
   const char* names[] = {"objective 40x", "objective 4x", "objective 10x"};
   const double lengths[] = {38, 22, 30};
   for (int i = 0; i < 3; ++i)
@@ -234,10 +224,10 @@ void add_head(SampleModel& model) {
   const Solid body =
       extruded({{-24, 286}, {24, 286}, {29.1, 317.7, 6}, {3.7, 343.1, 8}, {-24, 334, 14}}, -21, 21).placed(side_view());
   const Solid body_and_spigot = body + std::vector<Solid>{rod(30, 273, 287)};
-  model.add(group, "head", body_and_spigot - std::vector<Solid>{rod(14, 260, 305), rod(28, 0, 40).placed(tube_axis())},
+  model.add(group, "head", body_and_spigot - std::vector<Solid>{rod(10, 260, 305), rod(28, 0, 40).placed(tube_axis())},
             kCream);
   model.add(group, "head set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 279));
-  const Solid tube_body = revolved({{11.65, 17}, {14.015, 17}, {14.015, 26}, {17, 26}, {17, 100}, {11.65, 100}});
+  const Solid tube_body = tube(28.03, 23.3, 17, 100);
   model.add(group, "tube", tube_body, kBlackOxide, tube_axis());
   const Solid eyepiece =
       revolved({{0, 60}, {11.6, 60}, {11.6, 100}, {18, 100}, {18, 114}, {8, 114}, {8, 111}, {0, 111}});

@@ -54,7 +54,8 @@ class SampleModel {
   std::vector<Occurrence> occurrences() const;
   const Solid& solid(int product) const { return products_[static_cast<std::size_t>(product)].solid; }
   const Paint& paint(int product) const { return products_[static_cast<std::size_t>(product)].paint; }
-  /// Writes STEP AP214 with names, colours, tree and shared instances; the same bytes every time.
+  /// Writes STEP AP214 with names, colours, tree and shared instances; the same structure and numbers every time, with
+  /// no clock in it (the order of a few style entities is OpenCASCADE's).
   /// Throws std::runtime_error where the file cannot be written.
   void write_step(const std::filesystem::path& file) const;
 

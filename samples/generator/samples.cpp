@@ -11,6 +11,9 @@ std::vector<std::string> sample_names() {
 
 SampleModel make_sample(const std::string& name) {
   if (name == "microscope") return make_microscope();
+  if (name == "tooling") return make_tooling();
+  if (name == "robot") return make_robot();
+  if (name == "lathe") return make_lathe();
   throw std::invalid_argument("there is no sample named " + name);
 }
 
