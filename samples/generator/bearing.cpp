@@ -35,7 +35,10 @@ BearingProducts make_ball_bearing(SampleModel& model, const std::string& name, c
 
   products.inner_ring = model.product(name + " inner ring", inner, kBrightSteel);
   products.cage = model.product(name + " cage", cage, kBrass);
-  products.body = model.product(name + " ball", ball(ball_diameter), kBrightSteel);
+  // Flats of a thirtieth of the diameter at the poles: a whole sphere is tessellated with degenerate triangles there.
+  const Solid rolling_ball =
+      ball(ball_diameter) & rod(2 * ball_diameter, -0.4995 * ball_diameter, 0.4995 * ball_diameter);
+  products.body = model.product(name + " ball", rolling_ball, kBrightSteel);
   products.outer_ring = model.product(name + " outer ring", outer, kBrightSteel);
   return products;
 }

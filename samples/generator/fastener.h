@@ -17,7 +17,7 @@ Solid clearance_hole(double diameter, double depth);
 /// Tapped hole for a cosmetic thread, from z = 0 down to -depth: kThreadOverlap narrower than the screw.
 Solid tapped_hole(double diameter, double depth);
 /// How much narrower than its screw a tapped hole with a cosmetic thread is [mm, on the diameter]: a `fit`.
-inline constexpr double kThreadOverlap = 0.12;
+inline constexpr double kThreadOverlap = 0.24;
 /// Hexagon head screw (ISO 4017), its head standing on the plane z = 0, its shank down to z = -length.
 Solid hex_screw(double diameter, double length);
 /// Set screw with a hexagon socket (ISO 4026), its socket face at z = 0, down to -length.

@@ -21,6 +21,7 @@ constexpr double kTilt = 20;   ///< Of the turret, and of the objectives in it [
 constexpr double kApex = 262;  ///< Height where the objectives' axes meet.
 constexpr double kSeat = 55;   ///< From there to the objectives' seats.
 constexpr double kPinionZ = 133;
+constexpr double kArmScrewY = -82;
 constexpr double kRackPitchY = -65;
 const GearShape kRackGear{0.8, 16, 0.08};
 
@@ -60,12 +61,11 @@ Solid dovetail(double play, double z0, double z1) {
 void add_stand(SampleModel& model) {
   const GroupId group = model.group("stand");
   std::vector<Solid> cuts{rod(34.1, kLampSeat, kBaseTop + 1), block({-9, -104, -1}, {9, -61, 8})};
-  for (const double y : {-72.0, -93.0}) cuts.push_back(rod(8.8, 7, 25).placed(at(0, y, 0)));
+  cuts.push_back(rod(8.8, 7, 25).placed(at(0, kArmScrewY, 0)));
   model.add(group, "base", plate(112, 180, 8, 0, kBaseTop).placed(at(0, -32, 0)) - cuts, kCream);
   const ProductId foot = model.product("foot", block({-9, -9, -6}, {9, 9, 0}), kRubber);
   for (const Placement& corner : at_corners(84, 150)) model.place(group, foot, at(0, -32, 0) * corner);
-  const ProductId screw = model.product("arm screw M8x28", hex_screw(8, 28), kSteel);
-  for (const double y : {-72.0, -93.0}) model.place(group, screw, upside_down(0, y, 8));
+  model.add(group, "arm screw M8x28", hex_screw(8, 28), kSteel, upside_down(0, kArmScrewY, 8));
 }
 
 void add_arm(SampleModel& model) {
@@ -86,7 +86,7 @@ void add_arm(SampleModel& model) {
                           rod(30.05, kLimbBottom - 1, kLimbTop + 1),
                           tapped_hole(4, 20).placed(facing_user(0, 27, 257)),
                           tapped_hole(4, 20).placed(facing_user(0, 27, 279))};
-  for (const double y : {-72.0, -93.0}) cuts.push_back(tapped_hole(8, 16).placed(upside_down(0, y, kBaseTop)));
+  cuts.push_back(tapped_hole(8, 16).placed(upside_down(0, kArmScrewY, kBaseTop)));
   model.add(model.group("arm"), "arm", body - cuts, kCream);
 }
 
@@ -176,7 +176,7 @@ void add_condenser(SampleModel& model) {
 /// A thick disc below the nosepiece, its underside cut square to each objective.
 Solid turret_body() {
   const Solid beyond_seat = block({-80, -80, -60}, {80, 80, 0});
-  const Solid bore = rod(19.3, -1, 6);
+  const Solid bore = rod(19, -1, 6);
   Solid body = rod(64, -56, -28);
   for (int i = 0; i < 3; ++i) body = body - beyond_seat.placed(objective_place(i));
   std::vector<Solid> cuts{rod(6.06, -60, 0)};
@@ -184,7 +184,7 @@ Solid turret_body() {
   return body - cuts;
 }
 
-/// An objective hanging from its seat at z = 0; its cosmetic thread is half a millimetre thicker than the turret's
+/// An objective hanging from its seat at z = 0; its cosmetic thread is much thicker than the turret's
 /// drilled bore.
 Solid objective(double length) {
   return revolved({{0, 5.5},
@@ -204,7 +204,7 @@ void add_nosepiece(SampleModel& model) {
       (rod(58, -28, 40).placed(frame) & block({-60, -60, 150}, {60, 60, kLimbBottom})) + rod(30, 245, 262);
   const Solid pivot_hole = tapped_hole(5, 6.5).placed(frame * at(0, 0, -28) * turn_x(180));
   model.add(group, "nosepiece", wedge - pivot_hole, kDarkGrey);
-  model.add(group, "nosepiece set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 257));
+  model.add(group, "nosepiece set screw M4x12", set_screw(4, 12), kSteel, facing_user(0, 27.1, 257));
   model.add(group, "turret", turret_body(), kBlackOxide, frame);
   const Solid pivot =
       (rod(10, 0, 4) + std::vector<Solid>{rod(6, -28, 0), rod(5, -34, -27)}) - block({-6, -0.8, 2.5}, {6, 0.8, 6});
@@ -226,7 +226,7 @@ void add_head(SampleModel& model) {
   const Solid body_and_spigot = body + std::vector<Solid>{rod(30, 273, 287)};
   model.add(group, "head", body_and_spigot - std::vector<Solid>{rod(10, 260, 305), rod(28, 0, 40).placed(tube_axis())},
             kCream);
-  model.add(group, "head set screw M4x10", set_screw(4, 10), kSteel, facing_user(0, 25.1, 279));
+  model.add(group, "head set screw M4x12", set_screw(4, 12), kSteel, facing_user(0, 27.1, 279));
   const Solid tube_body = tube(28.03, 23.3, 17, 100);
   model.add(group, "tube", tube_body, kBlackOxide, tube_axis());
   const Solid eyepiece =

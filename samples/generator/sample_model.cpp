@@ -110,6 +110,7 @@ void SampleModel::write_step(const std::filesystem::path& file) const {
   STEPCAFControl_Writer writer;
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
+  Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // curves in space only: half the size
   writer.SetNameMode(true);
   writer.SetColorMode(true);
   if (!writer.Transfer(document, STEPControl_AsIs)) throw std::runtime_error("cannot turn " + name_ + " into STEP");

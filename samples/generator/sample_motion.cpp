@@ -31,7 +31,7 @@ Motion microscope_motion() {
   return hand_motion({{{"eyepiece", "eye lens"}, {0, s, s}, 60, 0, {}, {0, 40, -60}},
                       {{"specimen slide"}, {1, 0, 0}, 95, 0, {}, {0, 0, -40}},
                       {{"objective 40x"}, {0, 0, -1}, 12, 0, {}, {0, 10, 0}},
-                      {{"head set screw M4x10"}, {0, 1, 0}, 40, 0, {}, {}},
+                      {{"head set screw M4x12"}, {0, 1, 0}, 40, 0, {}, {}},
                       {{"head", "tube"}, {0, 0, 1}, 40, 0, {}, {0, 60, -70}},
                       {{"thumb screw threaded"}, {0, 1, 0}, 12, 4, {0, 0, 136}, {0, 30, 0}},
                       {{"condenser"}, {0, 0, -1}, 60, 0, {}, {0, 20, -40}}},

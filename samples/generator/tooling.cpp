@@ -85,6 +85,7 @@ void add_ejector(SampleModel& model) {
   const std::vector<Placement> screws = ejector_screws(kEjectorLow);
   std::vector<Solid> base_cuts = at_each(cap_screw_counterbore(6, 17), upward(screws));
   base_cuts.push_back(rod(14, kEjectorLow - 1, kEjectorSplit + 1));
+  base_cuts.push_back(rod(18, kEjectorLow - 1, kEjectorLow + 1.5));
   model.add(group, "ejector base plate", slab(66, kHalfWidth, kEjectorLow, kEjectorSplit) - base_cuts, kSteel);
   std::vector<Solid> cuts = at_each(tapped_hole(6, 11).placed(turn_x(180)), ejector_screws(kEjectorSplit));
   append(cuts, at_each(rod(12.4, -1, 4) + rod(6.6, 3, 20), ejector_pins(kEjectorSplit)));
@@ -100,7 +101,7 @@ void add_ejector(SampleModel& model) {
   model.place_all(group, back, return_pins(kEjectorSplit));
   const ProductId spring = model.product("urethane spring", tube(24, 13, 0, kSupportLow - kEjectorHigh), kOrange);
   model.place_all(group, spring, return_pins(kEjectorHigh));
-  model.add(group, "ejector rod", rod(28, -40, kEjectorLow) + rod(16, kEjectorLow - 1, kEjectorSplit), kToolSteel);
+  model.add(group, "ejector rod", rod(28, -40, kEjectorLow) + rod(16, kEjectorLow - 1, kEjectorSplit - 2), kToolSteel);
 }
 
 void add_core_side(SampleModel& model) {
@@ -177,7 +178,7 @@ void add_moulding_and_cooling(SampleModel& model) {
   const GroupId group = model.group("cooling");
   const Solid nipple = (rod(9.4, -12, 1) + std::vector<Solid>{prism(6, 14, 0, 6), rod(9, 5, 20)}) - rod(5, -13, 23);
   const ProductId nipples = model.product("hose nipple", nipple, kBrass);
-  const ProductId plugs = model.product("channel plug", set_screw(8.52, 10), kBrass);
+  const ProductId plugs = model.product("channel plug", set_screw(8.64, 10), kBrass);
   for (const double y : {-kChannelY, kChannelY}) {
     model.place(group, nipples, at(kHalfWidth, y, kChannelHeight) * along_x());
     model.place(group, plugs, at(-kHalfWidth, y, kChannelHeight) * turn_y(-90));
