@@ -187,8 +187,8 @@ Solid turret_body() {
 /// An objective hanging from its seat at z = 0; its cosmetic thread is much thicker than the turret's
 /// drilled bore.
 Solid objective(double length) {
-  return revolved({{0, 5.5},
-                   {10.15, 5.5},
+  return revolved({{0, 5},
+                   {10.15, 5},
                    {10.15, 0},
                    {12, 0},
                    {12, -0.65 * length},

@@ -234,12 +234,12 @@ void add_gripper(SampleModel& model) {
     return block({-14.97, y0, 11.03}, {14.97, y1, 28.97}) +
            std::vector<Solid>{block({-8.97, y0, 28}, {8.97, y1, 48}), block({-8.97, tip0, 46}, {8.97, tip1, 90})};
   };
-  const double play = 0.06;
-  const Solid tap = threaded_rod(with_play(screw_thread(), 0.12, play), 4, 36, 1 + 2 - play, 0.3).placed(screw_axis);
+  const double play = 0.1;
+  const Solid tap = threaded_rod(with_play(screw_thread(), 0.15, play), 4, 36, 1 + 2 - play, 0.3).placed(screw_axis);
   model.add(group, "moving finger", finger(8, 24, 8, 14) - tap, kAluminium, frame);
-  model.add(group, "fixed finger", finger(-24, -8, -14, -8) - rod(8.1, -30, 0).placed(screw_axis), kAluminium, frame);
+  model.add(group, "fixed finger", finger(-24, -8, -14, -8) - rod(5.7, -30, 0).placed(screw_axis), kAluminium, frame);
   const Solid lead =
-      threaded_rod(screw_thread(), 5, 31, 2, 0.5) + std::vector<Solid>{rod(6.5, 30, 56), rod(6.5, -30, 6)};
+      threaded_rod(screw_thread(), 5, 31, 2, 0.5) + std::vector<Solid>{rod(6.5, 30, 56), rod(5.6, -30, 6)};
   model.add(group, "lead screw threaded", lead, kBrightSteel, frame * screw_axis);
   model.add(group, "hand knob", ridged_knob({22, 10, 10, 6.48}), kBlackOxide, frame * screw_axis * at(0, 0, 46));
 }

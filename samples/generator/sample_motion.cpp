@@ -63,7 +63,7 @@ Motion lathe_motion() {
 
 Motion robot_motion() {
   return hand_motion({{{"hand knob"}, {0, 1, 0}, 30, 0, {}, {0, 0, 20}},
-                      {{"lead screw threaded"}, {0, 1, 0}, 32, 8, {246, 0, 454}, {0, 40, 0}},
+                      {{"lead screw threaded"}, {0, 1, 0}, 20, 5, {246, 0, 454}, {0, 40, 0}},
                       {{"moving finger"}, {0, 1, 0}, 60, 0, {}, {30, 0, 0}},
                       {{"shoulder cap"}, {0, 1, 0}, 10, 0, {}, {}},
                       {{"cap screw M3x10"}, {0, 1, 0}, 30, 0, {}, {0, 0, 20}},
