@@ -187,14 +187,8 @@ Solid turret_body() {
 /// An objective hanging from its seat at z = 0; its cosmetic thread is much thicker than the turret's
 /// drilled bore.
 Solid objective(double length) {
-  return revolved({{0, 5},
-                   {10.15, 5},
-                   {10.15, 0},
-                   {12, 0},
-                   {12, -0.65 * length},
-                   {5, -0.65 * length},
-                   {5, -length},
-                   {0, -length}});
+  return revolved(
+      {{0, 5}, {10.15, 5}, {10.15, 0}, {12, 0}, {12, -0.65 * length}, {5, -0.65 * length}, {5, -length}, {0, -length}});
 }
 
 void add_nosepiece(SampleModel& model) {
