@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -51,7 +51,7 @@ std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<long>(q * static_cast<double>(values.size() - 1) + 0.5);
+  const auto place = values.begin() + std::lround(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }

@@ -27,8 +27,10 @@ Result<RigidSet> find_set(const Assembly& assembly, const MotionMove& move, std:
   for (const std::string& name : move.components) {
     const std::optional<ComponentId> id = assembly.find(name);
     if (!id)
-      return Error{ErrorKind::Usage, where + " moves an unknown component (the assembly has no '" + name +
-                                         "'); 'dismantle info' lists the names"};
+      return Error{ErrorKind::Usage, std::string(where)
+                                         .append(" moves an unknown component (the assembly has no '")
+                                         .append(name)
+                                         .append("'); 'dismantle info' lists the names")};
     if (std::find(ids.begin(), ids.end(), *id) == ids.end()) ids.push_back(*id);
   }
   if (ids.empty()) return Error{ErrorKind::Usage, where + " moves nothing (components is empty); name at least one"};
