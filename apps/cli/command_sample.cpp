@@ -50,7 +50,7 @@ Result<Done> run(const SampleCommand& options) {
   const std::string file =
       options.output.empty() && options.motion_output.empty() ? options.name + ".step" : options.output;
   if (!file.empty())
-    if (const Result<Done> saved = save(step, file, options.quiet); !saved) return saved;
+    if (const Result<Done> saved = save(step, file, options.quiet); !saved) return saved.error();
   if (options.motion_output.empty()) return Done{};
   return save(bundled_sample_motion(options.name), options.motion_output, options.quiet);
 }
