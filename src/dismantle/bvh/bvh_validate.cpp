@@ -67,7 +67,7 @@ std::string bvh_validate(const Bvh& bvh) {
 }
 
 std::string bvh_validate(const Bvh& bvh, Span<const Kdop16> bounds) {
-  const std::string problem = bvh_validate(bvh);
+  std::string problem = bvh_validate(bvh);
   if (!problem.empty()) return problem;
   if (bounds.size() != bvh.node_count()) return "not every node has bounds";
   for (NodeIndex i = 0; i < bvh.children.size(); ++i) {
