@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/path.h"
-#include "dismantle/collision/collision_engine.h"
+#include "dismantle/collision/motion_engine.h"
 
 #include <vector>
 
@@ -17,16 +17,6 @@ struct RigidSet {
 
 /// The set of these components with its bounding sphere.
 RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> components);
-
-/// How one step towards a target ended, and what it cost.
-struct StepResult {
-  Pose pose;             ///< Where the set really is now: on the one screw from its start to the target.
-  bool reached = false;  ///< pose is the target.
-  std::vector<CollisionContact> contacts;  ///< What stopped the motion; empty where reached.
-  int sweeps = 0;                          ///< How many linear sweeps the motion was cut into, and the repeated ones.
-  StepTimings timings;                     ///< Summed over the sweeps.
-  StreamSizes sizes;                       ///< Of the last sweep; tests and replays summed.
-};
 
 /// How far the linear vertex paths of a sweep may be from the true screw, as a share of the tolerance. Motions are cut
 /// until they are that near; the share is taken off every allowance, always, so the guarantee holds for the screw

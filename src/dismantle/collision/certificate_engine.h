@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/motion_engine.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+/// The least distance between the set in hand and the rest, and where it is.
+struct Clearance {
+  double distance = 0;             ///< [mm]; 0 where surfaces meet, infinite where there is nothing else.
+  ComponentId moving, fixed;       ///< The two components.
+  FaceId face_moving, face_fixed;  ///< Of the components' own meshes.
+  Vec3 point_moving, point_fixed;  ///< [mm, world]
+};
+
+/// How far one candidate motion of a batch gets.
+struct FirstContact {
+  double toi = 1;  ///< The motion is certainly free on [0, toi]; 1 where all of it is.
+  bool free = true;
+  ComponentId moving, fixed;       ///< The earliest contact's components; of no meaning where free.
+  FaceId face_moving, face_fixed;  ///< Its faces, of the components' own meshes.
+  friend bool operator==(const FirstContact&, const FirstContact&) = default;
+};
+
+/// Options of the method `certificates`.
+struct CertificateOptions {
+  Executor executor;
+  int lanes = 0;  ///< SIMD lanes: 1, 4, 8 or 16; 0 takes the widest that the machine has. Same results for all.
+};
+
+/// The method `certificates` (DESIGN sections 2.2 to 6) with responses Stop, Touch and Slide: a front of separating
+/// certificates over static trees of oriented boxes. Same input, same results: for every executor, thread count and
+/// lane width.
+class CertificateEngine final : public MotionEngine {
+ public:
+  /// All components in the assembled state. `assembly` must outlive the engine.
+  CertificateEngine(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options = {});
+  ~CertificateEngine() override;
+  CertificateEngine(CertificateEngine&&) noexcept;
+  CertificateEngine& operator=(CertificateEngine&&) noexcept;
+
+  void hold(Span<const ComponentId> components) override;
+  StepResult step(const Pose& target, ResponseKind response) override;
+  bool can_respond(ResponseKind) const override { return true; }
+  void jump(Span<const Pose> poses) override;
+  Span<const Pose> poses() const override;
+  std::vector<ComponentPair> embedded_pairs() const override;
+
+  /// What the set in hand touches where it is: the triangle pairs nearer than `reach` [mm]. Ordered by components and
+  /// faces.
+  std::vector<ContactPoint> contacts(double reach) const;
+  /// The exact least distance from the set in hand to everything that it may not overlap.
+  Clearance clearance() const;
+  /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
+  /// `targets[i]`. Nothing moves.
+  std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;
+  /// How many pairs of nodes the fronts of the set in hand have.
+  std::size_t front_size() const;
+
+ private:
+  class Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace dismantle
