@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/collision/vertex_depth_guard.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/motion_file.h"
 #include "dismantle/io/path_file.h"
@@ -157,8 +156,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   CollisionOptions collision;
   collision.test = o.test;
   collision.executor = *executor;
-  const std::unique_ptr<CollisionEngine> engine =
-      make_guarded_engine(make_streams_engine(*assembly, *states, collision), *assembly, *states, *executor);
+  const std::unique_ptr<MotionEngine> engine = make_streams_motion_engine(*assembly, *states, collision);
   const Result<PlayedMotion> played = play_motion(*assembly, *states, motion, *engine, progress_printer(o.common));
   if (!played) return played.error();
   if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; what was moved until then is in the path\n");

@@ -22,7 +22,7 @@ PlayedMotion played(const Assembly& assembly, const Motion& motion) {
   ClassifyOptions classify;
   classify.tolerance = kTolerance;
   const Result<PairStates> states = classify_pairs(assembly, classify);
-  const auto engine = make_streams_engine(assembly, *states, {});
+  const auto engine = make_streams_motion_engine(assembly, *states, {});
   Result<PlayedMotion> result = play_motion(assembly, *states, motion, *engine);
   EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
   return *result;
@@ -120,7 +120,7 @@ TEST(PlayMotion, RefusesUnknownComponentsAndTornSets) {
   const Assembly assembly = wall_and_block();
   const PairStates states{kTolerance, {}};
   const auto play = [&](const Motion& motion) {
-    const auto engine = make_streams_engine(assembly, states, {});
+    const auto engine = make_streams_motion_engine(assembly, states, {});
     return play_motion(assembly, states, motion, *engine);
   };
   const Result<PlayedMotion> unknown = play({ResponseKind::Stop, {straight("blok", {1, 0, 0}, 1)}});
@@ -134,7 +134,7 @@ TEST(PlayMotion, RefusesUnknownComponentsAndTornSets) {
 TEST(PlayMotion, KeepsWhatWasMovedWhenCancelled) {
   const Assembly assembly = wall_and_block();
   const PairStates states{kTolerance, {}};
-  const auto engine = make_streams_engine(assembly, states, {});
+  const auto engine = make_streams_motion_engine(assembly, states, {});
   int calls = 0;
   const Result<PlayedMotion> result =
       play_motion(assembly, states, {ResponseKind::Stop, {straight("block", {5, 0, 0}, 10)}}, *engine,

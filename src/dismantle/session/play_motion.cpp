@@ -20,8 +20,8 @@ Path empty_path(const Assembly& assembly, const PairStates& states) {
   return path;
 }
 
-Result<RigidSet> find_set(const Assembly& assembly, const MotionMove& move, std::size_t index,
-                          const std::vector<Pose>& poses) {
+Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const MotionMove& move, std::size_t index,
+                                          Span<const Pose> poses) {
   const std::string where = "moves[" + std::to_string(index) + "]";
   std::vector<ComponentId> ids;
   for (const std::string& name : move.components) {
@@ -40,7 +40,17 @@ Result<RigidSet> find_set(const Assembly& assembly, const MotionMove& move, std:
                                        "' and '" + assembly[ids.front()].name +
                                        "' were moved apart before); move them one after another"};
   }
-  return make_rigid_set(assembly, std::move(ids));
+  return ids;
+}
+
+/// Adds the frames of one step: the screws that it was cut into share its time evenly.
+void append_frames(Move& move, double time, const StepResult& step) {
+  const double before = move.frames.back().time;
+  const auto count = static_cast<double>(step.way.size());
+  for (std::size_t i = 0; i + 1 < step.way.size(); ++i)
+    move.frames.push_back({before + (time - before) * (static_cast<double>(i) + 1) / count, step.way[i]});
+  // The first frame already says where the set starts: a first target that asks for just that adds none.
+  if (move.frames.size() > 1 || time > 0 || !step.way.empty()) move.frames.push_back({time, step.pose});
 }
 
 Aabb bounds_at(const Component& component, const Pose& pose) {
@@ -50,7 +60,7 @@ Aabb bounds_at(const Component& component, const Pose& pose) {
   return box;
 }
 
-std::vector<std::string> removed_components(const Assembly& assembly, const std::vector<Pose>& poses) {
+std::vector<std::string> removed_components(const Assembly& assembly, Span<const Pose> poses) {
   const Aabb all = assembled_bounds(assembly);
   std::vector<std::string> names;
   for (std::size_t c = 0; c < poses.size(); ++c)
@@ -62,19 +72,18 @@ std::vector<std::string> removed_components(const Assembly& assembly, const std:
 }  // namespace
 
 Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& states, const Motion& motion,
-                                 CollisionEngine& engine, const ProgressCallback& progress) {
+                                 MotionEngine& engine, const ProgressCallback& progress) {
   PlayedMotion played;
   played.path = empty_path(assembly, states);
-  std::vector<Pose> poses(assembly.components.size());
   std::size_t target_count = 0;
   for (const MotionMove& move : motion.moves) target_count += move.targets.size();
 
   for (std::size_t m = 0; m < motion.moves.size() && !played.cancelled; ++m) {
     const MotionMove& asked = motion.moves[m];
-    Result<RigidSet> set = find_set(assembly, asked, m, poses);
+    const Result<std::vector<ComponentId>> set = find_set(assembly, asked, m, engine.poses());
     if (!set) return set.error();
-    Pose pose = poses[set->components.front().value];
-    Move move{"move " + assembly[set->components.front()].name, asked.components, {{0, pose}}};
+    engine.hold(*set);
+    Move move{"move " + assembly[set->front()].name, asked.components, {{0, engine.poses()[set->front().value]}}};
 
     for (std::size_t k = 0; k < asked.targets.size(); ++k) {
       const double done = static_cast<double>(played.steps.size()) / static_cast<double>(target_count);
@@ -83,17 +92,13 @@ Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& sta
         break;
       }
       const Frame& target = asked.targets[k];
-      PlayedStep step{m, k, target.time,
-                      step_towards(engine, *set, pose, target.pose, motion.response, states.tolerance)};
-      pose = step.result.pose;
-      // The first frame already says where the set starts: a first target that asks for just that adds none.
-      if (k > 0 || target.time > 0 || !(pose == move.frames.front().pose)) move.frames.push_back({target.time, pose});
+      PlayedStep step{m, k, target.time, engine.step(target.pose, motion.response)};
+      append_frames(move, target.time, step.result);
       played.steps.push_back(std::move(step));
     }
-    for (const ComponentId c : set->components) poses[c.value] = pose;
     played.path.moves.push_back(std::move(move));
   }
-  played.path.removed = removed_components(assembly, poses);
+  played.path.removed = removed_components(assembly, engine.poses());
   report_progress(progress, "moving", 1);
   return played;
 }

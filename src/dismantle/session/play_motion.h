@@ -2,8 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/path.h"
-#include "dismantle/collision/collision_engine.h"
-#include "dismantle/collision/response.h"
+#include "dismantle/collision/motion_engine.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
 
@@ -21,7 +20,7 @@ struct PlayedStep {
 
 /// What playing a motion gave.
 struct PlayedMotion {
-  Path path;  ///< How far the components really got; one frame a target.
+  Path path;  ///< How far the components really got; one frame a screw, at least one a target.
   std::vector<PlayedStep> steps;
   bool cancelled = false;  ///< `progress` ended it early; path holds what was moved until then.
 };
@@ -29,8 +28,8 @@ struct PlayedMotion {
 /// Plays a motion with collision handling: one step a target, each from the pose really reached to the next target.
 /// @param engine in its start state: every component assembled
 /// Errors: Usage where the motion names an unknown component, or moves components together whose poses differ by then.
-/// @pre motion.response is Stop or Touch
+/// @pre engine.can_respond(motion.response)
 Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& pairs, const Motion& motion,
-                                 CollisionEngine& engine, const ProgressCallback& progress = {});
+                                 MotionEngine& engine, const ProgressCallback& progress = {});
 
 }  // namespace dismantle

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/motion_engine.h"
+#include "dismantle/collision/response.h"
+#include "dismantle/collision/vertex_depth_guard.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// The paper's method as the host loop sees it: sweeps of the whole assembly, of which one set moves.
+class StreamsMotionEngine final : public MotionEngine {
+ public:
+  StreamsMotionEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options)
+      : assembly_(assembly),
+        tolerance_(pairs.tolerance),
+        engine_(make_guarded_engine(make_streams_engine(assembly, pairs, options), assembly, pairs, options.executor)),
+        poses_(assembly.components.size()) {}
+
+  void hold(Span<const ComponentId> components) override {
+    DISMANTLE_EXPECT(!components.empty());
+    set_ = make_rigid_set(assembly_, {components.begin(), components.end()});
+    for (const ComponentId c : components) DISMANTLE_EXPECT(poses_[c.value] == poses_[components[0].value]);
+  }
+
+  StepResult step(const Pose& target, ResponseKind response) override {
+    DISMANTLE_EXPECT(!set_.components.empty());
+    const Pose start = poses_[set_.components.front().value];
+    StepResult result = step_towards(*engine_, set_, start, target, response, tolerance_);
+    if (!(result.pose == start)) result.way = {result.pose};
+    for (const ComponentId c : set_.components) poses_[c.value] = result.pose;
+    return result;
+  }
+
+  bool can_respond(ResponseKind response) const override { return response != ResponseKind::Slide; }
+
+  void jump(Span<const Pose> poses) override {
+    DISMANTLE_EXPECT(poses.size() == poses_.size());
+    std::vector<RigidTransform> state;
+    for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
+    engine_->jump(state);
+    poses_.assign(poses.begin(), poses.end());
+    const auto parted = [&](ComponentId c) { return !(poses_[c.value] == poses_[set_.components.front().value]); };
+    if (std::any_of(set_.components.begin(), set_.components.end(), parted)) set_ = {};
+  }
+
+  Span<const Pose> poses() const override { return poses_; }
+  std::vector<ComponentPair> embedded_pairs() const override { return engine_->embedded_pairs(); }
+
+ private:
+  const Assembly& assembly_;
+  double tolerance_;
+  std::unique_ptr<CollisionEngine> engine_;
+  RigidSet set_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace
+
+std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
+                                                         const CollisionOptions& options) {
+  return std::make_unique<StreamsMotionEngine>(assembly, pairs, options);
+}
+
+}  // namespace dismantle
