@@ -56,6 +56,29 @@ function(dismantle_component name)
   set_property(GLOBAL APPEND PROPERTY DISMANTLE_COMPONENTS ${name})
 endfunction()
 
+# dismantle_lane_kernel(TARGET SOURCE): compiles SOURCE, the kernel of some entry, once a lane count and adds it to TARGET;
+# how such a source is written: src/dismantle/math/lanes.h. Each compilation has DISMANTLE_LANE_COUNT=1, 4, 8 or 16 and
+# the flags that this width needs and no more: none allows fused operations that contraction could use.
+function(dismantle_lane_kernel target source)
+  set(counts 1 4)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+    list(APPEND counts 8 16)
+  endif()
+  set(flags_8 -mavx2)
+  set(flags_16 -mavx512f -mavx512bw -mavx512dq -mavx512vl)
+  cmake_path(GET source STEM stem)
+  foreach(count IN LISTS counts)
+    set(object ${target}_${stem}_${count})
+    add_library(${object} OBJECT ${source})
+    target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${object} PRIVATE dismantle_build_settings)
+    target_compile_definitions(${object} PRIVATE DISMANTLE_LANE_COUNT=${count})
+    target_compile_options(${object} PRIVATE ${flags_${count}})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+    set_property(GLOBAL APPEND PROPERTY DISMANTLE_LANE_OBJECTS ${object})
+  endforeach()
+endfunction()
+
 # dismantle_test(NAME SOURCES ... DEPENDS component ... [LIBRARIES ...]): one test program for one folder of tests.
 function(dismantle_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})

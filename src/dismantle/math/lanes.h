@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/math/lane_operations.h"
+
+/// SIMD lanes: kCount floats that go through the same arithmetic side by side. Every operation of a lane gives the bits
+/// that the scalar operation on its float gives (round to nearest, no contraction), so a kernel that is a template on
+/// the count computes the same numbers at every width.
+///
+/// How a kernel is written, compiled and called. One source is compiled once a width, each with the flags of that
+/// width; the rest of the program is compiled for the plain machine and asks at run time which one it may call.
+///
+///   box_test_kernel.h      the entry, declared for every width, on plain data (pointers, sizes, structs of floats):
+///       template <int kLanes>
+///       void box_test_kernel(const BoxPairs& pairs, std::uint8_t* overlaps);
+///
+///   box_test_kernel.cpp    its definition for the width that this compilation is for:
+///       #include "dismantle/math/lanes.h"
+///       namespace dismantle {
+///       inline namespace DISMANTLE_LANES_ISA {
+///       template <int kLanes> LaneMask<kLanes> overlap(Lanes<kLanes> a, Lanes<kLanes> b) { return abs(a - b) <= 1; }
+///       }
+///       template <>
+///       void box_test_kernel<DISMANTLE_LANE_COUNT>(const BoxPairs& pairs, std::uint8_t* overlaps) { ... }
+///       }
+///
+///   CMakeLists.txt         after dismantle_component(front SOURCES ...):
+///       dismantle_lane_kernel(dismantle_front box_test_kernel.cpp)
+///
+///   the caller             (a plain .cpp, with math/lane_dispatch.h)
+///       with_lanes(widest_lanes(), [&](auto lanes) { box_test_kernel<lanes>(pairs, overlaps); });
+///
+/// The trap: an inline function that two compilations emit with different flags is one function to the linker, which
+/// keeps either copy; kept from the AVX2 object it ends a plain machine with SIGILL. Hence in a kernel's source
+///   - everything but the entry stands in `inline namespace DISMANTLE_LANES_ISA`, which has another name a set of flags
+///     (Lanes themselves do), or takes a Lanes as a template argument (Vec3T<Lanes<8>> and its functions do);
+///   - nothing of std:: is called, no Span is indexed and no contract is checked: give pointers to the kernel.
+/// The test lanes.kernels_share_no_function looks into the objects and fails where this was forgotten.
+namespace dismantle {
+inline namespace DISMANTLE_LANES_ISA {
+
+/// One truth value a lane.
+template <int kCount, class Operations = LaneOperations<kCount>>
+struct LaneMask {
+  typename Operations::Mask m;
+
+  friend LaneMask operator&(LaneMask a, LaneMask b) { return {Operations::both(a.m, b.m)}; }
+  friend LaneMask operator|(LaneMask a, LaneMask b) { return {Operations::either(a.m, b.m)}; }
+  friend LaneMask operator!(LaneMask a) { return {Operations::inverse(a.m)}; }
+};
+
+/// Bit i is set where lane i is true.
+template <int kCount, class Operations>
+unsigned bits(LaneMask<kCount, Operations> a) {
+  return Operations::bits(a.m);
+}
+
+template <int kCount, class Operations>
+bool any(LaneMask<kCount, Operations> a) {
+  return bits(a) != 0;
+}
+
+template <int kCount, class Operations>
+bool all(LaneMask<kCount, Operations> a) {
+  return bits(a) == (1u << kCount) - 1;
+}
+
+/// kCount floats. Counts: 1 (the scalar) and 4 everywhere, 8 where this is compiled for AVX2, 16 for AVX-512.
+template <int kCount, class Operations = LaneOperations<kCount>>
+struct Lanes {
+  using Mask = LaneMask<kCount, Operations>;
+
+  typename Operations::Register r = Operations::broadcast(0);
+
+  Lanes() = default;
+  /// The same value in every lane.
+  Lanes(float x) : r(Operations::broadcast(x)) {}  // NOLINT: a number is as good as lanes of it
+  explicit Lanes(typename Operations::Register x) requires(kCount > 1) : r(x) {}
+
+  /// kCount floats from `from` on, of any alignment.
+  static Lanes load(const float* from) { return Lanes(Operations::load(from)); }
+  /// Writes kCount floats from `to` on, of any alignment.
+  void store(float* to) const { Operations::store(to, r); }
+
+  friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.r + b.r); }
+  friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.r - b.r); }
+  friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.r * b.r); }
+  friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.r / b.r); }
+  friend Lanes operator-(Lanes a) { return Lanes(-a.r); }
+
+  /// False where a lane of either is NaN.
+  friend Mask operator<(Lanes a, Lanes b) { return {Operations::less(a.r, b.r)}; }
+  friend Mask operator<=(Lanes a, Lanes b) { return {Operations::less_or_equal(a.r, b.r)}; }
+  friend Mask operator>(Lanes a, Lanes b) { return {Operations::less(b.r, a.r)}; }
+  friend Mask operator>=(Lanes a, Lanes b) { return {Operations::less_or_equal(b.r, a.r)}; }
+  friend Mask operator==(Lanes a, Lanes b) { return {Operations::equal(a.r, b.r)}; }
+
+  /// a < b ? a : b in every lane: b where one is NaN.
+  friend Lanes min(Lanes a, Lanes b) { return Lanes(Operations::min(a.r, b.r)); }
+  /// a > b ? a : b in every lane: b where one is NaN.
+  friend Lanes max(Lanes a, Lanes b) { return Lanes(Operations::max(a.r, b.r)); }
+  friend Lanes abs(Lanes a) { return Lanes(Operations::abs(a.r)); }
+  friend Lanes sqrt(Lanes a) { return Lanes(Operations::sqrt(a.r)); }
+  /// mask ? a : b in every lane.
+  friend Lanes select(Mask mask, Lanes a, Lanes b) { return Lanes(Operations::select(mask.m, a.r, b.r)); }
+};
+
+}  // namespace DISMANTLE_LANES_ISA
+}  // namespace dismantle

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DNM=... -DOBJECTS=a.o|b.o... -P check_lane_kernels.cmake: fails where an object that is compiled for more than
+# the plain machine has a weak function (one that the linker may keep for the whole program) whose name does not say so.
+string(REPLACE "|" ";" objects "${OBJECTS}")
+set(faults "")
+foreach(object IN LISTS objects)
+  execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${NM} cannot read ${object}")
+  endif()
+  string(REGEX MATCHALL "[^\n]+ [WVu] _Z[^\n]*" shared "${symbols}")
+  foreach(symbol IN LISTS shared)
+    if(NOT symbol MATCHES "lanes_avx")
+      string(APPEND faults "\n${object}:\n  ${symbol}")
+    endif()
+  endforeach()
+endforeach()
+if(faults)
+  message(FATAL_ERROR "Shared functions in objects of lane kernels (see src/dismantle/math/lanes.h):${faults}")
+endif()
+list(LENGTH objects count)
+message("Lane kernels: ${count} objects share no function with the rest of the program.")
