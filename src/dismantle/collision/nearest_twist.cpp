@@ -265,7 +265,7 @@ class Search {
 }  // namespace
 
 NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces) {
-  for (const HalfSpace& h : half_spaces) DISMANTLE_EXPECT(h.bound <= 0);
+  for ([[maybe_unused]] const HalfSpace& h : half_spaces) DISMANTLE_EXPECT(h.bound <= 0);
   const double scale = safe_length(wanted);
   if (!(scale > 0)) return {};
   return Search(wanted, scale, half_spaces).run();
