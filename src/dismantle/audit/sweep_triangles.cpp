@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/audit/sweep_triangles.h"
 
+#include "dismantle/audit/interval_tree.h"
 #include "dismantle/audit/triangle_axes.h"
 
 #include <algorithm>
@@ -9,33 +10,6 @@
 namespace dismantle::audit {
 
 namespace {
-
-/// The relative pose at a span's middle frame, ready for tests of boxes.
-struct BoxFrames {
-  RigidTransform a_from_b;
-  Mat3 abs_rotation;
-
-  explicit BoxFrames(const RigidTransform& pose) : a_from_b(pose) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) abs_rotation.row[i][j] = std::fabs(pose.rotation.row[i][j]);
-  }
-};
-
-Vec3 positive_part(Vec3 v) {
-  return max(v, Vec3{});
-}
-
-/// A lower bound of the distance of two boxes while the offset of their centres is anywhere between `from` and `to`
-/// (both in a's frame), coordinate by coordinate.
-double box_distance(const BoxNode& a, const BoxNode& b, const BoxFrames& frames, Vec3 from, Vec3 to) {
-  const Vec3 across = max(min(from, to), -max(from, to)) - (a.half + frames.abs_rotation * b.half);
-  const double in_a = length(positive_part(across));
-  const Mat3 b_from_a = transposed(frames.a_from_b.rotation);
-  const Vec3 from_b = b_from_a * from, to_b = b_from_a * to;
-  const Vec3 across_b =
-      max(min(from_b, to_b), -max(from_b, to_b)) - (b.half + transposed(frames.abs_rotation) * a.half);
-  return std::max(in_a, length(positive_part(across_b)));
-}
 
 /// A triangle of b at an instant, as a sees it, and how its corners move.
 struct MovingTriangle {
@@ -86,13 +60,13 @@ struct Certificate {
 class TriangleSweep {
  public:
   TriangleSweep(const PairSweep& pair, const std::vector<MotionSpan>& spans)
-      : pair_(pair), spans_(spans), first_segment_(spans[0].first) {
+      : pair_(pair), times_(pair, spans), first_segment_(spans[0].first) {
     if (pair.b->closed()) marks_[0].resize(pair.a->vertex_count());
     if (pair.a->closed()) marks_[1].resize(pair.b->vertex_count());
   }
 
   TriangleFindings run() {
-    visit(0, BoxFrames(pair_.motions[spans_[0].middle].start), 0, 0);
+    visit(0, 0, 0);
     for (int side = 0; side < 2; ++side) {
       std::sort(marked_[side].begin(), marked_[side].end());
       for (const std::uint32_t v : marked_[side])
@@ -102,76 +76,70 @@ class TriangleSweep {
   }
 
  private:
-  static constexpr double kSplitGap = 0.25;
+  /// How far a box moves in an interval, in sizes of what is tested, from which on time is split before the boxes.
+  static constexpr double kSplitTime = 0.5;
 
-  /// True where no point of the two nodes can meet during the span.
-  bool clear(const MotionSpan& span, const BoxFrames& frames, const BoxNode& a, const BoxNode& b) const {
-    const Vec3 center = frames.a_from_b * b.center;
-    const Vec3 offset = center - a.center;
-    if (span.count > 1) return box_distance(a, b, frames, offset, offset) > reach(span, b) + pair_.rounding;
-    const RelativeMotion& motion = pair_.motions[span.first];
-    const Vec3 velocity = motion.velocity(center);
-    // Points of the node follow the centre's velocity but for the rotation about it and the curving of the path.
-    const double turning = motion.screw.angle * b.radius;
-    const double astray = turning + 0.5 * (motion.acceleration(velocity) + motion.screw.angle * turning);
-    return box_distance(a, b, frames, offset, offset + velocity) > astray + pair_.rounding;
+  bool looked_at(const Interval& time) const {
+    return time.first + time.count > pair_.first_active && time.first < end_;
   }
 
-  /// How far points of the node get from where they are at the span's middle frame.
-  static double reach(const MotionSpan& span, const BoxNode& b) { return span.shift + span.turn * b.reach; }
+  /// The second largest half size: what decides how many others a long thin box is near to.
+  static double width(const BoxNode& node) {
+    const Vec3 h = node.half;
+    return std::max(std::min(h.x, h.y), std::min(std::max(h.x, h.y), h.z));
+  }
 
-  void visit(std::uint32_t s, const BoxFrames& frames, std::uint32_t a, std::uint32_t b) {
-    const MotionSpan& span = spans_[s];
-    if (span.first + span.count <= pair_.first_active || span.first >= end_) return;
+  void visit(std::uint32_t i, std::uint32_t a, std::uint32_t b) {
+    const Interval& time = times_[i];
+    if (!looked_at(time)) return;
     const BoxNode& node_a = pair_.a->node(a);
     const BoxNode& node_b = pair_.b->node(b);
-    if (clear(span, frames, node_a, node_b)) return;
-    if (span.count > 1 && reach(span, node_b) > std::max(node_a.radius, node_b.radius)) {
-      visit(s + 1, BoxFrames(pair_.motions[spans_[s + 1].middle].start), a, b);
-      visit(span.right, BoxFrames(pair_.motions[spans_[span.right].middle].start), a, b);
+    if (time.clearance(node_a, node_b) > pair_.rounding) return;
+    if (times_.can_split(i) && time.reach(node_b) > kSplitTime * std::max(width(node_a), width(node_b))) {
+      for (const std::uint32_t half : times_.halves(i)) visit(half, a, b);
     } else if (node_a.leaf() && node_b.leaf()) {
-      visit_triangles(s, frames, node_a.face, node_b);
+      visit_leaves(i, node_a, node_b, {});
     } else if (node_b.leaf() || (!node_a.leaf() && node_a.radius >= node_b.radius)) {
-      visit(s, frames, a + 1, b);
-      visit(s, frames, node_a.right, b);
+      visit(i, a + 1, b);
+      visit(i, node_a.right, b);
     } else {
-      visit(s, frames, a, b + 1);
-      visit(s, frames, a, node_b.right);
+      visit(i, a, b + 1);
+      visit(i, a, node_b.right);
     }
   }
 
-  void visit_triangles(std::uint32_t s, const BoxFrames& frames, std::uint32_t face_a, const BoxNode& leaf_b) {
-    const MotionSpan& span = spans_[s];
-    const Triangle a = pair_.a->triangle(face_a);
-    const Triangle b = pair_.b->triangle(leaf_b.face);
-    if (span.count > 1) {
-      const double needed = reach(span, leaf_b) + pair_.rounding;
-      const AxisGap widest = widest_gap(a, transformed(frames.a_from_b, b), needed);
-      if (widest.gap > needed) return;
-      if (widest.gap > kSplitGap * needed) {
-        for (const std::uint32_t half : {s + 1, span.right}) {
-          const MotionSpan& part = spans_[half];
-          if (part.first + part.count <= pair_.first_active || part.first >= end_) continue;
-          visit_triangles(half, BoxFrames(pair_.motions[part.middle].start), face_a, leaf_b);
-        }
-        return;
-      }
-    }
-    Vec3 axis;
-    const std::uint32_t last = span.first + span.count;
-    for (std::uint32_t k = std::max(span.first, pair_.first_active); k < std::min(last, end_); ++k)
-      axis = advance(k, face_a, leaf_b.face, axis);
-  }
-
-  /// Follows a triangle pair through a segment. @param axis a direction to try first, zero for none
+  /// @param axis a direction to try first, zero for none
   /// @return the direction that held last
-  Vec3 advance(std::uint32_t segment, std::uint32_t face_a, std::uint32_t face_b, Vec3 axis) {
+  Vec3 visit_leaves(std::uint32_t i, const BoxNode& leaf_a, const BoxNode& leaf_b, Vec3 axis) {
+    const Interval& time = times_[i];
+    if (!looked_at(time)) return axis;
+    if (time.one_segment()) return advance(time, leaf_a.face, leaf_b.face, axis);
+
+    const Triangle a = pair_.a->triangle(leaf_a.face);
+    const Triangle b = transformed(time.a_from_b, pair_.b->triangle(leaf_b.face));
+    const double needed = time.reach(leaf_b) + pair_.rounding;
+    const AxisGap widest = axis == Vec3{} ? widest_gap(a, b, needed) : wider_gap(a, b, axis);
+    if (widest.gap > needed) return widest.axis;
+    axis = widest.axis;
+    for (const std::uint32_t half : times_.halves(i)) {
+      if (times_[half].clearance(leaf_a, leaf_b) > pair_.rounding) continue;
+      axis = visit_leaves(half, leaf_a, leaf_b, axis);
+    }
+    return axis;
+  }
+
+  /// Follows a triangle pair through an interval in one segment. @param axis a direction to try first, zero for none
+  /// @return the direction that held last
+  Vec3 advance(const Interval& time, std::uint32_t face_a, std::uint32_t face_b, Vec3 axis) {
+    const std::uint32_t segment = time.first;
     const RelativeMotion& motion = pair_.motions[segment];
+    const double end = time.s + time.duration;
     const Triangle a = pair_.a->triangle(face_a);
     const Triangle b = pair_.b->triangle(face_b);
-    for (double s = 0;;) {
-      const MovingTriangle moving(motion, transformed(motion.at(s), b));
-      const Certificate found = certificate(a, moving, 1 - s, axis);
+    for (double s = time.s;;) {
+      const RigidTransform a_from_b = s == time.s ? time.a_from_b : motion.at(s);
+      const MovingTriangle moving(motion, transformed(a_from_b, b));
+      const Certificate found = certificate(a, moving, end - s, axis);
       if (found.axis.gap < -limit()) {
         findings_.breach.add(segment, s, -found.axis.gap);
         end_ = findings_.breach.segment + 1;
@@ -180,10 +148,10 @@ class TriangleSweep {
       }
       axis = found.axis.axis;
       const double least = moving.speed > 0 ? pair_.resolution / moving.speed : 1;
-      const double step = std::min(1 - s, std::max(found.time, least));
+      const double step = std::min(end - s, std::max(found.time, least));
       mark_crossing(segment, face_a, face_b, a, moving, axis, step);
       s += step;
-      if (!(s < 1)) return axis;
+      if (!(s < end)) return axis;
     }
   }
 
@@ -250,7 +218,7 @@ class TriangleSweep {
   }
 
   const PairSweep& pair_;
-  const std::vector<MotionSpan>& spans_;
+  IntervalTree times_;
   const std::uint32_t first_segment_;
   std::uint32_t end_ = 0xffffffffu;  // segments from here on are not looked at
   TriangleFindings findings_;
@@ -280,15 +248,14 @@ TriangleFindings sweep_triangles(const PairSweep& pair, const std::vector<Motion
 
 bool surfaces_apart(const AuditBody& a, const AuditBody& b, const RigidTransform& a_from_b, double margin) {
   if (a.empty() || b.empty()) return true;
-  const BoxFrames frames(a_from_b);
+  const Interval time = interval_of({a_from_b, Screw{}});
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
   while (!stack.empty()) {
     const auto [i, j] = stack.back();
     stack.pop_back();
     const BoxNode& node_a = a.node(i);
     const BoxNode& node_b = b.node(j);
-    const Vec3 offset = a_from_b * node_b.center - node_a.center;
-    if (box_distance(node_a, node_b, frames, offset, offset) > margin) continue;
+    if (time.clearance(node_a, node_b) > margin) continue;
     if (node_a.leaf() && node_b.leaf()) {
       const Triangle other = transformed(a_from_b, b.triangle(node_b.face));
       if (widest_gap(a.triangle(node_a.face), other, margin).gap <= margin) return false;
