@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/ccd_query_file.h"
 #include "dismantle/narrowphase/ccd_edge_edge.h"
+#include "dismantle/narrowphase/ccd_lanes.h"
 #include "dismantle/narrowphase/ccd_vertex_face.h"
 #include "dismantle/narrowphase/elementary_edge_edge.h"
 #include "dismantle/narrowphase/elementary_vertex_face.h"
@@ -24,11 +25,19 @@ CcdResult elementary(const EdgeEdgeMotion& m) {
   return elementary_edge_edge(m);
 }
 
+CcdBatchResult in_lanes(const std::vector<VertexFaceMotion>& motions) {
+  return ccd_vertex_face_lanes(motions);
+}
+CcdBatchResult in_lanes(const std::vector<EdgeEdgeMotion>& motions) {
+  return ccd_edge_edge_lanes(motions);
+}
+
 struct Counts {
   int queries = 0, hits = 0;
   int false_positives = 0, false_negatives = 0;
   int elementary_false_positives = 0, elementary_false_negatives = 0;
   int filtered_hits = 0;  ///< Hits that the non-penetration filter called free.
+  int lanes_false_positives = 0, lanes_false_negatives = 0;
 };
 
 template <class Motion>
@@ -46,6 +55,12 @@ void count(const std::vector<Motion>& motions, const std::vector<CcdTruth>& trut
     c.elementary_false_negatives += !found_elementary && hit;
     c.filtered_hits += hit && nonpenetration_filter(motions[i]);
   }
+  std::vector<bool> found_in_lanes(motions.size());
+  for (const CcdBatchContact& contact : in_lanes(motions).contacts) found_in_lanes[contact.query] = true;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    c.lanes_false_positives += found_in_lanes[i] && truth[i] == CcdTruth::Miss;
+    c.lanes_false_negatives += !found_in_lanes[i] && truth[i] == CcdTruth::Hit;
+  }
 }
 
 /// Public queries with exact truth in the folder of shared data; empty where the folder is missing.
@@ -62,9 +77,10 @@ Counts count_folder(const char* name) {
     count(file->vertex_face, file->truth, c);
     count(file->edge_edge, file->truth, c);
   }
-  std::printf("%s: %d queries, %d hits; certified: %d false positives, %d false negatives; elementary: %d, %d\n", name,
-              c.queries, c.hits, c.false_positives, c.false_negatives, c.elementary_false_positives,
-              c.elementary_false_negatives);
+  std::printf(
+      "%s: %d queries, %d hits; certified: %d false positives, %d false negatives; elementary: %d, %d; lanes: %d, %d\n",
+      name, c.queries, c.hits, c.false_positives, c.false_negatives, c.elementary_false_positives,
+      c.elementary_false_negatives, c.lanes_false_positives, c.lanes_false_negatives);
   return c;
 }
 
@@ -74,6 +90,8 @@ TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheHandcraftedHitsAndReportsFewMisse
   EXPECT_EQ(c.false_negatives, 0);
   EXPECT_LE(c.false_positives, 222) << "Tight-Inclusion 1.0.6 reports 222";
   EXPECT_EQ(c.filtered_hits, 0);
+  EXPECT_EQ(c.lanes_false_negatives, 0);
+  EXPECT_LE(c.lanes_false_positives, c.false_positives);
   EXPECT_EQ(c.elementary_false_negatives, 0) << "not proven, but so it is on these";
 }
 
@@ -83,6 +101,8 @@ TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheSimulationHits) {
   EXPECT_EQ(c.false_negatives, 0);
   EXPECT_LE(c.false_positives, 10);
   EXPECT_EQ(c.filtered_hits, 0);
+  EXPECT_EQ(c.lanes_false_negatives, 0);
+  EXPECT_LE(c.lanes_false_positives, c.false_positives);
 }
 
 }  // namespace
