@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/geometry/obb.h"
+#include "dismantle/geometry/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace dismantle {
+
+/// A node of an ObbTree: one cache line.
+struct ObbNode {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  Obb box;           ///< About the tree's origin [mm].
+  float radius = 0;  ///< Every point of the box is at most this far from its center [mm].
+  /// What a pair of nodes is split by: the larger one first. Never more than the parent's; negative for a leaf.
+  float size = -1;
+  std::uint32_t child = 0;       ///< The first child, the second comes right behind it; for a leaf its face.
+  std::uint32_t parent = kNone;  ///< kNone for the root.
+
+  DISMANTLE_HOST_DEVICE bool leaf() const { return size < 0; }
+};
+
+/// The directions of a node's outward normals: all are within an angle of `axis` of which this is the cosine.
+struct NormalCone {
+  Vec3f axis;
+  float cosine = -1;
+};
+
+/// A static tree of oriented boxes over one component's triangles, one triangle a leaf (Gottschalk, Lin, Manocha 1996).
+/// Node 0 is the root; siblings are neighbours (2k - 1, 2k). Every node's box contains its triangles as they are in
+/// double, about `origin`: certain, despite float32.
+struct ObbTree {
+  Vec3 origin;  ///< [mm, the mesh's frame]
+  std::vector<ObbNode> nodes;
+  std::vector<NormalCone> cones;  ///< Of each node.
+
+  bool empty() const { return nodes.empty(); }
+};
+
+/// Builds the tree of a mesh. The same tree for every executor.
+ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor);
+
+/// What is wrong with a tree over these triangles, in words for a test; empty where nothing is.
+const char* obb_tree_fault(const ObbTree& tree, Span<const Vec3> vertices, Span<const Face> faces);
+
+}  // namespace dismantle
