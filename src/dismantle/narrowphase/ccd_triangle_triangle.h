@@ -147,6 +147,18 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleM
   return conservative_advancement(pair, detail::TrianglePair::Axes(pair.hulls(), allowed, hint));
 }
 
+/// As ccd_triangle_triangle(a, b, allowed, hint) for faces of closed solids: only an axis that the outward normals allow
+/// (at the start of the motion) may use the allowance.
+DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
+                                                                 double allowed, Vec3 hint,
+                                                                 const OutwardNormals& normals) {
+  DISMANTLE_EXPECT(allowed >= 0);
+  detail::TrianglePair pair(a, b, allowed);
+  detail::TrianglePair::Axes axes(pair.hulls(), allowed, hint);
+  axes.face(normals);
+  return conservative_advancement(pair, axes);
+}
+
 /// The certified test of a whole triangle pair (DESIGN section 4): conservative advancement along a separating axis.
 /// Linear vertex paths. With depth = the least translation that parts the triangles (0 where they are apart):
 ///   1. Free is certain: at no instant are the triangles deeper in each other than `allowed`, despite rounding.

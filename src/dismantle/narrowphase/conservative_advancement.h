@@ -24,6 +24,22 @@ struct AxisGuess {
   bool interior = false;
 };
 
+/// The outward normals of two faces of closed solids, of any length. An axis from A to B that uses the allowance has to
+/// leave A through its outside and enter B through its: one that does not calls things apart that are in each other
+/// behind a face's edge, and would be used up later with no way back.
+struct OutwardNormals {
+  Vec3 a, b;
+
+  /// Least cosine between a normal and the axis: what turns during a motion, and faces seen edge-on, still count.
+  static constexpr double kLeastCosine = -0.05;
+
+  DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const {
+    const double square = length_squared(w) * (kLeastCosine * kLeastCosine);
+    const double out = dot(w, a), in = -dot(w, b);
+    return (out >= 0 || out * out <= square * length_squared(a)) && (in >= 0 || in * in <= square * length_squared(b));
+  }
+};
+
 /// The axis that separates furthest of those looked at, among those that separate at the present time. An axis that has
 /// used part of the allowance by then may only be left for one within a right angle of it, or one that separates by
 /// more than the allowance: else two flat faces, which have no thickness, could pass through each other.
@@ -35,11 +51,19 @@ class FurthestAxis {
     start(0);
   }
 
+  /// From now on axes that the normals do not allow must separate without any allowance; those that they do allow may
+  /// be left for any other, as the normals know the side.
+  DISMANTLE_HOST_DEVICE void face(const OutwardNormals& normals) {
+    normals_ = normals;
+    facing_ = true;
+    guarded_ = false;
+  }
+
   /// Begins a step at `now`, until which axis() separates.
   DISMANTLE_HOST_DEVICE void start(double now) {
     now_ = now;
     end_ = -1;
-    if (!(allowed_ > 0)) return;
+    if (facing_ || !(allowed_ > 0)) return;
     guard_ = axis_;
     guarded_ = separates_now(axis_, allowed_) && !separates_now(axis_, 0);
   }
@@ -47,7 +71,7 @@ class FurthestAxis {
   /// Looks at an axis that points from A to B.
   DISMANTLE_HOST_DEVICE void consider(Vec3 w) {
     if (refused(w)) return;
-    const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
+    const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowance_of(w));
     if (projections.separates_throughout()) {
       end_ = 1;
       axis_ = w;
@@ -58,6 +82,11 @@ class FurthestAxis {
 
   /// Looks at an axis that may point either way.
   DISMANTLE_HOST_DEVICE void consider_both_ways(Vec3 w) {
+    if (facing_) {
+      if (!refused(w)) keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, w, allowance_of(w)), w);
+      if (!refused(-w)) keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, -w, allowance_of(-w)), -w);
+      return;
+    }
     AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
     if (!refused(w)) keep_if_further(projections, w);
     projections.turn();
@@ -76,6 +105,8 @@ class FurthestAxis {
     axis_ = w;
   }
 
+  DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const { return !facing_ || normals_.allow(w) ? allowed_ : 0; }
+
   DISMANTLE_HOST_DEVICE bool refused(Vec3 w) const {
     return guarded_ && dot(w, guard_) < 0 && !separates_now(w, -allowed_);
   }
@@ -89,6 +120,8 @@ class FurthestAxis {
   double now_ = 0, end_ = -1;
   Vec3 axis_, guard_;
   bool guarded_ = false;
+  OutwardNormals normals_;
+  bool facing_ = false;
 };
 
 /// Conservative advancement (DESIGN section 4; after Mirtich 1996, and Catto's time of impact): from the time up to
