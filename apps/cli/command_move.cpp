@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/collision/certificate_engine.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/motion_file.h"
 #include "dismantle/io/path_file.h"
@@ -24,7 +25,7 @@ struct MoveOptions {
   CommonOptions common;
   std::string motion_file;
   std::string output;
-  std::string method = "streams";
+  std::string method = "certificates";
   ElementaryTest test = ElementaryTest::Certified;
   std::optional<ResponseKind> response;
   std::string timing_file;
@@ -136,15 +137,25 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
   fmt::print("wrote {}\n", o.output);
 }
 
+std::unique_ptr<MotionEngine> make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states,
+                                          const Executor& executor) {
+  if (o.method == "certificates")
+    return std::make_unique<CertificateEngine>(assembly, states, CertificateOptions{executor, widest_lanes()});
+  CollisionOptions collision;
+  collision.test = o.test;
+  collision.executor = executor;
+  return make_streams_motion_engine(assembly, states, collision);
+}
+
 Result<ExitCode> run(const MoveOptions& o) {
   const Result<Motion> read = read_motion(o.motion_file);
   if (!read) return read.error();
   Motion motion = *read;
   if (o.response) motion.response = *o.response;
-  if (motion.response == ResponseKind::Slide)
+  if (motion.response == ResponseKind::Slide && o.method == "streams")
     return Error{ErrorKind::Usage,
                  "method streams does not slide (its responses are stop and touch, as in the paper); give --response "
-                 "touch or stop"};
+                 "touch or stop, or --method certificates"};
 
   const Result<Assembly> assembly = load(o.common);
   if (!assembly) return assembly.error();
@@ -153,10 +164,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   const Result<Executor> executor = make_executor(o.common);
   if (!executor) return executor.error();
 
-  CollisionOptions collision;
-  collision.test = o.test;
-  collision.executor = *executor;
-  const std::unique_ptr<MotionEngine> engine = make_streams_motion_engine(*assembly, *states, collision);
+  const std::unique_ptr<MotionEngine> engine = make_engine(o, *assembly, *states, *executor);
   const Result<PlayedMotion> played = play_motion(*assembly, *states, motion, *engine, progress_printer(o.common));
   if (!played) return played.error();
   if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; what was moved until then is in the path\n");
@@ -193,18 +201,18 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("MOTION", options->motion_file, "What is asked for (*.motion.json)")->required();
   command->add_option("-o,--output", options->output, "The path to write (*.path.json)")->required();
   command->add_option("--method", options->method, "Collision method")
-      ->check(CLI::IsMember({"streams"}))
+      ->check(CLI::IsMember({"certificates", "streams"}))
       ->capture_default_str();
   command
       ->add_option("--ccd", options->test,
-                   "Continuous test: certified (no miss) or elementary (the paper's cubic roots)")
+                   "Continuous test of method streams: certified (no miss) or elementary (the paper's cubic roots)")
       ->transform(CLI::CheckedTransformer(kTests))
       ->type_name("certified|elementary");
   command
       ->add_option("--response", options->response,
-                   "At contact: stop before the step, or touch (default: as the motion says)")
+                   "At contact: stop before the step, touch, or slide along (default: as the motion says)")
       ->transform(CLI::CheckedTransformer(kResponses))
-      ->type_name("stop|touch");
+      ->type_name("stop|touch|slide");
   command->add_option("--timing", options->timing_file, "Write the time and sizes of every stage of every step")
       ->type_name("CSV");
   add_common_options(*command, options->common);

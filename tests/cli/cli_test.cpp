@@ -165,8 +165,15 @@ TEST_F(Cli, WritesTheSameBytesForEveryThreadCount) {
   EXPECT_EQ(read_all(in("one.path.json")), read_all(in("many.path.json")));
 }
 
-TEST_F(Cli, SaysWhatToDoWhenAMotionSlides) {
-  expect_error("move parts pull.motion.json -o pull.path.json --response slide", 2, "touch");
+TEST_F(Cli, SaysWhatToDoWhereStreamsShouldSlide) {
+  expect_error("move parts pull.motion.json -o pull.path.json --method streams --response slide", 2, "certificates");
+}
+
+TEST_F(Cli, SlidesByDefault) {
+  const Outcome o = run("move parts pull.motion.json -o pull.path.json --response slide --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(Json::parse(o.out)["method"], "certificates");
+  EXPECT_EQ(run("audit parts pull.path.json").exit_code, 0);
 }
 
 TEST_F(Cli, LeavesNoHalfWrittenFileWhereItCannotWrite) {

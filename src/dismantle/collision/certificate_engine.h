@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/collision/motion_engine.h"
+#include "dismantle/math/lane_dispatch.h"
 
 #include <memory>
 #include <optional>
@@ -29,7 +30,7 @@ struct FirstContact {
 /// Options of the method `certificates`.
 struct CertificateOptions {
   Executor executor;
-  int lanes = 0;  ///< SIMD lanes: 1, 4, 8 or 16; 0 takes the widest that the machine has. Same results for all.
+  LaneCount lanes = widest_lanes();  ///< Same results for all.
 };
 
 /// The method `certificates` (DESIGN sections 2.2 to 6) with responses Stop, Touch and Slide: a front of separating

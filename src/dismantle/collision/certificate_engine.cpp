@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/certificate_engine.h"
+
+#include "dismantle/collision/certificate_response.h"
+#include "dismantle/core/contract.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+class CertificateEngine::Body {
+ public:
+  Body(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
+      : sweeper(assembly, pairs, options), response(sweeper, assembly, pairs) {}
+
+  CertificateSweeper sweeper;
+  CertificateResponse response;
+};
+
+CertificateEngine::CertificateEngine(const Assembly& assembly, const PairStates& pairs,
+                                     const CertificateOptions& options)
+    : body_(std::make_unique<Body>(assembly, pairs, options)) {}
+
+CertificateEngine::~CertificateEngine() = default;
+CertificateEngine::CertificateEngine(CertificateEngine&&) noexcept = default;
+CertificateEngine& CertificateEngine::operator=(CertificateEngine&&) noexcept = default;
+
+void CertificateEngine::hold(Span<const ComponentId> components) {
+  body_->sweeper.hold(components);
+  body_->response.begin();
+}
+
+StepResult CertificateEngine::step(const Pose& target, ResponseKind response) {
+  DISMANTLE_EXPECT(!body_->sweeper.held().empty());
+  return body_->response.step(target, response);
+}
+
+void CertificateEngine::jump(Span<const Pose> poses) {
+  body_->response.jump(poses);
+}
+
+Span<const Pose> CertificateEngine::poses() const {
+  return body_->sweeper.poses();
+}
+
+std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
+  return body_->response.embedded_pairs();
+}
+
+std::size_t CertificateEngine::front_size() const {
+  return body_->sweeper.front_size();
+}
+
+}  // namespace dismantle

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/certificate_response.h"
+
+#include "dismantle/core/contract.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A motion that goes on to the contact ends this share of the tolerance before it [of path length], so that the next
+/// sweep does not start on the very edge of what is allowed.
+constexpr double kBackoffShare = 1e-3;
+/// Motions shorter than this share of the tolerance are not made: what rests stays where it is, bit for bit.
+constexpr double kRestShare = 2e-3;
+/// Sweeps of one step of response Slide, apart from free ones of an unbounded motion.
+constexpr int kMostTries = 40;
+/// How far a twist's second-order part may take a point, as a share of the tolerance.
+constexpr double kBendShare = 0.3;
+/// Contacts are taken up while their gap is at most so many tolerances.
+constexpr double kContactReach = 8;
+/// After a motion that was stopped the next one is tried up to so many tolerances, or twice what was made.
+constexpr double kLeastTry = 4;
+constexpr double kTryGrowth = 4;
+/// How often the guard may shorten a motion before it is not made at all.
+constexpr int kGuardTries = 4;
+
+int cut_count(double deviation, double limit) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(deviation / limit))));
+}
+
+}  // namespace
+
+CertificateResponse::CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs)
+    : sweeper_(sweeper),
+      guard_(assembly, pairs, sweeper.executor()),
+      embedded_(assembly, pairs, sweeper.executor()),
+      from_(assembly.components.size()),
+      to_(assembly.components.size()),
+      held_(assembly.components.size()),
+      contacts_(sweeper),
+      reach_(std::numeric_limits<double>::infinity()) {}
+
+StepResult CertificateResponse::step(const Pose& target, ResponseKind response) {
+  const Clock::time_point start = Clock::now();
+  StepResult result;
+  result.pose = sweeper_.pose();
+  if (result.pose == target) {
+    result.reached = true;
+  } else if (response == ResponseKind::Slide) {
+    slide(target, result);
+  } else {
+    go(target, response == ResponseKind::Touch, result);
+  }
+  result.pose = sweeper_.pose();
+  result.reached = result.pose == target;
+  if (result.reached) result.contacts.clear();
+  result.sizes.intersection_pairs = embedded_.pairs().size();
+  result.timings.overall = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  result.timings.front = result.timings.overall;
+  return result;
+}
+
+CertificateSweep CertificateResponse::sweep(const Pose& end, double window, StepResult& result) {
+  CertificateSweep found = sweeper_.sweep(end, window);
+  ++result.sweeps;
+  result.sizes.elementary_tests += found.leaf_tests;
+  result.sizes.triangle_pairs += found.leaf_tests;
+  result.sizes.front = found.front;
+  if (!found.free) report(found, result);
+  return found;
+}
+
+double CertificateResponse::advance(const Pose& end, double part, StepResult& result) {
+  const Pose start = sweeper_.pose();
+  const double made = part > 0 ? follow(end, part) : 0;
+  if (!(made > 0)) return 0;
+  sweeper_.move_to(pose_between(start, end, made));
+  adopt_parted();
+  result.way.push_back(sweeper_.pose());
+  return made;
+}
+
+double CertificateResponse::follow(const Pose& end, double part) {
+  guarded_.clear();
+  part = guarded_part(end, part);
+  if (part <= 0) return 0;
+  if (!embedded_.empty()) {
+    for (std::size_t c = 0; c < held_.size(); ++c)
+      held_[c] = sweeper_.holds(ComponentId(static_cast<std::uint32_t>(c)));
+    const Pose start = sweeper_.pose(), stop = pose_between(start, end, part);
+    const double most = kArcShare * sweeper_.tolerance();
+    const double made =
+        embedded_.follow(held_, sweeper_.poses(), start, stop, cut_count(sweeper_.deviation(stop), most), most);
+    if (made < 1) {
+      part *= made;
+      part = part > 0 ? guarded_part(end, part) : 0;
+    }
+  }
+  if (part > 0 && !guard_.watches_nothing()) guard_.commit();
+  return part;
+}
+
+double CertificateResponse::guarded_part(const Pose& end, double part) {
+  if (guard_.watches_nothing()) return part;
+  const Pose start = sweeper_.pose();
+  for (std::size_t c = 0; c < from_.size(); ++c) from_[c] = to_[c] = transform_from_pose(sweeper_.poses()[c]);
+  for (int tries = 0; tries < kGuardTries; ++tries) {
+    const RigidTransform next = transform_from_pose(pose_between(start, end, part));
+    for (const ComponentId c : sweeper_.held()) to_[c.value] = next;
+    std::vector<CollisionContact> found = guard_.sweep(from_, to_);
+    if (found.empty()) return part;
+    double toi = 1;
+    for (const CollisionContact& c : found) toi = std::min(toi, c.toi);
+    part *= toi * (1 - kBackoffShare);
+    guarded_ = std::move(found);
+  }
+  return 0;
+}
+
+void CertificateResponse::adopt_parted() {
+  for (const ComponentPair& pair : embedded_.take_parted()) sweeper_.part(pair.a, pair.b);
+}
+
+void CertificateResponse::report(const CertificateSweep& sweep, StepResult& result) const {
+  result.contacts.clear();
+  for (const BlockedPair& b : sweep.blocked) {
+    if (b.toi > sweep.toi + kContactWindow) continue;
+    if (b.moving < b.fixed) {
+      result.contacts.push_back({b.moving, b.fixed, b.face_moving, b.face_fixed, b.toi});
+    } else {
+      result.contacts.push_back({b.fixed, b.moving, b.face_fixed, b.face_moving, b.toi});
+    }
+  }
+}
+
+void CertificateResponse::go(const Pose& target, bool touch, StepResult& result) {
+  const Pose start = sweeper_.pose();
+  const int cuts = cut_count(sweeper_.deviation(target), CertificateSweeper::kMostArcs * sweeper_.tolerance());
+  for (int k = 0; k < cuts; ++k) {
+    const Pose end = pose_between(start, target, (k + 1.0) / cuts);
+    const CertificateSweep found = sweep(end, kContactWindow, result);
+    double part = 1;
+    if (!found.free) part = touch ? found.toi - kBackoffShare * sweeper_.tolerance() / sweeper_.travel(end) : 0;
+    result.clearance = found.clearance;
+    if (advance(end, part, result) >= 1) continue;
+    if (found.free) result.contacts = guarded_;
+    break;
+  }
+  // All of it is on one screw.
+  if (!result.way.empty()) result.way = {sweeper_.pose()};
+}
+
+void CertificateResponse::slide(const Pose& target, StepResult& result) {
+  const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
+  const double lever = std::max(sweeper_.radius() / 2, tolerance);
+  bool fresh = contacts_.empty();  // the contacts' axes are those of the motion that is wanted from here
+  for (int tries = 0; tries < kMostTries;) {
+    const SlideContacts::Twist wanted = twist_to(target);
+    const SlideContacts::Twist tried = shortened(wanted, reach_);
+    const bool whole = travel_of(tried) >= travel_of(wanted);
+    if (!std::exchange(fresh, true)) contacts_.choose_axes(within_arcs(whole ? target : twisted(tried)));
+    const SlideContacts::Twist twist = slide_twist(tried, lever);
+    const double travel = travel_of(twist);
+    if (travel < rest) break;
+
+    const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
+    const CertificateSweep found = sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), result);
+    result.clearance = found.clearance;
+    tries += !found.free || twist.bounded;
+    if (found.free) {
+      const bool made = advance(end, 1, result) > 0;
+      reach_ *= kTryGrowth;
+      fresh = false;
+      if (!made || sweeper_.pose() == target) break;
+      continue;
+    }
+    reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
+    bool news = false;
+    double part = found.toi;
+    for (const BlockedPair& pair : found.blocked) {
+      news |= contacts_.add(pair);
+      part = std::min(part, contacts_.part_within_reserve(pair));
+    }
+    if (news) continue;
+    if (advance(end, part, result) == 0) break;
+    fresh = false;
+  }
+  contacts_.drop_beyond(kContactReach * tolerance);
+  result.touching = contacts_.points(tolerance);
+}
+
+SlideContacts::Twist CertificateResponse::slide_twist(const SlideContacts::Twist& wanted, double lever) const {
+  SlideContacts::Twist twist = contacts_.nearest(wanted, lever);
+  const double bend = sweeper_.radius() * length_squared(twist.rotation) / 2;
+  const double most = kBendShare * sweeper_.tolerance();
+  if (!twist.bounded || bend <= most) return twist;
+  const double scale = std::sqrt(most / bend);
+  twist.velocity *= scale;
+  twist.rotation *= scale;
+  return twist;
+}
+
+Pose CertificateResponse::within_arcs(const Pose& target) const {
+  const double deviation = sweeper_.deviation(target);
+  const double most = CertificateSweeper::kMostArcs * sweeper_.tolerance();
+  return deviation <= most ? target : pose_between(sweeper_.pose(), target, std::sqrt(most / deviation) * (1 - 1e-6));
+}
+
+SlideContacts::Twist CertificateResponse::twist_to(const Pose& target) const {
+  const Screw screw = screw_between(sweeper_.pose(), target);
+  const Vec3 turn = screw.angle * screw.axis;
+  return {screw.velocity + cross(turn, sweeper_.center() - screw.reference), turn, false};
+}
+
+double CertificateResponse::travel_of(const SlideContacts::Twist& twist) const {
+  return length(twist.velocity) + sweeper_.radius() * length(twist.rotation);
+}
+
+SlideContacts::Twist CertificateResponse::shortened(SlideContacts::Twist twist, double most_travel) const {
+  const double travel = travel_of(twist);
+  if (travel <= most_travel) return twist;
+  const double scale = most_travel / travel;
+  return {scale * twist.velocity, scale * twist.rotation, twist.bounded};
+}
+
+Pose CertificateResponse::twisted(const SlideContacts::Twist& twist) const {
+  Screw screw;
+  screw.reference = sweeper_.center();
+  screw.velocity = twist.velocity;
+  const double angle = length(twist.rotation);
+  if (angle >= kScrewMinimumAngle) {
+    screw.angle = angle;
+    screw.axis = twist.rotation / angle;
+    return screw_at(screw, 1) * sweeper_.pose();
+  }
+  return {sweeper_.pose().position + twist.velocity, sweeper_.pose().rotation};
+}
+
+void CertificateResponse::begin() {
+  contacts_.clear();
+  reach_ = std::numeric_limits<double>::infinity();
+}
+
+void CertificateResponse::jump(Span<const Pose> poses) {
+  sweeper_.jump(poses);
+  guard_.jump();
+  embedded_.jump(poses);
+  adopt_parted();
+  begin();
+}
+
+}  // namespace dismantle

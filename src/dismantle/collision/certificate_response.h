@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/embedded_watch.h"
+#include "dismantle/collision/slide_contacts.h"
+#include "dismantle/collision/vertex_depth_guard.h"
+
+namespace dismantle {
+
+/// How the set in hand of a CertificateSweeper goes on at contact (DESIGN section 6): the loop of one step. Keeps the
+/// two rules that triangle pairs' certificates do not: embedded pairs that part, and vertices that get too deep in
+/// closed components.
+class CertificateResponse {
+ public:
+  CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs);
+
+  /// Another set is in hand now.
+  void begin();
+  StepResult step(const Pose& target, ResponseKind response);
+  void jump(Span<const Pose> poses);
+  std::vector<ComponentPair> embedded_pairs() const { return embedded_.pairs(); }
+
+ private:
+  CertificateSweep sweep(const Pose& end, double window, StepResult& result);
+  /// Goes `part` of the motion to `end`, which the certificates allow, or as far as the other two rules let it.
+  /// @return the part made
+  double advance(const Pose& end, double part, StepResult& result);
+  /// How far of a motion that the certificates allow up to `part` the other two rules let through; the watches follow.
+  double follow(const Pose& end, double part);
+  double guarded_part(const Pose& end, double part);
+  void adopt_parted();
+  void report(const CertificateSweep& sweep, StepResult& result) const;
+
+  void go(const Pose& target, bool touch, StepResult& result);
+  void slide(const Pose& target, StepResult& result);
+  SlideContacts::Twist slide_twist(const SlideContacts::Twist& wanted, double lever) const;
+  Pose within_arcs(const Pose& target) const;
+  Pose twisted(const SlideContacts::Twist& twist) const;
+  SlideContacts::Twist twist_to(const Pose& target) const;
+  SlideContacts::Twist shortened(SlideContacts::Twist twist, double most_travel) const;
+  double travel_of(const SlideContacts::Twist& twist) const;
+
+  CertificateSweeper& sweeper_;
+  VertexDepthGuard guard_;
+  EmbeddedWatch embedded_;
+  std::vector<RigidTransform> from_, to_;  ///< For the guard.
+  std::vector<bool> held_;                 ///< For the watch.
+  std::vector<CollisionContact> guarded_;  ///< What the guard found in the last advance.
+  SlideContacts contacts_;                 ///< Of the last step of response Slide.
+  double reach_;  ///< Slide tries motions of at most this length [mm]: longer ones only after they were free.
+};
+
+}  // namespace dismantle

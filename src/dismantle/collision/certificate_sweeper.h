@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/collision/leaf_sweep.h"
+#include "dismantle/collision/pair_rules.h"
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dismantle {
+
+/// Two triangles of which a sweep found that they would get too deep in each other.
+struct BlockedPair {
+  ComponentId moving, fixed;
+  FaceId face_moving, face_fixed;
+  double toi = 0;  ///< The motion is certainly allowed for them on [0, toi].
+  Vec3
+      axis;  ///< Unit, from the moving to the fixed one [assembled frame of the fixed one]; zero where none parts them.
+};
+
+/// What a sweep of the set in hand found.
+struct CertificateSweep {
+  double toi = 1;
+  bool free = true;
+  std::vector<BlockedPair> blocked;  ///< Those within the window of the first; by components and faces.
+  double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
+  std::size_t front = 0;             ///< Node pairs of the fronts looked at.
+  std::size_t leaf_tests = 0;
+};
+
+/// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2
+/// to 5). Knows the poses of all components. Embedded pairs are not its business.
+class CertificateSweeper {
+ public:
+  CertificateSweeper(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options);
+
+  void hold(Span<const ComponentId> components);
+  Span<const ComponentId> held() const { return held_; }
+  bool holds(ComponentId c) const { return is_held_[c.value]; }
+  /// The pose of the set in hand.
+  const Pose& pose() const { return poses_[held_.front().value]; }
+
+  /// The motion of the set in hand by the one screw from its pose to `end`. Nothing moves.
+  /// @param window how long after the first contact others are reported, as a part of the motion
+  /// @pre deviation(end) is at most kMostArcs times the tolerance
+  CertificateSweep sweep(const Pose& end, double window);
+  /// The same motion of one pair of triangles: whether it is blocked, and by which axis.
+  /// @param pair with the axis to begin with
+  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
+  /// An upper bound of the distance between arcs and chords of the whole motion [mm].
+  double deviation(const Pose& end) const;
+  /// An upper bound of how far any point of the set goes [mm].
+  double travel(const Pose& end) const;
+
+  /// Puts the set in hand at `pose`.
+  void move_to(const Pose& pose);
+  void jump(Span<const Pose> poses);
+  Span<const Pose> poses() const { return poses_; }
+
+  double tolerance() const { return rules_.tolerance(); }
+  /// How deep triangles of the two may be in each other; negative where they are embedded.
+  double allowed(ComponentId a, ComponentId b) const;
+  /// The pair is not embedded any more.
+  void part(ComponentId a, ComponentId b) { rules_.part(std::min(a, b), std::max(a, b)); }
+
+  const SolidTree& solid(ComponentId c) const { return solids_[c.value]; }
+  const Assembly& assembly() const { return *assembly_; }
+  const Executor& executor() const { return options_.executor; }
+  /// Center and radius of the set in hand where it is now [mm, world].
+  Vec3 center() const { return transform_from_pose(pose()) * center_; }
+  double radius() const { return radius_; }
+  std::size_t front_size() const;
+
+  /// Motions longer than this many tolerances between arc and chord have to be cut.
+  static constexpr double kMostArcs = 2;
+
+ private:
+  /// Components a < b and their front.
+  struct FrontEntry {
+    CertificateFront front;
+    bool b_moves = false;
+    Pose fixed_pose;  ///< Of what stood still in the last sweep.
+  };
+  struct ActivePair;
+  struct PartTask;
+
+  SideRule sides(ComponentId a, ComponentId b) const;
+  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& end, double arcs) const;
+  std::vector<ActivePair> active_pairs(const Pose& end, double travel, CertificateSweep& result);
+  FrontEntry& front_of(ComponentId moving, ComponentId fixed);
+
+  const Assembly* assembly_;
+  CertificateOptions options_;
+  FrontKernels kernels_;
+  PairRules rules_;
+  std::vector<SolidTree> solids_;
+  std::vector<Vec3> centers_;  ///< Of spheres around the assembled components.
+  std::vector<double> radii_;
+  std::vector<Pose> poses_;
+  std::vector<ComponentId> held_;
+  std::vector<bool> is_held_;
+  Vec3 center_;  ///< Of a sphere around the set in hand [assembled].
+  double radius_ = 0;
+  std::map<std::pair<ComponentId, ComponentId>, FrontEntry> fronts_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/leaf_sweep.h"
+
+#include "dismantle/core/contract.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+Triangle moved(const RigidTransform& t, const Triangle& triangle) {
+  return {{t * triangle[0], t * triangle[1], t * triangle[2]}};
+}
+
+/// From the frame of one tree to that of the other.
+RigidTransform between_trees(const RigidTransform& t, const ObbTree& from, const ObbTree& to) {
+  return {t.rotation, t * from.origin - to.origin};
+}
+
+Vec3f to_float(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Vec3 to_double(Vec3f v) {
+  return {v.x, v.y, v.z};
+}
+
+float rounded_up(double x) {
+  const auto f = static_cast<float>(x);
+  return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
+}
+
+/// How much more often a motion may be halved than its deviation asks for.
+constexpr int kMostLevels = 12;
+
+}  // namespace
+
+LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
+                     double deviation, double allowed, double tolerance, SideRule sides)
+    : moving_(&moving),
+      fixed_(&fixed),
+      deviation_(deviation),
+      allowed_(allowed),
+      share_(kArcShare * tolerance),
+      sides_(sides) {
+  DISMANTLE_EXPECT(allowed >= tolerance && tolerance > 0);
+  while (levels_ < kMostLevels && std::ldexp(deviation, -2 * levels_) > share_) ++levels_;
+  DISMANTLE_ENSURE(std::ldexp(deviation, -2 * levels_) <= share_);
+  const std::size_t count = std::size_t{1} << levels_;
+  for (std::size_t k = 0; k <= count; ++k)
+    at_.push_back(transform_from_pose(pose_between(start, end, static_cast<double>(k) / static_cast<double>(count))));
+  middle_ =
+      at_[0].rotation == at_.back().rotation ? at_[0].rotation : mat3_from_quat(pose_between(start, end, 0.5).rotation);
+}
+
+PairMotion LeafSweep::motion() const {
+  PairMotion motion;
+  motion.t0 = between_trees(at_.front(), moving_->tree, fixed_->tree);
+  motion.t1 = between_trees(at_.back(), moving_->tree, fixed_->tree);
+  motion.middle = middle_;
+  motion.allowed = allowed_ - share_;
+  motion.deviation = std::max(0.0, deviation_ - share_);
+  return motion;
+}
+
+LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint,
+                                  double horizon) const {
+  Result result;
+  result.contact = {face_moving, face_fixed, 1, hint};
+  test_part({moving_->triangle(face_moving), fixed_->triangle(face_fixed), horizon}, 0, 0, result);
+  const Vec3 axis = result.contact.axis;
+  const double size = max_abs(axis);
+  result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
+  return result;
+}
+
+AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed,
+                                     Vec3 hint) const {
+  const TriangleMotion still{fixed, fixed};
+  if (sides_ == SideRule::Memory) return ccd_triangle_triangle(moving, still, allowed, hint);
+  if (sides_ == SideRule::Free) {
+    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint);
+    if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;
+    // Bound to the side of the hint it was stopped: the least blocking axis may be on another.
+    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{});
+    return unbound.ccd.toi > found.ccd.toi ? unbound : found;
+  }
+  const OutwardNormals normals{normal_unscaled(moving.t0), normal_unscaled(fixed)};
+  const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals);
+  if (found.ccd.status == CcdStatus::Free || found.ccd.toi > 0) return found;
+  // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
+  const TriangleMotion start{moving.t0, moving.t0};
+  if (ccd_triangle_triangle(start, still, allowed, hint, normals).ccd.status == CcdStatus::Free) return found;
+  return ccd_triangle_triangle(moving, still, allowed, Vec3{});
+}
+
+bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result& result) const {
+  const double deviation = std::ldexp(deviation_, -2 * level);
+  const double allowed = allowed_ - std::max(share_, deviation);
+  const double begin = std::ldexp(static_cast<double>(index), -level);
+  if (begin > 0 && begin >= pair.horizon) return true;
+  if (allowed > 0) {
+    const std::size_t stride = std::size_t{1} << (levels_ - level);
+    const double length = std::min(1.0, std::ldexp(pair.horizon - begin, level));
+    TriangleMotion motion{moved(at_[index * stride], pair.moving), moved(at_[(index + 1) * stride], pair.moving)};
+    if (length < 1)
+      for (int i = 0; i < 3; ++i) motion.t1[i] = (1 - length) * motion.t0[i] + length * motion.t1[i];
+    const AxisCcdResult found = test_chords(motion, pair.fixed, allowed, result.contact.axis);
+    if (found.ccd.status == CcdStatus::Free || level == levels_) {
+      result.contact.axis = found.axis;
+      if (found.ccd.status == CcdStatus::Free) return true;
+      result.free = false;
+      result.contact.toi = std::ldexp(static_cast<double>(index) + length * found.ccd.toi, -level);
+      return false;
+    }
+  }
+  return test_part(pair, level + 1, 2 * index, result) && test_part(pair, level + 1, 2 * index + 1, result);
+}
+
+Certificate LeafSweep::certificate(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis,
+                                   const PairSweep& sweep) const {
+  Certificate c;
+  c.epoch = sweep.epoch;
+  c.axis = to_float(axis);
+  c.offset = kNoCertificate;
+  if (length_squared(axis) == 0) return c;
+
+  const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
+  const Vec3 origin = moving_->tree.origin;
+  c.point = to_float((1.0 / 3) * ((moving[0] - origin) + (moving[1] - origin) + (moving[2] - origin)));
+  const Vec3 w = to_double(c.axis), p = to_double(c.point);
+  const Mat3 middle{{to_double(sweep.middle[0]), to_double(sweep.middle[1]), to_double(sweep.middle[2])}};
+  double least = std::numeric_limits<double>::infinity(), most = -least, radius = 0;
+  for (int i = 0; i < 3; ++i) {
+    least = std::min(least, dot(w, fixed[i] - fixed_->tree.origin));
+    const Vec3 arm = (moving[i] - origin) - p;
+    most = std::max(most, dot(w, middle * arm));
+    radius = std::max(radius, length(arm));
+  }
+  // An axis against the normals says something only without the allowance.
+  const OutwardNormals normals{middle * normal_unscaled(moving), normal_unscaled(fixed)};
+  const bool uses_allowance = sides_ != SideRule::Normals || normals.allow(w);
+  c.offset = -rounded_up(most - least + (uses_allowance ? 0 : allowed_));
+  c.radius = rounded_up(radius * (1 + 1e-9));
+  return c;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/bvh/obb_tree.h"
+#include "dismantle/front/certificate_front.h"
+#include "dismantle/math/screw.h"
+#include "dismantle/narrowphase/ccd_triangle_triangle.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// How far the linear vertex paths that decide a triangle pair may be from the true screw, as a share of the tolerance.
+/// The share is taken off every allowance whatever the motion, so that a state reached by a translation is not too deep
+/// for a rotation.
+inline constexpr double kArcShare = 0.125;
+
+/// A component as the method `certificates` sees it: its triangles in the assembled state, and their tree.
+struct SolidTree {
+  std::vector<Vec3> vertices;  ///< [mm, assembled]
+  Span<const Face> faces;
+  bool closed = false;
+  ObbTree tree;
+
+  Triangle triangle(std::uint32_t face) const {
+    const Face& f = faces[face];
+    return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
+  }
+};
+
+/// Where two triangles are stopped.
+struct LeafContact {
+  std::uint32_t face_moving = 0, face_fixed = 0;
+  double toi = 0;  ///< They are certainly allowed on [0, toi].
+  Vec3 axis;  ///< Unit, from the moving to the fixed one [frame of the fixed component]; zero where none parts them.
+};
+
+/// The sweep of one moving component past one fixed component along a screw, seen from the fixed one: tests pairs of
+/// their triangles on the true arcs. A pair's motion is halved until its chords are as near to the arcs as the
+/// allowance that is left needs.
+class LeafSweep {
+ public:
+  /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
+  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]
+  /// @param allowed how deep triangles may be in each other [mm]
+  LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end, double deviation,
+            double allowed, double tolerance, SideRule sides);
+
+  /// As the front takes it.
+  PairMotion motion() const;
+
+  struct Result {
+    bool free = true;
+    LeafContact contact;  ///< The axis is given also where free.
+  };
+  /// Guarantee: see ccd_triangle_triangle; for the screw itself.
+  /// @param horizon looks no further into the motion than this time: free is free until then
+  Result test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon = 1) const;
+
+  /// What the axis proves of the two triangles, for the front. @param sweep of this motion
+  Certificate certificate(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis, const PairSweep& sweep) const;
+
+ private:
+  /// The triangles in their own frames.
+  struct Pair {
+    Triangle moving, fixed;
+    double horizon;
+  };
+  AxisCcdResult test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed, Vec3 hint) const;
+  bool test_part(const Pair& pair, int level, std::size_t index, Result& result) const;
+
+  const SolidTree* moving_;
+  const SolidTree* fixed_;
+  std::vector<RigidTransform> at_;  // at equal distances of time, 2^levels_ + 1
+  int levels_ = 0;
+  Mat3 middle_;
+  double deviation_, allowed_, share_;
+  SideRule sides_;
+};
+
+}  // namespace dismantle

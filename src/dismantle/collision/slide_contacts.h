@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/certificate_sweeper.h"
+#include "dismantle/collision/contact_patch.h"
+#include "dismantle/collision/nearest_twist.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// The contacts that bound the twist of the set in hand during one step of response Slide (DESIGN section 6; Ortega,
+/// Redon, Coquillart 2007): pairs of triangles, each with the axis that last let the wanted motion go furthest.
+class SlideContacts {
+ public:
+  explicit SlideContacts(const CertificateSweeper& sweeper) : sweeper_(sweeper) {}
+
+  void clear() { pairs_.clear(); }
+  bool empty() const { return pairs_.empty(); }
+  /// Takes up the pair, or gives it its new axis. True where it bounds the twist in a way that it did not before.
+  bool add(const BlockedPair& pair);
+  /// Gives every pair the axis that lets a motion to `end` go furthest, and lets go of pairs that do not block it.
+  void choose_axes(const Pose& end);
+  /// Lets go of pairs whose gap is more than `reach` [mm].
+  void drop_beyond(double reach);
+
+  /// The twist of the set in hand about its center, nearest to `wanted`, that takes no triangle pair deeper than its
+  /// allowance less kSlideReserve of the tolerance, to first order; rotations count with the lever `lever` [mm].
+  struct Twist {
+    Vec3 velocity;         ///< Of the center [mm].
+    Vec3 rotation;         ///< [rad]
+    bool bounded = false;  ///< Some contact holds it back.
+  };
+  Twist nearest(const Twist& wanted, double lever) const;
+
+  /// How much of a motion on which `pair` is blocked may be made, so that kSlideReserve is kept.
+  double part_within_reserve(const BlockedPair& pair) const;
+  std::size_t size() const { return pairs_.size(); }
+
+  /// The contacts with a gap of at most `reach` [mm] where the set is now.
+  std::vector<ContactPoint> points(double reach) const;
+
+ private:
+  /// Where a pair stands.
+  struct Stand {
+    Vec3 normal;         ///< Unit, from the fixed to the moving one [world].
+    ContactPatch patch;  ///< The moving triangle above the fixed one [world].
+    double gap = 0;      ///< Along the normal [mm].
+  };
+  Stand stand(const BlockedPair& pair) const;
+
+  const CertificateSweeper& sweeper_;
+  std::vector<BlockedPair> pairs_;
+};
+
+/// Response Slide keeps this share of the tolerance from every allowance: room for what a twist leaves out to first
+/// order.
+inline constexpr double kSlideReserve = 0.5;
+
+}  // namespace dismantle
