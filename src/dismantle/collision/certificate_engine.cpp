@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/certificate_engine.h"
 
+#include "dismantle/collision/certificate_queries.h"
 #include "dismantle/collision/certificate_response.h"
 #include "dismantle/core/contract.h"
 
@@ -45,6 +46,18 @@ Span<const Pose> CertificateEngine::poses() const {
 
 std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
   return body_->response.embedded_pairs();
+}
+
+std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
+  return contacts_within(body_->sweeper, reach);
+}
+
+Clearance CertificateEngine::clearance() const {
+  return least_clearance(body_->sweeper);
+}
+
+std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> targets) const {
+  return dismantle::first_contacts(body_->sweeper, targets);
 }
 
 std::size_t CertificateEngine::front_size() const {

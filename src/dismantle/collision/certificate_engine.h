@@ -57,7 +57,7 @@ class CertificateEngine final : public MotionEngine {
   /// The exact least distance from the set in hand to everything that it may not overlap.
   Clearance clearance() const;
   /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
-  /// `targets[i]`. Nothing moves.
+  /// `targets[i]`; embedded pairs are free all the way. Nothing moves. Candidates are looked at side by side.
   std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;
   /// How many pairs of nodes the fronts of the set in hand have.
   std::size_t front_size() const;

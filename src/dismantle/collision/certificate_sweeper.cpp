@@ -84,14 +84,14 @@ void CertificateSweeper::hold(Span<const ComponentId> components) {
     for (const Vec3& p : solids_[c.value].vertices) radius_ = std::max(radius_, length(p - center_));
 }
 
-double CertificateSweeper::deviation(const Pose& end) const {
-  const Screw screw = screw_between(pose(), end);
-  return screw_chord_deviation(screw, screw_radius(screw, center(), radius_));
+double CertificateSweeper::deviation(const Pose& start, const Pose& end) const {
+  const Screw screw = screw_between(start, end);
+  return screw_chord_deviation(screw, screw_radius(screw, transform_from_pose(start) * center_, radius_));
 }
 
-double CertificateSweeper::travel(const Pose& end) const {
-  const Screw screw = screw_between(pose(), end);
-  return screw_path_length(screw, screw_radius(screw, center(), radius_));
+double CertificateSweeper::travel(const Pose& start, const Pose& end) const {
+  const Screw screw = screw_between(start, end);
+  return screw_path_length(screw, screw_radius(screw, transform_from_pose(start) * center_, radius_));
 }
 
 double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
@@ -127,66 +127,85 @@ SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
   return allowed(a, b) > tolerance() ? SideRule::Free : SideRule::Normals;
 }
 
-LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& end, double arcs) const {
+LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
+                                         double arcs) const {
   const Pose& frame = poses_[fixed.value];
-  return LeafSweep(solid(moving), solid(fixed), seen_from(frame, pose()), seen_from(frame, end), arcs,
+  return LeafSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end), arcs,
                    allowed(moving, fixed), tolerance(), sides(moving, fixed));
 }
 
 LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return leaf_sweep(pair.moving, pair.fixed, end, deviation(end))
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, deviation(end))
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
-std::vector<CertificateSweeper::ActivePair> CertificateSweeper::active_pairs(const Pose& end, double travel,
-                                                                             CertificateSweep& result) {
-  std::vector<ActivePair> active;
-  const double arcs = deviation(end);
-  const RigidTransform start = transform_from_pose(pose());
+double CertificateSweeper::sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start,
+                                      double travel) const {
+  const Pose& pose_fixed = poses_[fixed.value];
+  const Vec3 center = start * centers_[moving.value];
+  const Vec3 other =
+      pose_fixed == Pose{} ? centers_[fixed.value] : transform_from_pose(pose_fixed) * centers_[fixed.value];
+  const double margin = 1e-9 * (max_abs(center) + max_abs(other));
+  return length(center - other) - radii_[moving.value] - radii_[fixed.value] - travel - margin;
+}
+
+template <class Visit>
+void CertificateSweeper::for_each_near(const Pose& start, double travel, double reach, CertificateSweep& result,
+                                       Visit visit) const {
+  const RigidTransform transform = transform_from_pose(start);
   for (const ComponentId moving : held_) {
-    if (solids_[moving.value].tree.empty()) continue;
-    const Vec3 center = start * centers_[moving.value];
+    if (solid(moving).tree.empty()) continue;
     for (std::uint32_t k = 0; k < poses_.size(); ++k) {
       const ComponentId fixed(k);
-      if (is_held_[k] || solids_[k].tree.empty()) continue;
-      const Vec3 other = poses_[k] == Pose{} ? centers_[k] : transform_from_pose(poses_[k]) * centers_[k];
-      const double margin = 1e-9 * (max_abs(center) + max_abs(other));
-      const double gap = length(center - other) - radii_[moving.value] - radii_[k] - travel - margin;
-      if (gap > 0) {
+      if (is_held_[k] || solid(fixed).tree.empty()) continue;
+      const double gap = sphere_gap(moving, fixed, transform, travel);
+      if (gap > reach) {
         result.clearance = std::min(result.clearance, gap);
-        continue;
+      } else if (allowed(moving, fixed) >= 0) {
+        visit(moving, fixed);
       }
-      if (allowed(moving, fixed) < 0) continue;
-      FrontEntry& entry = front_of(moving, fixed);
-      LeafSweep leaves = leaf_sweep(moving, fixed, end, arcs);
-      const PairSweep sweep = entry.front.begin_sweep(leaves.motion());
-      active.push_back({moving, fixed, &entry.front, std::move(leaves), sweep});
     }
   }
-  return active;
+}
+
+LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, double window) {
+  return [&pair, &task, window](std::uint32_t moving, std::uint32_t fixed, Vec3f hint) {
+    const LeafSweep::Result found = pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
+    if (!found.free) {
+      task.horizon = std::min(task.horizon, found.contact.toi + window);
+      task.blocked.push_back(
+          {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
+    }
+    return LeafVerdict{found.free, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
+  };
+}
+
+void CertificateSweeper::finish(CertificateSweep& result, double window) {
+  std::sort(result.blocked.begin(), result.blocked.end(), before);
+  for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
+  std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
+  result.free = result.blocked.empty();
+  result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
 
 CertificateSweep CertificateSweeper::sweep(const Pose& end, double window) {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
-  std::vector<ActivePair> active = active_pairs(end, travel(end), result);
+  std::vector<ActivePair> active;
+  const double arcs = deviation(end);
+  for_each_near(pose(), travel(end), 0, result, [&](ComponentId moving, ComponentId fixed) {
+    CertificateFront& front = front_of(moving, fixed).front;
+    LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, arcs);
+    const PairSweep sweep = front.begin_sweep(leaves.motion());
+    active.push_back({moving, fixed, &front, std::move(leaves), sweep});
+  });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
     for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}});
 
   const auto run = [&](std::size_t i) {
-    PartTask& task = tasks[i];
-    const ActivePair& pair = active[task.pair];
-    const LeafTest test = [&](std::uint32_t moving, std::uint32_t fixed, Vec3f hint) {
-      const LeafSweep::Result found = pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
-      if (!found.free) {
-        task.horizon = std::min(task.horizon, found.contact.toi + window);
-        task.blocked.push_back(
-            {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
-      }
-      return LeafVerdict{found.free, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
-    };
-    task.found = pair.front->sweep_part(task.part, pair.sweep, kernels_, test);
+    const ActivePair& pair = active[tasks[i].pair];
+    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window));
   };
   if (tasks.size() == 1) {
     run(0);
@@ -204,12 +223,50 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window) {
     pair.front->end_sweep();
     result.front += pair.front->size();
   }
-  std::sort(result.blocked.begin(), result.blocked.end(), before);
-  for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
-  std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
-  result.free = result.blocked.empty();
-  result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
+  finish(result, window);
   return result;
+}
+
+CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {
+  CertificateSweep result;
+  result.clearance = std::numeric_limits<double>::infinity();
+  const double arcs = deviation(start, end);
+  for_each_near(start, travel(start, end), 0, result, [&](ComponentId moving, ComponentId fixed) {
+    const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
+    const auto known = fronts_.find({a, b});
+    const bool usable = known != fronts_.end() && known->second.b_moves == (moving == b) &&
+                        known->second.fixed_pose == poses_[fixed.value];
+    const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
+    const CertificateFront& front = usable ? known->second.front : roots;
+    const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, arcs);
+    const ActivePair pair{moving, fixed, nullptr, leaves, front.begin_look(leaves.motion())};
+    PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}};
+    const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, window));
+    for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
+    result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
+    result.clearance = std::min<double>(result.clearance, found.least_gap - pair.sweep.error);
+    result.leaf_tests += found.leaf_tests;
+    result.front += front.size();
+  });
+  finish(result, window);
+  return result;
+}
+
+std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
+  std::vector<BlockedPair> pairs;
+  CertificateSweep unused;
+  for_each_near(pose(), 0, reach, unused, [&](ComponentId moving, ComponentId fixed) {
+    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free);
+    PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), 0).motion();
+    motion.allowed = -reach;
+    const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {
+      pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
+      return LeafVerdict{};
+    };
+    front.look(front.begin_look(motion), kernels_, take);
+  });
+  std::sort(pairs.begin(), pairs.end(), before);
+  return pairs;
 }
 
 void CertificateSweeper::move_to(const Pose& pose) {

@@ -48,13 +48,17 @@ class CertificateSweeper {
   /// @param window how long after the first contact others are reported, as a part of the motion
   /// @pre deviation(end) is at most kMostArcs times the tolerance
   CertificateSweep sweep(const Pose& end, double window);
+  /// As sweep() for a motion from `start`, leaving the fronts as they are: any number may be looked at side by side.
+  CertificateSweep look(const Pose& start, const Pose& end, double window) const;
+  /// The triangle pairs that are nearer than `reach` [mm] where the set in hand is, and perhaps some more.
+  std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
   LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
-  double deviation(const Pose& end) const;
+  double deviation(const Pose& end) const { return deviation(pose(), end); }
   /// An upper bound of how far any point of the set goes [mm].
-  double travel(const Pose& end) const;
+  double travel(const Pose& end) const { return travel(pose(), end); }
 
   /// Puts the set in hand at `pose`.
   void move_to(const Pose& pose);
@@ -89,8 +93,16 @@ class CertificateSweeper {
   struct PartTask;
 
   SideRule sides(ComponentId a, ComponentId b) const;
-  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& end, double arcs) const;
-  std::vector<ActivePair> active_pairs(const Pose& end, double travel, CertificateSweep& result);
+  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end, double arcs) const;
+  /// How far apart the spheres of the two certainly stay [mm]; below 0 where they may meet.
+  double sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start, double travel) const;
+  /// Calls visit(moving, fixed) for the pairs that may come nearer to each other than `reach` during a motion.
+  template <class Visit>
+  void for_each_near(const Pose& start, double travel, double reach, CertificateSweep& result, Visit visit) const;
+  static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window);
+  static void finish(CertificateSweep& result, double window);
+  double deviation(const Pose& start, const Pose& end) const;
+  double travel(const Pose& start, const Pose& end) const;
   FrontEntry& front_of(ComponentId moving, ComponentId fixed);
 
   const Assembly* assembly_;

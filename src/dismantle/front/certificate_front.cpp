@@ -93,8 +93,11 @@ void CertificateFront::Part::append(std::uint32_t node_a, std::uint32_t node_b, 
   set(a.size() - 1, c);
 }
 
-CertificateArrays CertificateFront::Part::padded() {
+void CertificateFront::Part::pad() {
   for (std::vector<float>& field : fields) field.resize((size() + kPadding - 1) / kPadding * kPadding);
+}
+
+CertificateArrays CertificateFront::Part::arrays() const {
   return {{fields[0].data(), fields[1].data(), fields[2].data()},
           {fields[3].data(), fields[4].data(), fields[5].data()},
           fields[6].data(),
@@ -104,6 +107,7 @@ CertificateArrays CertificateFront::Part::padded() {
 
 /// What a part's sweep works on.
 struct CertificateFront::Work {
+  std::vector<float> least;          // gaps, a pair of the part
   std::vector<std::size_t> failing;  // indices into the part
   std::vector<Item> items;           // the failing ones, in order, then their descendants
 };
@@ -114,6 +118,7 @@ CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule 
   Certificate nothing;
   nothing.offset = kNoCertificate;
   parts_[0].append(0, 0, nothing);
+  parts_[0].pad();
 }
 
 std::size_t CertificateFront::size() const {
@@ -128,10 +133,17 @@ PairSweep CertificateFront::begin_sweep(const PairMotion& motion) {
     ++epoch_;
     references_[epoch_ % PairSweep::kEpochs] = motion.middle;
   }
+  return sweep_about(references_[epoch_ % PairSweep::kEpochs], motion);
+}
+
+PairSweep CertificateFront::begin_look(const PairMotion& motion) const {
+  return sweep_about(motion.middle, motion);
+}
+
+PairSweep CertificateFront::sweep_about(const Mat3& middle, const PairMotion& motion) const {
   PairSweep sweep;
   sweep.t0 = to_float(motion.t0);
   sweep.t1 = to_float(motion.t1);
-  const Mat3& middle = references_[epoch_ % PairSweep::kEpochs];
   for (int i = 0; i < 3; ++i) sweep.middle[i] = to_float(middle.row[i]);
   sweep.turn = std::max(turn_between(middle, motion.t0.rotation), turn_between(middle, motion.t1.rotation));
   sweep.epoch = epoch_;
@@ -155,11 +167,25 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& swee
   FrontSweep result;
   if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1) merge(part, sweep, kernels);
 
-  thread_local std::vector<float> least;
-  const CertificateArrays arrays = part.padded();
-  least.resize(part.fields[0].size());
-  kernels.check_certificates(arrays, part.size(), sweep, least.data());
   Work work;
+  find_failing(part, sweep, kernels, work, result);
+  if (work.failing.empty()) return result;
+
+  resolve(work, sweep, kernels, test, result);
+  if (work.items.size() > work.failing.size()) {
+    replace(part, work.failing, work.items);
+    part.pad();
+  } else {
+    for (std::size_t k = 0; k < work.failing.size(); ++k) part.set(work.failing[k], work.items[k].certificate);
+  }
+  return result;
+}
+
+void CertificateFront::find_failing(const Part& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
+                                    FrontSweep& result) const {
+  std::vector<float>& least = work.least;
+  least.resize(part.fields[0].size());
+  kernels.check_certificates(part.arrays(), part.size(), sweep, least.data());
   for (std::size_t i = 0; i < part.size(); ++i) {
     if (least[i] >= sweep.limit) {
       result.least_gap = std::min(result.least_gap, least[i]);
@@ -172,13 +198,14 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& swee
     work.failing.push_back(i);
     work.items.push_back(item);
   }
-  if (work.failing.empty()) return result;
+}
 
-  resolve(work, sweep, kernels, test, result);
-  if (work.items.size() > work.failing.size()) {
-    replace(part, work.failing, work.items);
-  } else {
-    for (std::size_t k = 0; k < work.failing.size(); ++k) part.set(work.failing[k], work.items[k].certificate);
+FrontSweep CertificateFront::look(const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
+  FrontSweep result;
+  for (const Part& part : parts_) {
+    Work work;
+    find_failing(part, sweep, kernels, work, result);
+    if (!work.failing.empty()) resolve(work, sweep, kernels, test, result);
   }
   return result;
 }
@@ -332,7 +359,9 @@ void CertificateFront::merge(Part& part, const PairSweep& sweep, const FrontKern
       next.append(part.a[i], part.b[i], part.certificate(i));
     }
   }
-  if (next.size() < part.size()) part = std::move(next);
+  if (next.size() == part.size()) return;
+  part = std::move(next);
+  part.pad();
 }
 
 void CertificateFront::end_sweep() {
@@ -345,6 +374,8 @@ void CertificateFront::end_sweep() {
       for (std::size_t i = half; i < part.size(); ++i) rest.append(part.a[i], part.b[i], part.certificate(i));
       part.a.resize(half);
       part.b.resize(half);
+      part.pad();
+      rest.pad();
       parts_.insert(parts_.begin() + static_cast<std::ptrdiff_t>(p) + 1, std::move(rest));
     }
   }
@@ -357,6 +388,7 @@ void CertificateFront::end_sweep() {
       continue;
     }
     for (std::size_t i = 0; i < part.size(); ++i) before.append(part.a[i], part.b[i], part.certificate(i));
+    before.pad();
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
   }
 }

@@ -66,7 +66,11 @@ class CertificateFront {
 
   /// Begins a sweep.
   PairSweep begin_sweep(const PairMotion& motion);
+  /// The same for look(), which leaves the front as it is.
+  PairSweep begin_look(const PairMotion& motion) const;
   FrontSweep sweep_part(std::size_t part, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test);
+  /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
+  FrontSweep look(const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
   void end_sweep();
 
@@ -95,7 +99,9 @@ class CertificateFront {
     Certificate certificate(std::size_t i) const;
     void set(std::size_t i, const Certificate& certificate);
     void append(std::uint32_t node_a, std::uint32_t node_b, const Certificate& certificate);
-    CertificateArrays padded();
+    /// Brings the arrays to whole lanes.
+    void pad();
+    CertificateArrays arrays() const;
   };
   /// A pair that has to be looked at, and what comes of it.
   struct Item {
@@ -115,6 +121,10 @@ class CertificateFront {
   }
   std::uint32_t moving_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).a->child; }
   std::uint32_t fixed_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).b->child; }
+  PairSweep sweep_about(const Mat3& middle, const PairMotion& motion) const;
+  /// The pairs of a part that do not hold, as items to be resolved.
+  void find_failing(const Part& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
+                    FrontSweep& result) const;
   Vec3f guard_of(const Certificate& certificate, const PairSweep& sweep) const;
   /// Takes the allowance from what only holds by it against the normals of closed solids.
   void face(BoxSeparation& separation, std::uint32_t a, std::uint32_t b, const PairSweep& sweep) const;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/certificate_queries.h"
+
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/narrowphase/penetration_triangle_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId face) {
+  const RigidTransform t = transform_from_pose(sweeper.poses()[component.value]);
+  const Triangle own = sweeper.solid(component).triangle(face.value);
+  return {{t * own[0], t * own[1], t * own[2]}};
+}
+
+/// No two components are further apart than this.
+double largest_distance(const CertificateSweeper& sweeper) {
+  double reach = 0;
+  for (std::uint32_t c = 0; c < sweeper.poses().size(); ++c) {
+    const Aabb box = assembled_bounds(sweeper.assembly()[ComponentId(c)]);
+    if (box.empty()) continue;
+    const Vec3 far = max(max(box.lower, box.upper), max(-box.lower, -box.upper));
+    reach = std::max(reach, length(far) + length(sweeper.poses()[c].position));
+  }
+  return 2 * reach;
+}
+
+/// One candidate motion, cut so that its arcs stay near their chords.
+FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target) {
+  const Pose start = sweeper.pose();
+  const double most = CertificateSweeper::kMostArcs * sweeper.tolerance();
+  const int cuts = std::max(1, static_cast<int>(std::ceil(std::sqrt(sweeper.deviation(target) / most))));
+  FirstContact first;
+  for (int k = 0; k < cuts; ++k) {
+    const CertificateSweep found = sweeper.look(pose_between(start, target, static_cast<double>(k) / cuts),
+                                                pose_between(start, target, static_cast<double>(k + 1) / cuts), 0);
+    if (found.free) continue;
+    const BlockedPair& pair = found.blocked.front();
+    return {(k + pair.toi) / cuts, false, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed};
+  }
+  return first;
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach) {
+  std::vector<ContactPoint> contacts;
+  for (const BlockedPair& pair : sweeper.near_pairs(reach)) {
+    const Triangle moving = placed(sweeper, pair.moving, pair.face_moving);
+    const Triangle fixed = placed(sweeper, pair.fixed, pair.face_fixed);
+    const TriangleDistance apart = distance_triangle_triangle(moving, fixed);
+    if (apart.distance > reach) continue;
+    ContactPoint c{pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, apart.point_a, {}, apart.distance};
+    c.normal = normalized(apart.point_a - apart.point_b);
+    if (apart.distance == 0) {
+      const Penetration depth = penetration_triangle_triangle(moving, fixed);
+      c.normal = depth.depth > 0 ? -depth.axis : normalized(normal_unscaled(fixed));
+      c.gap = -depth.depth;
+    }
+    contacts.push_back(c);
+  }
+  return contacts;
+}
+
+Clearance least_clearance(const CertificateSweeper& sweeper) {
+  Clearance least;
+  least.distance = std::numeric_limits<double>::infinity();
+  const double furthest = largest_distance(sweeper);
+  for (double reach = sweeper.tolerance(); least.distance > reach; reach *= 4) {
+    for (const BlockedPair& pair : sweeper.near_pairs(reach)) {
+      const TriangleDistance d = distance_triangle_triangle(placed(sweeper, pair.moving, pair.face_moving),
+                                                            placed(sweeper, pair.fixed, pair.face_fixed));
+      if (d.distance >= least.distance) continue;
+      least = {d.distance, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, d.point_a, d.point_b};
+    }
+    if (reach > furthest) break;
+  }
+  return least;
+}
+
+std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets) {
+  std::vector<FirstContact> found(targets.size());
+  sweeper.executor().for_each_heavy(targets.size(),
+                                    [&](std::size_t i) { found[i] = first_contact(sweeper, targets[i]); });
+  return found;
+}
+
+}  // namespace dismantle
