@@ -10,22 +10,10 @@ inline namespace DISMANTLE_LANES_ISA {
 
 /// How often an axis is improved, in the first and in the second look at what the guess leaves.
 inline constexpr int kFewImprovements = 2;
-inline constexpr int kManyImprovements = 12;
+inline constexpr int kManyImprovements = 6;
 
 /// An improvement turns the axis beyond the plane across the difference that spoils it by this part of the way there.
 inline constexpr float kOvershoot = 1.5f;
-
-/// Appends the numbers of the lanes that are not free, without a branch, to a list of `size`; gives its new size.
-template <int N>
-std::uint32_t keep_undecided(LaneMask<N> free, const std::uint32_t* numbers, std::uint32_t used, std::uint32_t* list,
-                             std::uint32_t size) {
-  const unsigned kept = ~bits(free) & ((1u << used) - 1);
-  for (int lane = 0; lane < N; ++lane) {
-    list[size] = numbers[lane];
-    size += kept >> lane & 1u;
-  }
-  return size;
-}
 
 /// Turns an axis so that it separates the difference that spoiled it most (the perceptron's rule).
 template <int N>
@@ -56,25 +44,46 @@ std::uint32_t search_list(const double* motions, std::uint32_t* list, std::uint3
     std::uint32_t numbers[N];
     for (std::uint32_t lane = 0; lane < N; ++lane) numbers[lane] = list[i + lane < size ? i + lane : size - 1];
     const auto points = Feature::Rows::template gather<N>(ListedMotions{motions, numbers});
-    const LaneMask<N> free = search<N, Feature>(points, improvements);
-    left = keep_undecided<N>(free, numbers, size - i < N ? size - i : N, list, left);
+    const std::uint32_t used = size - i < N ? size - i : N;
+    unsigned undecided = ~bits(search<N, Feature>(points, improvements)) & ((1u << used) - 1);
+    for (; undecided != 0; undecided &= undecided - 1) list[left++] = numbers[__builtin_ctz(undecided)];
   }
   return left;
+}
+
+/// Asks for the memory of the N motions that come kMotionsAhead after some: what the processor fetches ahead by itself
+/// ends with every page of 21 motions.
+template <int N>
+void fetch_ahead(const double* motions) {
+  constexpr int kMotionsAhead = 64, kDoublesPerLine = 8;
+  for (int k = 0; k < N * kMotionDoubles; k += kDoublesPerLine)
+    __builtin_prefetch(motions + kMotionsAhead * kMotionDoubles + k);
+}
+
+/// Tries the guessed axis on up to 64 motions; bit i of the result is set where motion i is not proved free, also where
+/// it is left over from full lanes.
+template <int N, class Feature>
+std::uint64_t left_by_guess(const double* motions, std::uint32_t count) {
+  std::uint64_t free = 0;
+  for (std::uint32_t i = 0; i + N <= count; i += N) {
+    fetch_ahead<N>(motions + std::size_t{i} * kMotionDoubles);
+    const auto points =
+        Feature::Rows::template gather<N>(ConsecutiveMotions{motions + std::size_t{i} * kMotionDoubles});
+    const LaneGap<N> seen = Feature::gap(points, Feature::guess(points), reach_of(points));
+    free |= std::uint64_t{bits(seen.separates())} << i;
+  }
+  return ~free & (~std::uint64_t{0} >> (64 - count));
 }
 
 /// The kernel of ccd_lanes_kernel.h for a pair of features.
 template <int N, class Feature>
 std::uint32_t undecided_motions(const double* motions, std::uint32_t count, std::uint32_t* list) {
-  std::uint32_t size = 0, i = 0;
-  for (; i + N <= count; i += N) {
-    const auto points =
-        Feature::Rows::template gather<N>(ConsecutiveMotions{motions + std::size_t{i} * kMotionDoubles});
-    const LaneGap<N> seen = Feature::gap(points, Feature::guess(points), reach_of(points));
-    std::uint32_t numbers[N];
-    for (std::uint32_t lane = 0; lane < N; ++lane) numbers[lane] = i + lane;
-    size = keep_undecided<N>(seen.separates(), numbers, N, list, size);
+  std::uint32_t size = 0;
+  for (std::uint32_t i = 0; i < count; i += 64) {
+    const std::uint32_t part = count - i < 64 ? count - i : 64;
+    std::uint64_t undecided = left_by_guess<N, Feature>(motions + std::size_t{i} * kMotionDoubles, part);
+    for (; undecided != 0; undecided &= undecided - 1) list[size++] = i + __builtin_ctzll(undecided);
   }
-  for (; i < count; ++i) list[size++] = i;
   size = search_list<N, Feature>(motions, list, size, kFewImprovements);
   return search_list<N, Feature>(motions, list, size, kManyImprovements);
 }

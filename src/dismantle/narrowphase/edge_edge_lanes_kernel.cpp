@@ -16,10 +16,10 @@ struct EdgeEdgeLanes {
     const LaneVec<N> a = points.at[0][0] + points.at[1][0], b0 = points.at[0][1] + points.at[1][1];
     const LaneVec<N> b = points.at[0][2] + points.at[1][2] - b0;
     const L aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), a_b0 = dot(a, b0), b_b0 = dot(b, b0);
-    const L denominator = aa * bb - ab * ab;
-    const L first = select(denominator > L(0), clamped((bb * a_b0 - ab * b_b0) / denominator), L(0));
-    const L along_b = clamped((ab * first - b_b0) / bb);
-    const L along_a = clamped((ab * along_b + a_b0) / aa);
+    const L inverse_aa = 1.0f / aa, inverse_bb = 1.0f / bb;
+    const L first = clamped((bb * a_b0 - ab * b_b0) / (aa * bb - ab * ab));
+    const L along_b = clamped((ab * first - b_b0) * inverse_bb);
+    const L along_a = clamped((ab * along_b + a_b0) * inverse_aa);
     return b0 + along_b * b - along_a * a;
   }
 
@@ -31,6 +31,7 @@ struct EdgeEdgeLanes {
   }
 
  private:
+  /// 0 for what is not a number, as where edges are parallel or without length.
   template <int N>
   static Lanes<N> clamped(Lanes<N> x) {
     return min(max(x, Lanes<N>(0)), Lanes<N>(1));
