@@ -68,8 +68,8 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   return result;
 }
 
-CertificateSweep CertificateResponse::sweep(const Pose& end, double window, StepResult& result) {
-  CertificateSweep found = sweeper_.sweep(end, window);
+CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effort effort, StepResult& result) {
+  CertificateSweep found = sweeper_.sweep(end, window, effort);
   ++result.sweeps;
   result.sizes.elementary_tests += found.leaf_tests;
   result.sizes.triangle_pairs += found.leaf_tests;
@@ -146,7 +146,7 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
   const int cuts = cut_count(sweeper_.deviation(target), CertificateSweeper::kMostArcs * sweeper_.tolerance());
   for (int k = 0; k < cuts; ++k) {
     const Pose end = pose_between(start, target, (k + 1.0) / cuts);
-    const CertificateSweep found = sweep(end, kContactWindow, result);
+    const CertificateSweep found = sweep(end, kContactWindow, Effort::Full, result);
     double part = 1;
     if (!found.free) part = touch ? found.toi - kBackoffShare * sweeper_.tolerance() / sweeper_.travel(end) : 0;
     result.clearance = found.clearance;
@@ -172,7 +172,8 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (travel < rest) break;
 
     const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
-    const CertificateSweep found = sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), result);
+    const CertificateSweep found =
+        sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), Effort::Quick, result);
     result.clearance = found.clearance;
     tries += !found.free || twist.bounded;
     if (found.free) {

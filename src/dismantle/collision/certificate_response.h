@@ -21,7 +21,7 @@ class CertificateResponse {
   std::vector<ComponentPair> embedded_pairs() const { return embedded_.pairs(); }
 
  private:
-  CertificateSweep sweep(const Pose& end, double window, StepResult& result);
+  CertificateSweep sweep(const Pose& end, double window, Effort effort, StepResult& result);
   /// Goes `part` of the motion to `end`, which the certificates allow, or as far as the other two rules let it.
   /// @return the part made
   double advance(const Pose& end, double part, StepResult& result);

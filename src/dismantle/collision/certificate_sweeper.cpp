@@ -19,6 +19,10 @@ SolidTree solid_of(const Component& component, const Executor& executor) {
   return solid;
 }
 
+/// Effort::Quick ends after so many steps, or one that is less than this share of the tolerance [of path length].
+constexpr int kQuickSteps = 6;
+constexpr double kQuickShare = 1e-2;
+
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
   return frame == Pose{} ? pose : inverse(frame) * pose;
@@ -128,14 +132,19 @@ SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
 }
 
 LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
-                                         double arcs) const {
+                                         Effort effort) const {
   const Pose& frame = poses_[fixed.value];
-  return LeafSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end), arcs,
-                   allowed(moving, fixed), tolerance(), sides(moving, fixed));
+  AdvancementLimits limits;
+  if (effort == Effort::Quick) {
+    limits.steps = kQuickSteps;
+    limits.least_progress = std::max(limits.least_progress, kQuickShare * tolerance() / travel(start, end));
+  }
+  return LeafSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end), deviation(start, end),
+                   allowed(moving, fixed), tolerance(), sides(moving, fixed), limits);
 }
 
 LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, deviation(end))
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
@@ -188,14 +197,13 @@ void CertificateSweeper::finish(CertificateSweep& result, double window) {
   result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
 
-CertificateSweep CertificateSweeper::sweep(const Pose& end, double window) {
+CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effort effort) {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   std::vector<ActivePair> active;
-  const double arcs = deviation(end);
   for_each_near(pose(), travel(end), 0, result, [&](ComponentId moving, ComponentId fixed) {
     CertificateFront& front = front_of(moving, fixed).front;
-    LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, arcs);
+    LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     const PairSweep sweep = front.begin_sweep(leaves.motion());
     active.push_back({moving, fixed, &front, std::move(leaves), sweep});
   });
@@ -230,7 +238,6 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window) {
 CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
-  const double arcs = deviation(start, end);
   for_each_near(start, travel(start, end), 0, result, [&](ComponentId moving, ComponentId fixed) {
     const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
     const auto known = fronts_.find({a, b});
@@ -238,7 +245,7 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
                         known->second.fixed_pose == poses_[fixed.value];
     const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
     const CertificateFront& front = usable ? known->second.front : roots;
-    const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, arcs);
+    const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
     const ActivePair pair{moving, fixed, nullptr, leaves, front.begin_look(leaves.motion())};
     PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}};
     const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, window));
@@ -257,7 +264,7 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   CertificateSweep unused;
   for_each_near(pose(), 0, reach, unused, [&](ComponentId moving, ComponentId fixed) {
     const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free);
-    PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), 0).motion();
+    PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
     const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {
       pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});

@@ -32,6 +32,13 @@ struct CertificateSweep {
   std::size_t leaf_tests = 0;
 };
 
+/// How hard a triangle pair is tried before it counts as blocked. Less is never unsafe, and faster: a motion along
+/// contacts is cut up anyway.
+enum class Effort {
+  Full,   ///< Until nothing is gained any more.
+  Quick,  ///< A few steps, none smaller than what matters.
+};
+
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2
 /// to 5). Knows the poses of all components. Embedded pairs are not its business.
 class CertificateSweeper {
@@ -46,8 +53,9 @@ class CertificateSweeper {
 
   /// The motion of the set in hand by the one screw from its pose to `end`. Nothing moves.
   /// @param window how long after the first contact others are reported, as a part of the motion
+  /// @param effort how hard a triangle pair is tried before it counts as blocked
   /// @pre deviation(end) is at most kMostArcs times the tolerance
-  CertificateSweep sweep(const Pose& end, double window);
+  CertificateSweep sweep(const Pose& end, double window, Effort effort = Effort::Full);
   /// As sweep() for a motion from `start`, leaving the fronts as they are: any number may be looked at side by side.
   CertificateSweep look(const Pose& start, const Pose& end, double window) const;
   /// The triangle pairs that are nearer than `reach` [mm] where the set in hand is, and perhaps some more.
@@ -93,7 +101,7 @@ class CertificateSweeper {
   struct PartTask;
 
   SideRule sides(ComponentId a, ComponentId b) const;
-  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end, double arcs) const;
+  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end, Effort effort) const;
   /// How far apart the spheres of the two certainly stay [mm]; below 0 where they may meet.
   double sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start, double travel) const;
   /// Calls visit(moving, fixed) for the pairs that may come nearer to each other than `reach` during a motion.

@@ -39,13 +39,14 @@ constexpr int kMostLevels = 12;
 }  // namespace
 
 LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
-                     double deviation, double allowed, double tolerance, SideRule sides)
+                     double deviation, double allowed, double tolerance, SideRule sides, AdvancementLimits limits)
     : moving_(&moving),
       fixed_(&fixed),
       deviation_(deviation),
       allowed_(allowed),
       share_(kArcShare * tolerance),
-      sides_(sides) {
+      sides_(sides),
+      limits_(limits) {
   DISMANTLE_EXPECT(allowed >= tolerance && tolerance > 0);
   while (levels_ < kMostLevels && std::ldexp(deviation, -2 * levels_) > share_) ++levels_;
   DISMANTLE_ENSURE(std::ldexp(deviation, -2 * levels_) <= share_);
@@ -80,21 +81,21 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
 AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed,
                                      Vec3 hint) const {
   const TriangleMotion still{fixed, fixed};
-  if (sides_ == SideRule::Memory) return ccd_triangle_triangle(moving, still, allowed, hint);
+  if (sides_ == SideRule::Memory) return ccd_triangle_triangle(moving, still, allowed, hint, limits_);
   if (sides_ == SideRule::Free) {
-    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint);
+    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, limits_);
     if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;
     // Bound to the side of the hint it was stopped: the least blocking axis may be on another.
-    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{});
+    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
     return unbound.ccd.toi > found.ccd.toi ? unbound : found;
   }
   const OutwardNormals normals{normal_unscaled(moving.t0), normal_unscaled(fixed)};
-  const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals);
+  const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
   if (found.ccd.status == CcdStatus::Free || found.ccd.toi > 0) return found;
   // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
   const TriangleMotion start{moving.t0, moving.t0};
-  if (ccd_triangle_triangle(start, still, allowed, hint, normals).ccd.status == CcdStatus::Free) return found;
-  return ccd_triangle_triangle(moving, still, allowed, Vec3{});
+  if (ccd_triangle_triangle(start, still, allowed, hint, normals, limits_).ccd.status == CcdStatus::Free) return found;
+  return ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
 }
 
 bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result& result) const {

@@ -44,7 +44,7 @@ class LeafSweep {
   /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]
   /// @param allowed how deep triangles may be in each other [mm]
   LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end, double deviation,
-            double allowed, double tolerance, SideRule sides);
+            double allowed, double tolerance, SideRule sides, AdvancementLimits limits);
 
   /// As the front takes it.
   PairMotion motion() const;
@@ -76,6 +76,7 @@ class LeafSweep {
   Mat3 middle_;
   double deviation_, allowed_, share_;
   SideRule sides_;
+  AdvancementLimits limits_;
 };
 
 }  // namespace dismantle

@@ -141,22 +141,24 @@ class TrianglePair {
 /// only left for an axis within a right angle of it, so that faces of open sheets, which have no thickness, do not pass
 /// through each other from one motion to the next.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
-                                                                 double allowed, Vec3 hint) {
+                                                                 double allowed, Vec3 hint,
+                                                                 const AdvancementLimits& limits = {}) {
   DISMANTLE_EXPECT(allowed >= 0);
   detail::TrianglePair pair(a, b, allowed);
-  return conservative_advancement(pair, detail::TrianglePair::Axes(pair.hulls(), allowed, hint));
+  return conservative_advancement(pair, detail::TrianglePair::Axes(pair.hulls(), allowed, hint), limits);
 }
 
-/// As ccd_triangle_triangle(a, b, allowed, hint) for faces of closed solids: only an axis that the outward normals allow
-/// (at the start of the motion) may use the allowance.
+/// As ccd_triangle_triangle(a, b, allowed, hint) for faces of closed solids: only an axis that the outward normals
+/// allow (at the start of the motion) may use the allowance.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
                                                                  double allowed, Vec3 hint,
-                                                                 const OutwardNormals& normals) {
+                                                                 const OutwardNormals& normals,
+                                                                 const AdvancementLimits& limits) {
   DISMANTLE_EXPECT(allowed >= 0);
   detail::TrianglePair pair(a, b, allowed);
   detail::TrianglePair::Axes axes(pair.hulls(), allowed, hint);
   axes.face(normals);
-  return conservative_advancement(pair, axes);
+  return conservative_advancement(pair, axes, limits);
 }
 
 /// The certified test of a whole triangle pair (DESIGN section 4): conservative advancement along a separating axis.

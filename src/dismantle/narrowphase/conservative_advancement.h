@@ -5,11 +5,14 @@
 
 namespace dismantle {
 
-/// How many steps a test may take before it calls the rest of the motion contact.
-inline constexpr int kAdvancementLimit = 64;
-
 /// A step that gains less than this part of the motion counts as no progress.
 inline constexpr double kLeastProgress = 0x1p-26;
+
+/// When a test calls the rest of the motion contact. Whatever they are, it is never too late, only too early.
+struct AdvancementLimits {
+  int steps = 64;                          ///< After so many steps.
+  double least_progress = kLeastProgress;  ///< After a step that gains less than this part of the motion.
+};
 
 /// How a certified test ended, and the axis that it ended on: the one to try first on the pair's next motion.
 struct AxisCcdResult {
@@ -82,15 +85,10 @@ class FurthestAxis {
 
   /// Looks at an axis that may point either way.
   DISMANTLE_HOST_DEVICE void consider_both_ways(Vec3 w) {
-    if (facing_) {
-      if (!refused(w)) keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, w, allowance_of(w)), w);
-      if (!refused(-w)) keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, -w, allowance_of(-w)), -w);
-      return;
-    }
     AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
-    if (!refused(w)) keep_if_further(projections, w);
+    if (!refused(w)) keep_if_allowed(projections, w);
     projections.turn();
-    if (!refused(-w)) keep_if_further(projections, -w);
+    if (!refused(-w)) keep_if_allowed(projections, -w);
   }
 
   DISMANTLE_HOST_DEVICE Vec3 axis() const { return axis_; }
@@ -103,6 +101,15 @@ class FurthestAxis {
     if (until <= end_) return;
     end_ = until;
     axis_ = w;
+  }
+
+  /// @param projections with the allowance: without it they cannot separate further
+  DISMANTLE_HOST_DEVICE void keep_if_allowed(const AxisProjections<kCountA, kCountB>& projections, Vec3 w) {
+    if (!facing_ || normals_.allow(w)) {
+      keep_if_further(projections, w);
+    } else if (projections.separates_until(now_) > end_) {
+      keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, w, 0), w);
+    }
   }
 
   DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const { return !facing_ || normals_.allow(w) ? allowed_ : 0; }
@@ -133,27 +140,28 @@ class FurthestAxis {
 ///   look_ahead(best, t)  tries an axis foreseen for later
 ///   consider_all(best, t) tries every candidate axis at t
 template <class Pair>
-DISMANTLE_HOST_DEVICE AxisCcdResult conservative_advancement(Pair& pair, typename Pair::Axes best) {
+DISMANTLE_HOST_DEVICE AxisCcdResult conservative_advancement(Pair& pair, typename Pair::Axes best,
+                                                             const AdvancementLimits& limits = {}) {
   double t = 0;
   if (pair.start(best)) return {{CcdStatus::Free, 1, 0}, best.axis()};
-  for (int i = 1; i <= kAdvancementLimit; ++i) {
+  for (int i = 1; i <= limits.steps; ++i) {
     const AxisGuess guess = pair.guess(t);
     best.consider(guess.axis);
     if (best.end() >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
 
     pair.look_ahead(best, t);
     double reached = best.end() > t ? best.end() : t;
-    if (i == 1 || reached >= t + kLeastProgress) reached = pair.advance(reached);
-    if (reached < t + kLeastProgress && !guess.interior) {
+    if (i == 1 || reached >= t + limits.least_progress) reached = pair.advance(reached);
+    if (reached < t + limits.least_progress && !guess.interior) {
       pair.consider_all(best, t);
       reached = best.end() > reached ? best.end() : reached;
     }
     if (reached >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
-    if (reached < t + kLeastProgress) return {{CcdStatus::Contact, t, i}, best.axis()};
+    if (reached < t + limits.least_progress) return {{CcdStatus::Contact, t, i}, best.axis()};
     t = reached;
     best.start(t);
   }
-  return {{CcdStatus::Contact, t, kAdvancementLimit}, best.axis()};
+  return {{CcdStatus::Contact, t, limits.steps}, best.axis()};
 }
 
 }  // namespace dismantle
