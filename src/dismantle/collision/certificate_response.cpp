@@ -21,7 +21,9 @@ constexpr double kBackoffShare = 1e-3;
 /// Motions shorter than this share of the tolerance are not made: what rests stays where it is, bit for bit.
 constexpr double kRestShare = 2e-3;
 /// Sweeps of one step of response Slide, apart from free ones of an unbounded motion.
-constexpr int kMostTries = 40;
+constexpr int kMostTries = 20;
+/// A step ends with a motion along contacts that made less than this share of what was still wanted: the next goes on.
+constexpr double kCreepShare = 0.02;
 /// How far a twist's second-order part may take a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
 /// Contacts are taken up while their gap is at most so many tolerances.
@@ -180,10 +182,10 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       const bool made = advance(end, 1, result) > 0;
       reach_ *= kTryGrowth;
       fresh = false;
-      if (!made || sweeper_.pose() == target) break;
+      const bool creeping = twist.bounded && travel < kCreepShare * travel_of(wanted);
+      if (!made || creeping || sweeper_.pose() == target) break;
       continue;
     }
-    reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
     bool news = false;
     double part = found.toi;
     for (const BlockedPair& pair : found.blocked) {
@@ -191,6 +193,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       part = std::min(part, contacts_.part_within_reserve(pair));
     }
     if (news) continue;
+    reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
     if (advance(end, part, result) == 0) break;
     fresh = false;
   }

@@ -33,6 +33,43 @@ float rounded_up(double x) {
   return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
+/// The axis along which two triangles are least deep in each other, of those that the normals allow; zero where that is
+/// deeper than `deepest`.
+Vec3 least_blocking_axis(const Triangle& a, const Triangle& b, const OutwardNormals& normals, double deepest) {
+  Vec3 best;
+  double furthest = -deepest;
+  const auto consider = [&](Vec3 line) {
+    const double size = length(line);
+    if (!(size > 0)) return;
+    for (const Vec3 w : {line / size, line / -size}) {
+      if (!normals.allow(w)) continue;
+      const double least = std::min({dot(w, b[0] - a[0]), dot(w, b[1] - a[0]), dot(w, b[2] - a[0])});
+      const double most = std::max({0.0, dot(w, a[1] - a[0]), dot(w, a[2] - a[0])});
+      if (least - most <= furthest) continue;
+      furthest = least - most;
+      best = w;
+    }
+  };
+  consider(normals.a);
+  consider(normals.b);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 along_a = a[(i + 1) % 3] - a[i], along_b = b[(i + 1) % 3] - b[i];
+    consider(cross(along_a, normals.a));
+    consider(cross(along_b, normals.b));
+    for (int j = 0; j < 3; ++j) consider(cross(along_a, b[(j + 1) % 3] - b[j]));
+  }
+  return best;
+}
+
+Triangle between(const TriangleMotion& motion, double t) {
+  Triangle now;
+  for (int i = 0; i < 3; ++i) now[i] = (1 - t) * motion.t0[i] + t * motion.t1[i];
+  return now;
+}
+
+/// A blocked pair's axis is looked for up to so many allowances deep.
+constexpr double kAxisDepth = 4;
+
 /// How much more often a motion may be halved than its deviation asks for.
 constexpr int kMostLevels = 12;
 
@@ -90,8 +127,12 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangl
     return unbound.ccd.toi > found.ccd.toi ? unbound : found;
   }
   const OutwardNormals normals{normal_unscaled(moving.t0), normal_unscaled(fixed)};
-  const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
-  if (found.ccd.status == CcdStatus::Free || found.ccd.toi > 0) return found;
+  AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
+  if (found.ccd.status == CcdStatus::Free) return found;
+  // The axis that it ended on may be one that only held by chance: the response needs the one of the contact.
+  const Vec3 axis = least_blocking_axis(between(moving, found.ccd.toi), fixed, normals, kAxisDepth * allowed);
+  if (length_squared(axis) > 0) found.axis = axis;
+  if (found.ccd.toi > 0) return found;
   // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
   const TriangleMotion start{moving.t0, moving.t0};
   if (ccd_triangle_triangle(start, still, allowed, hint, normals, limits_).ccd.status == CcdStatus::Free) return found;

@@ -78,7 +78,7 @@ class FurthestAxis {
     if (projections.separates_throughout()) {
       end_ = 1;
       axis_ = w;
-    } else {
+    } else if (!facing_ || normals_.allow(w) || projections.separates_until(now_) > now_ + kLeastProgress) {
       keep_if_further(projections, w);
     }
   }
@@ -108,7 +108,9 @@ class FurthestAxis {
     if (!facing_ || normals_.allow(w)) {
       keep_if_further(projections, w);
     } else if (projections.separates_until(now_) > end_) {
-      keep_if_further(AxisProjections<kCountA, kCountB>(hulls_, w, 0), w);
+      // Worth something only where it gets further: at a contact the axis has to be one that the normals allow.
+      const AxisProjections<kCountA, kCountB> bare(hulls_, w, 0);
+      if (bare.separates_until(now_) > now_ + kLeastProgress) keep_if_further(bare, w);
     }
   }
 
