@@ -13,6 +13,9 @@ constexpr double kSameAxis = 1e-9;
 /// Corners within this share of the tolerance of the nearest one touch with it.
 constexpr double kTouching = 1e-2;
 
+/// Of a motion on which a pair uses the reserve, this share of what the certificates allow is made.
+constexpr double kShareBeyondReserve = 0.5;
+
 bool same_faces(const BlockedPair& x, const BlockedPair& y) {
   return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
 }
@@ -45,7 +48,9 @@ double SlideContacts::part_within_reserve(const BlockedPair& pair) const {
   const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = stand(pair).gap;
   const double most = gap + allowed - kArcShare * sweeper_.tolerance();
   const double wanted = gap + allowed - kSlideReserve * sweeper_.tolerance();
-  return wanted > 0 && most > 0 ? pair.toi * (wanted / most) : 0;
+  const double share = most > 0 ? wanted / most : 0;
+  // What is beyond the reserve already goes half of what is left.
+  return pair.toi * std::max(share, kShareBeyondReserve);
 }
 
 SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
@@ -79,11 +84,14 @@ SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) c
   for (const BlockedPair& pair : pairs_) {
     const Stand s = stand(pair);
     const double deepest = sweeper_.allowed(pair.moving, pair.fixed) - reserve;
+    if (s.patch.count == 0) continue;
+    // What the certificates measure: it can be deeper than where the two lie over each other.
+    const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
     for (int i = 0; i < s.patch.count; ++i) {
       const ContactPatch::Point& p = s.patch.points[i];
       const Vec3 turn = (1 / lever) * cross(p.on_upper - center, s.normal);
       bounds.push_back(
-          {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deepest))});
+          {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
     }
   }
   const Vec3 turned = lever * wanted.rotation;

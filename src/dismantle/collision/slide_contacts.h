@@ -33,7 +33,7 @@ class SlideContacts {
   };
   Twist nearest(const Twist& wanted, double lever) const;
 
-  /// How much of a motion on which `pair` is blocked may be made, so that kSlideReserve is kept.
+  /// How much of a motion on which `pair` is blocked should be made, so that kSlideReserve is kept if it can be.
   double part_within_reserve(const BlockedPair& pair) const;
   std::size_t size() const { return pairs_.size(); }
 
