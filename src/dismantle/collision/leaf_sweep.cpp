@@ -67,6 +67,9 @@ Triangle between(const TriangleMotion& motion, double t) {
   return now;
 }
 
+/// Bounds the rounding of a gap of two projections, relative to the largest coordinate.
+constexpr double kDotError = 0x1p-46;
+
 /// A blocked pair's axis is looked for up to so many allowances deep.
 constexpr double kAxisDepth = 4;
 
@@ -139,6 +142,23 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangl
   return ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
 }
 
+bool LeafSweep::still_parts(const Triangle& t0, const Triangle& t1, const Pair& pair, Vec3 axis, double allowed) const {
+  const double size = length(axis);
+  if (!(size > 0.5 && size < 2)) return false;
+  double least = dot(axis, pair.fixed[0]), most = std::max(dot(axis, t0[0]), dot(axis, t1[0])), reach = 0;
+  for (int i = 0; i < 3; ++i) {
+    least = std::min(least, dot(axis, pair.fixed[i]));
+    most = std::max({most, dot(axis, t0[i]), dot(axis, t1[i])});
+    reach = std::max({reach, max_abs(pair.fixed[i]), max_abs(t0[i]), max_abs(t1[i])});
+  }
+  // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
+  const double gap = least - most - kDotError * reach;
+  if (gap >= 0) return true;
+  if (sides_ == SideRule::Normals && !OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed)}.allow(axis))
+    return false;
+  return gap >= -allowed * std::min(1.0, size) * (1 - kDotError);
+}
+
 bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result& result) const {
   const double deviation = std::ldexp(deviation_, -2 * level);
   const double allowed = allowed_ - std::max(share_, deviation);
@@ -147,7 +167,10 @@ bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result
   if (allowed > 0) {
     const std::size_t stride = std::size_t{1} << (levels_ - level);
     const double length = std::min(1.0, std::ldexp(pair.horizon - begin, level));
-    TriangleMotion motion{moved(at_[index * stride], pair.moving), moved(at_[(index + 1) * stride], pair.moving)};
+    const Triangle begin_moving = moved(at_[index * stride], pair.moving);
+    const Triangle end_moving = moved(at_[(index + 1) * stride], pair.moving);
+    if (still_parts(begin_moving, end_moving, pair, result.contact.axis, allowed)) return true;
+    TriangleMotion motion{begin_moving, end_moving};
     if (length < 1)
       for (int i = 0; i < 3; ++i) motion.t1[i] = (1 - length) * motion.t0[i] + length * motion.t1[i];
     const AxisCcdResult found = test_chords(motion, pair.fixed, allowed, result.contact.axis);

@@ -66,6 +66,8 @@ class LeafSweep {
     Triangle moving, fixed;
     double horizon;
   };
+  /// Whether the axis parts the two throughout: the answer for most pairs that were apart along it before.
+  bool still_parts(const Triangle& t0, const Triangle& t1, const Pair& pair, Vec3 axis, double allowed) const;
   AxisCcdResult test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed, Vec3 hint) const;
   bool test_part(const Pair& pair, int level, std::size_t index, Result& result) const;
 
