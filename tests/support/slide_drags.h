@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/session/play_motion.h"
+#include "tests/support/slide_scenes.h"
+
+/// Playing what a hand does to a scene, with an audit of what came of it.
+namespace dismantle::scenes {
+
+/// What a hand did and what came of it.
+struct Drag {
+  PlayedMotion played;
+  AuditReport audit;
+};
+
+/// The scene's component asked to go through `targets`, a hundredth of a second each.
+inline Motion motion_of(const SlideScene& scene, const std::vector<Pose>& targets,
+                        ResponseKind response = ResponseKind::Slide) {
+  Motion motion;
+  motion.response = response;
+  motion.moves.push_back({{scene.assembly[scene.moving].name}, {}});
+  for (const Pose& target : targets)
+    motion.moves[0].targets.push_back({0.01 * static_cast<double>(motion.moves[0].targets.size() + 1), target});
+  return motion;
+}
+
+/// The next `count` targets of a trembling hand that pulls straight out.
+inline std::vector<Pose> pull(Hand hand, int count) {
+  std::vector<Pose> targets;
+  for (int k = 0; k < count; ++k) targets.push_back(hand.next());
+  return targets;
+}
+
+/// How the pairs stand when nothing but the tolerance is given. @pre the scene is not so broken that this fails
+inline PairStates states_of(const Assembly& assembly, double tolerance) {
+  ClassifyOptions options;
+  options.tolerance = tolerance;
+  return classify_pairs(assembly, options).value();
+}
+
+/// Plays the targets with the method `certificates` from the assembled state, and audits the path.
+inline Drag drag(const SlideScene& scene, double tolerance, const std::vector<Pose>& targets) {
+  const PairStates states = states_of(scene.assembly, tolerance);
+  CertificateEngine engine(scene.assembly, states);
+  Drag made;
+  made.played = play_motion(scene.assembly, states, motion_of(scene, targets), engine).value();
+  made.audit = audit_path(scene.assembly, made.played.path);
+  return made;
+}
+
+/// The number of steps after which the component has come all the way out; 0 where it never has.
+inline int steps_until_out(const SlideScene& scene, const Drag& made) {
+  for (std::size_t k = 0; k < made.played.steps.size(); ++k)
+    if (way_made(scene, made.played.steps[k].result.pose) >= scene.way) return static_cast<int>(k) + 1;
+  return 0;
+}
+
+/// The steps that a straight pull of `step` mm takes, and a fifth more, as the acceptance of sliding allows.
+inline int steps_allowed(const SlideScene& scene, double step) {
+  return static_cast<int>(1.2 * std::ceil(scene.way / step));
+}
+
+/// What the audit found wrong, for a failed test's message.
+inline std::string complaints(const AuditReport& report) {
+  std::string text = std::to_string(report.violations.size()) + " violations";
+  for (std::size_t k = 0; k < report.violations.size() && k < 3; ++k) text += "; " + report.violations[k].message;
+  return text;
+}
+
+}  // namespace dismantle::scenes
