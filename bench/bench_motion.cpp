@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time a step of a method as the loop of a host program sees it, over named scenes; where FCL is there, its discrete
 // test at the same poses beside it.
-//   bench_motion [--method streams]... [--triangles N] [--threads N] [--steps N] [--response stop|touch|slide]
+//   bench_motion [--method certificates|streams]... [--triangles N] [--threads N] [--steps N] [--response
+//   stop|touch|slide]
 //                [--samples FOLDER] [SCENE...]
 // One row a scene and method, tab-separated. The first step builds the front and is not among the times, but given by
 // itself. `reached`: the share of the steps that reached their targets; of FCL, of the poses that it finds free.
 // `ratio`: how many times as long as the first method's mean step over the same poses the row's mean step takes.
 #include "bench/motion_scenes.h"
-#include "dismantle/collision/motion_engine.h"
+#include "dismantle/collision/certificate_engine.h"
 #ifdef DISMANTLE_WITH_FCL
 #include "bench/discrete_fcl.h"
 #endif
@@ -57,12 +58,14 @@ class Stopwatch {
 
 std::unique_ptr<MotionEngine> make_engine(const std::string& method, const BenchScene& scene,
                                           const Executor& executor) {
-  if (method == "streams") {
-    CollisionOptions options;
+  if (method == "certificates") {
+    CertificateOptions options;
     options.executor = executor;
-    return make_streams_motion_engine(scene.assembly, scene.states, options);
+    return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options);
   }
-  return nullptr;
+  CollisionOptions options;
+  options.executor = executor;
+  return make_streams_motion_engine(scene.assembly, scene.states, options);
 }
 
 ResponseKind response_for(const MotionEngine& engine, const Settings& settings) {
@@ -165,7 +168,7 @@ void run(const BenchScene& scene, const Settings& settings) {
 bool parse(int argc, char** argv, Settings& settings) {
   static const std::map<std::string, ResponseKind> kResponses{
       {"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}};
-  const std::vector<std::string> methods = {"streams"};
+  const std::vector<std::string> methods = {"certificates", "streams"};
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option.rfind("--", 0) != 0) {
@@ -203,7 +206,7 @@ int main(int argc, char** argv) {
   Settings settings;
   if (!parse(argc, argv, settings)) {
     std::fprintf(stderr,
-                 "usage: bench_motion [--method streams]... [--triangles N] [--threads N] [--steps N]\n"
+                 "usage: bench_motion [--method certificates|streams]... [--triangles N] [--threads N] [--steps N]\n"
                  "                    [--response stop|touch|slide] [--samples FOLDER] [SCENE...]\nscenes:");
     for (const std::string& name : bench_scene_names()) std::fprintf(stderr, " %s", name.c_str());
     std::fprintf(stderr, "\n");

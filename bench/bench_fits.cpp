@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which fits a trembling hand takes apart, at which clearances and tolerances, and in how many steps: the method
+// `certificates` with response `slide`, every path audited.
+//   bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner...]
+// One row a fit, clearance, tolerance and seed, tab-separated. `straight`: the steps of a straight pull of 0.5 mm a
+// step; `out`: those that it took, 0 where it never came out within twice as many; `good`: no more than 1.2 times the
+// straight ones (asked for where tolerance and clearance make up 0.005 mm), and the audit holds.
+#include "tests/support/slide_drags.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace dismantle {
+namespace {
+
+using namespace scenes;
+
+struct Settings {
+  int seeds = 1;
+  std::vector<std::string> fits;
+};
+
+struct Fit {
+  std::string name, detail;
+  double clearance = 0, tolerance = 0;  // [mm]
+  SlideScene scene;
+};
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+}
+
+/// False where it is not as it should be.
+bool run(const Fit& fit, std::uint64_t seed) {
+  Hand::Options options;
+  options.seed = seed;
+  const int straight = static_cast<int>(std::ceil(fit.scene.way / options.step));
+  const Drag made = drag(fit.scene, fit.tolerance, pull(Hand(fit.scene, options), 2 * straight));
+  const int out = steps_until_out(fit.scene, made);
+  double deepest = 0, allowed = 0;
+  for (const AuditPairDepth& d : made.audit.depths)
+    if (d.deepest > deepest) deepest = d.deepest, allowed = d.allowed;
+  std::vector<double> us;
+  for (const PlayedStep& s : made.played.steps)
+    if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.timings.overall);
+  const bool asked = fit.tolerance + fit.clearance >= 0.005 - 1e-12;
+  const bool in_time = out > 0 && out <= static_cast<int>(1.2 * straight);
+  const bool good = made.audit.holds() && (in_time || !asked);
+  std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
+              fit.detail.c_str(), 1e3 * fit.clearance, 1e3 * fit.tolerance, static_cast<unsigned long long>(seed),
+              straight, out, way_made(fit.scene, made.played.steps.back().result.pose), deepest, allowed,
+              made.audit.holds() ? "holds" : "BROKEN", quantile(us, 0.5), quantile(us, 0.99), good ? "yes" : "NO");
+  std::fflush(stdout);
+  if (!made.audit.holds()) std::fprintf(stderr, "  %s\n", complaints(made.audit).c_str());
+  return good;
+}
+
+std::vector<Fit> make_fits(const std::string& name, double tolerance) {
+  std::vector<Fit> fits;
+  const auto add = [&](const std::string& detail, double clearance, SlideScene scene) {
+    fits.push_back({name, detail, clearance, tolerance, std::move(scene)});
+  };
+  for (const double clearance : {0.0, 0.001, 0.01, 0.05}) {
+    if (name == "peg")
+      for (const std::uint32_t sides : {24u, 64u, 256u})
+        add(std::to_string(sides) + " sides", clearance, peg_in_hole(sides, clearance));
+    if (name == "key") {
+      add("upwards", clearance, key_in_slot(clearance, {0, 1, 0}));
+      add("along", clearance, key_in_slot(clearance, {0, 0, 1}));
+    }
+    if (name == "dovetail") add("along", clearance, dovetail(clearance));
+  }
+  if (name == "press") add("0.02 mm too thick", -0.02, press_fit_pin(64, 0.02));
+  if (name == "plate") add("0.0009 mm too thick", 0, plate_in_slot(0.0009));
+  if (name == "corner") add("three planes", 0, part_in_corner());
+  // A press fit is allowed its own depth and the tolerance: what is left to move in is the tolerance.
+  for (Fit& fit : fits) fit.clearance = std::max(0.0, fit.clearance);
+  return fits;
+}
+
+bool parse(int argc, char** argv, Settings& settings) {
+  const std::vector<std::string> all = {"peg", "key", "dovetail", "press", "plate", "corner"};
+  for (int i = 1; i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--seeds" && i + 1 < argc) {
+      settings.seeds = std::max(1, std::atoi(argv[++i]));
+    } else if (std::find(all.begin(), all.end(), option) != all.end()) {
+      settings.fits.push_back(option);
+    } else {
+      return false;
+    }
+  }
+  if (settings.fits.empty()) settings.fits = all;
+  return true;
+}
+
+}  // namespace
+}  // namespace dismantle
+
+int main(int argc, char** argv) {
+  using namespace dismantle;
+  Settings settings;
+  if (!parse(argc, argv, settings)) {
+    std::fprintf(stderr, "usage: bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner...]\n");
+    return 2;
+  }
+  std::printf(
+      "fit\tdetail\tclearance_um\ttolerance_um\tseed\tstraight\tout\tway_mm\tdeepest_mm\tallowed_mm\taudit\tmedian_us\t"
+      "p99_us\tgood\n");
+  bool good = true;
+  for (const std::string& name : settings.fits)
+    for (const double tolerance : {0.001, 0.005, 0.01})
+      for (const Fit& fit : make_fits(name, tolerance))
+        for (int seed = 1; seed <= settings.seeds; ++seed) good = run(fit, static_cast<std::uint64_t>(seed)) && good;
+  return good ? 0 : 1;
+}
