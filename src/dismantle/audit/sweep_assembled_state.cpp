@@ -35,6 +35,7 @@ std::size_t look_at_assembled_pair(const SweepContext& context, const SweepTimes
 std::vector<PairTask> assembled_tasks(const SweepContext& context, const SweepTimes& times) {
   const auto& components = context.assembly.components;
   std::vector<Aabb> boxes;
+  boxes.reserve(components.size());
   for (const Component& component : components) boxes.push_back(assembled_bounds(component));
   std::vector<std::uint32_t> order(components.size());
   std::iota(order.begin(), order.end(), 0u);
