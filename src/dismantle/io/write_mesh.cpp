@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <unordered_set>
@@ -90,13 +91,15 @@ void write_ascii_stl(AtomicFile& out, const Assembly& assembly) {
       for (const Vec3& p : t.corner) append_point(text, "vertex", p);
       text += "endloop\nendfacet\n";
     }
-    out.write(text + "endsolid " + name + "\n");
+    text += "endsolid " + name;
+    text += "\n";
+    out.write(text);
   }
 }
 
 void write_ply_vertices(AtomicFile& out, const Component& component) {
   const auto level = [](float channel) {
-    return static_cast<std::uint8_t>(std::clamp(channel, 0.0f, 1.0f) * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(channel, 0.0f, 1.0f) * 255.0f));
   };
   std::string bytes;
   for (const Vec3& p : assembled_vertices(component)) {
@@ -122,7 +125,7 @@ Result<Done> fill_folder(const fs::path& folder, const Assembly& assembly) {
     const std::string stem = file_stem(component.name);
     std::string name = stem;
     for (int repeat = 2; !taken.insert(name).second; ++repeat) name = stem + "#" + std::to_string(repeat);
-    const Result<Done> done = write_file(folder / (name + ".obj"), obj_section(component, 1));
+    Result<Done> done = write_file(folder / (name + ".obj"), obj_section(component, 1));
     if (!done) return done;
   }
   return Done{};
@@ -185,7 +188,7 @@ Result<Done> write_mesh_folder(const fs::path& folder, const Assembly& assembly)
   fs::path temporary = target;
   temporary += ".dismantle-" + std::to_string(::getpid()) + ".tmp";
   if (!fs::create_directory(temporary, error)) return failure(error ? error.message() : "its temporary name is taken");
-  const Result<Done> filled = fill_folder(temporary, assembly);
+  Result<Done> filled = fill_folder(temporary, assembly);
   if (filled) fs::rename(temporary, target, error);
   std::error_code ignored;
   if (!filled || error) fs::remove_all(temporary, ignored);

@@ -57,7 +57,9 @@ class TileGrid {
     const int y0 = std::max(0, tile_of(top - kTileApron, rows_));
     const int y1 = std::min(rows_ - 1, tile_of(bottom + kTileApron, rows_));
     for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) visit(contents_[static_cast<std::size_t>(y * columns_ + x)]);
+      for (int x = x0; x <= x1; ++x)
+        visit(
+            contents_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]);
   }
 
   const RenderOptions& options_;

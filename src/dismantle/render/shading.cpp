@@ -31,14 +31,14 @@ const std::array<std::uint8_t, 4096>& srgb_table() {
   static const std::array<std::uint8_t, 4096> kTable = [] {
     std::array<std::uint8_t, 4096> table{};
     for (std::size_t i = 0; i < table.size(); ++i)
-      table[i] = static_cast<std::uint8_t>(255 * srgb_channel(static_cast<float>(i) / 4095) + 0.5f);
+      table[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_channel(static_cast<float>(i) / 4095)));
     return table;
   }();
   return kTable;
 }
 
 std::uint8_t srgb_byte(float linear) {
-  return srgb_table()[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * 4095 + 0.5f)];
+  return srgb_table()[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0f, 1.0f) * 4095))];
 }
 
 }  // namespace

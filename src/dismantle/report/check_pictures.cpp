@@ -24,6 +24,7 @@ void add_curve(const std::vector<CurveSegment>& curve, RenderScene& scene) {
 
 std::vector<Vec3> corners_of(const Aabb& box) {
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.push_back(
         {i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y, i & 4 ? box.upper.z : box.lower.z});

@@ -114,6 +114,18 @@ class PageWriter {
     return true;
   }
 
+  static std::string link_to_pair(const std::string& rank) {
+    std::string link = "<a href=\"#pair-" + rank;
+    link += "\">" + rank;
+    return link += "</a>";
+  }
+
+  /// For the text that stands for a picture.
+  std::string names(const ComponentPair& p) const {
+    std::string text = assembly_[p.a].name + " and ";
+    return text += assembly_[p.b].name;
+  }
+
   void write_table() {
     page_ += kTableStart;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -121,7 +133,7 @@ class PageWriter {
       const bool meets = p.state != PairState::Near;
       const std::string rank = std::to_string(i + 1);
       page_ += "<tr><td class=\"n\" data-v=\"" + rank + "\">";
-      page_ += i < closeups_ ? "<a href=\"#pair-" + rank + "\">" + rank + "</a>" : rank;
+      page_ += i < closeups_ ? link_to_pair(rank) : rank;
       page_ += "</td><td>" + name(p.a) + "</td><td>" + name(p.b) + "</td><td>" + state_badge(p.state) + "</td>" +
                number_cell(p.penetration, meets) +
                number_cell(p.allowed_penetration, p.state == PairState::Contact || p.state == PairState::Fit) +
@@ -137,10 +149,9 @@ class PageWriter {
       if (!go_on(i + 2)) return false;
       const ComponentPair& p = pairs_[i];
       const std::string rank = std::to_string(i + 1);
-      page_ += "<figure id=\"pair-" + rank + "\">" +
-               picture(pictures_.closeup(p), assembly_[p.a].name + " and " + assembly_[p.b].name) + "<figcaption><b>" +
-               rank + "</b> <i class=\"a\">" + name(p.a) + "</i> and <i class=\"b\">" + name(p.b) +
-               "</i>: " + state_badge(p.state) + " " + number(p.penetration) + " mm deep</figcaption></figure>\n";
+      page_ += "<figure id=\"pair-" + rank + "\">" + picture(pictures_.closeup(p), names(p));
+      page_ += "<figcaption><b>" + rank + "</b> <i class=\"a\">" + name(p.a) + "</i> and <i class=\"b\">" + name(p.b);
+      page_ += "</i>: " + state_badge(p.state) + " " + number(p.penetration) + " mm deep</figcaption></figure>\n";
     }
     page_ += "</div></section>\n";
     return go_on(closeups_ + 2);

@@ -99,6 +99,7 @@ std::vector<CurveSegment> intersection_curve(const TriangleMesh& a, const Triang
   std::sort(found.begin(), found.end(),
             [](const Found& p, const Found& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
   std::vector<CurveSegment> curve;
+  curve.reserve(found.size());
   for (const Found& f : found) curve.push_back(f.segment);
   return curve;
 }
