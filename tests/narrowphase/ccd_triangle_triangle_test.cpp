@@ -177,7 +177,7 @@ TEST(CcdTriangleTriangle, NeverPassesMoreThanTheAllowedDepthAgainstDenseSampling
 
     if (r.status == CcdStatus::Free) {
       ++free_pairs;
-    } else if (r.iterations == kAdvancementLimit) {
+    } else if (r.iterations == AdvancementLimits{}.steps) {
       ++unsettled;
     } else {
       ++stopped;

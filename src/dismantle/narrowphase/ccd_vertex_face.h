@@ -67,7 +67,7 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_vertex_face(const VertexFaceMotio
 ///   1. Free is certain: the closed face and the vertex share no point at any instant, despite rounding.
 ///   2. Contact: there is certainly none on [0, toi), so toi is never later than the first contact.
 ///   3. Contact is reported where they come closer than rounding can tell apart (some 1e-15 of the largest coordinate
-///      difference), or where kAdvancementLimit steps do not settle it.
+///      difference), or where the steps of AdvancementLimits do not settle it.
 /// No false negative by proof: docs/design/0001-certified-ccd.md.
 DISMANTLE_HOST_DEVICE inline CcdResult ccd_vertex_face(const VertexFaceMotion& motion) {
   return ccd_vertex_face(motion, Vec3{}).ccd;
