@@ -4,14 +4,13 @@
 #include "dismantle/core/contract.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace dismantle {
 
 namespace {
 
-/// Padding of a part's arrays: the widest kernel's lanes.
-constexpr std::size_t kPadding = 16;
 /// Parts of more pairs than this are cut in two.
 constexpr std::size_t kLargestPart = 4096;
 /// Every part looks for siblings to merge each so many sweeps.
@@ -70,46 +69,10 @@ bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
 
 }  // namespace
 
-Certificate CertificateFront::Part::certificate(std::size_t i) const {
-  Certificate c;
-  c.axis = {fields[0][i], fields[1][i], fields[2][i]};
-  c.point = {fields[3][i], fields[4][i], fields[5][i]};
-  c.offset = fields[6][i];
-  c.radius = fields[7][i];
-  c.epoch = static_cast<std::uint32_t>(fields[8][i]);
-  return c;
-}
-
-void CertificateFront::Part::set(std::size_t i, const Certificate& c) {
-  const float values[9] = {
-      c.axis.x, c.axis.y, c.axis.z, c.point.x, c.point.y, c.point.z, c.offset, c.radius, static_cast<float>(c.epoch)};
-  for (std::size_t k = 0; k < 9; ++k) fields[k][i] = values[k];
-}
-
-void CertificateFront::Part::append(std::uint32_t node_a, std::uint32_t node_b, const Certificate& c) {
-  a.push_back(node_a);
-  b.push_back(node_b);
-  for (std::vector<float>& field : fields) field.resize(a.size());
-  set(a.size() - 1, c);
-}
-
-void CertificateFront::Part::pad() {
-  for (std::vector<float>& field : fields) field.resize((size() + kPadding - 1) / kPadding * kPadding);
-}
-
-CertificateArrays CertificateFront::Part::arrays() const {
-  return {{fields[0].data(), fields[1].data(), fields[2].data()},
-          {fields[3].data(), fields[4].data(), fields[5].data()},
-          fields[6].data(),
-          fields[7].data(),
-          fields[8].data()};
-}
-
 /// What a part's sweep works on.
 struct CertificateFront::Work {
-  std::vector<float> least;          // gaps, a pair of the part
-  std::vector<std::size_t> failing;  // indices into the part
-  std::vector<Item> items;           // the failing ones, in order, then their descendants
+  std::vector<float> least;  // gaps, a pair of the part
+  std::vector<Item> items;   // the failing ones, in order, then their descendants
 };
 
 CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides)
@@ -118,12 +81,11 @@ CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule 
   Certificate nothing;
   nothing.offset = kNoCertificate;
   parts_[0].append(0, 0, nothing);
-  parts_[0].pad();
 }
 
 std::size_t CertificateFront::size() const {
   std::size_t sum = 0;
-  for (const Part& part : parts_) sum += part.size();
+  for (const CertificatePart& part : parts_) sum += part.size();
   return sum;
 }
 
@@ -163,28 +125,23 @@ PairSweep CertificateFront::sweep_about(const Mat3& middle, const PairMotion& mo
 
 FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& sweep, const FrontKernels& kernels,
                                         const LeafTest& test) {
-  Part& part = parts_[index];
+  CertificatePart& part = parts_[index];
   FrontSweep result;
   if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1) merge(part, sweep, kernels);
 
   Work work;
   find_failing(part, sweep, kernels, work, result);
-  if (work.failing.empty()) return result;
+  if (work.items.empty()) return result;
 
   resolve(work, sweep, kernels, test, result);
-  if (work.items.size() > work.failing.size()) {
-    replace(part, work.failing, work.items);
-    part.pad();
-  } else {
-    for (std::size_t k = 0; k < work.failing.size(); ++k) part.set(work.failing[k], work.items[k].certificate);
-  }
+  replace(part, work);
   return result;
 }
 
-void CertificateFront::find_failing(const Part& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
-                                    FrontSweep& result) const {
+void CertificateFront::find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels,
+                                    Work& work, FrontSweep& result) const {
   std::vector<float>& least = work.least;
-  least.resize(part.fields[0].size());
+  least.resize(part.padded_size());
   kernels.check_certificates(part.arrays(), part.size(), sweep, least.data());
   for (std::size_t i = 0; i < part.size(); ++i) {
     if (least[i] >= sweep.limit) {
@@ -192,20 +149,19 @@ void CertificateFront::find_failing(const Part& part, const PairSweep& sweep, co
       continue;
     }
     const Certificate old = part.certificate(i);
-    Item item{part.a[i], part.b[i], guard_of(old, sweep), false, 0, old};
+    Item item{part.a(i), part.b(i), guard_of(old, sweep), false, 0, i, old};
     item.old_leaves = old.offset > kNoCertificate && a_->nodes[item.a].leaf() && b_->nodes[item.b].leaf();
     if (item.old_leaves) item.guard = old.axis;
-    work.failing.push_back(i);
     work.items.push_back(item);
   }
 }
 
 FrontSweep CertificateFront::look(const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
   FrontSweep result;
-  for (const Part& part : parts_) {
+  for (const CertificatePart& part : parts_) {
     Work work;
     find_failing(part, sweep, kernels, work, result);
-    if (!work.failing.empty()) resolve(work, sweep, kernels, test, result);
+    if (!work.items.empty()) resolve(work, sweep, kernels, test, result);
   }
   return result;
 }
@@ -284,6 +240,8 @@ void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {
   const ObbNode& b = b_->nodes[parent.b];
   for (std::uint32_t k = 0; k < 2; ++k) {
     Item child = parent;
+    // The first takes its parent's place, others come behind all.
+    if (k > 0) child.place = Item::kNew;
     if (splits_a(a, b)) {
       child.a = a.child + k;
     } else {
@@ -293,122 +251,137 @@ void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {
   }
 }
 
-void CertificateFront::replace(Part& part, const std::vector<std::size_t>& failing, const std::vector<Item>& items) {
-  Part next;
-  std::vector<std::size_t> waiting;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (k == failing.size() || failing[k] != i) {
-      next.append(part.a[i], part.b[i], part.certificate(i));
-      continue;
-    }
-    waiting.assign(1, k++);
-    while (!waiting.empty()) {
-      const Item& item = items[waiting.back()];
-      waiting.pop_back();
-      if (item.first_child == 0) {
-        next.append(item.a, item.b, item.certificate);
-      } else {
-        waiting.push_back(item.first_child + 1);
-        waiting.push_back(item.first_child);
-      }
+void CertificateFront::replace(CertificatePart& part, const Work& work) {
+  for (std::size_t i = 0; i < work.items.size(); ++i) {
+    const Item& item = work.items[i];
+    if (item.first_child != 0) continue;
+    if (item.place == Item::kNew) {
+      part.append(item.a, item.b, item.certificate);
+    } else {
+      part.set(item.place, item.a, item.b, item.certificate);
     }
   }
-  part = std::move(next);
 }
 
-void CertificateFront::merge(Part& part, const PairSweep& sweep, const FrontKernels& kernels) const {
+std::optional<std::pair<std::uint32_t, std::uint32_t>> CertificateFront::parent(std::uint32_t a,
+                                                                                std::uint32_t b) const {
+  const std::uint32_t up_a = a_->nodes[a].parent, up_b = b_->nodes[b].parent;
+  if (up_a == ObbNode::kNone && up_b == ObbNode::kNone) return std::nullopt;
+  // The larger parent was split first: the last split was that of the other.
+  const bool split_a =
+      up_b == ObbNode::kNone || (up_a != ObbNode::kNone && !splits_a(a_->nodes[up_a], b_->nodes[up_b]));
+  return split_a ? std::pair{up_a, b} : std::pair{a, up_b};
+}
+
+void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const {
+  struct Siblings {
+    std::pair<std::uint32_t, std::uint32_t> parent;
+    std::size_t first, second;
+  };
+  std::vector<Siblings> found;
   std::vector<BoxPairQuery> queries;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> parents;
-  std::vector<std::size_t> first;  // of the two siblings of each query
-  for (std::size_t i = 0; i + 1 < part.size(); ++i) {
-    const std::uint32_t up_a = a_->nodes[part.a[i]].parent, up_b = b_->nodes[part.b[i]].parent;
-    if (up_a == ObbNode::kNone && up_b == ObbNode::kNone) continue;
-    // The larger parent was split first: the last split was that of the other.
-    const bool split_a =
-        up_b == ObbNode::kNone || (up_a != ObbNode::kNone && !splits_a(a_->nodes[up_a], b_->nodes[up_b]));
-    std::uint32_t a = part.a[i], b = part.b[i];
-    if (split_a) {
-      if (part.a[i] != a_->nodes[up_a].child || part.a[i + 1] != part.a[i] + 1 || part.b[i + 1] != part.b[i]) continue;
-      a = up_a;
-    } else {
-      if (part.b[i] != b_->nodes[up_b].child || part.b[i + 1] != part.b[i] + 1 || part.a[i + 1] != part.a[i]) continue;
-      b = up_b;
+  // An open hash table from parents to the first of their children seen.
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * part.size() + 2), 0);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const auto up = parent(part.a(i), part.b(i));
+    if (!up) continue;
+    std::size_t place = (up->first * 0x9E3779B97F4A7C15ull ^ up->second * 0xC2B2AE3D27D4EB4Full) >> 20;
+    for (;; ++place) {
+      std::uint32_t& entry = table[place & (table.size() - 1)];
+      if (entry == 0) {
+        entry = static_cast<std::uint32_t>(i) + 1;
+        break;
+      }
+      const std::size_t other = entry - 1;
+      if (parent(part.a(other), part.b(other)) != up) continue;
+      // Siblings on different sides of the same thing stay apart; one side is handed on.
+      const Vec3f one = guard_of(part.certificate(other), sweep), two = guard_of(part.certificate(i), sweep);
+      if (sides_ == SideRule::Memory && dot(one, two) < 0) break;
+      queries.push_back(query(up->first, up->second, length_squared(one) > 0 ? one : two));
+      found.push_back({*up, other, i});
+      break;
     }
-    // Siblings on different sides of the same thing stay apart; one side is handed on.
-    const Vec3f one = guard_of(part.certificate(i), sweep), other = guard_of(part.certificate(i + 1), sweep);
-    if (sides_ == SideRule::Memory && dot(one, other) < 0) continue;
-    queries.push_back(query(a, b, length_squared(one) > 0 ? one : other));
-    parents.push_back({a, b});
-    first.push_back(i);
-    ++i;
   }
   if (queries.empty()) return;
   std::vector<BoxSeparation> separations(queries.size());
   kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
-  for (std::size_t k = 0; k < queries.size(); ++k) face(separations[k], parents[k].first, parents[k].second, sweep);
 
-  Part next;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    while (k < first.size() && first[k] < i) ++k;
-    if (k < first.size() && first[k] == i && separations[k].gap >= sweep.limit) {
-      next.append(parents[k].first, parents[k].second, separations[k].certificate);
-      ++i;
-    } else {
-      next.append(part.a[i], part.b[i], part.certificate(i));
-    }
+  std::vector<std::size_t> gone;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    face(separations[k], found[k].parent.first, found[k].parent.second, sweep);
+    if (separations[k].gap < sweep.limit) continue;
+    part.set(found[k].first, found[k].parent.first, found[k].parent.second, separations[k].certificate);
+    gone.push_back(found[k].second);
   }
-  if (next.size() == part.size()) return;
-  part = std::move(next);
-  part.pad();
+  std::sort(gone.begin(), gone.end());
+  for (auto i = gone.rbegin(); i != gone.rend(); ++i) part.remove(*i);
+}
+
+CertificatePart CertificateFront::cut(CertificatePart& part) const {
+  std::vector<std::uint32_t> of_a(part.size()), of_b(part.size());
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    of_a[i] = part.a(i);
+    of_b[i] = part.b(i);
+  }
+  // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not part them.
+  const auto middle_of = [](std::vector<std::uint32_t>& nodes) {
+    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+    std::nth_element(nodes.begin(), middle, nodes.end());
+    return *middle | 1u;
+  };
+  const auto spread = [](const std::vector<std::uint32_t>& nodes) {
+    const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
+    return *most - *least;
+  };
+  const bool by_a = spread(of_a) >= spread(of_b);
+  const std::uint32_t border = middle_of(by_a ? of_a : of_b);
+  CertificatePart kept, rest;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    ((by_a ? part.a(i) : part.b(i)) < border ? kept : rest).append(part.a(i), part.b(i), part.certificate(i));
+  part = std::move(kept);
+  return rest;
 }
 
 void CertificateFront::end_sweep() {
   ++sweeps_;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    while (parts_[p].size() > kLargestPart) {
-      Part& part = parts_[p];
-      Part rest;
-      const std::size_t half = part.size() / 2;
-      for (std::size_t i = half; i < part.size(); ++i) rest.append(part.a[i], part.b[i], part.certificate(i));
-      part.a.resize(half);
-      part.b.resize(half);
-      part.pad();
-      rest.pad();
-      parts_.insert(parts_.begin() + static_cast<std::ptrdiff_t>(p) + 1, std::move(rest));
-    }
+    if (parts_[p].size() <= kLargestPart) continue;
+    CertificatePart rest = cut(parts_[p]);
+    if (rest.size() > 0) parts_.push_back(std::move(rest));
   }
-  // A part that merging has left small joins the one before it.
+  // Parts that merging has left small join, so that siblings meet again.
   for (std::size_t p = 1; p < parts_.size();) {
-    Part& before = parts_[p - 1];
-    const Part& part = parts_[p];
+    CertificatePart& before = parts_[p - 1];
+    const CertificatePart& part = parts_[p];
     if (before.size() + part.size() > kLargestPart / 2) {
       ++p;
       continue;
     }
-    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.a[i], part.b[i], part.certificate(i));
-    before.pad();
+    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.a(i), part.b(i), part.certificate(i));
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
   }
 }
 
 void CertificateFront::exchange_roles(const Mat3& rotation) {
   const Mat3 back = transposed(rotation);
-  for (Part& part : parts_)
+  for (CertificatePart& part : parts_)
     for (std::size_t i = 0; i < part.size(); ++i) {
       Certificate c = part.certificate(i);
       const Vec3f axis = c.axis;
       c.axis = to_float(-(back * Vec3{axis.x, axis.y, axis.z}));
-      part.set(i, c);
+      part.set_certificate(i, c);
     }
   b_moves_ = !b_moves_;
   forget();
 }
 
 void CertificateFront::forget() {
-  for (Part& part : parts_)
-    for (float& offset : part.fields[6]) offset = std::min(offset, kForgotten);
+  for (CertificatePart& part : parts_)
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      Certificate c = part.certificate(i);
+      c.offset = std::min(c.offset, kForgotten);
+      part.set_certificate(i, c);
+    }
   epoch_ = 0;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/front/certificate_kernels.h"
+#include "dismantle/front/certificate_part.h"
 #include "dismantle/math/rigid_transform.h"
 
 #include <array>
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
@@ -52,7 +54,7 @@ enum class SideRule {
 /// certificate that proves it apart. A sweep checks every certificate with a dot product, separates those anew that no
 /// longer do, descends where boxes cannot be separated, and now and then merges siblings that their parents can
 /// replace. All pairs of triangles are covered at all times, whatever the motion: a front only costs time, never a
-/// result. Pairs are kept in the order of the tree; results do not depend on lanes or threads.
+/// result. Results do not depend on lanes or threads.
 class CertificateFront {
  public:
   /// The pair of the roots; A moves. The trees must outlive the front. @pre neither is empty
@@ -83,32 +85,21 @@ class CertificateFront {
   /// Calls visit(face of the moving component, face of the fixed one, certificate) for every pair of leaves.
   template <class Visit>
   void for_each_leaf_pair(Visit&& visit) const {
-    for (const Part& part : parts_)
+    for (const CertificatePart& part : parts_)
       for (std::size_t i = 0; i < part.size(); ++i)
-        if (a_->nodes[part.a[i]].leaf() && b_->nodes[part.b[i]].leaf())
-          visit(moving_face(part.a[i], part.b[i]), fixed_face(part.a[i], part.b[i]), part.certificate(i));
+        if (a_->nodes[part.a(i)].leaf() && b_->nodes[part.b(i)].leaf())
+          visit(moving_face(part.a(i), part.b(i)), fixed_face(part.a(i), part.b(i)), part.certificate(i));
   }
 
  private:
-  /// Arrays of pairs and their certificates, padded to whole lanes.
-  struct Part {
-    std::vector<std::uint32_t> a, b;
-    std::array<std::vector<float>, 9> fields;  // axis, point, offset, radius, epoch
-
-    std::size_t size() const { return a.size(); }
-    Certificate certificate(std::size_t i) const;
-    void set(std::size_t i, const Certificate& certificate);
-    void append(std::uint32_t node_a, std::uint32_t node_b, const Certificate& certificate);
-    /// Brings the arrays to whole lanes.
-    void pad();
-    CertificateArrays arrays() const;
-  };
   /// A pair that has to be looked at, and what comes of it.
   struct Item {
     std::uint32_t a, b;
     Vec3f guard;
     bool old_leaves = false;        // a pair of leaves that the front had already
     std::uint32_t first_child = 0;  // index of the first of two items; 0: none
+    static constexpr std::size_t kNew = static_cast<std::size_t>(-1);
+    std::size_t place = kNew;  // in the part
     Certificate certificate;
   };
   struct Work;
@@ -123,21 +114,25 @@ class CertificateFront {
   std::uint32_t fixed_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).b->child; }
   PairSweep sweep_about(const Mat3& middle, const PairMotion& motion) const;
   /// The pairs of a part that do not hold, as items to be resolved.
-  void find_failing(const Part& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
+  void find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
   Vec3f guard_of(const Certificate& certificate, const PairSweep& sweep) const;
   /// Takes the allowance from what only holds by it against the normals of closed solids.
   void face(BoxSeparation& separation, std::uint32_t a, std::uint32_t b, const PairSweep& sweep) const;
-  void merge(Part& part, const PairSweep& sweep, const FrontKernels& kernels) const;
+  /// The pair whose split made this one.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> parent(std::uint32_t a, std::uint32_t b) const;
+  void merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const;
   void resolve(Work& work, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
   void test_leaves(Item& item, const LeafTest& test, FrontSweep& result) const;
   void descend(std::vector<Item>& items, std::size_t i) const;
-  static void replace(Part& part, const std::vector<std::size_t>& failing, const std::vector<Item>& items);
+  static void replace(CertificatePart& part, const Work& work);
+  /// Cuts the part in two of about the same size, siblings together.
+  CertificatePart cut(CertificatePart& part) const;
 
   const ObbTree* a_;
   const ObbTree* b_;
-  std::vector<Part> parts_;
+  std::vector<CertificatePart> parts_;
   std::array<Mat3, PairSweep::kEpochs> references_;
   std::uint32_t epoch_ = 0;
   std::size_t sweeps_ = 0;

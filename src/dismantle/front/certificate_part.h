@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/front/certificate_kernels.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dismantle {
+
+/// A part of a front: pairs of nodes and their certificates, as arrays padded to whole lanes. In no order.
+class CertificatePart {
+ public:
+  std::size_t size() const { return a_.size(); }
+  std::uint32_t a(std::size_t i) const { return a_[i]; }
+  std::uint32_t b(std::size_t i) const { return b_[i]; }
+  Certificate certificate(std::size_t i) const;
+  CertificateArrays arrays() const;
+  /// How many floats check_certificates writes for it.
+  std::size_t padded_size() const { return capacity_; }
+
+  void append(std::uint32_t a, std::uint32_t b, const Certificate& certificate);
+  void set(std::size_t i, std::uint32_t a, std::uint32_t b, const Certificate& certificate);
+  void set_certificate(std::size_t i, const Certificate& certificate);
+  /// The last one takes the place of pair i.
+  void remove(std::size_t i);
+
+ private:
+  static constexpr std::size_t kFields = 9;  // axis, point, offset, radius, epoch
+  static constexpr std::size_t kPadding = 16;
+
+  float* field(std::size_t k) { return data_.data() + k * capacity_; }
+  const float* field(std::size_t k) const { return data_.data() + k * capacity_; }
+  void grow();
+
+  std::vector<std::uint32_t> a_, b_;
+  std::vector<float> data_;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace dismantle
