@@ -71,8 +71,8 @@ bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
 
 /// What a part's sweep works on.
 struct CertificateFront::Work {
-  std::vector<float> least;  // gaps, a pair of the part
-  std::vector<Item> items;   // the failing ones, in order, then their descendants
+  std::vector<std::uint32_t> failing;  // indices into the part
+  std::vector<Item> items;             // the failing ones, in order, then their descendants
 };
 
 CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides)
@@ -80,7 +80,7 @@ CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule 
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
   Certificate nothing;
   nothing.offset = kNoCertificate;
-  parts_[0].append(0, 0, nothing);
+  parts_[0].append(pair_of(0, 0), nothing);
 }
 
 std::size_t CertificateFront::size() const {
@@ -140,18 +140,15 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& swee
 
 void CertificateFront::find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels,
                                     Work& work, FrontSweep& result) const {
-  std::vector<float>& least = work.least;
-  least.resize(part.padded_size());
-  kernels.check_certificates(part.arrays(), part.size(), sweep, least.data());
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (least[i] >= sweep.limit) {
-      result.least_gap = std::min(result.least_gap, least[i]);
-      continue;
-    }
+  work.failing.resize(part.size());
+  const CertificateCheck check = kernels.check_certificates(part.arrays(), part.size(), sweep, work.failing.data());
+  result.least_gap = std::min(result.least_gap, check.least_gap);
+  for (std::size_t k = 0; k < check.failing; ++k) {
+    const std::size_t i = work.failing[k];
     const Certificate old = part.certificate(i);
-    Item item{part.a(i), part.b(i), guard_of(old, sweep), false, 0, i, old};
+    Item item{part.pair(i).a, part.pair(i).b, hint_of(old, sweep), false, 0, i, old};
     item.old_leaves = old.offset > kNoCertificate && a_->nodes[item.a].leaf() && b_->nodes[item.b].leaf();
-    if (item.old_leaves) item.guard = old.axis;
+    if (item.old_leaves) item.hint = old.axis;
     work.items.push_back(item);
   }
 }
@@ -166,8 +163,9 @@ FrontSweep CertificateFront::look(const PairSweep& sweep, const FrontKernels& ke
   return result;
 }
 
-Vec3f CertificateFront::guard_of(const Certificate& c, const PairSweep& sweep) const {
+Vec3f CertificateFront::hint_of(const Certificate& c, const PairSweep& sweep) const {
   if (!(c.offset > kNoCertificate)) return {};
+  if (sides_ != SideRule::Memory) return c.axis;
   const Vec3f p = c.point;
   const RigidTransformF& t = sweep.t0;
   const Vec3f at{dot(t.row[0], p) + t.translation.x, dot(t.row[1], p) + t.translation.y,
@@ -204,7 +202,7 @@ void CertificateFront::resolve(Work& work, const PairSweep& sweep, const FrontKe
         test_leaves(item, test, result);
         continue;
       }
-      queries.push_back(query(item.a, item.b, item.guard));
+      queries.push_back(query(item.a, item.b, item.hint));
       asked.push_back(i);
     }
     separations.resize(queries.size());
@@ -227,7 +225,7 @@ void CertificateFront::resolve(Work& work, const PairSweep& sweep, const FrontKe
 
 void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
-  const LeafVerdict verdict = test(moving_face(item.a, item.b), fixed_face(item.a, item.b), item.guard);
+  const LeafVerdict verdict = test(moving_face(item.a, item.b), fixed_face(item.a, item.b), item.hint);
   item.certificate = verdict.certificate;
   item.certificate.epoch = epoch_;
   if (!verdict.free) ++result.blocked;
@@ -251,31 +249,30 @@ void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {
   }
 }
 
-void CertificateFront::replace(CertificatePart& part, const Work& work) {
+void CertificateFront::replace(CertificatePart& part, const Work& work) const {
   for (std::size_t i = 0; i < work.items.size(); ++i) {
     const Item& item = work.items[i];
     if (item.first_child != 0) continue;
     if (item.place == Item::kNew) {
-      part.append(item.a, item.b, item.certificate);
+      part.append(pair_of(item.a, item.b), item.certificate);
     } else {
-      part.set(item.place, item.a, item.b, item.certificate);
+      part.set(item.place, pair_of(item.a, item.b), item.certificate);
     }
   }
 }
 
-std::optional<std::pair<std::uint32_t, std::uint32_t>> CertificateFront::parent(std::uint32_t a,
-                                                                                std::uint32_t b) const {
+FrontPair CertificateFront::pair_of(std::uint32_t a, std::uint32_t b) const {
   const std::uint32_t up_a = a_->nodes[a].parent, up_b = b_->nodes[b].parent;
-  if (up_a == ObbNode::kNone && up_b == ObbNode::kNone) return std::nullopt;
+  if (up_a == ObbNode::kNone && up_b == ObbNode::kNone) return {a, b, ObbNode::kNone, ObbNode::kNone};
   // The larger parent was split first: the last split was that of the other.
   const bool split_a =
       up_b == ObbNode::kNone || (up_a != ObbNode::kNone && !splits_a(a_->nodes[up_a], b_->nodes[up_b]));
-  return split_a ? std::pair{up_a, b} : std::pair{a, up_b};
+  return split_a ? FrontPair{a, b, up_a, b} : FrontPair{a, b, a, up_b};
 }
 
 void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const {
   struct Siblings {
-    std::pair<std::uint32_t, std::uint32_t> parent;
+    std::uint32_t parent_a, parent_b;
     std::size_t first, second;
   };
   std::vector<Siblings> found;
@@ -283,9 +280,9 @@ void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, cons
   // An open hash table from parents to the first of their children seen.
   std::vector<std::uint32_t> table(std::bit_ceil(2 * part.size() + 2), 0);
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const auto up = parent(part.a(i), part.b(i));
-    if (!up) continue;
-    std::size_t place = (up->first * 0x9E3779B97F4A7C15ull ^ up->second * 0xC2B2AE3D27D4EB4Full) >> 20;
+    const FrontPair& pair = part.pair(i);
+    if (pair.parent_a == ObbNode::kNone) continue;
+    std::size_t place = (pair.parent_a * 0x9E3779B97F4A7C15ull ^ pair.parent_b * 0xC2B2AE3D27D4EB4Full) >> 20;
     for (;; ++place) {
       std::uint32_t& entry = table[place & (table.size() - 1)];
       if (entry == 0) {
@@ -293,12 +290,12 @@ void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, cons
         break;
       }
       const std::size_t other = entry - 1;
-      if (parent(part.a(other), part.b(other)) != up) continue;
+      if (part.pair(other).parent_a != pair.parent_a || part.pair(other).parent_b != pair.parent_b) continue;
       // Siblings on different sides of the same thing stay apart; one side is handed on.
-      const Vec3f one = guard_of(part.certificate(other), sweep), two = guard_of(part.certificate(i), sweep);
+      const Vec3f one = hint_of(part.certificate(other), sweep), two = hint_of(part.certificate(i), sweep);
       if (sides_ == SideRule::Memory && dot(one, two) < 0) break;
-      queries.push_back(query(up->first, up->second, length_squared(one) > 0 ? one : two));
-      found.push_back({*up, other, i});
+      queries.push_back(query(pair.parent_a, pair.parent_b, length_squared(one) > 0 ? one : two));
+      found.push_back({pair.parent_a, pair.parent_b, other, i});
       break;
     }
   }
@@ -308,9 +305,9 @@ void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, cons
 
   std::vector<std::size_t> gone;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    face(separations[k], found[k].parent.first, found[k].parent.second, sweep);
+    face(separations[k], found[k].parent_a, found[k].parent_b, sweep);
     if (separations[k].gap < sweep.limit) continue;
-    part.set(found[k].first, found[k].parent.first, found[k].parent.second, separations[k].certificate);
+    part.set(found[k].first, pair_of(found[k].parent_a, found[k].parent_b), separations[k].certificate);
     gone.push_back(found[k].second);
   }
   std::sort(gone.begin(), gone.end());
@@ -320,8 +317,8 @@ void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, cons
 CertificatePart CertificateFront::cut(CertificatePart& part) const {
   std::vector<std::uint32_t> of_a(part.size()), of_b(part.size());
   for (std::size_t i = 0; i < part.size(); ++i) {
-    of_a[i] = part.a(i);
-    of_b[i] = part.b(i);
+    of_a[i] = part.pair(i).a;
+    of_b[i] = part.pair(i).b;
   }
   // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not part them.
   const auto middle_of = [](std::vector<std::uint32_t>& nodes) {
@@ -337,7 +334,7 @@ CertificatePart CertificateFront::cut(CertificatePart& part) const {
   const std::uint32_t border = middle_of(by_a ? of_a : of_b);
   CertificatePart kept, rest;
   for (std::size_t i = 0; i < part.size(); ++i)
-    ((by_a ? part.a(i) : part.b(i)) < border ? kept : rest).append(part.a(i), part.b(i), part.certificate(i));
+    ((by_a ? part.pair(i).a : part.pair(i).b) < border ? kept : rest).append(part.pair(i), part.certificate(i));
   part = std::move(kept);
   return rest;
 }
@@ -357,7 +354,7 @@ void CertificateFront::end_sweep() {
       ++p;
       continue;
     }
-    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.a(i), part.b(i), part.certificate(i));
+    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.pair(i), part.certificate(i));
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
   }
 }

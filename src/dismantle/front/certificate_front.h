@@ -6,8 +6,6 @@
 
 #include <array>
 #include <functional>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace dismantle {
@@ -87,15 +85,16 @@ class CertificateFront {
   void for_each_leaf_pair(Visit&& visit) const {
     for (const CertificatePart& part : parts_)
       for (std::size_t i = 0; i < part.size(); ++i)
-        if (a_->nodes[part.a(i)].leaf() && b_->nodes[part.b(i)].leaf())
-          visit(moving_face(part.a(i), part.b(i)), fixed_face(part.a(i), part.b(i)), part.certificate(i));
+        if (a_->nodes[part.pair(i).a].leaf() && b_->nodes[part.pair(i).b].leaf())
+          visit(moving_face(part.pair(i).a, part.pair(i).b), fixed_face(part.pair(i).a, part.pair(i).b),
+                part.certificate(i));
   }
 
  private:
   /// A pair that has to be looked at, and what comes of it.
   struct Item {
     std::uint32_t a, b;
-    Vec3f guard;
+    Vec3f hint;  // the axis of this pair or the one it came from; where sides are remembered only if it binds
     bool old_leaves = false;        // a pair of leaves that the front had already
     std::uint32_t first_child = 0;  // index of the first of two items; 0: none
     static constexpr std::size_t kNew = static_cast<std::size_t>(-1);
@@ -116,17 +115,17 @@ class CertificateFront {
   /// The pairs of a part that do not hold, as items to be resolved.
   void find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
-  Vec3f guard_of(const Certificate& certificate, const PairSweep& sweep) const;
+  Vec3f hint_of(const Certificate& certificate, const PairSweep& sweep) const;
   /// Takes the allowance from what only holds by it against the normals of closed solids.
   void face(BoxSeparation& separation, std::uint32_t a, std::uint32_t b, const PairSweep& sweep) const;
-  /// The pair whose split made this one.
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> parent(std::uint32_t a, std::uint32_t b) const;
+  /// The pair of these nodes, with the one whose split made it.
+  FrontPair pair_of(std::uint32_t a, std::uint32_t b) const;
   void merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const;
   void resolve(Work& work, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
   void test_leaves(Item& item, const LeafTest& test, FrontSweep& result) const;
   void descend(std::vector<Item>& items, std::size_t i) const;
-  static void replace(CertificatePart& part, const Work& work);
+  void replace(CertificatePart& part, const Work& work) const;
   /// Cuts the part in two of about the same size, siblings together.
   CertificatePart cut(CertificatePart& part) const;
 

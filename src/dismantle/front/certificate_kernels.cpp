@@ -174,12 +174,36 @@ Lanes<kLanes> least_gaps(const CertificateArrays& c, std::size_t i, const PairSw
 
 }  // namespace DISMANTLE_LANES_ISA
 
-/// The arrays are padded to whole lanes of the widest kernel.
 template <>
-void check_certificates_kernel<DISMANTLE_LANE_COUNT>(const CertificateArrays& certificates, std::size_t count,
-                                                     const PairSweep& sweep, float* least) {
+CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const CertificateArrays& certificates,
+                                                                 std::size_t count, const PairSweep& sweep,
+                                                                 std::uint32_t* failing) {
   constexpr int kLanes = DISMANTLE_LANE_COUNT;
-  for (std::size_t i = 0; i < count; i += kLanes) least_gaps<kLanes>(certificates, i, sweep).store(least + i);
+  using F = Lanes<kLanes>;
+  std::size_t found = 0;
+  F least(3e38f);
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const F gaps = least_gaps<kLanes>(certificates, i, sweep);
+    const auto holds = gaps >= F(sweep.limit);
+    const unsigned past = count - i < kLanes ? ~0u << (count - i) : 0u;  // lanes of the padding
+    unsigned failed = bits(!holds) & ~past;
+    if (past == 0) {
+      least = min(least, select(holds, gaps, F(3e38f)));
+    } else {
+      float gap[kLanes];
+      gaps.store(gap);
+      for (std::size_t l = 0; l < count - i; ++l)
+        if (gap[l] >= sweep.limit) least = min(least, F(gap[l]));
+    }
+    for (; failed != 0; failed &= failed - 1)
+      failing[found++] = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(__builtin_ctz(failed));
+  }
+  float gap[kLanes];
+  least.store(gap);
+  CertificateCheck check;
+  check.failing = found;
+  for (int l = 0; l < kLanes; ++l) check.least_gap = gap[l] < check.least_gap ? gap[l] : check.least_gap;
+  return check;
 }
 
 template <>

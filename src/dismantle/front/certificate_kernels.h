@@ -34,11 +34,17 @@ struct BoxSeparation {
   Certificate certificate;
 };
 
-/// What the certificates say of a sweep: least[i] is a lower bound of the gap that certificate i gives at either end,
-/// up to PairSweep::error.
+/// What certificates say of a sweep.
+struct CertificateCheck {
+  std::size_t failing = 0;  ///< How many do not certify their pair.
+  float least_gap = 3e38f;  ///< Of the others, at either end, up to PairSweep::error [mm].
+};
+
+/// Checks certificates 0, ..., count - 1 against PairSweep::limit; the arrays are padded to whole lanes.
+/// @param failing gets the indices of those that do not certify, ascending; room for `count`
 template <int kLanes>
-void check_certificates_kernel(const CertificateArrays& certificates, std::size_t count, const PairSweep& sweep,
-                               float* least);
+CertificateCheck check_certificates_kernel(const CertificateArrays& certificates, std::size_t count,
+                                           const PairSweep& sweep, std::uint32_t* failing);
 
 /// The separating-axis test of pairs of boxes over a whole sweep.
 template <int kLanes>
@@ -47,7 +53,7 @@ void separate_boxes_kernel(const BoxPairQuery* queries, std::size_t count, const
 
 /// The kernels of one lane width.
 struct FrontKernels {
-  void (*check_certificates)(const CertificateArrays&, std::size_t, const PairSweep&, float*);
+  CertificateCheck (*check_certificates)(const CertificateArrays&, std::size_t, const PairSweep&, std::uint32_t*);
   void (*separate_boxes)(const BoxPairQuery*, std::size_t, const PairSweep&, BoxSeparation*);
 };
 

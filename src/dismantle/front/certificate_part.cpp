@@ -19,16 +19,14 @@ CertificateArrays CertificatePart::arrays() const {
   return {{field(0), field(1), field(2)}, {field(3), field(4), field(5)}, field(6), field(7), field(8)};
 }
 
-void CertificatePart::append(std::uint32_t a, std::uint32_t b, const Certificate& certificate) {
+void CertificatePart::append(const FrontPair& pair, const Certificate& certificate) {
   if (size() == capacity_) grow();
-  a_.push_back(a);
-  b_.push_back(b);
+  pairs_.push_back(pair);
   set_certificate(size() - 1, certificate);
 }
 
-void CertificatePart::set(std::size_t i, std::uint32_t a, std::uint32_t b, const Certificate& certificate) {
-  a_[i] = a;
-  b_[i] = b;
+void CertificatePart::set(std::size_t i, const FrontPair& pair, const Certificate& certificate) {
+  pairs_[i] = pair;
   set_certificate(i, certificate);
 }
 
@@ -40,11 +38,9 @@ void CertificatePart::set_certificate(std::size_t i, const Certificate& c) {
 
 void CertificatePart::remove(std::size_t i) {
   const std::size_t last = size() - 1;
-  a_[i] = a_[last];
-  b_[i] = b_[last];
+  pairs_[i] = pairs_[last];
   for (std::size_t k = 0; k < kFields; ++k) field(k)[i] = field(k)[last];
-  a_.pop_back();
-  b_.pop_back();
+  pairs_.pop_back();
 }
 
 void CertificatePart::grow() {

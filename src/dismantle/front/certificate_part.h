@@ -9,19 +9,22 @@
 
 namespace dismantle {
 
+/// A pair of nodes, and the pair of which it is one half: both kNone for the roots.
+struct FrontPair {
+  std::uint32_t a, b;
+  std::uint32_t parent_a, parent_b;
+};
+
 /// A part of a front: pairs of nodes and their certificates, as arrays padded to whole lanes. In no order.
 class CertificatePart {
  public:
-  std::size_t size() const { return a_.size(); }
-  std::uint32_t a(std::size_t i) const { return a_[i]; }
-  std::uint32_t b(std::size_t i) const { return b_[i]; }
+  std::size_t size() const { return pairs_.size(); }
+  const FrontPair& pair(std::size_t i) const { return pairs_[i]; }
   Certificate certificate(std::size_t i) const;
   CertificateArrays arrays() const;
-  /// How many floats check_certificates writes for it.
-  std::size_t padded_size() const { return capacity_; }
 
-  void append(std::uint32_t a, std::uint32_t b, const Certificate& certificate);
-  void set(std::size_t i, std::uint32_t a, std::uint32_t b, const Certificate& certificate);
+  void append(const FrontPair& pair, const Certificate& certificate);
+  void set(std::size_t i, const FrontPair& pair, const Certificate& certificate);
   void set_certificate(std::size_t i, const Certificate& certificate);
   /// The last one takes the place of pair i.
   void remove(std::size_t i);
@@ -34,7 +37,7 @@ class CertificatePart {
   const float* field(std::size_t k) const { return data_.data() + k * capacity_; }
   void grow();
 
-  std::vector<std::uint32_t> a_, b_;
+  std::vector<FrontPair> pairs_;
   std::vector<float> data_;
   std::size_t capacity_ = 0;
 };
