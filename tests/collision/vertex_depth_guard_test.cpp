@@ -78,9 +78,20 @@ TEST(VertexDepthGuard, KeepsSlacksOnlyOfCommittedSweeps) {
   EXPECT_FALSE(guard.sweep(pin_at({0, 0, 1}), pin_at({2, 0, 1})).empty());
 }
 
-TEST(VertexDepthGuard, WatchesNothingWhereTrianglesAreCoarse) {
+TEST(VertexDepthGuard, HoldsBackVerticesOfCoarseFits) {
+  // The bore's corners are 0.02 mm inside the pin from the start.
   const Assembly assembly =
       scenes::assembly({component("pin", tube(5, 0, -2, 22, 48)), component("plate", tube(20, 4.98, 0, 20, 48))});
+  const PairStates states = states_of(assembly);
+  VertexDepthGuard guard(assembly, states, Executor());
+  EXPECT_FALSE(guard.sweep(pin_at({0, 0, 0}), pin_at({0.2, 0, 0})).empty());
+  EXPECT_TRUE(guard.sweep(pin_at({0, 0, 0}), pin_at({0, 0, 5})).empty());
+}
+
+TEST(VertexDepthGuard, WatchesNothingWhereNothingOverlaps) {
+  const Assembly assembly =
+      scenes::assembly({component("pin", tube(5, 0, -2, 22, 48)), component("plate", tube(20, 5, 0, 20, 48))});
+  ASSERT_EQ(states_of(assembly).pairs.at(0).state, PairState::Contact);
   EXPECT_TRUE(VertexDepthGuard(assembly, states_of(assembly), Executor()).watches_nothing());
 }
 

@@ -15,15 +15,8 @@ namespace {
 constexpr double kUnknown = -1;
 /// A vertex whose slack is below this share of the tolerance has used it up.
 constexpr double kResolutionShare = 0.05;
-
-double shortest_longest_edge(const TriangleMesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const Triangle t = mesh.triangle(f);
-    least = std::min(least, std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])}));
-  }
-  return least;
-}
+/// Less than this share of the tolerance is rounding.
+constexpr double kNoticeableShare = 1e-3;
 
 Pose pose_from_transform(const RigidTransform& t) {
   return {t.translation, quat_from_mat3(t.rotation)};
@@ -33,14 +26,9 @@ Pose pose_from_transform(const RigidTransform& t) {
 
 VertexDepthGuard::VertexDepthGuard(const Assembly& assembly, const PairStates& pairs, const Executor& executor)
     : executor_(executor) {
-  std::vector<double> finest(assembly.components.size(), -1);
-  const auto finest_of = [&](ComponentId c) {
-    if (finest[c.value] < 0) finest[c.value] = shortest_longest_edge(*assembly[c].mesh);
-    return finest[c.value];
-  };
   for (const ComponentPair& p : pairs.pairs) {
-    if (p.state != PairState::Fit) continue;
-    if (std::min(finest_of(p.a), finest_of(p.b)) >= 2 * p.allowed_penetration) continue;
+    if (p.state != PairState::Fit && p.state != PairState::Contact) continue;
+    if (!(p.penetration > kNoticeableShare * pairs.tolerance)) continue;
     if (!surface_) surface_ = std::make_shared<const AssemblySurface>(make_assembly_surface(assembly, executor));
     watch(assembly, p, pairs.tolerance);
   }

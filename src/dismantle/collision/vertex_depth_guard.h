@@ -12,13 +12,14 @@ namespace dismantle {
 /// Keeps the second rule of the guarantee (docs/guarantee.md) where triangle pairs cannot: no vertex of a component
 /// gets deeper than twice the pair's allowance inside another closed component.
 ///
-/// A triangle smaller than a fit's allowance is never "too deep" in anything, so a finely tessellated surface would be
-/// permeable for the pair. The guard watches the vertices of such pairs by their signed distance to the other surface,
-/// which changes by at most the path that they travel: each vertex keeps the slack that was found last, less the way
-/// since, and is looked at again only when its slack may be used up.
+/// Vertices of pairs that overlap from the start may be up to twice as deep as their triangles, so what triangles may
+/// still do is more than vertices may; and a triangle smaller than a fit's allowance is never "too deep" in anything,
+/// so a finely tessellated surface would be permeable for the pair. The guard watches the vertices of such pairs by
+/// their signed distance to the other surface, which changes by at most the path that they travel: each vertex keeps
+/// the slack that was found last, less the way since, and is looked at again only when its slack may be used up.
 class VertexDepthGuard {
  public:
-  /// Watches the Fit pairs of which some triangle's longest edge is below twice the allowance.
+  /// Watches the Fit and Contact pairs that overlap.
   VertexDepthGuard(const Assembly& assembly, const PairStates& pairs, const Executor& executor);
 
   bool watches_nothing() const { return sides_.empty(); }
