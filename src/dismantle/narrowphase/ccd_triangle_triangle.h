@@ -72,9 +72,9 @@ class TrianglePair {
     best.consider_both_ways(normal_b);
     for (int i = 0; i < 3; ++i) {
       const Vec3 along_a = now.a[(i + 1) % 3] - now.a[i], along_b = now.b[(i + 1) % 3] - now.b[i];
-      best.consider_both_ways(cross(along_a, normal_a));
-      best.consider_both_ways(cross(along_b, normal_b));
-      for (int j = 0; j < 3; ++j) best.consider_both_ways(cross(along_a, now.b[(j + 1) % 3] - now.b[j]));
+      consider_if_apart(best, now, cross(along_a, normal_a));
+      consider_if_apart(best, now, cross(along_b, normal_b));
+      for (int j = 0; j < 3; ++j) consider_if_apart(best, now, cross(along_a, now.b[(j + 1) % 3] - now.b[j]));
     }
     if (best.end() >= t + kLeastProgress) return;
     for (int i = 0; i < 3; ++i) {
@@ -87,6 +87,18 @@ class TrianglePair {
   struct Triangles {
     Triangle a, b;
   };
+  struct Interval {
+    double low, high;
+  };
+  /// More than what rounding does to projections that only decide what is tried.
+  static constexpr double kGuessRounding = 0x1p-30;
+
+  DISMANTLE_HOST_DEVICE static Interval interval(const Triangle& t, Vec3 w) {
+    const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]);
+    const double low = x < y ? x : y, high = x < y ? y : x;
+    return {low < z ? low : z, high > z ? high : z};
+  }
+
   /// The axis of a step, of unit length, and by how much it separates beyond the allowance.
   struct Step {
     double time = -1, gap = 0;
@@ -107,6 +119,15 @@ class TrianglePair {
       if (i == 0 || length_squared(between) < length_squared(nearest)) nearest = between;
     }
     return nearest;
+  }
+
+  /// Looks at an axis unless the triangles clearly overlap along it both ways, as along most of those of a contact.
+  DISMANTLE_HOST_DEVICE void consider_if_apart(Axes& best, const Triangles& now, Vec3 w) const {
+    const Interval a = interval(now.a, w), b = interval(now.b, w);
+    const double forth = b.low - a.high, back = a.low - b.high;
+    const double slack = allowed_ > 0 ? allowed_ * norm_one(w) : 0;
+    const double rounding = kGuessRounding * ((a.high - a.low) + (b.high - b.low));
+    if ((forth > back ? forth : back) + slack >= -rounding) best.consider_both_ways(w);
   }
 
   /// A direction across `along`: its cross product with the coordinate axis that it is least along.

@@ -59,7 +59,7 @@ class FurthestAxis {
   DISMANTLE_HOST_DEVICE void face(const OutwardNormals& normals) {
     normals_ = normals;
     facing_ = true;
-    guarded_ = false;
+    guard_ = {};
   }
 
   /// Begins a step at `now`, until which axis() separates.
@@ -68,16 +68,14 @@ class FurthestAxis {
     end_ = -1;
     if (facing_ || !(allowed_ > 0)) return;
     guard_ = axis_;
-    guarded_ = separates_now(axis_, allowed_) && !separates_now(axis_, 0);
+    guard_checked_ = false;
   }
 
   /// Looks at an axis that points from A to B.
   DISMANTLE_HOST_DEVICE void consider(Vec3 w) {
-    if (refused(w)) return;
     const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowance_of(w));
     if (projections.separates_throughout()) {
-      end_ = 1;
-      axis_ = w;
+      if (!refused(w)) keep(w, 1);
     } else if (!facing_ || normals_.allow(w) || projections.separates_until(now_) > now_ + kLeastProgress) {
       keep_if_further(projections, w);
     }
@@ -86,9 +84,9 @@ class FurthestAxis {
   /// Looks at an axis that may point either way.
   DISMANTLE_HOST_DEVICE void consider_both_ways(Vec3 w) {
     AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
-    if (!refused(w)) keep_if_allowed(projections, w);
+    keep_if_allowed(projections, w);
     projections.turn();
-    if (!refused(-w)) keep_if_allowed(projections, -w);
+    keep_if_allowed(projections, -w);
   }
 
   DISMANTLE_HOST_DEVICE Vec3 axis() const { return axis_; }
@@ -98,7 +96,10 @@ class FurthestAxis {
  private:
   DISMANTLE_HOST_DEVICE void keep_if_further(const AxisProjections<kCountA, kCountB>& projections, Vec3 w) {
     const double until = projections.separates_until(now_);
-    if (until <= end_) return;
+    if (until > end_ && !refused(w)) keep(w, until);
+  }
+
+  DISMANTLE_HOST_DEVICE void keep(Vec3 w, double until) {
     end_ = until;
     axis_ = w;
   }
@@ -116,19 +117,26 @@ class FurthestAxis {
 
   DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const { return !facing_ || normals_.allow(w) ? allowed_ : 0; }
 
-  DISMANTLE_HOST_DEVICE bool refused(Vec3 w) const {
-    return guarded_ && dot(w, guard_) < 0 && !separates_now(w, -allowed_);
+  /// Whether the axis that the step began with has used part of the allowance is only asked when it matters.
+  DISMANTLE_HOST_DEVICE bool refused(Vec3 w) {
+    if (!(dot(w, guard_) < 0)) return false;
+    if (!guard_checked_) {
+      guard_checked_ = true;
+      if (separates_now(guard_, 0) || !separates_now(guard_, allowed_)) guard_ = {};
+    }
+    return dot(w, guard_) < 0 && !separates_now(w, -allowed_);
   }
 
-  DISMANTLE_HOST_DEVICE bool separates_now(Vec3 w, double allowed) const {
+  [[gnu::noinline]] DISMANTLE_HOST_DEVICE bool separates_now(Vec3 w, double allowed) const {
     return AxisProjections<kCountA, kCountB>(hulls_, w, allowed).separates_until(now_) >= now_;
   }
 
   const RelativeHulls<kCountA, kCountB>& hulls_;
   double allowed_;
   double now_ = 0, end_ = -1;
-  Vec3 axis_, guard_;
-  bool guarded_ = false;
+  Vec3 axis_;
+  Vec3 guard_;  ///< The axis not to be turned away from; zero for none.
+  bool guard_checked_ = false;
   OutwardNormals normals_;
   bool facing_ = false;
 };
