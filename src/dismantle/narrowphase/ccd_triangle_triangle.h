@@ -34,17 +34,21 @@ class TrianglePair {
   /// From the closest of the 6 vertex-face and 9 edge-edge pairs; of no use where the triangles intersect.
   DISMANTLE_HOST_DEVICE AxisGuess guess(double t) const {
     const Triangles now = triangles_at(t);
-    Vec3 nearest = closest_of_vertices(now.a, now.b);
-    const Vec3 other = -closest_of_vertices(now.b, now.a);
-    if (length_squared(other) < length_squared(nearest)) nearest = other;
+    Nearest nearest(now, closest_points_vertex_face(now.a[0], now.b).point_b - now.a[0]);
+    for (int i = 1; i < 3; ++i)
+      if (nearest.beaten_by(nearest.b.low(), nearest.a.at[i]))
+        nearest.take(now, closest_points_vertex_face(now.a[i], now.b).point_b - now.a[i]);
+    for (int j = 0; j < 3; ++j)
+      if (nearest.beaten_by(nearest.b.at[j], nearest.a.high()))
+        nearest.take(now, now.b[j] - closest_points_vertex_face(now.b[j], now.a).point_b);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        const ClosestPoints c =
-            closest_points_edge_edge({now.a[i], now.a[(i + 1) % 3]}, {now.b[j], now.b[(j + 1) % 3]});
-        const Vec3 between = c.point_b - c.point_a;
-        if (length_squared(between) < length_squared(nearest)) nearest = between;
+        const int next_i = (i + 1) % 3, next_j = (j + 1) % 3;
+        if (!nearest.beaten_by(nearest.b.low(j, next_j), nearest.a.high(i, next_i))) continue;
+        const ClosestPoints c = closest_points_edge_edge({now.a[i], now.a[next_i]}, {now.b[j], now.b[next_j]});
+        nearest.take(now, c.point_b - c.point_a);
       }
-    return {nearest, false};
+    return {nearest.between, false};
   }
 
   DISMANTLE_HOST_DEVICE double advance(double t) const { return t; }
@@ -68,8 +72,8 @@ class TrianglePair {
   DISMANTLE_HOST_DEVICE void consider_all(Axes& best, double t) const {
     const Triangles now = triangles_at(t);
     const Vec3 normal_a = normal_unscaled(now.a), normal_b = normal_unscaled(now.b);
-    best.consider_both_ways(normal_a);
-    best.consider_both_ways(normal_b);
+    consider_if_apart(best, now, normal_a);
+    consider_if_apart(best, now, normal_b);
     for (int i = 0; i < 3; ++i) {
       const Vec3 along_a = now.a[(i + 1) % 3] - now.a[i], along_b = now.b[(i + 1) % 3] - now.b[i];
       consider_if_apart(best, now, cross(along_a, normal_a));
@@ -78,8 +82,8 @@ class TrianglePair {
     }
     if (best.end() >= t + kLeastProgress) return;
     for (int i = 0; i < 3; ++i) {
-      best.consider_both_ways(some_normal(now.a[(i + 1) % 3] - now.a[i]));
-      best.consider_both_ways(some_normal(now.b[(i + 1) % 3] - now.b[i]));
+      consider_if_apart(best, now, some_normal(now.a[(i + 1) % 3] - now.a[i]));
+      consider_if_apart(best, now, some_normal(now.b[(i + 1) % 3] - now.b[i]));
     }
   }
 
@@ -87,17 +91,34 @@ class TrianglePair {
   struct Triangles {
     Triangle a, b;
   };
-  struct Interval {
-    double low, high;
+  /// The corners of a triangle along an axis.
+  struct Projection {
+    double at[3];
+
+    DISMANTLE_HOST_DEVICE Projection(const Triangle& t, Vec3 w) : at{dot(w, t[0]), dot(w, t[1]), dot(w, t[2])} {}
+    DISMANTLE_HOST_DEVICE double low(int i, int j) const { return at[i] < at[j] ? at[i] : at[j]; }
+    DISMANTLE_HOST_DEVICE double high(int i, int j) const { return at[i] < at[j] ? at[j] : at[i]; }
+    DISMANTLE_HOST_DEVICE double low() const { return low(0, 1) < at[2] ? low(0, 1) : at[2]; }
+    DISMANTLE_HOST_DEVICE double high() const { return high(0, 1) > at[2] ? high(0, 1) : at[2]; }
+  };
+  /// The least distance found between two features, from A to B, and the corners along it: they tell which other
+  /// features cannot be nearer.
+  struct Nearest {
+    Vec3 between;
+    double square;
+    Projection a, b;
+
+    DISMANTLE_HOST_DEVICE Nearest(const Triangles& now, Vec3 w)
+        : between(w), square(length_squared(w)), a(now.a, w), b(now.b, w) {}
+    DISMANTLE_HOST_DEVICE bool beaten_by(double low_b, double high_a) const {
+      return low_b - high_a < (1 - kGuessRounding) * square;
+    }
+    DISMANTLE_HOST_DEVICE void take(const Triangles& now, Vec3 w) {
+      if (length_squared(w) < square) *this = Nearest(now, w);
+    }
   };
   /// More than what rounding does to projections that only decide what is tried.
   static constexpr double kGuessRounding = 0x1p-30;
-
-  DISMANTLE_HOST_DEVICE static Interval interval(const Triangle& t, Vec3 w) {
-    const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]);
-    const double low = x < y ? x : y, high = x < y ? y : x;
-    return {low < z ? low : z, high > z ? high : z};
-  }
 
   /// The axis of a step, of unit length, and by how much it separates beyond the allowance.
   struct Step {
@@ -112,21 +133,12 @@ class TrianglePair {
     return now;
   }
 
-  DISMANTLE_HOST_DEVICE static Vec3 closest_of_vertices(const Triangle& a, const Triangle& face) {
-    Vec3 nearest;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 between = closest_points_vertex_face(a[i], face).point_b - a[i];
-      if (i == 0 || length_squared(between) < length_squared(nearest)) nearest = between;
-    }
-    return nearest;
-  }
-
   /// Looks at an axis unless the triangles clearly overlap along it both ways, as along most of those of a contact.
   DISMANTLE_HOST_DEVICE void consider_if_apart(Axes& best, const Triangles& now, Vec3 w) const {
-    const Interval a = interval(now.a, w), b = interval(now.b, w);
-    const double forth = b.low - a.high, back = a.low - b.high;
+    const Projection a(now.a, w), b(now.b, w);
+    const double forth = b.low() - a.high(), back = a.low() - b.high();
     const double slack = allowed_ > 0 ? allowed_ * norm_one(w) : 0;
-    const double rounding = kGuessRounding * ((a.high - a.low) + (b.high - b.low));
+    const double rounding = kGuessRounding * ((a.high() - a.low()) + (b.high() - b.low()));
     if ((forth > back ? forth : back) + slack >= -rounding) best.consider_both_ways(w);
   }
 
