@@ -77,6 +77,7 @@ CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effo
   result.sizes.triangle_pairs += found.leaf_tests;
   result.sizes.front = found.front;
   if (!found.free) report(found, result);
+  for (const auto& [moving, fixed] : found.near) guard_.consider(moving, fixed, sweeper_.allowed(moving, fixed));
   return found;
 }
 

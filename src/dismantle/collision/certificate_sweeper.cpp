@@ -229,6 +229,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   }
   for (const ActivePair& pair : active) {
     pair.front->end_sweep();
+    result.near.push_back({pair.moving, pair.fixed});
     result.front += pair.front->size();
   }
   finish(result, window);

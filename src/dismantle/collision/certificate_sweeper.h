@@ -30,6 +30,7 @@ struct CertificateSweep {
   double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
   std::size_t front = 0;             ///< Node pairs of the fronts looked at.
   std::size_t leaf_tests = 0;
+  std::vector<std::pair<ComponentId, ComponentId>> near;  ///< Moving and fixed: whose fronts were looked at.
 };
 
 /// How hard a triangle pair is tried before it counts as blocked. Less is never unsafe, and faster: a motion along

@@ -18,6 +18,16 @@ constexpr double kResolutionShare = 0.05;
 /// Less than this share of the tolerance is rounding.
 constexpr double kNoticeableShare = 1e-3;
 
+double least_altitude(const TriangleMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Triangle t = mesh.triangle(f);
+    const double longest = std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
+    least = std::min(least, length(normal_unscaled(t)) / longest);
+  }
+  return least;
+}
+
 Pose pose_from_transform(const RigidTransform& t) {
   return {t.translation, quat_from_mat3(t.rotation)};
 }
@@ -25,29 +35,54 @@ Pose pose_from_transform(const RigidTransform& t) {
 }  // namespace
 
 VertexDepthGuard::VertexDepthGuard(const Assembly& assembly, const PairStates& pairs, const Executor& executor)
-    : executor_(executor) {
+    : assembly_(&assembly),
+      tolerance_(pairs.tolerance),
+      thinnest_(assembly.components.size(), -1),
+      executor_(executor) {
   for (const ComponentPair& p : pairs.pairs) {
     if (p.state != PairState::Fit && p.state != PairState::Contact) continue;
-    if (!(p.penetration > kNoticeableShare * pairs.tolerance)) continue;
-    if (!surface_) surface_ = std::make_shared<const AssemblySurface>(make_assembly_surface(assembly, executor));
-    watch(assembly, p, pairs.tolerance);
+    if (p.penetration <= kNoticeableShare * tolerance_) {
+      consider(p.a, p.b, p.allowed_penetration);
+      continue;
+    }
+    known_.insert({p.a, p.b});
+    watch(p.a, p.b, p.allowed_penetration);
+    watch(p.b, p.a, p.allowed_penetration);
   }
-  if (!surface_) return;
-  const TriangleStreams& streams = surface_->streams;
-  face_of_vertex_.resize(streams.vertices.size());
-  for (std::size_t leaf = 0; leaf < streams.faces.size(); ++leaf)
-    for (const std::uint32_t v : streams.faces[leaf].v) face_of_vertex_[v] = streams.face_of[leaf];
 }
 
-void VertexDepthGuard::watch(const Assembly& assembly, const ComponentPair& pair, double tolerance) {
-  const auto add = [&](ComponentId inner, ComponentId outer) {
-    if (!assembly[outer].faults.closed()) return;
-    Side side{inner, outer, 2 * pair.allowed_penetration, kResolutionShare * tolerance, {}, {}};
-    side.slack.assign(assembly[inner].mesh->vertices.size(), kUnknown);
-    sides_.push_back(std::move(side));
-  };
-  add(pair.a, pair.b);
-  add(pair.b, pair.a);
+double VertexDepthGuard::thinnest(ComponentId component) {
+  double& known = thinnest_[component.value];
+  if (known < 0) known = least_altitude(*(*assembly_)[component].mesh);
+  return known;
+}
+
+void VertexDepthGuard::consider(ComponentId a, ComponentId b, double allowed) {
+  if (!known_.insert({std::min(a, b), std::max(a, b)}).second) return;
+  if (std::min(thinnest(a), thinnest(b)) >= 2 * allowed) return;
+  watch(a, b, allowed);
+  watch(b, a, allowed);
+}
+
+void VertexDepthGuard::watch(ComponentId inner, ComponentId outer, double allowed) {
+  if (!(*assembly_)[outer].faults.closed()) return;
+  if (!surface_) {
+    surface_ = std::make_shared<const AssemblySurface>(make_assembly_surface(*assembly_, executor_));
+    const TriangleStreams& streams = surface_->streams;
+    face_of_vertex_.resize(streams.vertices.size());
+    for (std::size_t leaf = 0; leaf < streams.faces.size(); ++leaf)
+      for (const std::uint32_t v : streams.faces[leaf].v) face_of_vertex_[v] = streams.face_of[leaf];
+  }
+  Side side;
+  side.inner = inner;
+  side.outer = outer;
+  side.limit = 2 * allowed;
+  side.resolution = kResolutionShare * tolerance_;
+  const Aabb box = assembled_bounds((*assembly_)[inner]);
+  side.center = box.empty() ? Vec3{} : box.center();
+  side.radius = diagonal(box) / 2;
+  side.slack.assign((*assembly_)[inner].mesh->vertices.size(), kUnknown);
+  sides_.push_back(std::move(side));
 }
 
 VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const RigidTransform& start,
@@ -56,14 +91,20 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const RigidTr
   const Pose pose_start = pose_from_transform(start), pose_end = pose_from_transform(end);
   const Screw screw = screw_between(pose_start, pose_end);
   const std::uint32_t begin = s.streams.vertex_begin[side.inner.value];
-  side.slack_end = side.slack;
+  const double furthest = screw_path_length(screw, screw_radius(screw, start * side.center, side.radius));
+  if (side.least - side.spent > furthest) {
+    side.spent_end = side.spent + furthest;
+    return {};
+  }
+  side.spent_end = 0;
+  side.slack_end.resize(side.slack.size());
 
   std::vector<Finding> findings(side.slack.size());
   executor_.for_each(side.slack.size(), [&](std::size_t i) {
     const Vec3 vertex = s.streams.vertices[begin + i];
     const double way = screw_path_length(screw, screw_radius(screw, start * vertex, 0));
-    if (side.slack[i] > way) {
-      side.slack_end[i] = side.slack[i] - way;
+    if (side.slack[i] - side.spent > way) {
+      side.slack_end[i] = side.slack[i] - side.spent - way;
       return;
     }
     for (double at = 0;;) {
@@ -99,10 +140,9 @@ std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform>
   for (Side& side : sides_) {
     const RigidTransform start = inverse(from[side.outer.value]) * from[side.inner.value];
     const RigidTransform end = inverse(to[side.outer.value]) * to[side.inner.value];
-    if (start == end) {
-      side.slack_end = side.slack;
-      continue;
-    }
+    side.slack_end.clear();
+    side.spent_end = side.spent;
+    if (start == end) continue;
     const Finding finding = sweep_side(side, start, end);
     if (finding.leaf != kNoNode) contacts.push_back(contact_of(side, finding));
   }
@@ -110,12 +150,20 @@ std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform>
 }
 
 void VertexDepthGuard::commit() {
-  for (Side& side : sides_)
-    if (!side.slack_end.empty()) side.slack = side.slack_end;
+  for (Side& side : sides_) {
+    side.spent = side.spent_end;
+    if (side.slack_end.empty()) continue;
+    side.slack = side.slack_end;
+    side.least = *std::min_element(side.slack.begin(), side.slack.end());
+  }
 }
 
 void VertexDepthGuard::jump() {
-  for (Side& side : sides_) std::fill(side.slack.begin(), side.slack.end(), kUnknown);
+  for (Side& side : sides_) {
+    std::fill(side.slack.begin(), side.slack.end(), kUnknown);
+    side.spent = side.spent_end = 0;
+    side.least = kUnknown;
+  }
 }
 
 namespace {

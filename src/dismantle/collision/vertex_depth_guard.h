@@ -5,6 +5,8 @@
 #include "dismantle/collision/surface_queries.h"
 
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
@@ -12,15 +14,19 @@ namespace dismantle {
 /// Keeps the second rule of the guarantee (docs/guarantee.md) where triangle pairs cannot: no vertex of a component
 /// gets deeper than twice the pair's allowance inside another closed component.
 ///
-/// Vertices of pairs that overlap from the start may be up to twice as deep as their triangles, so what triangles may
-/// still do is more than vertices may; and a triangle smaller than a fit's allowance is never "too deep" in anything,
-/// so a finely tessellated surface would be permeable for the pair. The guard watches the vertices of such pairs by
-/// their signed distance to the other surface, which changes by at most the path that they travel: each vertex keeps
-/// the slack that was found last, less the way since, and is looked at again only when its slack may be used up.
+/// A triangle that is thinner than the allowance is never "too deep" in another such, so a finely tessellated surface,
+/// or one of slivers, would be permeable for the pair. The guard watches the vertices of such pairs by their signed
+/// distance to the other surface, which changes by at most the path that they travel: each vertex keeps the slack that
+/// was found last, less the way since, and is looked at again only when its slack may be used up.
 class VertexDepthGuard {
  public:
-  /// Watches the Fit and Contact pairs that overlap.
+  /// Watches the Fit and Contact pairs that overlap, or of which some triangle's least altitude is below twice the
+  /// allowance.
   VertexDepthGuard(const Assembly& assembly, const PairStates& pairs, const Executor& executor);
+
+  /// Watches this pair from now on, too, if it has such triangles; does nothing where it is known already.
+  /// @param allowed its allowed penetration [mm]
+  void consider(ComponentId a, ComponentId b, double allowed);
 
   bool watches_nothing() const { return sides_.empty(); }
 
@@ -36,10 +42,16 @@ class VertexDepthGuard {
   /// The vertices of one component against the surface of another.
   struct Side {
     ComponentId inner, outer;
-    double limit = 0;               ///< Deepest that a vertex may be [mm].
-    double resolution = 0;          ///< Slacks below this are used up [mm].
-    std::vector<double> slack;      ///< Lower bound of signed distance + limit, a vertex [mm]; below 0: unknown.
-    std::vector<double> slack_end;  ///< The same at the end of the last sweep.
+    double limit = 0;       ///< Deepest that a vertex may be [mm].
+    double resolution = 0;  ///< Slacks below this are used up [mm].
+    Vec3 center;            ///< Of a sphere around the inner component [mm, assembled].
+    double radius = 0;      ///< [mm]
+    /// Lower bound of signed distance + limit, a vertex, less what is `spent` [mm]; below 0: unknown.
+    std::vector<double> slack;
+    double spent = 0;               ///< Way of all vertices since they were last looked at one by one [mm].
+    double least = -1;              ///< Of `slack`.
+    double spent_end = 0;           ///< At the end of the last sweep.
+    std::vector<double> slack_end;  ///< The same at the end of the last sweep; empty where nothing moved in it.
   };
   struct Finding {
     double toi = 1;
@@ -47,12 +59,17 @@ class VertexDepthGuard {
     NodeIndex leaf = kNoNode;
   };
 
-  void watch(const Assembly& assembly, const ComponentPair& pair, double tolerance);
+  void watch(ComponentId inner, ComponentId outer, double allowed);
+  double thinnest(ComponentId component);
   Finding sweep_side(Side& side, const RigidTransform& start, const RigidTransform& end) const;
   CollisionContact contact_of(const Side& side, const Finding& finding) const;
 
-  std::shared_ptr<const AssemblySurface> surface_;
-  std::vector<FaceId> face_of_vertex_;  ///< A face at each vertex of the streams.
+  const Assembly* assembly_;
+  double tolerance_;
+  std::vector<double> thinnest_;  ///< Least altitude of any triangle, a component [mm]; negative: not known yet.
+  std::set<std::pair<ComponentId, ComponentId>> known_;
+  std::shared_ptr<const AssemblySurface> surface_;  ///< Made with the first pair to watch.
+  std::vector<FaceId> face_of_vertex_;              ///< A face at each vertex of the streams.
   std::vector<Side> sides_;
   Executor executor_;
 };
