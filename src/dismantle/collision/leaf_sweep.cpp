@@ -33,33 +33,58 @@ float rounded_up(double x) {
   return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-/// The axis along which two triangles are least deep in each other, of those that the normals allow; zero where that is
-/// deeper than `deepest`.
-Vec3 least_blocking_axis(const Triangle& a, const Triangle& b, const OutwardNormals& normals, double deepest) {
-  Vec3 best;
-  double furthest = -deepest;
-  const auto consider = [&](Vec3 line) {
+/// Looks for the axis of a contact: of those that the normals allow, the one along which the motion goes furthest
+/// before the allowance is used up; where none has anything left to begin with, the one along which the two are least
+/// deep.
+class LeastBlockingAxis {
+ public:
+  LeastBlockingAxis(const TriangleMotion& moving, const Triangle& fixed, const OutwardNormals& normals, double allowed)
+      : moving_(moving), fixed_(fixed), normals_(normals), allowed_(allowed) {}
+
+  /// The candidates of two triangles as they are at some time.
+  void consider_all(const Triangle& moving) {
+    const Vec3 normal_a = normal_unscaled(moving), normal_b = normal_unscaled(fixed_);
+    consider(normal_a);
+    consider(normal_b);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 along_a = moving[(i + 1) % 3] - moving[i], along_b = fixed_[(i + 1) % 3] - fixed_[i];
+      consider(cross(along_a, normal_a));
+      consider(cross(along_b, normal_b));
+      for (int j = 0; j < 3; ++j) consider(cross(along_a, fixed_[(j + 1) % 3] - fixed_[j]));
+    }
+  }
+
+  Vec3 axis() const { return axis_; }
+
+ private:
+  void consider(Vec3 line) {
     const double size = length(line);
     if (!(size > 0)) return;
     for (const Vec3 w : {line / size, line / -size}) {
-      if (!normals.allow(w)) continue;
-      const double least = std::min({dot(w, b[0] - a[0]), dot(w, b[1] - a[0]), dot(w, b[2] - a[0])});
-      const double most = std::max({0.0, dot(w, a[1] - a[0]), dot(w, a[2] - a[0])});
-      if (least - most <= furthest) continue;
-      furthest = least - most;
-      best = w;
+      if (!normals_.allow(w)) continue;
+      const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
+      double reach = gap_t0 + allowed_;  // below zero: nothing left
+      if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
+      if (reach <= furthest_) continue;
+      furthest_ = reach;
+      axis_ = w;
     }
-  };
-  consider(normals.a);
-  consider(normals.b);
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 along_a = a[(i + 1) % 3] - a[i], along_b = b[(i + 1) % 3] - b[i];
-    consider(cross(along_a, normals.a));
-    consider(cross(along_b, normals.b));
-    for (int j = 0; j < 3; ++j) consider(cross(along_a, b[(j + 1) % 3] - b[j]));
   }
-  return best;
-}
+
+  double gap(Vec3 w, const Triangle& moving) const {
+    const Vec3 origin = fixed_[0];
+    const double least = std::min({0.0, dot(w, fixed_[1] - origin), dot(w, fixed_[2] - origin)});
+    const double most = std::max({dot(w, moving[0] - origin), dot(w, moving[1] - origin), dot(w, moving[2] - origin)});
+    return least - most;
+  }
+
+  const TriangleMotion& moving_;
+  const Triangle& fixed_;
+  const OutwardNormals& normals_;
+  double allowed_;
+  double furthest_ = -std::numeric_limits<double>::infinity();
+  Vec3 axis_;
+};
 
 Triangle between(const TriangleMotion& motion, double t) {
   Triangle now;
@@ -69,9 +94,6 @@ Triangle between(const TriangleMotion& motion, double t) {
 
 /// Bounds the rounding of a gap of two projections, relative to the largest coordinate.
 constexpr double kDotError = 0x1p-46;
-
-/// A blocked pair's axis is looked for up to so many allowances deep.
-constexpr double kAxisDepth = 4;
 
 /// How much more often a motion may be halved than its deviation asks for.
 constexpr int kMostLevels = 12;
@@ -133,8 +155,10 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangl
   AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
   if (found.ccd.status == CcdStatus::Free) return found;
   // The axis that it ended on may be one that only held by chance: the response needs the one of the contact.
-  const Vec3 axis = least_blocking_axis(between(moving, found.ccd.toi), fixed, normals, kAxisDepth * allowed);
-  if (length_squared(axis) > 0) found.axis = axis;
+  LeastBlockingAxis least(moving, fixed, normals, allowed);
+  least.consider_all(moving.t0);
+  if (found.ccd.toi > 0) least.consider_all(between(moving, found.ccd.toi));
+  if (length_squared(least.axis()) > 0) found.axis = least.axis();
   if (found.ccd.toi > 0) return found;
   // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
   const TriangleMotion start{moving.t0, moving.t0};
