@@ -16,6 +16,7 @@ SolidTree solid_of(const Component& component, const Executor& executor) {
   solid.faces = component.mesh->faces;
   solid.closed = component.faults.closed() && !component.faults.inside_out;
   solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
+  if (solid.closed) find_normals(solid);
   return solid;
 }
 

@@ -100,6 +100,38 @@ constexpr int kMostLevels = 12;
 
 }  // namespace
 
+void find_normals(SolidTree& solid) {
+  solid.normals.resize(solid.faces.size());
+  solid.around_begin.assign(solid.vertices.size() + 1, 0);
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    solid.normals[f] = normalized(normal_unscaled(solid.triangle(f)));
+    for (const std::uint32_t v : solid.faces[f].v) ++solid.around_begin[v + 1];
+  }
+  for (std::size_t v = 0; v < solid.vertices.size(); ++v) solid.around_begin[v + 1] += solid.around_begin[v];
+  solid.around.resize(3 * solid.faces.size());
+  std::vector<std::uint32_t> next(solid.around_begin.begin(), solid.around_begin.end() - 1);
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
+    for (const std::uint32_t v : solid.faces[f].v) solid.around[next[v]++] = f;
+}
+
+/// Room for the normals around two faces. Of a corner with many faces, as the tip of a fan, an even choice is taken.
+struct LeafSweep::Around {
+  static constexpr std::uint32_t kMostOfCorner = 8;
+  static constexpr std::size_t kMost = 3 * kMostOfCorner;
+  Vec3 moving[kMost], fixed[kMost];
+
+  static std::size_t gather(const SolidTree& solid, std::uint32_t face, Vec3 (&to)[kMost]) {
+    std::size_t count = 0;
+    for (const std::uint32_t v : solid.faces[face].v) {
+      const std::uint32_t begin = solid.around_begin[v], end = solid.around_begin[v + 1];
+      const std::uint32_t stride = (end - begin + kMostOfCorner - 1) / kMostOfCorner;
+      for (std::uint32_t k = begin; k < end; k += stride)
+        if (solid.around[k] != face) to[count++] = solid.normals[solid.around[k]];
+    }
+    return count;
+  }
+};
+
 LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
                      double deviation, double allowed, double tolerance, SideRule sides, AdvancementLimits limits)
     : moving_(&moving),
@@ -133,15 +165,26 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
                                   double horizon) const {
   Result result;
   result.contact = {face_moving, face_fixed, 1, hint};
-  test_part({moving_->triangle(face_moving), fixed_->triangle(face_fixed), horizon}, 0, 0, result);
+  test_part({face_moving, face_fixed, moving_->triangle(face_moving), fixed_->triangle(face_fixed), horizon}, 0, 0,
+            result);
   const Vec3 axis = result.contact.axis;
   const double size = max_abs(axis);
   result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
   return result;
 }
 
-AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed,
-                                     Vec3 hint) const {
+OutwardNormals LeafSweep::normals_of(const Pair& pair, const Triangle& moving, const Mat3& rotation,
+                                     Around& around) const {
+  const std::size_t count_moving = Around::gather(*moving_, pair.face_moving, around.moving);
+  const std::size_t count_fixed = Around::gather(*fixed_, pair.face_fixed, around.fixed);
+  for (std::size_t k = 0; k < count_moving; ++k) around.moving[k] = rotation * around.moving[k];
+  return {
+      normal_unscaled(moving), normal_unscaled(pair.fixed), {around.moving, count_moving}, {around.fixed, count_fixed}};
+}
+
+AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair,
+                                     double allowed, Vec3 hint) const {
+  const Triangle& fixed = pair.fixed;
   const TriangleMotion still{fixed, fixed};
   if (sides_ == SideRule::Memory) return ccd_triangle_triangle(moving, still, allowed, hint, limits_);
   if (sides_ == SideRule::Free) {
@@ -151,7 +194,8 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangl
     const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
     return unbound.ccd.toi > found.ccd.toi ? unbound : found;
   }
-  const OutwardNormals normals{normal_unscaled(moving.t0), normal_unscaled(fixed)};
+  Around around;
+  const OutwardNormals normals = normals_of(pair, moving.t0, rotation, around);
   AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
   if (found.ccd.status == CcdStatus::Free) return found;
   // The axis that it ended on may be one that only held by chance: the response needs the one of the contact.
@@ -166,7 +210,9 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Triangl
   return ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
 }
 
-bool LeafSweep::still_parts(const Triangle& t0, const Triangle& t1, const Pair& pair, Vec3 axis, double allowed) const {
+bool LeafSweep::still_parts(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, Vec3 axis,
+                            double allowed) const {
+  const Triangle &t0 = moving.t0, &t1 = moving.t1;
   const double size = length(axis);
   if (!(size > 0.5 && size < 2)) return false;
   double least = dot(axis, pair.fixed[0]), most = std::max(dot(axis, t0[0]), dot(axis, t1[0])), reach = 0;
@@ -178,8 +224,11 @@ bool LeafSweep::still_parts(const Triangle& t0, const Triangle& t1, const Pair& 
   // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
   const double gap = least - most - kDotError * reach;
   if (gap >= 0) return true;
-  if (sides_ == SideRule::Normals && !OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed)}.allow(axis))
-    return false;
+  if (sides_ == SideRule::Normals) {
+    const OutwardNormals own{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}};
+    Around around;
+    if (!own.allow(axis) && !normals_of(pair, t0, rotation, around).allow(axis)) return false;
+  }
   return gap >= -allowed * std::min(1.0, size) * (1 - kDotError);
 }
 
@@ -191,13 +240,12 @@ bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result
   if (allowed > 0) {
     const std::size_t stride = std::size_t{1} << (levels_ - level);
     const double length = std::min(1.0, std::ldexp(pair.horizon - begin, level));
-    const Triangle begin_moving = moved(at_[index * stride], pair.moving);
-    const Triangle end_moving = moved(at_[(index + 1) * stride], pair.moving);
-    if (still_parts(begin_moving, end_moving, pair, result.contact.axis, allowed)) return true;
-    TriangleMotion motion{begin_moving, end_moving};
+    const Mat3& rotation = at_[index * stride].rotation;
+    TriangleMotion motion{moved(at_[index * stride], pair.moving), moved(at_[(index + 1) * stride], pair.moving)};
+    if (still_parts(motion, rotation, pair, result.contact.axis, allowed)) return true;
     if (length < 1)
       for (int i = 0; i < 3; ++i) motion.t1[i] = (1 - length) * motion.t0[i] + length * motion.t1[i];
-    const AxisCcdResult found = test_chords(motion, pair.fixed, allowed, result.contact.axis);
+    const AxisCcdResult found = test_chords(motion, rotation, pair, allowed, result.contact.axis);
     if (found.ccd.status == CcdStatus::Free || level == levels_) {
       result.contact.axis = found.axis;
       if (found.ccd.status == CcdStatus::Free) return true;
@@ -230,8 +278,13 @@ Certificate LeafSweep::certificate(std::uint32_t face_moving, std::uint32_t face
     radius = std::max(radius, length(arm));
   }
   // An axis against the normals says something only without the allowance.
-  const OutwardNormals normals{middle * normal_unscaled(moving), normal_unscaled(fixed)};
-  const bool uses_allowance = sides_ != SideRule::Normals || normals.allow(w);
+  bool uses_allowance = sides_ != SideRule::Normals;
+  if (!uses_allowance) {
+    Around around;
+    const Triangle turned{{middle * moving[0], middle * moving[1], middle * moving[2]}};
+    uses_allowance = OutwardNormals{normal_unscaled(turned), normal_unscaled(fixed), {}, {}}.allow(w) ||
+                     normals_of({face_moving, face_fixed, moving, fixed, 1}, turned, middle, around).allow(w);
+  }
   c.offset = -rounded_up(most - least + (uses_allowance ? 0 : allowed_));
   c.radius = rounded_up(radius * (1 + 1e-9));
   return c;

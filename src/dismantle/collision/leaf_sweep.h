@@ -21,12 +21,18 @@ struct SolidTree {
   Span<const Face> faces;
   bool closed = false;
   ObbTree tree;
+  std::vector<Vec3> normals;                ///< Unit, of each face; of closed components only.
+  std::vector<std::uint32_t> around_begin;  ///< Where each vertex's faces begin in `around`, and the end of the last.
+  std::vector<std::uint32_t> around;        ///< The faces at each vertex.
 
   Triangle triangle(std::uint32_t face) const {
     const Face& f = faces[face];
     return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
   }
 };
+
+/// Fills in what SolidTree knows of the outside of a closed component.
+void find_normals(SolidTree& solid);
 
 /// Where two triangles are stopped.
 struct LeafContact {
@@ -63,12 +69,18 @@ class LeafSweep {
  private:
   /// The triangles in their own frames.
   struct Pair {
+    std::uint32_t face_moving, face_fixed;
     Triangle moving, fixed;
     double horizon;
   };
   /// Whether the axis parts the two throughout: the answer for most pairs that were apart along it before.
-  bool still_parts(const Triangle& t0, const Triangle& t1, const Pair& pair, Vec3 axis, double allowed) const;
-  AxisCcdResult test_chords(const TriangleMotion& moving, const Triangle& fixed, double allowed, Vec3 hint) const;
+  /// Fills in the normals around both faces, the moving one's turned by `rotation`.
+  struct Around;
+  OutwardNormals normals_of(const Pair& pair, const Triangle& moving, const Mat3& rotation, Around& around) const;
+  bool still_parts(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, Vec3 axis,
+                   double allowed) const;
+  AxisCcdResult test_chords(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, double allowed,
+                            Vec3 hint) const;
   bool test_part(const Pair& pair, int level, std::size_t index, Result& result) const;
 
   const SolidTree* moving_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/core/span.h"
 #include "dismantle/narrowphase/separating_axis.h"
 
 namespace dismantle {
@@ -27,19 +28,30 @@ struct AxisGuess {
   bool interior = false;
 };
 
-/// The outward normals of two faces of closed solids, of any length. An axis from A to B that uses the allowance has to
-/// leave A through its outside and enter B through its: one that does not calls things apart that are in each other
-/// behind a face's edge, and would be used up later with no way back.
+/// The outward normals of two faces of closed solids, and of the faces around each. An axis from A to B that uses the
+/// allowance has to leave A through its outside and enter B through its: one that does not calls things apart that are
+/// in each other behind a face's edge, and would be used up later with no way back. At a sharp edge the neighbouring
+/// face's outside does as well.
 struct OutwardNormals {
-  Vec3 a, b;
+  Vec3 a, b;                            ///< Of any length.
+  Span<const Vec3> around_a, around_b;  ///< Unit normals of the faces at the corners.
 
   /// Least cosine between a normal and the axis: what turns during a motion, and faces seen edge-on, still count.
   static constexpr double kLeastCosine = -0.05;
+  /// A neighbour has to face the axis by more than that.
+  static constexpr double kLeastCosineAround = 0.3;
 
-  DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const {
-    const double square = length_squared(w) * (kLeastCosine * kLeastCosine);
-    const double out = dot(w, a), in = -dot(w, b);
-    return (out >= 0 || out * out <= square * length_squared(a)) && (in >= 0 || in * in <= square * length_squared(b));
+  DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const { return ahead(w, a, around_a) && ahead(-w, b, around_b); }
+
+ private:
+  DISMANTLE_HOST_DEVICE static bool ahead(Vec3 w, Vec3 normal, Span<const Vec3> around) {
+    const double along = dot(w, normal), square = length_squared(w);
+    if (along >= 0 || along * along <= square * (kLeastCosine * kLeastCosine) * length_squared(normal)) return true;
+    for (const Vec3& n : around) {
+      const double cosine = dot(w, n);
+      if (cosine > 0 && cosine * cosine > square * (kLeastCosineAround * kLeastCosineAround)) return true;
+    }
+    return false;
   }
 };
 
