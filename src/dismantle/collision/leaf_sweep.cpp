@@ -186,7 +186,13 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Mat3& r
                                      double allowed, Vec3 hint) const {
   const Triangle& fixed = pair.fixed;
   const TriangleMotion still{fixed, fixed};
-  if (sides_ == SideRule::Memory) return ccd_triangle_triangle(moving, still, allowed, hint, limits_);
+  if (sides_ == SideRule::Memory) {
+    AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, limits_);
+    // Stopped, the pair stays on the side that it was on: what the search ended on may be another.
+    if (found.ccd.status == CcdStatus::Contact && still_parts({moving.t0, moving.t0}, rotation, pair, hint, allowed))
+      found.axis = hint;
+    return found;
+  }
   if (sides_ == SideRule::Free) {
     const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, limits_);
     if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;

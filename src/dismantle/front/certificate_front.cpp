@@ -14,7 +14,7 @@ namespace {
 /// Parts of more pairs than this are cut in two.
 constexpr std::size_t kLargestPart = 4096;
 /// Every part looks for siblings to merge each so many sweeps.
-constexpr std::size_t kMergePeriod = 16;
+constexpr std::size_t kMergePeriod = 8;
 /// The offset of a certificate of which only the side is left.
 constexpr float kForgotten = -1e29f;
 /// Epochs are kept as float: beyond this they would not be exact.

@@ -134,7 +134,8 @@ class FurthestAxis {
     if (!(dot(w, guard_) < 0)) return false;
     if (!guard_checked_) {
       guard_checked_ = true;
-      if (separates_now(guard_, 0) || !separates_now(guard_, allowed_)) guard_ = {};
+      // Twice the allowance: where the guard has just been used up to the last bit, rounding must not let it go.
+      if (separates_now(guard_, 0) || !separates_now(guard_, 2 * allowed_)) guard_ = {};
     }
     return dot(w, guard_) < 0 && !separates_now(w, -allowed_);
   }

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/certificate_engine.h"
+
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/collision/surface_queries.h"
+#include "dismantle/math/screw.h"
+#include "tests/support/executors.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+using scenes::box;
+using scenes::component;
+using scenes::tube;
+
+constexpr double kTolerance = 0.01;
+
+PairStates states_of(const Assembly& assembly) {
+  ClassifyOptions classify;
+  classify.tolerance = kTolerance;
+  return *classify_pairs(assembly, classify);
+}
+
+/// An engine with one component in hand.
+struct Held {
+  Held(const Assembly& assembly, const PairStates& states, std::uint32_t component,
+       const CertificateOptions& options = {})
+      : engine(assembly, states, options) {
+    const ComponentId id(component);
+    engine.hold({&id, 1});
+  }
+  CertificateEngine engine;
+};
+
+Assembly block_and_floor() {
+  return scenes::assembly(
+      {component("block", box({0, 0, 1}, {10, 10, 11})), component("floor", box({-50, -50, -5}, {50, 50, 0}))});
+}
+
+TEST(CertificateEngine, StopsWhereTheWholeStepIsNotFree) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  const StepResult r = h.engine.step({{0, 0, -3}, {}}, ResponseKind::Stop);
+  EXPECT_EQ(r.pose, Pose{});
+  EXPECT_FALSE(r.contacts.empty());
+}
+
+TEST(CertificateEngine, TouchesWithinTheTolerance) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  const StepResult r = h.engine.step({{0, 0, -3}, {}}, ResponseKind::Touch);
+  EXPECT_NEAR(r.pose.position.z, -1, kTolerance);
+  EXPECT_EQ(r.pose.position.x, 0);
+}
+
+TEST(CertificateEngine, SlidesAlongTheFloorAndSaysWhatItTouches) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  StepResult r;
+  for (int step = 1; step <= 10; ++step) r = h.engine.step({{1.0 * step, 0, -3}, {}}, ResponseKind::Slide);
+  EXPECT_NEAR(r.pose.position.x, 10, 0.05);
+  EXPECT_NEAR(r.pose.position.z, -1, kTolerance);
+  EXPECT_FALSE(r.reached);
+  ASSERT_FALSE(r.touching.empty());
+  for (const ContactPoint& c : r.touching) {
+    EXPECT_EQ(c.moving, ComponentId(0));
+    EXPECT_EQ(c.fixed, ComponentId(1));
+    EXPECT_NEAR(c.normal.z, 1, 1e-6);
+    EXPECT_LE(std::abs(c.gap), kTolerance);
+    EXPECT_NEAR(c.point.z, 0, kTolerance);
+  }
+}
+
+TEST(CertificateEngine, RestsWithoutAnyMotion) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  const Pose target{{3, 1, -4}, quat_about({1, 0, 0}, 0.05)};
+  for (int step = 0; step < 50; ++step) h.engine.step(target, ResponseKind::Slide);
+  const Pose resting = h.engine.poses()[0];
+  for (int step = 0; step < 10; ++step) {
+    const StepResult r = h.engine.step(target, ResponseKind::Slide);
+    EXPECT_EQ(r.pose, resting);
+    EXPECT_TRUE(r.way.empty());
+  }
+}
+
+TEST(CertificateEngine, ComesAwayFromAContact) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  h.engine.step({{0, 0, -3}, {}}, ResponseKind::Slide);
+  const Pose up{{0, 2, 5}, quat_about({0, 1, 0}, 0.3)};
+  EXPECT_TRUE(h.engine.step(up, ResponseKind::Slide).reached);
+  EXPECT_EQ(h.engine.poses()[0], up);
+}
+
+TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
+  std::mt19937_64 seed(11);
+  const Assembly assembly = scenes::random_assembly(seed, 12, 6);
+  const PairStates states = states_of(assembly);
+  std::vector<std::vector<Pose>> ways;
+  const auto play = [&](const CertificateOptions& options) {
+    std::mt19937_64 random(12);
+    std::vector<Pose> way;
+    CertificateEngine engine(assembly, states, options);
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      const ComponentId id(c);
+      engine.hold({&id, 1});
+      for (int step = 0; step < 12; ++step)
+        way.push_back(engine.step(scenes::random_pose(random, 4, 1), ResponseKind::Slide).pose);
+    }
+    return way;
+  };
+  const std::vector<Pose> first = play({});
+  for (const Executor& executor : all_executors()) EXPECT_EQ(play({executor, widest_lanes()}), first);
+  for (const LaneCount lanes : lane_counts()) EXPECT_EQ(play({Executor(), lanes}), first);
+}
+
+TEST(CertificateEngine, AnyFrontGivesTheSameFirstContact) {
+  std::mt19937_64 random(21);
+  const Assembly assembly = scenes::random_assembly(random, 14, 5);
+  const PairStates states = states_of(assembly);
+  Held used(assembly, states, 0);
+  for (int step = 0; step < 60; ++step) {
+    const Pose target = scenes::random_pose(random, 6, 0.5);
+    Held fresh(assembly, states, 0);
+    fresh.engine.jump(used.engine.poses());
+    const ComponentId id(0);
+    fresh.engine.hold({&id, 1});
+    const Pose by_used = used.engine.step(target, ResponseKind::Touch).pose;
+    const Pose by_fresh = fresh.engine.step(target, ResponseKind::Touch).pose;
+    EXPECT_NEAR(length(by_used.position - by_fresh.position), 0, kTolerance) << "step " << step;
+  }
+}
+
+TEST(CertificateEngine, MeasuresTheClearanceExactly) {
+  std::mt19937_64 random(31);
+  const Assembly assembly = scenes::random_assembly(random, 8, 8);
+  const PairStates states = states_of(assembly);
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    Held h(assembly, states, c);
+    const AssemblySurface surface = make_assembly_surface(assembly, Executor());
+    double least = 1e9;
+    for (std::uint32_t k = 0; k < 8; ++k)
+      if (k != c && !(states.find(ComponentId(c), ComponentId(k)) &&
+                      states.find(ComponentId(c), ComponentId(k))->state == PairState::Embedded))
+        least = std::min(least, surface_distance(surface, ComponentId(c), ComponentId(k), 1e9));
+    const Clearance clearance = h.engine.clearance();
+    EXPECT_NEAR(clearance.distance, least, 1e-9);
+    EXPECT_NEAR(length(clearance.point_moving - clearance.point_fixed), clearance.distance, 1e-9);
+  }
+}
+
+TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  const StepResult r = h.engine.step({{1, 2, 3}, quat_about({0, 0, 1}, 0.2)}, ResponseKind::Slide);
+  ASSERT_TRUE(r.reached);
+  EXPECT_GT(r.clearance, 0.5);
+  EXPECT_LE(r.clearance, h.engine.clearance().distance);
+}
+
+TEST(CertificateEngine, FindsTheFirstContactOfEachCandidate) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  const std::vector<Pose> targets = {{{0, 0, 5}, {}}, {{0, 0, -4}, {}}, {{200, 0, 0}, {}}, {{5, 0, -2}, {}}};
+  const std::vector<FirstContact> found = h.engine.first_contacts(targets);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_TRUE(found[0].free);
+  EXPECT_TRUE(found[2].free);
+  EXPECT_NEAR(found[1].toi, 0.25, 0.01);
+  EXPECT_NEAR(found[3].toi, 0.5, 0.01);
+  EXPECT_EQ(found[1].fixed, ComponentId(1));
+  EXPECT_EQ(h.engine.poses()[0], Pose{});
+}
+
+TEST(CertificateEngine, GivesTheContactsWithinReach) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  EXPECT_TRUE(h.engine.contacts(0.9).empty());
+  const std::vector<ContactPoint> near = h.engine.contacts(1.1);
+  ASSERT_FALSE(near.empty());
+  for (const ContactPoint& c : near) EXPECT_LE(c.gap, 1.1);
+  EXPECT_NEAR(near[0].normal.z, 1, 1e-9);
+}
+
+TEST(CertificateEngine, FreesAnEmbeddedPairUntilItIsApartAndNotAfter) {
+  const Assembly assembly = scenes::assembly(
+      {component("rod", box({0, 0, 0}, {4, 4, 20})), component("block", box({-10, -10, -10}, {10, 10, 10}))});
+  ClassifyOptions classify;
+  classify.tolerance = kTolerance;
+  classify.fit = 0.05;
+  const PairStates states = *classify_pairs(assembly, classify);
+  Held h(assembly, states, 0);
+  ASSERT_EQ(h.engine.embedded_pairs().size(), 1u);
+  for (int step = 1; step <= 30; ++step) h.engine.step({{0, 0, 0.5 * step}, {}}, ResponseKind::Slide);
+  EXPECT_TRUE(h.engine.embedded_pairs().empty());
+  EXPECT_NEAR(h.engine.poses()[0].position.z, 15, 1e-12);
+  // The way back is shut now.
+  const StepResult back = h.engine.step({{0, 0, 5}, {}}, ResponseKind::Slide);
+  EXPECT_NEAR(back.pose.position.z, 10, kTolerance);
+}
+
+TEST(CertificateEngine, HoldsOpenSheetsApart) {
+  // Two parallel sheets without any thickness, pressed together in small steps and from either side.
+  const TriangleMesh low{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{{0, 1, 2}}}};
+  const TriangleMesh high{{{-3, -3, 1}, {3, -3, 1}, {0, 3, 1}}, {{{0, 1, 2}}}};
+  const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  for (int step = 0; step < 400; ++step) h.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
+  EXPECT_GE(h.engine.poses()[0].position.z, -1 - kTolerance);
+  const ComponentId other(1);
+  h.engine.hold({&other, 1});
+  for (int step = 0; step < 200; ++step) h.engine.step({{0, 0, 0.005 * step}, {}}, ResponseKind::Slide);
+  EXPECT_LE(h.engine.poses()[1].position.z - h.engine.poses()[0].position.z, 1 + 2 * kTolerance);
+}
+
+TEST(CertificateEngine, DoesNotCareHowTheAssemblyIsTurned) {
+  const Pose turn{{30, -20, 10}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)};
+  Assembly turned = block_and_floor();
+  for (Component& c : turned.components) c.assembly_from_mesh = transform_from_pose(turn) * c.assembly_from_mesh;
+  const Assembly straight = block_and_floor();
+  const PairStates states = states_of(straight), turned_states = states_of(turned);
+  Held a(straight, states, 0), b(turned, turned_states, 0);
+  for (int step = 1; step <= 8; ++step) {
+    const Pose target{{0.5 * step, 0.2, -0.5 * step}, quat_about({0, 0, 1}, 0.01 * step)};
+    const Pose by_a = a.engine.step(target, ResponseKind::Slide).pose;
+    const Pose by_b = b.engine.step(turn * target * inverse(turn), ResponseKind::Slide).pose;
+    const Pose back = inverse(turn) * by_b * turn;
+    EXPECT_NEAR(length(back.position - by_a.position), 0, 0.05) << "step " << step;
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/front/certificate_front.h"
+
+#include "dismantle/narrowphase/penetration_triangle_triangle.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace dismantle {
+namespace {
+
+constexpr double kAllowed = 0.01;
+
+struct Body {
+  TriangleMesh mesh;
+  ObbTree tree;
+};
+
+Body body_of(TriangleMesh mesh) {
+  Body body{std::move(mesh), {}};
+  body.tree = obb_tree_build(body.mesh.vertices, body.mesh.faces, Executor());
+  return body;
+}
+
+using FacePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Sweeps the whole front; the pairs of faces that it cannot certify.
+FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, const Pose& start, const Pose& end,
+                      LaneCount lanes = widest_lanes()) {
+  const auto between = [&](const Pose& pose) {
+    const RigidTransform t = transform_from_pose(pose);
+    return RigidTransform{t.rotation, t * a.tree.origin - b.tree.origin};
+  };
+  PairMotion motion;
+  motion.t0 = between(start);
+  motion.t1 = between(end);
+  motion.middle = motion.t0.rotation;
+  motion.allowed = kAllowed;
+  const PairSweep sweep = front.begin_sweep(motion);
+  FacePairs found;
+  const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f) {
+    found.insert({face_a, face_b});
+    LeafVerdict verdict;
+    verdict.free = false;
+    verdict.certificate.offset = kNoCertificate;
+    return verdict;
+  };
+  for (std::size_t part = 0; part < front.part_count(); ++part)
+    front.sweep_part(part, sweep, front_kernels(lanes), test);
+  front.end_sweep();
+  return found;
+}
+
+/// Pairs of faces that are deeper in each other than allowed at one of a few instants of the linear motion.
+FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& end) {
+  FacePairs found;
+  const RigidTransform t0 = transform_from_pose(start), t1 = transform_from_pose(end);
+  for (std::uint32_t i = 0; i < a.mesh.faces.size(); ++i)
+    for (std::uint32_t j = 0; j < b.mesh.faces.size(); ++j)
+      for (const double s : {0.0, 0.3, 0.7, 1.0}) {
+        Triangle moving = a.mesh.triangle(i);
+        for (int k = 0; k < 3; ++k) moving[k] = (1 - s) * (t0 * moving[k]) + s * (t1 * moving[k]);
+        if (penetration_triangle_triangle(moving, b.mesh.triangle(j)).depth > kAllowed) found.insert({i, j});
+      }
+  return found;
+}
+
+class CertificateFrontSides : public testing::TestWithParam<SideRule> {};
+
+TEST_P(CertificateFrontSides, LeavesEveryPairThatGetsTooDeepToTheLeafTest) {
+  std::mt19937_64 random(20261121);
+  const Body a = body_of(scenes::tube(2, 1, 0, 4, 12, 3)), b = body_of(scenes::box({-3, -1, -2}, {3, 1, 2}));
+  CertificateFront front(a.tree, b.tree, GetParam());
+  Pose pose{{4, 0, 0}, {}};
+  std::size_t deep_pairs = 0;
+  for (int step = 0; step < 120; ++step) {
+    const Pose next = scenes::random_pose(random, 3, 0.3) * Pose{0.4 * pose.position, pose.rotation};
+    const FacePairs left = uncertified(front, a, b, pose, next);
+    for (const auto& pair : too_deep(a, b, pose, next)) {
+      ++deep_pairs;
+      EXPECT_TRUE(left.count(pair)) << "step " << step << " faces " << pair.first << " " << pair.second;
+    }
+    pose = next;
+  }
+  EXPECT_GT(deep_pairs, 500u);
+}
+
+TEST_P(CertificateFrontSides, IsTheSameAtEveryLaneCount) {
+  const Body a = body_of(scenes::tube(2, 1, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
+  std::vector<CertificateFront> fronts;
+  for (std::size_t k = 0; k < lane_counts().size(); ++k) fronts.emplace_back(a.tree, b.tree, GetParam());
+  std::mt19937_64 random(5);
+  Pose pose;
+  for (int step = 0; step < 60; ++step) {
+    const Pose next = scenes::random_pose(random, 0.02, 0.01) * Pose{{0, 0, 0.05 * step}, {}};
+    const FacePairs first = uncertified(fronts[0], a, b, pose, next, lane_counts()[0]);
+    for (std::size_t k = 1; k < fronts.size(); ++k) {
+      EXPECT_EQ(uncertified(fronts[k], a, b, pose, next, lane_counts()[k]), first) << "step " << step;
+      EXPECT_EQ(fronts[k].size(), fronts[0].size());
+    }
+    pose = next;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CertificateFrontSides,
+                         testing::Values(SideRule::Normals, SideRule::Memory, SideRule::Free));
+
+TEST(CertificateFront, StaysAPairOfRootsFarAway) {
+  const Body a = body_of(scenes::tube(2, 1, 0, 4, 24, 6)), b = body_of(scenes::box({50, 0, 0}, {60, 10, 10}));
+  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  EXPECT_TRUE(uncertified(front, a, b, {}, {{1, 2, 3}, quat_about({0, 0, 1}, 1)}).empty());
+  EXPECT_EQ(front.size(), 1u);
+}
+
+TEST(CertificateFront, MergesAgainWhenThingsPart) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
+  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
+  const std::size_t inside = front.size();
+  EXPECT_GT(inside, 100u);
+  for (int step = 0; step < 400; ++step) uncertified(front, a, b, {{0, 0, 20}, {}}, {{0, 0, 20.1}, {}});
+  EXPECT_LT(front.size(), inside / 20);
+}
+
+TEST(CertificateFront, StaysBoundedBackAndForth) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 2.05, -1, 5, 48, 12));
+  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
+  const std::size_t start = front.size();
+  Pose pose;
+  for (int step = 0; step < 10'000; ++step) {
+    const double at = 0.1 * (step % 40 < 20 ? step % 20 : 20 - step % 20);
+    const Pose next{{0, 0, at}, quat_about({0, 0, 1}, 0.01 * at)};
+    uncertified(front, a, b, pose, next);
+    pose = next;
+  }
+  EXPECT_LE(front.size(), 2 * start);
+}
+
+TEST(CertificateFront, LooksWithoutChanging) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
+  const CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  PairMotion motion;
+  motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
+  motion.allowed = kAllowed;
+  std::size_t first = 0, second = 0;
+  for (std::size_t* count : {&first, &second})
+    front.look(front.begin_look(motion), front_kernels(widest_lanes()), [&](std::uint32_t, std::uint32_t, Vec3f) {
+      ++*count;
+      return LeafVerdict{};
+    });
+  EXPECT_EQ(first, second);
+  EXPECT_EQ(front.size(), 1u);
+}
+
+TEST(CertificateFront, RemembersSidesWhenRolesAreExchanged) {
+  // A sheet just past another within the allowance: turned round, the sheet must still be blocked from going on.
+  const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
+  const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
+  CertificateFront front(a.tree, b.tree, SideRule::Memory);
+  EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 1.005}, {}}).empty());
+  front.exchange_roles(Mat3{});
+  // Now B moves: down by 0.02 past A, seen from A's frame, where A is 1.005 higher.
+  EXPECT_FALSE(uncertified(front, b, a, {{0, 0, -1.005}, {}}, {{0, 0, -1.025}, {}}).empty());
+}
+
+}  // namespace
+}  // namespace dismantle
