@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which fits a trembling hand takes apart, at which clearances and tolerances, and in how many steps: the method
 // `certificates` with response `slide`, every path audited.
-//   bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner...]
+//   bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner|gears|thread...]
 // One row a fit, clearance, tolerance and seed, tab-separated. `straight`: the steps of a straight pull of 0.5 mm a
-// step; `out`: those that it took, 0 where it never came out within twice as many; `good`: no more than 1.2 times the
-// straight ones (asked for where tolerance and clearance make up 0.005 mm), and the audit holds.
+// step (gears: 0.2 mm and a roll of 0.002 rad; threads, out of the data folder: 4.5 degrees, half a turn); `out`: those
+// that it took, 0 where it never came out within twice as many; `good`: no more than 1.2 times the straight ones (asked
+// for where tolerance and clearance make up 0.005 mm), and the audit holds.
+#include "dismantle/io/load_assembly.h"
 #include "tests/support/slide_drags.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <functional>
 
 namespace dismantle {
 namespace {
@@ -25,6 +29,8 @@ struct Fit {
   std::string name, detail;
   double clearance = 0, tolerance = 0;  // [mm]
   SlideScene scene;
+  int straight = 0;                   // steps
+  std::function<Pose(int)> steadily;  // where the hand goes but for its trembling
 };
 
 double quantile(std::vector<double> values, double q) {
@@ -37,8 +43,10 @@ double quantile(std::vector<double> values, double q) {
 bool run(const Fit& fit, std::uint64_t seed) {
   Hand::Options options;
   options.seed = seed;
-  const int straight = static_cast<int>(std::ceil(fit.scene.way / options.step));
-  const Drag made = drag(fit.scene, fit.tolerance, pull(Hand(fit.scene, options), 2 * straight));
+  Hand hand(fit.scene, options);
+  std::vector<Pose> targets;
+  for (int k = 1; k <= 2 * fit.straight; ++k) targets.push_back(hand.trembling(fit.steadily(k)));
+  const Drag made = drag(fit.scene, fit.tolerance, targets);
   const int out = steps_until_out(fit.scene, made);
   double deepest = 0, allowed = 0;
   for (const AuditPairDepth& d : made.audit.depths)
@@ -47,21 +55,41 @@ bool run(const Fit& fit, std::uint64_t seed) {
   for (const PlayedStep& s : made.played.steps)
     if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.timings.overall);
   const bool asked = fit.tolerance + fit.clearance >= 0.005 - 1e-12;
-  const bool in_time = out > 0 && out <= static_cast<int>(1.2 * straight);
+  const bool in_time = out > 0 && out <= static_cast<int>(1.2 * fit.straight);
   const bool good = made.audit.holds() && (in_time || !asked);
   std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
               fit.detail.c_str(), 1e3 * fit.clearance, 1e3 * fit.tolerance, static_cast<unsigned long long>(seed),
-              straight, out, way_made(fit.scene, made.played.steps.back().result.pose), deepest, allowed,
+              fit.straight, out, way_made(fit.scene, made.played.steps.back().result.pose), deepest, allowed,
               made.audit.holds() ? "holds" : "BROKEN", quantile(us, 0.5), quantile(us, 0.99), good ? "yes" : "NO");
   std::fflush(stdout);
   if (!made.audit.holds()) std::fprintf(stderr, "  %s\n", complaints(made.audit).c_str());
   return good;
 }
 
+/// A nut on a bolt with real threads out of the data folder, lifted to where it is clear: half a turn of it.
+void add_thread(std::vector<Fit>& fits, const std::string& assembly, double pitch, double lift, double tolerance) {
+  const std::string parts = std::string(DISMANTLE_SOURCE_DIR "/../shared/data/assemblies/") + assembly + "/parts";
+  if (!std::filesystem::exists(parts)) return;
+  Fit fit{"thread", assembly, 0, tolerance, {}, 40, {}};
+  fit.scene.assembly = load_assembly(parts).value();
+  fit.scene.assembly.components[1].assembly_from_mesh.translation.z += lift;
+  fit.scene.moving = ComponentId(1);
+  fit.scene.pull = {0, 0, 1};
+  fit.scene.way = 0.98 * pitch / 2;
+  fit.scene.center = assembled_bounds(fit.scene.assembly[fit.scene.moving]).center();
+  fit.steadily = [pitch](int k) { return Pose{{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)}; };
+  fits.push_back(std::move(fit));
+}
+
 std::vector<Fit> make_fits(const std::string& name, double tolerance) {
   std::vector<Fit> fits;
   const auto add = [&](const std::string& detail, double clearance, SlideScene scene) {
-    fits.push_back({name, detail, clearance, tolerance, std::move(scene)});
+    const double step = Hand::Options{}.step;
+    const Vec3 pull = scene.pull;
+    const int straight = static_cast<int>(std::ceil(scene.way / step));
+    fits.push_back({name, detail, clearance, tolerance, std::move(scene), straight, [step, pull](int k) {
+                      return Pose{k * step * pull, {}};
+                    }});
   };
   for (const double clearance : {0.0, 0.001, 0.01, 0.05}) {
     if (name == "peg")
@@ -73,16 +101,24 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
     }
     if (name == "dovetail") add("along", clearance, dovetail(clearance));
   }
-  if (name == "press") add("0.02 mm too thick", -0.02, press_fit_pin(64, 0.02));
+  // A press fit is allowed its own depth and the tolerance: what is left to move in is the tolerance.
+  if (name == "press") add("0.02 mm too thick", 0, press_fit_pin(64, 0.02));
   if (name == "plate") add("0.0009 mm too thick", 0, plate_in_slot(0.0009));
   if (name == "corner") add("three planes", 0, part_in_corner());
-  // A press fit is allowed its own depth and the tolerance: what is left to move in is the tolerance.
-  for (Fit& fit : fits) fit.clearance = std::max(0.0, fit.clearance);
+  if (name == "gears") {
+    const GearPair pair = gear_pair(0.05);
+    fits.push_back({name, "30 and 20 teeth", 0.05, tolerance, meshing_gears(pair), 25,
+                    [pair](int k) { return pair.rolled(0.002 * k, 0.2 * k); }});
+  }
+  if (name == "thread") {
+    add_thread(fits, "factory_nut_bolt_m8_loose", 1.25, 0.9 * 1.25, tolerance);
+    add_thread(fits, "factory_nut_bolt_m16", 2, 0, tolerance);
+  }
   return fits;
 }
 
 bool parse(int argc, char** argv, Settings& settings) {
-  const std::vector<std::string> all = {"peg", "key", "dovetail", "press", "plate", "corner"};
+  const std::vector<std::string> all = {"peg", "key", "dovetail", "press", "plate", "corner", "gears", "thread"};
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--seeds" && i + 1 < argc) {
@@ -104,7 +140,7 @@ int main(int argc, char** argv) {
   using namespace dismantle;
   Settings settings;
   if (!parse(argc, argv, settings)) {
-    std::fprintf(stderr, "usage: bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner...]\n");
+    std::fprintf(stderr, "usage: bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner|gears|thread...]\n");
     return 2;
   }
   std::printf(
