@@ -77,7 +77,8 @@ CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effo
   result.sizes.triangle_pairs += found.leaf_tests;
   result.sizes.front = found.front;
   if (!found.free) report(found, result);
-  for (const auto& [moving, fixed] : found.near) guard_.consider(moving, fixed, sweeper_.allowed(moving, fixed));
+  for (const auto& [moving, fixed] : found.touching) guard_.consider(moving, fixed, sweeper_.allowed(moving, fixed));
+  touching_ = found.touching;
   return found;
 }
 
@@ -118,7 +119,7 @@ double CertificateResponse::guarded_part(const Pose& end, double part) {
   for (int tries = 0; tries < kGuardTries; ++tries) {
     const RigidTransform next = transform_from_pose(pose_between(start, end, part));
     for (const ComponentId c : sweeper_.held()) to_[c.value] = next;
-    std::vector<CollisionContact> found = guard_.sweep(from_, to_);
+    std::vector<CollisionContact> found = guard_.sweep(from_, to_, touching_);
     if (found.empty()) return part;
     double toi = 1;
     for (const CollisionContact& c : found) toi = std::min(toi, c.toi);

@@ -43,10 +43,11 @@ class CertificateResponse {
   CertificateSweeper& sweeper_;
   VertexDepthGuard guard_;
   EmbeddedWatch embedded_;
-  std::vector<RigidTransform> from_, to_;  ///< For the guard.
-  std::vector<bool> held_;                 ///< For the watch.
-  std::vector<CollisionContact> guarded_;  ///< What the guard found in the last advance.
-  SlideContacts contacts_;                 ///< Of the last step of response Slide.
+  std::vector<RigidTransform> from_, to_;                      ///< For the guard.
+  std::vector<bool> held_;                                     ///< For the watch.
+  std::vector<std::pair<ComponentId, ComponentId>> touching_;  ///< Of the last sweep.
+  std::vector<CollisionContact> guarded_;                      ///< What the guard found in the last advance.
+  SlideContacts contacts_;                                     ///< Of the last step of response Slide.
   double reach_;  ///< Slide tries motions of at most this length [mm]: longer ones only after they were free.
 };
 

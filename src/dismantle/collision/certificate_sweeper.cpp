@@ -186,7 +186,7 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
       task.blocked.push_back(
           {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
     }
-    return LeafVerdict{found.free, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
+    return LeafVerdict{found.free, found.apart, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
   };
 }
 
@@ -226,11 +226,13 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     const PairSweep& sweep = active[task.pair].sweep;
     result.clearance = std::min<double>(result.clearance, task.found.least_gap - sweep.error);
     result.leaf_tests += task.found.leaf_tests;
+    const std::pair both{active[task.pair].moving, active[task.pair].fixed};
+    if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
+      result.touching.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
   }
   for (const ActivePair& pair : active) {
     pair.front->end_sweep();
-    result.near.push_back({pair.moving, pair.fixed});
     result.front += pair.front->size();
   }
   finish(result, window);

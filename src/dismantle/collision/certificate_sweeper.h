@@ -30,7 +30,8 @@ struct CertificateSweep {
   double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
   std::size_t front = 0;             ///< Node pairs of the fronts looked at.
   std::size_t leaf_tests = 0;
-  std::vector<std::pair<ComponentId, ComponentId>> near;  ///< Moving and fixed: whose fronts were looked at.
+  /// Moving and fixed: pairs of components of which not everything was certainly apart all the time.
+  std::vector<std::pair<ComponentId, ComponentId>> touching;
 };
 
 /// How hard a triangle pair is tried before it counts as blocked. Less is never unsafe, and faster: a motion along

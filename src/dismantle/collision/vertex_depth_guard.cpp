@@ -85,13 +85,18 @@ void VertexDepthGuard::watch(ComponentId inner, ComponentId outer, double allowe
   sides_.push_back(std::move(side));
 }
 
+double VertexDepthGuard::furthest_way(const Side& side, const RigidTransform& start, const RigidTransform& end) {
+  const Screw screw = screw_between(pose_from_transform(start), pose_from_transform(end));
+  return screw_path_length(screw, screw_radius(screw, start * side.center, side.radius));
+}
+
 VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const RigidTransform& start,
                                                        const RigidTransform& end) const {
   const AssemblySurface& s = *surface_;
   const Pose pose_start = pose_from_transform(start), pose_end = pose_from_transform(end);
   const Screw screw = screw_between(pose_start, pose_end);
   const std::uint32_t begin = s.streams.vertex_begin[side.inner.value];
-  const double furthest = screw_path_length(screw, screw_radius(screw, start * side.center, side.radius));
+  const double furthest = furthest_way(side, start, end);
   if (side.least - side.spent > furthest) {
     side.spent_end = side.spent + furthest;
     return {};
@@ -136,6 +141,20 @@ CollisionContact VertexDepthGuard::contact_of(const Side& side, const Finding& f
 }
 
 std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to) {
+  return sweep_sides(from, to, [](const Side&) { return true; });
+}
+
+std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                                      Span<const std::pair<ComponentId, ComponentId>> touching) {
+  return sweep_sides(from, to, [&](const Side& side) {
+    return std::any_of(touching.begin(), touching.end(), [&](const std::pair<ComponentId, ComponentId>& pair) {
+      return pair == std::pair{side.inner, side.outer} || pair == std::pair{side.outer, side.inner};
+    });
+  });
+}
+
+std::vector<CollisionContact> VertexDepthGuard::sweep_sides(Span<const RigidTransform> from,
+                                                            Span<const RigidTransform> to, const MayMeet& may_meet) {
   std::vector<CollisionContact> contacts;
   for (Side& side : sides_) {
     const RigidTransform start = inverse(from[side.outer.value]) * from[side.inner.value];
@@ -143,6 +162,10 @@ std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform>
     side.slack_end.clear();
     side.spent_end = side.spent;
     if (start == end) continue;
+    if (!may_meet(side)) {
+      side.spent_end = side.spent + furthest_way(side, start, end);
+      continue;
+    }
     const Finding finding = sweep_side(side, start, end);
     if (finding.leaf != kNoNode) contacts.push_back(contact_of(side, finding));
   }

@@ -4,6 +4,7 @@
 #include "dismantle/collision/collision_engine.h"
 #include "dismantle/collision/surface_queries.h"
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -33,6 +34,9 @@ class VertexDepthGuard {
   /// The vertices that get too deep on the way from state `from` to `to`: one contact a pair of components at most,
   /// with the toi up to which all its vertices are certainly allowed. Relative motions are screws.
   std::vector<CollisionContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
+  /// The same where only the pairs in `touching` can have met on the way: all others are known to be apart.
+  std::vector<CollisionContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                      Span<const std::pair<ComponentId, ComponentId>> touching);
   /// Makes the end of the last sweep the state that the kept slacks are for. @pre that sweep found nothing
   void commit();
   /// Forgets all slacks: the state was changed without a sweep.
@@ -61,6 +65,11 @@ class VertexDepthGuard {
 
   void watch(ComponentId inner, ComponentId outer, double allowed);
   double thinnest(ComponentId component);
+  using MayMeet = std::function<bool(const Side&)>;
+  std::vector<CollisionContact> sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                            const MayMeet& may_meet);
+  /// No vertex of the inner component goes further than that [mm].
+  static double furthest_way(const Side& side, const RigidTransform& start, const RigidTransform& end);
   Finding sweep_side(Side& side, const RigidTransform& start, const RigidTransform& end) const;
   CollisionContact contact_of(const Side& side, const Finding& finding) const;
 

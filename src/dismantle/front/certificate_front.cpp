@@ -143,6 +143,7 @@ void CertificateFront::find_failing(const CertificatePart& part, const PairSweep
   work.failing.resize(part.size());
   const CertificateCheck check = kernels.check_certificates(part.arrays(), part.size(), sweep, work.failing.data());
   result.least_gap = std::min(result.least_gap, check.least_gap);
+  result.touching |= check.least_gap < sweep.apart - sweep.allowed;
   for (std::size_t k = 0; k < check.failing; ++k) {
     const std::size_t i = work.failing[k];
     const Certificate old = part.certificate(i);
@@ -212,6 +213,7 @@ void CertificateFront::resolve(Work& work, const PairSweep& sweep, const FrontKe
       face(separations[k], item.a, item.b, sweep);
       if (separations[k].gap >= sweep.limit) {
         result.least_gap = std::min(result.least_gap, separations[k].gap);
+        result.touching |= separations[k].gap < sweep.apart - sweep.allowed;
         item.certificate = separations[k].certificate;
       } else if (queries[k].a->leaf() && queries[k].b->leaf()) {
         test_leaves(item, test, result);
@@ -229,6 +231,7 @@ void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep&
   item.certificate = verdict.certificate;
   item.certificate.epoch = epoch_;
   if (!verdict.free) ++result.blocked;
+  result.touching |= !verdict.apart;
 }
 
 void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {

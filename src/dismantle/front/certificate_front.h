@@ -13,6 +13,7 @@ namespace dismantle {
 /// What a test of two triangles says of a sweep.
 struct LeafVerdict {
   bool free = true;         ///< They are certainly allowed during all of the sweep.
+  bool apart = false;       ///< They do not even touch during the sweep.
   Certificate certificate;  ///< The axis that the test ended on: the one to begin with next time.
 };
 
@@ -33,6 +34,7 @@ struct FrontSweep {
   float least_gap = 3e38f;     ///< No certified pair came nearer during the sweep [mm].
   std::size_t leaf_tests = 0;  ///< Calls of the LeafTest.
   std::size_t blocked = 0;     ///< Those that were not free.
+  bool touching = false;       ///< Some pair was not certainly apart all the time: it held by the allowance, or not.
 };
 
 /// What keeps things on their sides of each other that may be in each other by the allowance (DESIGN section 5).
