@@ -26,7 +26,7 @@ struct MoveOptions {
   std::string motion_file;
   std::string output;
   std::string method = "certificates";
-  ElementaryTest test = ElementaryTest::Certified;
+  std::optional<ElementaryTest> test;
   std::optional<ResponseKind> response;
   std::string timing_file;
 };
@@ -142,7 +142,7 @@ std::unique_ptr<MotionEngine> make_engine(const MoveOptions& o, const Assembly& 
   if (o.method == "certificates")
     return std::make_unique<CertificateEngine>(assembly, states, CertificateOptions{executor, widest_lanes()});
   CollisionOptions collision;
-  collision.test = o.test;
+  collision.test = o.test.value_or(ElementaryTest::Certified);
   collision.executor = executor;
   return make_streams_motion_engine(assembly, states, collision);
 }
@@ -156,6 +156,12 @@ Result<ExitCode> run(const MoveOptions& o) {
     return Error{ErrorKind::Usage,
                  "method streams does not slide (its responses are stop and touch, as in the paper); give --response "
                  "touch or stop, or --method certificates"};
+
+  if (o.test && o.method != "streams")
+    return Error{
+        ErrorKind::Usage,
+        "--ccd chooses the continuous test of method streams (certificates has one of its own); leave it out, or "
+        "give --method streams"};
 
   const Result<Assembly> assembly = load(o.common);
   if (!assembly) return assembly.error();

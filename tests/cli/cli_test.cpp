@@ -153,7 +153,8 @@ TEST_F(Cli, FailsTheAuditOfATamperedPath) {
 
 TEST_F(Cli, StopsOneStepBeforeTheWall) {
   for (const char* ccd : {"certified", "elementary"}) {
-    const Outcome o = run(std::string("move parts pull.motion.json -o pull.path.json --response stop --ccd ") + ccd);
+    const Outcome o =
+        run(std::string("move parts pull.motion.json -o pull.path.json --method streams --response stop --ccd ") + ccd);
     ASSERT_EQ(o.exit_code, 0) << o.err;
     EXPECT_EQ(Json::parse(read_all(in("pull.path.json")))["moves"][0]["frames"][2]["position"][0], 7.0);
   }
@@ -167,6 +168,10 @@ TEST_F(Cli, WritesTheSameBytesForEveryThreadCount) {
 
 TEST_F(Cli, SaysWhatToDoWhereStreamsShouldSlide) {
   expect_error("move parts pull.motion.json -o pull.path.json --method streams --response slide", 2, "certificates");
+}
+
+TEST_F(Cli, RefusesAContinuousTestThatTheMethodHasNoUseFor) {
+  expect_error("move parts pull.motion.json -o pull.path.json --ccd elementary", 2, "streams");
 }
 
 TEST_F(Cli, SlidesByDefault) {
