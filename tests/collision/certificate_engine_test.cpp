@@ -168,6 +168,20 @@ TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
   EXPECT_LE(r.clearance, h.engine.clearance().distance);
 }
 
+TEST(CertificateEngine, ClaimsNoClearanceThatIsNotThere) {
+  // A peg that shakes in its bore: contacts come and go within the steps.
+  const Assembly assembly =
+      scenes::assembly({component("peg", tube(4.95, 0, 0, 20, 24)), component("block", tube(12, 5, 0, 20, 24))});
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  std::mt19937_64 random(3);
+  for (int step = 0; step < 60; ++step) {
+    const Pose target = scenes::random_pose(random, 0.1, 0.01) * Pose{{0, 0, 0.1 * step}, {}};
+    const StepResult r = h.engine.step(target, ResponseKind::Slide);
+    EXPECT_LE(r.clearance, h.engine.clearance().distance) << "step " << step;
+  }
+}
+
 TEST(CertificateEngine, FindsTheFirstContactOfEachCandidate) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);

@@ -4,6 +4,7 @@
 #include "dismantle/core/contract.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dismantle {
@@ -186,7 +187,8 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
       task.blocked.push_back(
           {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
     }
-    return LeafVerdict{found.free, found.apart, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
+    const float gap = std::nextafter(static_cast<float>(found.gap), -std::numeric_limits<float>::infinity());
+    return LeafVerdict{found.free, gap, pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
   };
 }
 

@@ -161,7 +161,7 @@ PairMotion LeafSweep::motion() const {
   return motion;
 }
 
-bool LeafSweep::apart(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
+double LeafSweep::least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
   double least = std::numeric_limits<double>::infinity(), most = -least, reach = 0;
   for (int i = 0; i < 3; ++i) {
@@ -170,7 +170,8 @@ bool LeafSweep::apart(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 
     most = std::max({most, dot(axis, t0), dot(axis, t1)});
     reach = std::max({reach, max_abs(fixed[i]), max_abs(t0), max_abs(t1)});
   }
-  return least - most > deviation_ + kDotError * reach;
+  // The axis is of unit length to a few u.
+  return least - most - deviation_ - kDotError * reach;
 }
 
 LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint,
@@ -182,7 +183,7 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   const Vec3 axis = result.contact.axis;
   const double size = max_abs(axis);
   result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
-  result.apart = result.free && horizon >= 1 && apart(face_moving, face_fixed, result.contact.axis);
+  result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
   return result;
 }
 

@@ -57,7 +57,7 @@ class LeafSweep {
 
   struct Result {
     bool free = true;
-    bool apart = false;   ///< They do not even touch: by the axis, during the whole motion.
+    double gap = 0;       ///< Lower bound of their distance during the whole motion, by the axis [mm].
     LeafContact contact;  ///< The axis is given also where free.
   };
   /// Guarantee: see ccd_triangle_triangle; for the screw itself.
@@ -75,7 +75,7 @@ class LeafSweep {
     double horizon;
   };
   /// Whether the axis parts the two throughout: the answer for most pairs that were apart along it before.
-  bool apart(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const;
+  double least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const;
   /// Fills in the normals around both faces, the moving one's turned by `rotation`.
   struct Around;
   OutwardNormals normals_of(const Pair& pair, const Triangle& moving, const Mat3& rotation, Around& around) const;

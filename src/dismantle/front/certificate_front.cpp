@@ -231,7 +231,8 @@ void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep&
   item.certificate = verdict.certificate;
   item.certificate.epoch = epoch_;
   if (!verdict.free) ++result.blocked;
-  result.touching |= !verdict.apart;
+  result.least_gap = std::min(result.least_gap, verdict.gap);
+  result.touching |= !(verdict.gap > 0);
 }
 
 void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {

@@ -13,7 +13,7 @@ namespace dismantle {
 /// What a test of two triangles says of a sweep.
 struct LeafVerdict {
   bool free = true;         ///< They are certainly allowed during all of the sweep.
-  bool apart = false;       ///< They do not even touch during the sweep.
+  float gap = -3e38f;       ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
   Certificate certificate;  ///< The axis that the test ended on: the one to begin with next time.
 };
 
