@@ -95,6 +95,9 @@ Triangle between(const TriangleMotion& motion, double t) {
 /// Bounds the rounding of a gap of two projections, relative to the largest coordinate.
 constexpr double kDotError = 0x1p-46;
 
+/// An axis faces a triangle where the cosine to its outward normal is more than this.
+constexpr double kFacing = 0.3;
+
 /// How much more often a motion may be halved than its deviation asks for.
 constexpr int kMostLevels = 12;
 
@@ -184,6 +187,9 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   const double size = max_abs(axis);
   result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
   result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
+  result.facing = sides_ == SideRule::Normals &&
+                  dot(middle_ * moving_->normals[face_moving], result.contact.axis) > kFacing &&
+                  dot(fixed_->normals[face_fixed], result.contact.axis) < -kFacing;
   return result;
 }
 

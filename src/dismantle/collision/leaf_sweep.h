@@ -58,6 +58,7 @@ class LeafSweep {
   struct Result {
     bool free = true;
     double gap = 0;       ///< Lower bound of their distance during the whole motion, by the axis [mm].
+    bool facing = false;  ///< The axis faces the outsides of both triangles of closed solids.
     LeafContact contact;  ///< The axis is given also where free.
   };
   /// Guarantee: see ccd_triangle_triangle; for the screw itself.

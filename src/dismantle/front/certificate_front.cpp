@@ -55,8 +55,9 @@ bool splits_a(const ObbNode& a, const ObbNode& b) {
   return a.size >= b.size;
 }
 
-/// How far behind a plane a normal may point and still count as ahead of it: faces seen edge-on.
-constexpr float kAheadSine = 0.05f;
+/// Whole nodes may use the allowance only along axes that all their normals face by this cosine: things that lie over
+/// each other by their faces. What is seen edge-on is left to pairs of triangles.
+constexpr float kLeastAhead = 0.3f;
 
 /// True where every normal of the cone points ahead along `w` (unit).
 bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
@@ -64,7 +65,7 @@ bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
   const float along = dot(w, axis);
   const float across = std::sqrt(std::max(0.0f, 1 - along * along)),
               sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return along * cosine - across * sine >= -kAheadSine;
+  return along * cosine - across * sine >= kLeastAhead;
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ void CertificateFront::find_failing(const CertificatePart& part, const PairSweep
   work.failing.resize(part.size());
   const CertificateCheck check = kernels.check_certificates(part.arrays(), part.size(), sweep, work.failing.data());
   result.least_gap = std::min(result.least_gap, check.least_gap);
-  result.touching |= check.least_gap < sweep.apart - sweep.allowed;
+  result.touching |= sides_ != SideRule::Normals && check.least_gap < sweep.apart - sweep.allowed;
   for (std::size_t k = 0; k < check.failing; ++k) {
     const std::size_t i = work.failing[k];
     const Certificate old = part.certificate(i);
@@ -213,7 +214,7 @@ void CertificateFront::resolve(Work& work, const PairSweep& sweep, const FrontKe
       face(separations[k], item.a, item.b, sweep);
       if (separations[k].gap >= sweep.limit) {
         result.least_gap = std::min(result.least_gap, separations[k].gap);
-        result.touching |= separations[k].gap < sweep.apart - sweep.allowed;
+        result.touching |= sides_ != SideRule::Normals && separations[k].gap < sweep.apart - sweep.allowed;
         item.certificate = separations[k].certificate;
       } else if (queries[k].a->leaf() && queries[k].b->leaf()) {
         test_leaves(item, test, result);
@@ -232,7 +233,7 @@ void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep&
   item.certificate.epoch = epoch_;
   if (!verdict.free) ++result.blocked;
   result.least_gap = std::min(result.least_gap, verdict.gap);
-  result.touching |= !(verdict.gap > 0);
+  result.touching |= !verdict.facing && !(verdict.gap > 0);
 }
 
 void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {

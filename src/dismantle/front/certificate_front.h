@@ -14,6 +14,7 @@ namespace dismantle {
 struct LeafVerdict {
   bool free = true;         ///< They are certainly allowed during all of the sweep.
   float gap = -3e38f;       ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
+  bool facing = false;      ///< The axis faces the outsides of both: what overlaps does so face on face.
   Certificate certificate;  ///< The axis that the test ended on: the one to begin with next time.
 };
 
@@ -34,7 +35,9 @@ struct FrontSweep {
   float least_gap = 3e38f;     ///< No certified pair came nearer during the sweep [mm].
   std::size_t leaf_tests = 0;  ///< Calls of the LeafTest.
   std::size_t blocked = 0;     ///< Those that were not free.
-  bool touching = false;       ///< Some pair was not certainly apart all the time: it held by the allowance, or not.
+  /// Some pair was not certainly apart all the time, nor lay face on face: only such pairs can hide a deep vertex, as a
+  /// triangle is never deeper across its own plane than it is thin.
+  bool touching = false;
 };
 
 /// What keeps things on their sides of each other that may be in each other by the allowance (DESIGN section 5).
