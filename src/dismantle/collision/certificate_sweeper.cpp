@@ -188,7 +188,7 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
           {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
     }
     const float gap = std::nextafter(static_cast<float>(found.gap), -std::numeric_limits<float>::infinity());
-    return LeafVerdict{found.free, gap, found.facing,
+    return LeafVerdict{found.free, gap, found.harmless,
                        pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
   };
 }

@@ -164,6 +164,17 @@ PairMotion LeafSweep::motion() const {
   return motion;
 }
 
+bool LeafSweep::never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint) const {
+  const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
+  for (std::size_t k = 0; k + 1 < at_.size(); ++k) {
+    const AxisCcdResult found =
+        ccd_triangle_triangle({moved(at_[k], moving), moved(at_[k + 1], moving)}, {fixed, fixed}, 0, hint, limits_);
+    if (found.ccd.status != CcdStatus::Free) return false;
+    hint = found.axis;
+  }
+  return true;
+}
+
 double LeafSweep::least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
   double least = std::numeric_limits<double>::infinity(), most = -least, reach = 0;
@@ -187,9 +198,12 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   const double size = max_abs(axis);
   result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
   result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
-  result.facing = sides_ == SideRule::Normals &&
-                  dot(middle_ * moving_->normals[face_moving], result.contact.axis) > kFacing &&
-                  dot(fixed_->normals[face_fixed], result.contact.axis) < -kFacing;
+  const Vec3 w = result.contact.axis;
+  result.harmless =
+      result.gap > 0 ||
+      (result.free && sides_ == SideRule::Normals && horizon >= 1 &&
+       ((dot(middle_ * moving_->normals[face_moving], w) > kFacing && dot(fixed_->normals[face_fixed], w) < -kFacing) ||
+        never_meet(face_moving, face_fixed, w)));
   return result;
 }
 

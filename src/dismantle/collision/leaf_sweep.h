@@ -57,9 +57,9 @@ class LeafSweep {
 
   struct Result {
     bool free = true;
-    double gap = 0;       ///< Lower bound of their distance during the whole motion, by the axis [mm].
-    bool facing = false;  ///< The axis faces the outsides of both triangles of closed solids.
-    LeafContact contact;  ///< The axis is given also where free.
+    double gap = 0;         ///< Lower bound of their distance during the whole motion, by the axis [mm].
+    bool harmless = false;  ///< They do not meet at all but for the arcs, or face on face: closed solids only.
+    LeafContact contact;    ///< The axis is given also where free.
   };
   /// Guarantee: see ccd_triangle_triangle; for the screw itself.
   /// @param horizon looks no further into the motion than this time: free is free until then
@@ -76,6 +76,7 @@ class LeafSweep {
     double horizon;
   };
   /// Whether the axis parts the two throughout: the answer for most pairs that were apart along it before.
+  bool never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint) const;
   double least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const;
   /// Fills in the normals around both faces, the moving one's turned by `rotation`.
   struct Around;

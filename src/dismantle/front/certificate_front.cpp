@@ -233,7 +233,7 @@ void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep&
   item.certificate.epoch = epoch_;
   if (!verdict.free) ++result.blocked;
   result.least_gap = std::min(result.least_gap, verdict.gap);
-  result.touching |= !verdict.facing && !(verdict.gap > 0);
+  result.touching |= !verdict.harmless;
 }
 
 void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {

@@ -14,7 +14,7 @@ namespace dismantle {
 struct LeafVerdict {
   bool free = true;         ///< They are certainly allowed during all of the sweep.
   float gap = -3e38f;       ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
-  bool facing = false;      ///< The axis faces the outsides of both: what overlaps does so face on face.
+  bool harmless = false;    ///< They do not meet at all, or face on face.
   Certificate certificate;  ///< The axis that the test ended on: the one to begin with next time.
 };
 
