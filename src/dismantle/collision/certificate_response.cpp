@@ -147,16 +147,25 @@ void CertificateResponse::report(const CertificateSweep& sweep, StepResult& resu
 
 void CertificateResponse::go(const Pose& target, bool touch, StepResult& result) {
   const Pose start = sweeper_.pose();
-  const int cuts = cut_count(sweeper_.deviation(target), CertificateSweeper::kMostArcs * sweeper_.tolerance());
-  for (int k = 0; k < cuts; ++k) {
-    const Pose end = pose_between(start, target, (k + 1.0) / cuts);
+  const double travel = sweeper_.travel(target), tolerance = sweeper_.tolerance();
+  const int cuts = cut_count(sweeper_.deviation(target), CertificateSweeper::kMostArcs * tolerance);
+  for (double at = 0; at < 1;) {
+    // Stop is all or nothing; Touch, once stopped, tries little first: what lies behind a contact costs most.
+    const double part = touch ? std::min(1.0 / cuts, reach_ / travel) : 1.0 / cuts;
+    const double next = at + part > 1 - 1e-9 ? 1 : at + part;
+    const Pose end = pose_between(start, target, next);
+    const double piece = sweeper_.travel(end);
     const CertificateSweep found = sweep(end, kContactWindow, Effort::Full, result);
-    double part = 1;
-    if (!found.free) part = touch ? found.toi - kBackoffShare * sweeper_.tolerance() / sweeper_.travel(end) : 0;
     result.clearance = found.clearance;
-    if (advance(end, part, result) >= 1) continue;
-    if (found.free) result.contacts = guarded_;
-    break;
+    double free_part = 1;
+    if (!found.free) free_part = touch ? found.toi - kBackoffShare * tolerance / piece : 0;
+    const bool made = advance(end, free_part, result) >= 1;
+    reach_ = made ? reach_ * kTryGrowth : std::max(kLeastTry * tolerance, 2 * found.toi * piece);
+    if (!made) {
+      if (found.free) result.contacts = guarded_;
+      break;
+    }
+    at = next;
   }
   // All of it is on one screw.
   if (!result.way.empty()) result.way = {sweeper_.pose()};

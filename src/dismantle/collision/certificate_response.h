@@ -48,7 +48,7 @@ class CertificateResponse {
   std::vector<std::pair<ComponentId, ComponentId>> touching_;  ///< Of the last sweep.
   std::vector<CollisionContact> guarded_;                      ///< What the guard found in the last advance.
   SlideContacts contacts_;                                     ///< Of the last step of response Slide.
-  double reach_;  ///< Slide tries motions of at most this length [mm]: longer ones only after they were free.
+  double reach_;  ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.
 };
 
 }  // namespace dismantle
