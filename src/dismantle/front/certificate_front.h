@@ -42,9 +42,8 @@ struct FrontSweep {
 
 /// What keeps things on their sides of each other that may be in each other by the allowance (DESIGN section 5).
 enum class SideRule {
-  /// Closed solids: an axis that uses the allowance has to agree with the outward normals; any that does may be taken,
-  /// so
-  /// the least blocking one.
+  /// Closed solids: an axis that uses the allowance has to agree with the outward normals. Any that does may be taken,
+  /// so the least blocking one is.
   Normals,
   /// Open sheets: an axis that has used part of the allowance may only be left for one within a right angle of it.
   Memory,
