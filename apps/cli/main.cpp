@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_render_command(app, exit_code);
   add_move_command(app, exit_code);
   add_sample_command(app, exit_code);
+  add_view_command(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -90,6 +90,7 @@ class GlbBuilder {
     Json& json = json_["nodes"][node];
     json["name"] = c.name;
     json["extras"]["component"] = c.name;
+    json["extras"]["index"] = index;
     const Vec3 t = kMetresPerMillimetre * placement.translation;
     const Quat q = quat_from_mat3(placement.rotation);
     if (!(t == Vec3{})) json["translation"] = {t.x, t.y, t.z};

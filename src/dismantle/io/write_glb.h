@@ -16,9 +16,10 @@ struct GlbOptions {
 };
 
 /// An assembly as binary glTF 2.0, in metres, axes as they are: the product tree as nodes, one node a component with
-/// its name, its placement and, under `extras.component`, its exact name once more (tools rename nodes). Components
-/// that share a mesh share its bytes. Positions are float32 in the component's own frame: off by at most 2^-24 of their
-/// coordinate (60 nm in a metre). No normals: viewers shade flat. Errors: Failed where it would be longer than 4 GiB.
+/// its name, its placement and, under `extras`, `component`: its exact name once more (tools rename nodes), and
+/// `index`: which component it is. Components that share a mesh share its bytes; triangles keep their order. Positions
+/// are float32 in the component's own frame: off by at most 2^-24 of their coordinate (60 nm in a metre). No normals:
+/// viewers shade flat. Errors: Failed where it would be longer than 4 GiB.
 /// @pre options.poses is empty or has an entry a component
 Result<std::string> glb_from_assembly(const Assembly& assembly, const GlbOptions& options = {});
 

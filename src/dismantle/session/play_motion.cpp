@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/session/play_motion.h"
 
+#include "dismantle/session/session_path.h"
+
 #include <algorithm>
 
 namespace dismantle {
 
 namespace {
-
-Path empty_path(const Assembly& assembly, const PairStates& states) {
-  Path path;
-  path.assembly_file = assembly.source_file;
-  path.assembly_sha256 = assembly.source_sha256;
-  for (const Component& c : assembly.components) path.components.push_back(c.name);
-  path.tolerance = states.tolerance;
-  for (const ComponentPair& p : states.pairs) {
-    if (p.state != PairState::Fit && p.state != PairState::Embedded) continue;
-    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, p.state, p.allowed_penetration});
-  }
-  return path;
-}
 
 Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const MotionMove& move, std::size_t index,
                                           Span<const Pose> poses) {
@@ -43,30 +32,10 @@ Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const Motion
   return ids;
 }
 
-/// Adds the frames of one step: the screws that it was cut into share its time evenly.
+/// Adds the frames of one target: at least one, but for a first target that asks for where the set starts.
 void append_frames(Move& move, double time, const StepResult& step) {
-  const double before = move.frames.back().time;
-  const auto count = static_cast<double>(step.way.size());
-  for (std::size_t i = 0; i + 1 < step.way.size(); ++i)
-    move.frames.push_back({before + (time - before) * (static_cast<double>(i) + 1) / count, step.way[i]});
-  // The first frame already says where the set starts: a first target that asks for just that adds none.
-  if (move.frames.size() > 1 || time > 0 || !step.way.empty()) move.frames.push_back({time, step.pose});
-}
-
-Aabb bounds_at(const Component& component, const Pose& pose) {
-  const RigidTransform now = transform_from_pose(pose) * component.assembly_from_mesh;
-  Aabb box;
-  for (const Vec3& p : component.mesh->vertices) box.extend(now * p);
-  return box;
-}
-
-std::vector<std::string> removed_components(const Assembly& assembly, Span<const Pose> poses) {
-  const Aabb all = assembled_bounds(assembly);
-  std::vector<std::string> names;
-  for (std::size_t c = 0; c < poses.size(); ++c)
-    if (!(poses[c] == Pose{}) && !overlaps(all, bounds_at(assembly.components[c], poses[c])))
-      names.push_back(assembly.components[c].name);
-  return names;
+  append_way(move.frames, time, step);
+  if (step.way.empty() && (move.frames.size() > 1 || time > 0)) move.frames.push_back({time, step.pose});
 }
 
 }  // namespace

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "apps/server/server.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+namespace dismantle::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ViewOptions {
+  CommonOptions common;
+  std::string sample;
+  std::vector<std::string> roots;
+  std::string web_folder;
+  int port = 0;
+  bool no_browser = false;
+};
+
+/// SIGINT and SIGTERM for this thread alone: it waits for them while others serve.
+sigset_t block_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  return set;
+}
+
+/// Starts the user's browser where there is a screen. The URL holds the token: it is the browser's argument, as with
+/// every program that does this, and of no use from other machines.
+void open_browser(const std::string& url) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string program = "xdg-open", argument = url;
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments, environ) != 0) return;
+  waitpid(child, nullptr, 0);
+}
+
+Result<server::ServerOptions> server_options(const ViewOptions& o) {
+  const Result<Executor> executor = make_executor(o.common);
+  if (!executor) return executor.error();
+  server::ServerOptions options;
+  options.port = static_cast<std::uint16_t>(o.port);
+  options.roots.assign(o.roots.begin(), o.roots.end());
+  if (options.roots.empty() && !o.common.assembly_file.empty())
+    options.roots.push_back(fs::absolute(o.common.assembly_file).parent_path());
+  if (!o.web_folder.empty()) options.web_folder = o.web_folder;
+  options.model.import = o.common.import;
+  options.model.classify.tolerance = o.common.tolerance;
+  options.model.classify.fit = o.common.fit;
+  options.model.classify.rule = o.common.pairs;
+  options.model.classify.executor = *executor;
+  options.model.simplify = o.common.simplify;
+  options.model.executor = *executor;
+  return options;
+}
+
+Result<Done> run(const ViewOptions& o) {
+  if (!o.sample.empty() && !o.common.assembly_file.empty())
+    return Error{ErrorKind::Usage, "two assemblies are named (a file and --sample); give one of them"};
+  if (!o.common.assembly_file.empty() && !fs::exists(o.common.assembly_file))
+    return Error{ErrorKind::Unreadable, o.common.assembly_file + " cannot be read (no such file); check the path"};
+  const Result<server::ServerOptions> options = server_options(o);
+  if (!options) return options.error();
+
+  const sigset_t signals = block_signals();
+  Result<std::unique_ptr<server::Server>> started = server::Server::start(*options);
+  if (!started) return started.error();
+  server::Server& server = **started;
+  Result<Done> opened = Done{};
+  if (!o.common.assembly_file.empty()) opened = server.open_file(o.common.assembly_file);
+  if (!o.sample.empty()) opened = server.open_sample(o.sample);
+  if (!opened) return opened;
+
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  if (!o.common.quiet) std::fprintf(stderr, "The viewer is there; Ctrl+C ends it.\n");
+  if (!o.no_browser) open_browser(server.url());
+  int signal = 0;
+  sigwait(&signals, &signal);
+  return Done{};
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand("view", "Take an assembly apart by hand, in a browser");
+  auto options = std::make_shared<ViewOptions>();
+  command->add_option("ASSEMBLY", options->common.assembly_file,
+                      "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes (default: choose in the page)");
+  command->add_option("--sample", options->sample, "Open a bundled sample")->type_name("NAME");
+  command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
+      ->type_name("DIR");
+  command->add_option("--port", options->port, "Port on 127.0.0.1 and ::1 (default: one that is free)")
+      ->check(CLI::Range(1, 65535));
+  command->add_flag("--no-browser", options->no_browser, "Only print the URL");
+  command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    if (const Result<Done> done = run(*options); !done) exit_code = report(done.error());
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace dismantle::server {
+
+/// 128 random bits from the kernel as 32 hexadecimal digits.
+std::string random_token();
+
+/// Whether the two are equal, in a time that depends on their lengths only.
+bool equal_in_constant_time(std::string_view a, std::string_view b);
+
+/// Who may talk to the server (UI.md, "Server"): a web page of another origin cannot send our Host, our Origin and the
+/// token of this run.
+class AccessRules {
+ public:
+  AccessRules(std::uint16_t port, std::string token);
+
+  std::uint16_t port() const { return port_; }
+  const std::string& token() const { return token_; }
+  /// That a request's Host is one of our own literals (else 421).
+  bool is_own_host(std::string_view host) const;
+  /// That an Origin is one of our own literals (else 403); never compared with Host.
+  bool is_own_origin(std::string_view origin) const;
+  /// That a header `Authorization: Bearer TOKEN` has our token (else 401).
+  bool is_authorized(std::string_view authorization) const;
+  /// That a list of WebSocket subprotocols has `dismantle.1` and `token.TOKEN` (else 401).
+  bool offers_token(std::string_view subprotocols) const;
+  /// The value of the header Content-Security-Policy.
+  const std::string& content_security_policy() const { return policy_; }
+
+ private:
+  std::uint16_t port_;
+  std::array<std::string, 3> hosts_;
+  std::string token_;
+  std::string policy_;
+};
+
+/// The subprotocol that docs/wire.md describes.
+inline constexpr std::string_view kProtocol = "dismantle.1";
+
+}  // namespace dismantle::server

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/engine_loop.h"
+
+namespace dismantle::server {
+
+namespace {
+
+constexpr std::chrono::microseconds kStepInterval{1000};
+constexpr std::size_t kMostTasks = 1000;
+
+}  // namespace
+
+EngineLoop::EngineLoop(EngineListener& listener) : listener_(listener), thread_([this] { run(); }) {}
+
+EngineLoop::~EngineLoop() {
+  stop();
+}
+
+bool EngineLoop::post(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (tasks_.size() >= kMostTasks) return false;
+    tasks_.push_back(std::move(task));
+  }
+  wake_.notify_one();
+  return true;
+}
+
+void EngineLoop::post_always(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  wake_.notify_one();
+}
+
+void EngineLoop::set_wanted(const std::variant<TargetMessage, RateMessage>& wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = Wanted{wanted, Clock::now()};
+  }
+  wake_.notify_one();
+}
+
+void EngineLoop::adopt(Model model) {
+  // std::function wants what it holds to be copyable.
+  post_always([this, shared = std::make_shared<Model>(std::move(model))](Workbench& bench) {
+    bench.adopt(std::move(*shared));
+    listener_.on_event({true, false, text_of(model_json(*bench.model()))});
+  });
+}
+
+void EngineLoop::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+bool EngineLoop::take_work(std::deque<Task>& tasks, std::optional<Wanted>& wanted) {
+  std::unique_lock lock(mutex_);
+  const auto has_work = [this] { return stopping_ || !tasks_.empty() || wanted_; };
+  if (!bench_.wants_step()) {
+    wake_.wait(lock, has_work);
+  } else {
+    wake_.wait_until(lock, next_step_, [this] { return stopping_ || !tasks_.empty(); });
+  }
+  tasks.swap(tasks_);
+  wanted = std::exchange(wanted_, {});
+  return !stopping_ || !tasks.empty();
+}
+
+void EngineLoop::publish_state() {
+  if (std::optional<std::string> state = bench_.take_state())
+    listener_.on_event({false, bench_.is_dragging(), std::move(*state)});
+}
+
+void EngineLoop::make_step(Clock::time_point now) {
+  next_step_ = now + kStepInterval;
+  std::optional<PoseMessage> pose = bench_.step(now);
+  if (!pose) return;
+  const Clock::time_point end = Clock::now();
+  if (unanswered_)
+    bench_.statistics().add_answer(std::chrono::duration<double, std::micro>(end - *unanswered_).count());
+  unanswered_.reset();
+  pose->steps_per_second = static_cast<float>(bench_.statistics().steps_per_second(end));
+  listener_.on_pose(encode(*pose));
+}
+
+void EngineLoop::run() {
+  std::deque<Task> tasks;
+  std::optional<Wanted> wanted;
+  while (take_work(tasks, wanted)) {
+    if (wanted) {
+      std::visit([this](const auto& message) { bench_.set_wanted(message); }, wanted->message);
+      unanswered_ = wanted->arrived;
+    }
+    // What came before a command is done before it: the last target counts when the hand lets go.
+    if (!tasks.empty() && unanswered_) make_step(Clock::now());
+    for (const Task& task : tasks) task(bench_);
+    tasks.clear();
+    publish_state();
+    if (const Clock::time_point now = Clock::now(); now >= next_step_) make_step(now);
+    if (!bench_.wants_step()) unanswered_.reset();
+  }
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/file_commands.h"
+
+#include "dismantle/io/atomic_file.h"
+#include "samples/bundled/bundled_sample.h"
+
+#include <stdlib.h>
+
+#include <array>
+
+namespace dismantle::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kCommands = {"samples", "files", "open", "cancel"};
+
+std::string_view name_of(RootEntry::Kind kind) {
+  switch (kind) {
+    case RootEntry::Kind::Folder:
+      return "folder";
+    case RootEntry::Kind::Assembly:
+      return "assembly";
+    case RootEntry::Kind::Path:
+      return "path";
+  }
+  return "";
+}
+
+/// A text member; empty where there is none.
+std::string text_member(const Json& command, const char* name) {
+  const auto found = command.find(name);
+  return found != command.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// A whole number; more than any list has where there is none.
+std::uint64_t index_member(const Json& command, const char* name) {
+  const auto found = command.find(name);
+  return found != command.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
+}
+
+void remove_with_folder(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);
+  fs::remove(file.parent_path(), ignored);
+}
+
+Result<Json> job_json(const Result<std::uint32_t>& job) {
+  if (!job) return job.error();
+  return Json{{"job", *job}};
+}
+
+}  // namespace
+
+Result<fs::path> new_temporary_folder() {
+  std::error_code error;
+  std::string name = (fs::temp_directory_path(error) / "dismantle-XXXXXX").string();
+  if (error || mkdtemp(name.data()) == nullptr)
+    return Error{ErrorKind::Failed, "no temporary folder can be made (in " + name + "); free some space"};
+  return fs::path(name);
+}
+
+bool FileCommands::knows(std::string_view command) const {
+  return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
+}
+
+bool FileCommands::is_question(std::string_view command) const {
+  return knows(command) && command != "open";
+}
+
+Result<Json> FileCommands::execute(const Json& command) {
+  const std::string name = text_member(command, "command");
+  if (name == "samples") return samples();
+  if (name == "files") return files(command);
+  if (name == "open") return open(command);
+  return cancel(command);
+}
+
+Result<Json> FileCommands::samples() const {
+  Json list = Json::array();
+  for (const BundledSample& s : bundled_samples()) list.push_back({{"name", s.name}, {"description", s.description}});
+  return Json{{"samples", std::move(list)}};
+}
+
+Result<Json> FileCommands::files(const Json& command) const {
+  const auto entries = roots_.list(index_member(command, "root"), text_member(command, "folder"));
+  if (!entries) return entries.error();
+  Json list = Json::array();
+  for (const RootEntry& e : *entries) list.push_back({{"name", e.name}, {"kind", name_of(e.kind)}, {"bytes", e.bytes}});
+  return Json{{"entries", std::move(list)}};
+}
+
+Result<Json> FileCommands::open(const Json& command) {
+  if (command.contains("sample")) return job_json(open_sample(text_member(command, "sample")));
+  const Result<fs::path> file = roots_.find(index_member(command, "root"), text_member(command, "file"));
+  if (!file) return file.error();
+  return job_json(open_file(*file));
+}
+
+Result<Json> FileCommands::cancel(const Json& command) {
+  const Result<Done> done = jobs_.cancel(static_cast<std::uint32_t>(index_member(command, "job")));
+  if (!done) return done.error();
+  return Json::object();
+}
+
+Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
+  return jobs_.start(file.filename().string(),
+                     [this, file](const ProgressCallback& progress) { return load_model(file, options_, progress); });
+}
+
+Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {
+  Result<std::uint32_t> job = jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
+    Result<Model> model = load_model(file, options_, progress);
+    remove_with_folder(file);
+    return model;
+  });
+  if (!job) remove_with_folder(file);
+  return job;
+}
+
+Result<std::uint32_t> FileCommands::open_sample(const std::string& name) {
+  const Result<std::string> step = bundled_sample_step(name);
+  if (!step) return step.error();
+  const Result<fs::path> folder = new_temporary_folder();
+  if (!folder) return folder.error();
+  const fs::path file = *folder / (name + ".step");
+  if (const Result<Done> written = write_file(file, *step); !written) return written.error();
+  return open_upload(file);
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "apps/server/site.h"
+
+#include <boost/asio/ip/tcp.hpp>
+
+namespace dismantle::server {
+
+/// Serves the requests of a connection until it ends or becomes a socket. `site` must outlive the io_context's run.
+/// Requests that break a rule of docs/wire.md are answered before anything of their body is read.
+void serve_connection(boost::asio::ip::tcp::socket socket, Site& site);
+
+}  // namespace dismantle::server

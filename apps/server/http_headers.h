@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "apps/server/access_rules.h"
+
+#include <utility>
+
+#include <boost/beast/http/fields.hpp>
+
+namespace dismantle::server {
+
+/// The headers that every answer has, the socket's handshake too (UI.md, "Server").
+inline void add_safety_headers(boost::beast::http::fields& headers, const AccessRules& rules) {
+  headers.set("Content-Security-Policy", rules.content_security_policy());
+  headers.set("X-Content-Type-Options", "nosniff");
+  headers.set("Cross-Origin-Opener-Policy", "same-origin");
+  headers.set("Cross-Origin-Embedder-Policy", "require-corp");
+  headers.set("Cross-Origin-Resource-Policy", "same-origin");
+  headers.set("Referrer-Policy", "no-referrer");
+}
+
+}  // namespace dismantle::server

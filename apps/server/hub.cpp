@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/hub.h"
+
+#include <algorithm>
+
+namespace dismantle::server {
+
+namespace {
+
+constexpr std::size_t kAnswersKept = 256;
+constexpr int kMostFaults = 100;
+constexpr std::chrono::seconds kControlKept{10};
+/// Clients that were gone for longer are forgotten.
+constexpr std::chrono::minutes kClientKept{10};
+
+SharedText shared(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+/// That a socket was closed before the command of this id was sent again; its answer is not known any more.
+Error forgotten() {
+  return {ErrorKind::Failed,
+          "the answer to this command is not known any more (it was given long ago); look at the "
+          "state"};
+}
+
+}  // namespace
+
+Hub::Hub(EngineLoop& engine, ServerCommands& commands, Post post)
+    : engine_(engine), commands_(commands), post_(std::move(post)) {}
+
+void Hub::set_greeting(const Json& hello) {
+  hello_ = shared(text_of(hello));
+}
+
+std::size_t Hub::client_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(clients_.begin(), clients_.end(), [](const auto& c) { return c.second.socket != nullptr; }));
+}
+
+void Hub::connect(const std::string& key, ClientSocket& socket) {
+  const auto [place, is_new] = clients_.try_emplace(key);
+  Client& client = place->second;
+  if (is_new) client.arrival = ++arrivals_;
+  if (client.socket != nullptr) client.socket->close(CloseReason::Replaced);
+  client.socket = &socket;
+  client.faults = 0;
+  if (controller_.empty()) controller_ = key;
+
+  socket.send_text(hello_);
+  send_control();
+  if (model_) socket.send_text(model_);
+  if (state_) socket.send_text(state_);
+  for (const auto& [job, text] : jobs_) socket.send_text(text);
+}
+
+void Hub::disconnect(const std::string& key, ClientSocket& socket) {
+  const auto found = clients_.find(key);
+  if (found == clients_.end() || found->second.socket != &socket) return;
+  found->second.socket = nullptr;
+  found->second.lost_at = Clock::now();
+  send_control();
+}
+
+void Hub::tick(Clock::time_point now) {
+  const auto controller = clients_.find(controller_);
+  if (controller != clients_.end() && controller->second.socket == nullptr &&
+      now - controller->second.lost_at > kControlKept)
+    give_control({});
+  std::erase_if(clients_, [&](const auto& entry) {
+    return entry.second.socket == nullptr && entry.first != controller_ && now - entry.second.lost_at > kClientKept;
+  });
+}
+
+void Hub::give_control(const std::string& key) {
+  engine_.post_always([](Workbench& bench) { bench.let_go(); });
+  controller_ = key;
+  if (key.empty()) {  // to whoever has been here longest
+    const Client* oldest = nullptr;
+    for (const auto& [name, client] : clients_) {
+      if (client.socket == nullptr || (oldest != nullptr && oldest->arrival < client.arrival)) continue;
+      oldest = &client;
+      controller_ = name;
+    }
+  }
+  send_control();
+}
+
+void Hub::send_control() {
+  for (const auto& [key, client] : clients_) {
+    if (client.socket == nullptr) continue;
+    const Json json{{"event", "control"}, {"control", key == controller_}, {"clients", client_count()}};
+    client.socket->send_text(shared(text_of(json)));
+  }
+}
+
+Result<Json> Hub::take_control(const std::string& key) {
+  const auto controller = clients_.find(controller_);
+  const bool is_there = controller != clients_.end() && controller->second.socket != nullptr;
+  if (key != controller_ && is_there && dragging_)
+    return Error{ErrorKind::Usage,
+                 "control cannot be taken (another page has a component in hand); wait until it lets go"};
+  if (key != controller_) give_control(key);
+  return Json::object();
+}
+
+void Hub::fault(Client& client, const std::string& why) {
+  if (client.socket == nullptr) return;
+  client.socket->send_text(shared(text_of(Json{{"event", "error"}, {"error", why}})));
+  if (++client.faults >= kMostFaults) client.socket->close(CloseReason::Malformed);
+}
+
+void Hub::take_binary(const std::string& key, std::string_view bytes) {
+  counters_.bytes_in += bytes.size();
+  const auto found = clients_.find(key);
+  if (found == clients_.end()) return;
+  const auto message = decode_from_client(bytes);
+  if (!message) {
+    fault(
+        found->second,
+        "a binary message was not understood (it is no struct of docs/wire.md, or has wrong numbers); mend the client");
+  } else if (key == controller_) {
+    engine_.set_wanted(*message);
+  }
+}
+
+void Hub::take_text(const std::string& key, std::string_view text) {
+  counters_.bytes_in += text.size();
+  const auto found = clients_.find(key);
+  if (found == clients_.end()) return;
+  const Json command = Json::parse(text, nullptr, false);
+  if (!command.is_object() || !command.contains("id") || !command["id"].is_number_unsigned() ||
+      !command.contains("command") || !command["command"].is_string())
+    return fault(found->second,
+                 "a text message was not understood (it is no JSON object with an id and a command); mend the client");
+  take_command(key, found->second, command);
+}
+
+void Hub::take_command(const std::string& key, Client& client, const Json& command) {
+  const auto id = command["id"].get<std::uint64_t>();
+  if (id > client.last_id) {
+    client.last_id = id;
+    return run_command(key, id, command);
+  }
+  // Sent again after a reconnect: an answer that is still to come goes to the new socket by itself.
+  const auto known = client.answers.find(id);
+  if (known == client.answers.end()) return answer(key, id, forgotten());
+  if (known->second) client.socket->send_text(known->second);
+}
+
+void Hub::run_command(const std::string& key, std::uint64_t id, const Json& command) {
+  Client& client = clients_.at(key);
+  client.answers[id] = nullptr;
+  while (client.answers.size() > kAnswersKept) client.answers.erase(client.answers.begin());
+
+  const auto name = command["command"].get<std::string>();
+  if (name == "take_control") return answer(key, id, take_control(key));
+  const bool is_question = commands_.knows(name) ? commands_.is_question(name) : Workbench::is_question(name);
+  if (key != controller_ && !is_question)
+    return answer(
+        key, id,
+        Error{ErrorKind::Usage, "'" + name + "' cannot be done (another page is in control); take control first"});
+  if (commands_.knows(name)) return answer(key, id, commands_.execute(command));
+  ask_engine(key, id, command);
+}
+
+void Hub::ask_engine(const std::string& key, std::uint64_t id, const Json& command) {
+  const bool is_metrics = command["command"] == "metrics";
+  const bool posted = engine_.post([this, key, id, command, is_metrics](Workbench& bench) {
+    Result<Json> result = bench.execute(command);
+    engine_.publish_state();  // so that who reads the answer has read the state
+    post_([this, key, id, is_metrics, result = std::move(result)] {
+      is_metrics&& result ? answer_metrics(key, id, *result) : answer(key, id, result);
+    });
+  });
+  if (!posted) answer(key, id, Error{ErrorKind::Failed, "the command was not done (too many wait already); try again"});
+}
+
+void Hub::answer_metrics(const std::string& key, std::uint64_t id, Json json) {
+  json["uptime"] = std::chrono::duration<double>(Clock::now() - started_).count();
+  json["clients"] = client_count();
+  json["pose_frames"] = counters_.pose_frames;
+  json["dropped_frames"] = counters_.dropped_frames;
+  json["bytes_in"] = counters_.bytes_in;
+  json["bytes_out"] = counters_.bytes_out;
+  json["refused"] = counters_.refused;
+  answer(key, id, json);
+}
+
+void Hub::answer(const std::string& key, std::uint64_t id, const Result<Json>& result) {
+  const auto found = clients_.find(key);
+  if (found == clients_.end()) return;
+  Json json{{"reply", id}, {"ok", result.ok()}};
+  if (result) {
+    json.update(*result);
+  } else {
+    json["error"] = result.error().message;
+  }
+  SharedText text = shared(text_of(json));
+  if (const auto kept = found->second.answers.find(id); kept != found->second.answers.end()) kept->second = text;
+  if (found->second.socket != nullptr) found->second.socket->send_text(std::move(text));
+}
+
+void Hub::broadcast(const SharedText& event) {
+  for (const auto& [key, client] : clients_)
+    if (client.socket != nullptr) client.socket->send_text(event);
+}
+
+void Hub::broadcast_event(EngineEvent event) {
+  const SharedText text = shared(std::move(event.text));
+  if (event.is_model) {
+    model_ = text;
+    state_ = nullptr;  // that of the model before
+  } else {
+    state_ = text;
+    dragging_ = event.is_dragging;
+  }
+  broadcast(text);
+}
+
+void Hub::broadcast_job(std::uint32_t job, std::string text, bool running) {
+  const SharedText event = shared(std::move(text));
+  jobs_.erase(job);
+  if (running) jobs_[job] = event;
+  broadcast(event);
+}
+
+void Hub::broadcast_pose(std::string bytes) {
+  ++counters_.pose_frames;
+  const SharedText pose = shared(std::move(bytes));
+  for (const auto& [key, client] : clients_)
+    if (client.socket != nullptr) client.socket->send_pose(pose);
+}
+
+void Hub::close_all(CloseReason reason) {
+  for (const auto& [key, client] : clients_)
+    if (client.socket != nullptr) client.socket->close(reason);
+}
+
+}  // namespace dismantle::server

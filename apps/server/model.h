@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/session/session.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace dismantle::server {
+
+/// An assembly that is open in the viewer, with everything that loading it made.
+struct Model {
+  std::uint32_t number = 0;  ///< Counts up within a run of the server.
+  std::shared_ptr<const Assembly> assembly;
+  std::shared_ptr<const std::string> glb;  ///< The assembly in assembled position.
+  std::unique_ptr<Session> session;        ///< Of the assembly; never null once loaded.
+};
+
+}  // namespace dismantle::server

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/model_loader.h"
+
+#include "dismantle/io/load_isolated.h"
+#include "dismantle/io/write_glb.h"
+#include "dismantle/simplify/simplify_assembly.h"
+
+namespace dismantle::server {
+
+namespace {
+
+Result<Assembly> simplified(Assembly assembly, const ModelOptions& options, const ProgressCallback& progress) {
+  if (options.simplify == 0) return assembly;
+  SimplifyOptions simplify;
+  simplify.executor = options.executor;
+  simplify.progress = progress;
+  Result<SimplifiedAssembly> result = simplify_assembly(assembly, options.simplify, simplify);
+  if (!result) return result.error();
+  return std::move(result->assembly);
+}
+
+}  // namespace
+
+Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& options,
+                         const ProgressCallback& progress) {
+  ImportOptions import = options.import;
+  import.progress = progress;
+  Result<Assembly> read = load_isolated(file, import);
+  if (!read) return read.error();
+  Result<Assembly> ready = simplified(std::move(*read), options, progress);
+  if (!ready) return ready.error();
+  Model model;
+  const auto assembly = std::make_shared<const Assembly>(std::move(*ready));
+  model.assembly = assembly;
+
+  ClassifyOptions classify = options.classify;
+  classify.progress = progress;
+  Result<PairStates> pairs = classify_pairs(*assembly, classify);
+  if (!pairs) return pairs.error();
+  if (!report_progress(progress, "preparing", -1)) return Error{ErrorKind::Failed, "cancelled"};
+  Result<std::string> glb = glb_from_assembly(*assembly);
+  if (!glb) return glb.error();
+  model.glb = std::make_shared<const std::string>(std::move(*glb));
+  CertificateOptions engine;
+  engine.executor = options.executor;
+  model.session = std::make_unique<Session>(*assembly, std::move(*pairs), engine);
+  return model;
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/server.h"
+
+#include <utility>
+
+#include "apps/server/engine_loop.h"
+#include "apps/server/file_commands.h"
+#include "apps/server/http_connection.h"
+#include "apps/server/static_files.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace dismantle::server {
+
+namespace asio = boost::asio;
+namespace fs = std::filesystem;
+using Tcp = asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+namespace {
+
+constexpr std::chrono::seconds kTick{1};
+constexpr int kPortTries = 20;
+constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30;
+/// How long the sockets' goodbyes may take when the server stops.
+constexpr std::chrono::milliseconds kGoodbyeTime{500};
+
+Json job_event(const JobNews& news) {
+  static constexpr const char* kStatus[] = {"running", "done", "failed", "cancelled"};
+  Json json{{"event", "job"},      {"job", news.job},           {"name", news.name},
+            {"stage", news.stage}, {"fraction", news.fraction}, {"status", kStatus[static_cast<int>(news.status)]}};
+  if (!news.error.empty()) json["error"] = news.error;
+  return json;
+}
+
+Error cannot_listen(std::uint16_t port, const std::string& why) {
+  return {ErrorKind::Failed,
+          "the viewer cannot listen on port " + std::to_string(port) + " (" + why + "); give another with --port"};
+}
+
+}  // namespace
+
+/// Everything on the network's thread but where it says otherwise.
+class Server::Body final : public Site, private EngineListener {
+ public:
+  Body(ServerOptions options, Roots roots)
+      : pages_(options.web_folder),
+        engine_(*this),
+        files_(std::move(roots), std::move(options.model), job_listener()),
+        hub_(engine_, files_, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
+        v4_(io_),
+        v6_(io_),
+        tick_(io_) {}
+
+  ~Body() override {
+    asio::post(io_, [this] { begin_stop(); });
+    if (thread_.joinable()) thread_.join();
+    engine_.stop();
+  }
+
+  Result<Done> listen(std::uint16_t port) {
+    std::string why = "no free port was found";
+    for (int tries = 0; tries < kPortTries; ++tries) {
+      ErrorCode error = open(v4_, Tcp::endpoint(asio::ip::address_v4::loopback(), port));
+      if (error) return cannot_listen(port, error.message());
+      const std::uint16_t chosen = v4_.local_endpoint().port();
+      error = open(v6_, Tcp::endpoint(asio::ip::address_v6::loopback(), chosen));
+      const bool has_v6 =
+          error != asio::error::address_family_not_supported && error != boost::system::errc::address_not_available;
+      if (error && has_v6) {  // somebody else's on ::1
+        if (port != 0) return cannot_listen(port, error.message());
+        ErrorCode ignored;
+        v4_.close(ignored);
+        continue;
+      }
+      rules_.emplace(chosen, random_token());
+      return Done{};
+    }
+    return cannot_listen(port, why);
+  }
+
+  void run() {
+    Json roots = Json::array();
+    for (const std::string& name : files_.roots().names()) roots.push_back(name);
+    hub_.set_greeting({{"event", "hello"}, {"version", DISMANTLE_VERSION}, {"roots", std::move(roots)}});
+    accept(v4_);
+    if (v6_.is_open()) accept(v6_);
+    tick();
+    thread_ = std::thread([this] { io_.run(); });
+  }
+
+  const AccessRules& rules() const override { return *rules_; }
+  Hub& hub() override { return hub_; }
+  FileCommands& files() { return files_; }
+
+  void get(const RequestTarget& target, Reply done) override {
+    if (target.path == "/api/model.glb") return done(model_answer(target));
+    if (target.path == "/api/path.json") return send_recording(std::move(done));
+    if (target.path.substr(0, 5) == "/api/") return done(not_found(target.path));
+    if (std::optional<HttpAnswer> file = pages_.find(target.path)) return done(std::move(*file));
+    done(not_found(target.path));
+  }
+
+  std::variant<UploadPlace, HttpAnswer> begin_upload(const RequestTarget& target, const std::string& client) override {
+    if (target.path != "/api/open") return not_found(target.path);
+    if (!hub_.is_in_control(client))
+      return error_answer(403, "nothing can be opened (another page is in control); take control first");
+    const auto name = target.query.find("name");
+    const std::string base = name == target.query.end() ? "" : fs::path(name->second).filename().string();
+    if (base.empty() || base[0] == '.')
+      return error_answer(400, "the upload has no name (its kind is told by it); give ?name=FILE");
+    const Result<fs::path> folder = new_temporary_folder();
+    if (!folder) return error_answer(500, folder.error().message);
+    return UploadPlace{*folder / base, kLargestUpload};
+  }
+
+  void finish_upload(const Upload& upload, Reply done) override {
+    const Result<std::uint32_t> job = files_.open_upload(upload.file);
+    done(job ? json_answer(202, {{"job", *job}}) : error_answer(409, job.error().message));
+  }
+
+ private:
+  static HttpAnswer not_found(const std::string& path) {
+    return error_answer(404, "there is no " + path + " here (no file of the page has this name); look at docs/wire.md");
+  }
+
+  static ErrorCode open(Tcp::acceptor& acceptor, const Tcp::endpoint& endpoint) {
+    ErrorCode error;
+    acceptor.open(endpoint.protocol(), error);
+    if (error) return error;
+    acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+    if (endpoint.protocol() == Tcp::v6()) acceptor.set_option(asio::ip::v6_only(true), error);
+    acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) {
+      ErrorCode ignored;
+      acceptor.close(ignored);
+    }
+    return error;
+  }
+
+  void accept(Tcp::acceptor& acceptor) {
+    acceptor.async_accept([this, &acceptor](ErrorCode error, Tcp::socket socket) {
+      if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
+      if (!error) serve_connection(std::move(socket), *this);
+      accept(acceptor);
+    });
+  }
+
+  void tick() {
+    tick_.expires_after(kTick);
+    tick_.async_wait([this](ErrorCode error) {
+      if (error) return;
+      hub_.tick(Hub::Clock::now());
+      tick();
+    });
+  }
+
+  void begin_stop() {
+    ErrorCode ignored;
+    v4_.close(ignored);
+    v6_.close(ignored);
+    hub_.close_all(CloseReason::Stopping);
+    tick_.expires_after(kGoodbyeTime);
+    tick_.async_wait([this](ErrorCode) { io_.stop(); });
+  }
+
+  HttpAnswer model_answer(const RequestTarget& target) const {
+    const auto number = target.query.find("model");
+    if (!glb_ || (number != target.query.end() && number->second != std::to_string(model_number_)))
+      return error_answer(404, "there is no such model (another one or none is open); look at the event model");
+    return {200, "model/gltf-binary", glb_, {}};
+  }
+
+  void send_recording(Reply done) {
+    engine_.post_always([this, done = std::move(done)](Workbench& bench) {
+      HttpAnswer answer = error_answer(404, "there is no recording (no assembly is open); open one first");
+      if (const std::optional<std::string> text = bench.recording_text())
+        answer = {200, "application/json", std::make_shared<const std::string>(*text), bench.recording_name()};
+      asio::post(io_, [done, answer] { done(answer); });
+    });
+  }
+
+  Jobs::Listener job_listener() {
+    return {[this](const JobNews& news) {  // on the job's thread
+              const bool running = news.status == JobNews::Status::Running;
+              asio::post(io_, [this, job = news.job, text = text_of(job_event(news)), running] {
+                hub_.broadcast_job(job, text, running);
+              });
+            },
+            [this](Model model) { adopt(std::move(model)); }};
+  }
+
+  /// On the job's thread.
+  void adopt(Model model) {
+    model.number = ++models_;
+    asio::post(io_, [this, glb = model.glb, number = model.number] {
+      glb_ = glb;
+      model_number_ = number;
+    });
+    engine_.adopt(std::move(model));
+  }
+
+  // On the engine's thread.
+  void on_pose(std::string bytes) override {
+    const std::lock_guard lock(pose_mutex_);
+    const bool is_posted = std::exchange(pose_, std::move(bytes)).has_value();
+    if (is_posted) return;
+    asio::post(io_, [this] {
+      std::unique_lock pose_lock(pose_mutex_);
+      std::string newest = std::move(*pose_);
+      pose_.reset();
+      pose_lock.unlock();
+      hub_.broadcast_pose(std::move(newest));
+    });
+  }
+  void on_event(EngineEvent event) override {
+    asio::post(io_, [this, event = std::move(event)] { hub_.broadcast_event(event); });
+  }
+
+  asio::io_context io_{1};
+  StaticFiles pages_;
+  std::optional<AccessRules> rules_;
+  std::mutex pose_mutex_;
+  std::optional<std::string> pose_;  ///< The newest that the network's thread has not taken yet.
+  std::atomic<std::uint32_t> models_ = 0;
+  SharedText glb_;
+  std::uint32_t model_number_ = 0;
+  EngineLoop engine_;
+  FileCommands files_;
+  Hub hub_;
+  Tcp::acceptor v4_, v6_;
+  asio::steady_timer tick_;
+  std::thread thread_;
+};
+
+Server::Server(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+Server::~Server() = default;
+
+Result<std::unique_ptr<Server>> Server::start(ServerOptions options) {
+  Result<Roots> roots = Roots::create(options.roots);
+  if (!roots) return roots.error();
+  const std::uint16_t port = options.port;
+  auto body = std::make_unique<Body>(std::move(options), std::move(*roots));
+  if (Result<Done> listening = body->listen(port); !listening) return listening.error();
+  body->run();
+  return std::unique_ptr<Server>(new Server(std::move(body)));
+}
+
+std::uint16_t Server::port() const {
+  return body_->rules().port();
+}
+
+const std::string& Server::token() const {
+  return body_->rules().token();
+}
+
+std::string Server::url() const {
+  return "http://127.0.0.1:" + std::to_string(port()) + "/#token=" + token();
+}
+
+Result<Done> Server::open_file(const fs::path& file) {
+  const Result<std::uint32_t> job = body_->files().open_file(file);
+  if (!job) return job.error();
+  return Done{};
+}
+
+Result<Done> Server::open_sample(const std::string& name) {
+  const Result<std::uint32_t> job = body_->files().open_sample(name);
+  if (!job) return job.error();
+  return Done{};
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/session_json.h"
+
+namespace dismantle::server {
+
+namespace {
+
+Json bounds_json(const Aabb& box) {
+  return {to_json(box.lower), to_json(box.upper)};
+}
+
+/// The recording or a guide, as lists of moves that follow one another.
+Json moves_json(Span<const SessionEntry> entries) {
+  Json list = Json::array();
+  double start = 0;
+  for (const SessionEntry& entry : entries) {
+    if (!has_moved(entry)) continue;
+    const double duration = entry.frames.back().time;
+    list.push_back({{"label", entry.label},
+                    {"components", to_json(Span<const ComponentId>(entry.components))},
+                    {"start", start},
+                    {"duration", duration}});
+    start += duration;
+  }
+  return list;
+}
+
+Json components_json(const Session& session) {
+  Json list = Json::array();
+  for (std::uint32_t i = 0; i < session.poses().size(); ++i) {
+    Json one = Json::object();
+    if (!(session.poses()[i] == Pose{})) one["pose"] = to_json(session.poses()[i]);
+    if (session.visibility().is_hidden(ComponentId(i))) one["hidden"] = true;
+    if (session.is_removed(ComponentId(i))) one["removed"] = true;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json to_json(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json to_json(const Pose& p) {
+  return Json::array(
+      {p.position.x, p.position.y, p.position.z, p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z});
+}
+
+Json to_json(Span<const ComponentId> components) {
+  Json list = Json::array();
+  for (const ComponentId c : components) list.push_back(c.value);
+  return list;
+}
+
+Json model_json(const Model& model) {
+  const Assembly& a = *model.assembly;
+  Json tree = Json::array(), components = Json::array();
+  for (const TreeNode& node : a.tree) tree.push_back({{"name", node.name}, {"parent", node.parent}});
+  for (const Component& c : a.components)
+    components.push_back({{"name", c.name},
+                          {"node", c.tree_node},
+                          {"triangles", c.mesh->faces.size()},
+                          {"bounds", bounds_json(assembled_bounds(c))}});
+  return {{"event", "model"},
+          {"number", model.number},
+          {"name", a.source_file},
+          {"sha256", a.source_sha256},
+          {"units", a.source_units},
+          {"deflection", a.deflection},
+          {"tolerance", model.session->pairs().tolerance},
+          {"triangles", triangle_count(a)},
+          {"bounds", bounds_json(assembled_bounds(a))},
+          {"tree", std::move(tree)},
+          {"components", std::move(components)}};
+}
+
+Json state_json(const Session& session) {
+  Json json;
+  json["components"] = components_json(session);
+  json["isolated"] = session.visibility().is_isolated();
+  json["moving"] = to_json(session.moving());
+  json["automatic"] = nullptr;
+  json["response"] = name_of(session.response());
+  json["undo"] = session.done().empty() ? Json(nullptr) : Json(session.done()[session.done().size() - 1].label);
+  json["redo"] = session.undone().empty() ? Json(nullptr) : Json(session.undone()[0].label);
+  json["moves"] = moves_json(session.done());
+  json["playback"] = nullptr;
+  json["guide"] = nullptr;
+  json["resumed"] = false;
+  json["resumable"] = false;
+  return json;
+}
+
+Json pairs_json(const PairStates& pairs) {
+  Json list = Json::array();
+  for (const ComponentPair& p : pairs.pairs)
+    list.push_back({{"a", p.a.value},
+                    {"b", p.b.value},
+                    {"state", name_of(p.state)},
+                    {"distance", p.distance},
+                    {"penetration", p.penetration},
+                    {"triangle_pairs", p.triangle_pairs}});
+  return {{"tolerance", pairs.tolerance}, {"pairs", std::move(list)}};
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/web_socket.h"
+
+#include "apps/server/http_headers.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <deque>
+#include <memory>
+
+namespace dismantle::server {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using ErrorCode = boost::system::error_code;
+
+constexpr std::size_t kLargestMessage = std::size_t{1} << 20;
+constexpr std::size_t kMostUnread = std::size_t{16} << 20;  // queued for a client that does not read [bytes]
+constexpr std::chrono::seconds kHandshakeTime{10};
+constexpr std::chrono::seconds kIdleTime{20};  // it is pinged after half of it
+
+/// A connected socket. It lives as long as something is read or written; the hub knows it from its handshake to its
+/// end.
+class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSocket> {
+ public:
+  WebSocket(beast::tcp_stream stream, std::string key, Site& site)
+      : stream_(std::move(stream)), key_(std::move(key)), site_(site) {}
+
+  void accept(const http::request<http::string_body>& upgrade) {
+    websocket::stream_base::timeout times{kHandshakeTime, kIdleTime, true};
+    beast::get_lowest_layer(stream_).expires_never();
+    beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
+    stream_.set_option(times);
+    stream_.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
+      response.set(http::field::sec_websocket_protocol, kProtocol.data());
+      add_safety_headers(response, site_.rules());
+    }));
+    stream_.read_message_max(kLargestMessage);
+    stream_.auto_fragment(false);
+    stream_.async_accept(upgrade, [self = shared_from_this()](ErrorCode error) {
+      if (error) return;
+      self->is_known_ = true;
+      self->site_.hub().connect(self->key_, *self);
+      self->read();
+    });
+  }
+
+  void send_text(SharedText text) override {
+    if (is_closing_) return;
+    unread_ += text->size();
+    if (unread_ > kMostUnread) return drop();
+    texts_.push_back(std::move(text));
+    write();
+  }
+
+  void send_pose(SharedText bytes) override {
+    if (is_closing_) return;
+    if (pose_) ++site_.hub().counters().dropped_frames;
+    pose_ = std::move(bytes);
+    write();
+  }
+
+  void close(CloseReason reason) override {
+    if (is_closing_) return;
+    is_closing_ = true;
+    close_code_ =
+        reason == CloseReason::Malformed ? websocket::close_code::policy_error : websocket::close_code::going_away;
+    if (!is_writing_) say_goodbye();
+  }
+
+ private:
+  void read() {
+    stream_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, std::size_t) { self->on_read(error); });
+  }
+
+  void on_read(ErrorCode error) {
+    if (error) return forget();
+    const auto data = buffer_.cdata();
+    const std::string_view message(static_cast<const char*>(data.data()), data.size());
+    if (!is_closing_) {
+      stream_.got_text() ? site_.hub().take_text(key_, message) : site_.hub().take_binary(key_, message);
+    }
+    buffer_.consume(buffer_.size());
+    read();
+  }
+
+  /// Texts in their order; between them the newest pose.
+  void write() {
+    if (is_writing_ || is_closing_ || (texts_.empty() && !pose_)) return;
+    is_writing_ = true;
+    const bool is_text = !texts_.empty();
+    if (is_text) {
+      sending_ = std::move(texts_.front());
+      texts_.pop_front();
+      unread_ -= sending_->size();
+    } else {
+      sending_ = std::move(pose_);
+      pose_.reset();
+    }
+    stream_.text(is_text);
+    stream_.async_write(boost::asio::buffer(*sending_), [self = shared_from_this()](ErrorCode error, std::size_t sent) {
+      self->is_writing_ = false;
+      self->site_.hub().counters().bytes_out += sent;
+      if (error) return self->forget();
+      self->is_closing_ ? self->say_goodbye() : self->write();
+    });
+  }
+
+  void say_goodbye() {
+    stream_.async_close(close_code_, [self = shared_from_this()](ErrorCode) { self->forget(); });
+  }
+
+  /// Ends the connection at once: the other side does not read.
+  void drop() {
+    is_closing_ = true;
+    texts_.clear();
+    beast::get_lowest_layer(stream_).close();
+    forget();
+  }
+
+  void forget() {
+    is_closing_ = true;
+    if (std::exchange(is_known_, false)) site_.hub().disconnect(key_, *this);
+  }
+
+  websocket::stream<beast::tcp_stream> stream_;
+  std::string key_;
+  Site& site_;
+  beast::flat_buffer buffer_;
+  std::deque<SharedText> texts_;
+  SharedText pose_, sending_;
+  std::size_t unread_ = 0;  ///< Bytes in texts_.
+  bool is_known_ = false, is_writing_ = false, is_closing_ = false;
+  websocket::close_code close_code_ = websocket::close_code::normal;
+};
+
+}  // namespace
+
+void serve_socket(beast::tcp_stream stream, http::request<http::string_body> upgrade, std::string key, Site& site) {
+  const auto socket = std::make_shared<WebSocket>(std::move(stream), std::move(key), site);
+  socket->accept(upgrade);
+}
+
+}  // namespace dismantle::server

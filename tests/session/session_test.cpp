@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/session/session.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/collision/classify_pairs.h"
+#include "tests/support/meshes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+using scenes::box;
+using scenes::component;
+using scenes::tube;
+
+constexpr double kTolerance = 0.01;
+const std::vector<ComponentId> kFirst{ComponentId(0)}, kSecond{ComponentId(1)}, kBoth{ComponentId(0), ComponentId(1)};
+
+/// A session over a scene; at its end its recording is audited.
+class Table {
+ public:
+  explicit Table(Assembly assembly) : assembly_(std::move(assembly)) {
+    ClassifyOptions classify;
+    classify.tolerance = kTolerance;
+    session_.emplace(assembly_, *classify_pairs(assembly_, classify));
+  }
+  ~Table() {
+    const AuditReport report = audit_path(assembly_, session_->recording());
+    EXPECT_TRUE(report.holds());
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+
+  Session& session() { return *session_; }
+  const Pose& pose(std::uint32_t component) const { return session_->poses()[component]; }
+  /// Drags a set along a straight line in steps of 10 ms, without letting go.
+  StepResult drag(const std::vector<ComponentId>& set, const Vec3& by, int steps) {
+    EXPECT_TRUE(session_->hold(set).ok());
+    const Pose start = pose(set[0].value);
+    StepResult last;
+    for (int i = 1; i <= steps; ++i)
+      last = session_->drag({start.position + (static_cast<double>(i) / steps) * by, start.rotation}, 0.01 * i);
+    return last;
+  }
+  void move(const std::vector<ComponentId>& set, const Vec3& by, int steps) {
+    drag(set, by, steps);
+    session_->release();
+  }
+
+ private:
+  Assembly assembly_;
+  std::optional<Session> session_;
+};
+
+Assembly wall_and_block() {
+  return scenes::assembly(
+      {component("block", box({0, 0, 0}, {10, 10, 10})), component("wall", box({20.5, -50, -50}, {21, 50, 50}))});
+}
+
+TEST(Session, RecordsEachDragAsOneMove) {
+  Table table(wall_and_block());
+  table.move(kFirst, {-5, 0, 0}, 10);
+  table.move(kFirst, {0, 3, 0}, 3);
+  const Path path = table.session().recording();
+  ASSERT_EQ(path.moves.size(), 2u);
+  EXPECT_EQ(path.moves[0].label, "move block");
+  EXPECT_EQ(path.moves[0].frames.size(), 11u);
+  EXPECT_DOUBLE_EQ(path.moves[0].frames.back().time, 0.1);
+  EXPECT_EQ(path.moves[1].frames.back().pose.position, (Vec3{-5, 3, 0}));
+}
+
+TEST(Session, SlidesAlongTheWall) {
+  Table table(wall_and_block());
+  const StepResult last = table.drag(kFirst, {30, 20, 0}, 60);
+  EXPECT_NEAR(last.pose.position.x, 10.5, kTolerance);
+  EXPECT_NEAR(last.pose.position.y, 20, 0.05);
+}
+
+TEST(Session, KeepsNoEntryOfADragThatWentNowhere) {
+  Table table(wall_and_block());
+  EXPECT_TRUE(table.session().hold(kFirst).ok());
+  EXPECT_FALSE(table.session().release());
+  EXPECT_FALSE(table.session().undo().ok());
+}
+
+TEST(Session, TakesADragBackInMidDragAndDoesItAgain) {
+  Table table(wall_and_block());
+  table.move(kFirst, {0, 4, 0}, 4);
+  table.drag(kFirst, {-5, 0, 0}, 10);
+  EXPECT_TRUE(table.session().undo().ok());
+  EXPECT_EQ(table.session().activity(), SessionActivity::Idle);
+  EXPECT_EQ(table.pose(0).position, (Vec3{0, 4, 0}));
+  EXPECT_EQ(table.session().recording().moves.size(), 1u);
+  EXPECT_TRUE(table.session().redo().ok());
+  EXPECT_EQ(table.pose(0).position, (Vec3{-5, 4, 0}));
+  EXPECT_EQ(table.session().recording().moves.size(), 2u);
+}
+
+TEST(Session, UndoesNothingElseWhereTheDragHasNotMovedYet) {
+  Table table(wall_and_block());
+  table.move(kFirst, {0, 4, 0}, 4);
+  EXPECT_TRUE(table.session().hold(kFirst).ok());
+  EXPECT_TRUE(table.session().undo().ok());
+  EXPECT_EQ(table.pose(0).position, (Vec3{0, 4, 0}));
+}
+
+TEST(Session, GoesBackToTheStartOfACancelledDragWithoutAnEntry) {
+  Table table(wall_and_block());
+  table.drag(kFirst, {-5, 0, 0}, 10);
+  table.session().cancel_drag();
+  EXPECT_EQ(table.pose(0), Pose{});
+  EXPECT_TRUE(table.session().done().empty());
+  EXPECT_FALSE(table.session().redo().ok());
+}
+
+TEST(Session, ForgetsWhatWasUndoneOnceSomethingElseIsDone) {
+  Table table(wall_and_block());
+  table.move(kFirst, {-5, 0, 0}, 5);
+  EXPECT_TRUE(table.session().undo().ok());
+  table.move(kFirst, {0, 5, 0}, 5);
+  EXPECT_FALSE(table.session().redo().ok());
+  EXPECT_EQ(table.session().done().size(), 1u);
+}
+
+TEST(Session, UndoesAndRedoesToTheSameBits) {
+  Table table(wall_and_block());
+  std::vector<std::vector<Pose>> states{{table.pose(0), table.pose(1)}};
+  for (int i = 0; i < 6; ++i) {
+    table.move(i % 2 ? kSecond : kFirst, {0.1 + i, 0.3 * i, -0.7}, 9);
+    states.push_back({table.pose(0), table.pose(1)});
+  }
+  for (std::size_t i = states.size() - 1; i-- > 0;) {
+    ASSERT_TRUE(table.session().undo().ok());
+    EXPECT_EQ((std::vector<Pose>{table.pose(0), table.pose(1)}), states[i]);
+  }
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    ASSERT_TRUE(table.session().redo().ok());
+    EXPECT_EQ((std::vector<Pose>{table.pose(0), table.pose(1)}), states[i]);
+  }
+}
+
+TEST(Session, LetsAnEmbeddedPairPartAgainAfterItsPartingWasUndone) {
+  Table table(scenes::assembly(
+      {component("lump", box({0, 0, 0}, {10, 10, 10})), component("body", box({5, -5, -5}, {30, 15, 15}))}));
+  table.move(kFirst, {-20, 0, 0}, 20);
+  EXPECT_EQ(table.pose(0).position.x, -20);
+  table.drag(kFirst, {20, 0, 0}, 20);  // apart for good: it may not go in again
+  EXPECT_NEAR(table.pose(0).position.x, -5, kTolerance);
+  EXPECT_TRUE(table.session().undo().ok());
+  EXPECT_TRUE(table.session().undo().ok());
+  EXPECT_EQ(table.pose(0), Pose{});
+  table.move(kFirst, {-3, 0, 0}, 3);
+  EXPECT_EQ(table.pose(0).position.x, -3);  // still in it, and free in it
+}
+
+TEST(Session, MovesASetAsOneBodyAndRefusesATornOne) {
+  Table table(wall_and_block());
+  table.move(kBoth, {0, 0, 5}, 5);
+  EXPECT_EQ(table.pose(0), table.pose(1));
+  EXPECT_EQ(table.session().done()[0].label, "move block and wall");
+  table.move(kFirst, {-1, 0, 0}, 1);
+  const Result<Done> torn = table.session().hold(kBoth);
+  ASSERT_FALSE(torn.ok());
+  EXPECT_NE(torn.error().message.find("'block'"), std::string::npos);
+}
+
+TEST(Session, TakesNothingInHandThatIsHidden) {
+  Table table(wall_and_block());
+  table.session().visibility().hide(kFirst);
+  EXPECT_FALSE(table.session().hold(kFirst).ok());
+  EXPECT_FALSE(table.session().hold({}).ok());
+}
+
+TEST(Session, SaysUntilWhenASetRested) {
+  Table table(wall_and_block());
+  ASSERT_TRUE(table.session().hold(kFirst).ok());
+  table.session().drag({{-1, 0, 0}, {}}, 0.5);
+  table.session().drag({{-2, 0, 0}, {}}, 3);
+  table.session().release();
+  const std::vector<Frame> frames = table.session().recording().moves.at(0).frames;
+  ASSERT_EQ(frames.size(), 5u);
+  EXPECT_EQ(frames[3].pose.position.x, -1);
+  EXPECT_GT(frames[3].time, 2.9);
+}
+
+TEST(Session, IsAsNewAfterReset) {
+  Table table(wall_and_block());
+  table.move(kFirst, {-5, 0, 0}, 5);
+  table.session().visibility().hide(kSecond);
+  table.session().reset();
+  EXPECT_EQ(table.pose(0), Pose{});
+  EXPECT_TRUE(table.session().recording().moves.empty());
+  EXPECT_FALSE(table.session().visibility().is_hidden(ComponentId(1)));
+}
+
+}  // namespace
+}  // namespace dismantle
