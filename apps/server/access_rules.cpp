@@ -13,6 +13,11 @@ constexpr std::string_view kScheme = "http://";
 constexpr std::string_view kBearer = "Bearer ";
 constexpr std::string_view kTokenPrefix = "token.";
 
+// 'self' covers the socket; browsers refuse ws://[::1] as a source.
+constexpr std::string_view kPolicy =
+    "default-src 'self'; img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
@@ -47,9 +52,10 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 AccessRules::AccessRules(std::uint16_t port, std::string token) : port_(port), token_(std::move(token)) {
   const std::string suffix = ":" + std::to_string(port);
   hosts_ = {"127.0.0.1" + suffix, "localhost" + suffix, "[::1]" + suffix};
-  policy_ = "default-src 'self'; img-src 'self' data: blob:; connect-src 'self'";
-  for (const std::string& host : hosts_) policy_ += " ws://" + host;
-  policy_ += "; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+std::string_view AccessRules::content_security_policy() {
+  return kPolicy;
 }
 
 bool AccessRules::is_own_host(std::string_view host) const {

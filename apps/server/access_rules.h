@@ -31,13 +31,12 @@ class AccessRules {
   /// That a list of WebSocket subprotocols has `dismantle.1` and `token.TOKEN` (else 401).
   bool offers_token(std::string_view subprotocols) const;
   /// The value of the header Content-Security-Policy.
-  const std::string& content_security_policy() const { return policy_; }
+  static std::string_view content_security_policy();
 
  private:
   std::uint16_t port_;
   std::array<std::string, 3> hosts_;
   std::string token_;
-  std::string policy_;
 };
 
 /// The subprotocol that docs/wire.md describes.

@@ -145,7 +145,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response->set(http::field::cache_control, "no-store");
     if (!answer.file_name.empty())
       response->set(http::field::content_disposition, "attachment; filename=\"" + answer.file_name + "\"");
-    add_safety_headers(response->base(), site_.rules());
+    add_safety_headers(response->base());
     response->body() = {body_kept_->data(), body_kept_->size()};
     response->keep_alive(keep == Keep::Yes && head_->is_done() && head_->get().keep_alive());
     response->prepare_payload();

@@ -10,8 +10,8 @@
 namespace dismantle::server {
 
 /// The headers that every answer has, the socket's handshake too (UI.md, "Server").
-inline void add_safety_headers(boost::beast::http::fields& headers, const AccessRules& rules) {
-  headers.set("Content-Security-Policy", rules.content_security_policy());
+inline void add_safety_headers(boost::beast::http::fields& headers) {
+  headers.set("Content-Security-Policy", AccessRules::content_security_policy().data());
   headers.set("X-Content-Type-Options", "nosniff");
   headers.set("Cross-Origin-Opener-Policy", "same-origin");
   headers.set("Cross-Origin-Embedder-Policy", "require-corp");

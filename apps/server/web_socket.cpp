@@ -36,9 +36,9 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
     beast::get_lowest_layer(stream_).expires_never();
     beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
     stream_.set_option(times);
-    stream_.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
+    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, kProtocol.data());
-      add_safety_headers(response, site_.rules());
+      add_safety_headers(response);
     }));
     stream_.read_message_max(kLargestMessage);
     stream_.auto_fragment(false);

@@ -73,11 +73,12 @@ TEST(AccessRules, ComparesWholeTexts) {
   EXPECT_FALSE(equal_in_constant_time("abc", "ab"));
 }
 
-TEST(AccessRules, AllowsTheSocketAndNoForeignSourceInThePolicy) {
-  const std::string policy = AccessRules(8123, kToken).content_security_policy();
+TEST(AccessRules, AllowsNoForeignSourceAndNoInlineScriptInThePolicy) {
+  const std::string policy(AccessRules::content_security_policy());
   EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+  EXPECT_EQ(policy.find("ws:"), std::string::npos);
   EXPECT_NE(policy.find("default-src 'self'"), std::string::npos);
-  EXPECT_NE(policy.find("ws://127.0.0.1:8123"), std::string::npos);
+  EXPECT_NE(policy.find("connect-src 'self'"), std::string::npos);
 }
 
 }  // namespace
