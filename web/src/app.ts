@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from "three";
+import { element, saveAs } from "./dom.ts";
+import { Drag } from "./input/drag.ts";
+import { listenForKeys } from "./input/keys.ts";
+import { PointerInput } from "./input/pointer.ts";
+import { Banner, Toasts } from "./panels/banner.ts";
+import { helpDialog } from "./panels/help.ts";
+import { Inspector } from "./panels/inspector.ts";
+import { Measure } from "./panels/measure.ts";
+import { OpenDialog } from "./panels/open_dialog.ts";
+import { SectionPanel } from "./panels/section_panel.ts";
+import { StatusLine } from "./panels/status.ts";
+import { TimelinePanel } from "./panels/timeline.ts";
+import { Toolbar } from "./panels/toolbar.ts";
+import { TreePanel } from "./panels/tree.ts";
+import { Gizmo } from "./scene/gizmo.ts";
+import { kPalettes } from "./scene/palette.ts";
+import { Viewport } from "./scene/viewport.ts";
+import { Session } from "./session.ts";
+import { text } from "./strings.ts";
+
+type Theme = "light" | "dark";
+
+/// The page: its parts, and what its buttons and keys do.
+export class App {
+  readonly viewport: Viewport;
+  readonly session: Session;
+  readonly drag: Drag;
+  readonly gizmo = new Gizmo();
+  readonly actions = this.makeActions();
+
+  private readonly pointer: PointerInput;
+  private readonly inspector: Inspector;
+  private readonly tree: TreePanel;
+  private readonly timeline: TimelinePanel;
+  private readonly sections: SectionPanel;
+  private readonly measure: Measure;
+  private readonly openDialog: OpenDialog;
+  private readonly help = helpDialog();
+  private readonly toasts = new Toasts();
+  private theme: Theme = "light";
+
+  constructor(testing: boolean) {
+    const canvas = element("canvas", {
+      id: "view",
+      tabIndex: 0,
+      role: "application",
+      "aria-label": text("view.label"),
+    });
+    const stage = element("main", { id: "stage" }, canvas);
+    document.body.append(stage);
+    this.viewport = new Viewport(canvas, testing);
+    this.session = new Session(this.viewport);
+    this.drag = new Drag(this.session);
+    this.pointer = new PointerInput(this.session, this.drag, this.gizmo);
+    this.inspector = new Inspector(this.session, this.drag);
+    this.tree = new TreePanel(this.session);
+    this.timeline = new TimelinePanel(this.session);
+    this.sections = new SectionPanel(this.session);
+    this.measure = new Measure(this.session);
+    this.openDialog = new OpenDialog(this.session);
+    stage.append(new Banner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
+    document.body.prepend(new Toolbar(this).node, this.tree.node);
+    document.body.append(this.inspector.node, this.timeline.node, new StatusLine(this.session).node);
+    document.body.append(this.openDialog.node, this.help);
+    this.connectParts();
+    this.setTheme(startTheme());
+    this.session.connection.connect();
+  }
+
+  /// Keeps a drag to a world axis, or lets go of it.
+  lockAxis(axis: 0 | 1 | 2): void {
+    this.pointer.axisLock = this.pointer.axisLock === axis ? null : axis;
+    const lock = this.pointer.axisLock;
+    this.session.change(() => {
+      this.session.store.dragHint = lock === null ? "" : text("drag.locked", { axis: "XYZ"[lock] });
+    });
+  }
+
+  private connectParts(): void {
+    const { session, viewport } = this;
+    session.onNote = (level, sentence) => this.toasts.show(level, sentence);
+    session.onModel = () => viewport.rig.fit(viewport.model!.bounds(), new Vector3(1, -1.6, 0.9));
+    this.pointer.onClick = (pick) => this.measure.click(pick);
+    viewport.scene.add(this.gizmo.object);
+    viewport.beforePicture.push(() => this.placeMarks());
+    session.notifier.subscribe(() => {
+      if (this.drag.active && (session.store.link === "lost" || session.store.state?.hand === null) && this.drag.held)
+        this.drag.drop();
+      viewport.invalidate();
+    });
+    listenForKeys(this);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.setTheme(startTheme()));
+  }
+
+  /// Puts the gizmo and the arrows of free directions where the selection is.
+  private placeMarks(): boolean {
+    const { store } = this.session;
+    const views = store.selection.map((c) => this.viewport.model?.components[c]).filter((view) => view?.visible);
+    const box = views.length > 0 ? views.map((view) => view!.bounds()).reduce((all, next) => all.union(next)) : null;
+    const center = box?.getCenter(new Vector3()) ?? null;
+    this.gizmo.place(store.gizmo && store.control ? center : null);
+    this.gizmo.update(this.viewport.rig);
+    const mine = center && store.directions?.components.join() === store.selection.join();
+    const free = mine ? store.directions!.directions.filter((way) => way.free) : [];
+    const idle = store.state?.automatic == null && store.state?.playback == null;
+    this.viewport.directions.arrows = !idle
+      ? []
+      : free.map(({ direction }) => ({ point: center!, direction: new Vector3(...direction), length: 100 }));
+    return false;
+  }
+
+  private makeActions() {
+    const selected = () => ({ components: this.session.store.selection });
+    const withSelection = (name: "take_out" | "put_back") => () => {
+      if (selected().components.length > 0) void this.session.ask(name, selected());
+    };
+    return {
+      open: () => this.openDialog.open(),
+      save: () => void this.save(),
+      undo: () => void (this.drag.active ? this.drag.undo() : this.session.ask("undo", {})),
+      redo: () => void this.session.ask("redo", {}),
+      reset: () => void this.session.ask("reset", {}),
+      gizmo: () =>
+        this.session.change(() => {
+          this.session.store.gizmo = !this.session.store.gizmo;
+        }),
+      section: () => this.sections.toggle(),
+      measure: () => this.measure.toggle(),
+      projection: () =>
+        this.session.change(() => {
+          this.viewport.rig.orthographic = !this.viewport.rig.orthographic;
+        }),
+      fit: () => this.fit(),
+      screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.fileStem()}.png`)),
+      theme: () => this.setTheme(this.theme === "light" ? "dark" : "light", true),
+      help: () => this.help.showModal(),
+      play: () => this.timeline.toggle(),
+      directions: () => void this.inspector.find(),
+      takeOut: withSelection("take_out"),
+      putBack: withSelection("put_back"),
+      isolate: () => this.isolate(),
+      toggleHidden: () => this.toggleHidden(),
+      search: () => this.tree.focusSearch(),
+      escape: () => this.escape(),
+    };
+  }
+
+  private escape(): void {
+    const { store } = this.session;
+    if (this.drag.active) void this.drag.cancel();
+    else if (store.state?.automatic != null) void this.session.ask("halt", {});
+    else if (store.measuring) this.measure.toggle();
+    else if (store.directions)
+      this.session.change(() => {
+        store.directions = null;
+      });
+    else this.session.select([]);
+  }
+
+  private fit(): void {
+    const { selection } = this.session.store;
+    const boxes = selection.map((c) => this.viewport.model!.components[c].bounds());
+    const all = this.viewport.model?.bounds();
+    if (all) this.viewport.rig.fit(boxes.length > 0 ? boxes.reduce((sum, box) => sum.union(box)) : all);
+  }
+
+  private isolate(): void {
+    const { state, selection } = this.session.store;
+    if (state?.isolated) void this.session.ask("restore", {});
+    else if (selection.length > 0) void this.session.ask("isolate", { components: selection });
+  }
+
+  private toggleHidden(): void {
+    const { state, selection } = this.session.store;
+    const hidden = selection.filter((c) => state?.components[c]?.hidden);
+    if (selection.length === 0) return;
+    if (hidden.length > 0) void this.session.ask("show", { components: hidden });
+    else void this.session.ask("hide", { components: selection });
+  }
+
+  private async save(): Promise<void> {
+    try {
+      const answer = await this.session.connection.request("/api/path.json");
+      saveAs(await answer.blob(), `${this.fileStem()}.path.json`);
+      this.toasts.show("note", text("saved"));
+    } catch (error) {
+      this.toasts.show("warning", (error as Error).message);
+    }
+  }
+
+  private fileStem(): string {
+    return (this.session.store.model?.name ?? "dismantle").replace(/\.\w+$/, "");
+  }
+
+  private setTheme(theme: Theme, keep = false): void {
+    this.theme = theme;
+    document.documentElement.dataset.theme = theme;
+    if (keep) localStorage.setItem("dismantle.theme", theme);
+    this.viewport.setPalette(kPalettes[theme]);
+  }
+}
+
+function startTheme(): Theme {
+  const kept = localStorage.getItem("dismantle.theme");
+  if (kept === "light" || kept === "dark") return kept;
+  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+
+type Child = Node | string | null;
+type Properties = Record<string, unknown>;
+
+/// Makes an element. `class`, `data-*`, `aria-*`, `role` and `for` become attributes, `on*` and the rest properties.
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  properties: Properties = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === undefined) continue;
+    if (/^(class|role|for|data-|aria-|list)/.test(name)) made.setAttribute(name, String(value));
+    else (made as unknown as Properties)[name] = value;
+  }
+  made.append(...children.filter((child): child is Node | string => child !== null));
+  return made;
+}
+
+/// 16x16 line icons, one path each.
+const kIcons = {
+  open: "M2 13V3h4l1.5 2H14v8zM2 7h12",
+  undo: "M6 3 2.5 6.5 6 10M2.5 6.5H10a3.5 3.5 0 0 1 0 7H6",
+  redo: "M10 3l3.5 3.5L10 10M13.5 6.5H6a3.5 3.5 0 0 0 0 7h4",
+  eye: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM8 6a2 2 0 1 0 0 4 2 2 0 0 0 0-4z",
+  eyeOff: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM2.5 13.5l11-11",
+  xray: "M8 1.5l5.5 3v7L8 14.5l-5.5-3v-7zM2.5 4.5 8 7.5l5.5-3M8 7.5v7",
+  isolate: "M2 5V2h3M11 2h3v3M14 11v3h-3M5 14H2v-3M6 6h4v4H6z",
+  fit: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4",
+  section: "M3 2h10v12H3zM3 14 13 2M3 9l6-7M8 14l5-6",
+  measure: "M1.5 10.5l9-9 4 4-9 9zM4.5 7.5l1.5 1.5M7.5 4.5 9 6M6 6l2.5 2.5",
+  parallel: "M2 5h8v8H2zM2 5l4-3h8l-4 3M14 2v8l-4 3",
+  explode: "M6 6h4v4H6zM8 4V1M8 15v-3M4 8H1M15 8h-3",
+  camera: "M2 5h3l1-2h4l1 2h3v8H2zM8 6.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z",
+  theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12",
+  help: "M5.5 6a2.5 2.5 0 1 1 3.5 2.300c-.7.3-1 .7-1 1.700M8 12.5v.5",
+  play: "M4.5 2.5v11l9-5.5z",
+  playBack: "M11.5 2.5v11l-9-5.5z",
+  pause: "M5 3v10M11 3v10",
+  start: "M3 3v10M13 3 6 8l7 5z",
+  end: "M13 3v10M3 3l7 5-7 5z",
+  close: "M4 4l8 8M12 4l-8 8",
+  out: "M8 10V2M5 5l3-3 3 3M3 9v5h10V9",
+  back: "M8 2v8M5 7l3 3 3-3M3 9v5h10V9",
+  save: "M2.5 2.5h9l2 2v9h-11zM5 2.5v4h5v-4M5 13.5v-4h6v4",
+  move: "M8 1.5v13M1.5 8h13M6 3.5l2-2 2 2M6 12.5l2 2 2-2M3.5 6l-2 2 2 2M12.5 6l2 2-2 2",
+  chevron: "M6 4l4 4-4 4",
+  reset: "M3 3v4h4M3 7a5.5 5.5 0 1 1-.5 3",
+  arrow: "M2 8h11M9 4l4 4-4 4",
+  guide: "M3 2.5h10v11H3zM5.5 5.5h5M5.5 8h5M5.5 10.5h3",
+  panels: "M2 3h12v10H2zM6 3v10M10.5 3v10",
+} as const;
+
+export type IconName = keyof typeof kIcons;
+
+export function icon(name: IconName): SVGSVGElement {
+  const space = "http://www.w3.org/2000/svg";
+  const svg = document.createElementNS(space, "svg");
+  svg.setAttribute("viewBox", "0 0 16 16");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS(space, "path");
+  path.setAttribute("d", kIcons[name]);
+  svg.append(path);
+  return svg;
+}
+
+export interface ButtonOptions {
+  icon?: IconName;
+  label: string;
+  /// Shows the label, not only the icon.
+  wide?: boolean;
+  /// The key that does the same.
+  key?: string;
+  id?: string;
+  class?: string;
+  press: () => void;
+}
+
+export function button(options: ButtonOptions): HTMLButtonElement {
+  const { label, wide, key } = options;
+  const title = key ? `${label} (${key})` : label;
+  return element(
+    "button",
+    {
+      type: "button",
+      class: `button ${wide ? "wide" : ""} ${options.class ?? ""}`,
+      id: options.id ?? "",
+      title,
+      "aria-label": label,
+      onclick: options.press,
+    },
+    options.icon ? icon(options.icon) : null,
+    wide || !options.icon ? element("span", {}, label) : null,
+  );
+}
+
+/// Sets a text only where it changed, so that a screen reader does not repeat itself.
+export function setText(node: Node, text: string): void {
+  if (node.textContent !== text) node.textContent = text;
+}
+
+export function saveAs(content: Blob, file: string): void {
+  const address = URL.createObjectURL(content);
+  element("a", { href: address, download: file }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}

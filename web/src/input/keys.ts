@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { App } from "../app.ts";
+import { kStandardViews } from "../scene/view_cube.ts";
+
+const kTurn = 40;
+const kPan = 40;
+const kZoom = 1.2;
+
+/// The keyboard's way to everything. Keys typed into a field are the field's.
+export function listenForKeys(app: App): void {
+  window.addEventListener("keydown", (event) => {
+    if (isTyping(event) || document.querySelector("dialog[open]")) return;
+    const act = event.ctrlKey || event.metaKey ? withControl(app, event) : plain(app, event);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+  const byKeyboard = (yes: boolean) => document.documentElement.toggleAttribute("data-keyboard", yes);
+  window.addEventListener("keydown", ({ key }) => key === "Tab" && byKeyboard(true));
+  window.addEventListener("pointerdown", () => byKeyboard(false), true);
+  // Alt alone would open the browser's menu in the middle of turning a component.
+  window.addEventListener("keyup", (event) => {
+    if (event.key === "Alt" && app.drag.active) event.preventDefault();
+  });
+}
+
+function isTyping(event: KeyboardEvent): boolean {
+  const target = event.target as HTMLElement;
+  if (event.key === "Escape") return false;
+  if (target instanceof HTMLInputElement) return !["checkbox", "radio"].includes(target.type) || event.key === " ";
+  if (target instanceof HTMLButtonElement) return event.key === " " || event.key === "Enter";
+  return target instanceof HTMLSelectElement;
+}
+
+function withControl(app: App, event: KeyboardEvent): (() => void) | undefined {
+  const key = event.key.toLowerCase();
+  if (key === "z") return event.shiftKey ? app.actions.redo : app.actions.undo;
+  if (key === "y") return app.actions.redo;
+  return undefined;
+}
+
+function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
+  const { actions } = app;
+  const view = kStandardViews.find(({ key }) => key === event.key);
+  if (view) return () => app.viewport.rig.lookFrom(view.direction);
+  const keys: Record<string, () => void> = {
+    f: actions.fit,
+    o: actions.projection,
+    g: actions.gizmo,
+    s: actions.section,
+    m: actions.measure,
+    t: actions.theme,
+    h: actions.help,
+    p: actions.play,
+    d: actions.directions,
+    i: actions.isolate,
+    b: actions.putBack,
+    delete: actions.takeOut,
+    escape: actions.escape,
+    "/": actions.search,
+    " ": actions.toggleHidden,
+    x: () => app.lockAxis(0),
+    y: () => app.lockAxis(1),
+    z: () => app.lockAxis(2),
+  };
+  return keys[event.key.toLowerCase()] ?? aboutView(app, event);
+}
+
+function aboutView(app: App, event: KeyboardEvent): (() => void) | undefined {
+  const { rig, canvas } = app.viewport;
+  if (event.key === "+" || event.key === "=") return () => rig.zoom(1 / kZoom, rig.current.focus);
+  if (event.key === "-") return () => rig.zoom(kZoom, rig.current.focus);
+  const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  if (!way || document.activeElement !== canvas) return undefined;
+  const { focus } = rig.current;
+  if (event.shiftKey) return () => rig.pan(-way[0] * kPan, -way[1] * kPan, focus);
+  return () => rig.orbit(way[0] * kTurn, way[1] * kTurn, focus);
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from "three";
+import type { Gizmo } from "../scene/gizmo.ts";
+import type { Pick } from "../scene/model_view.ts";
+import type { Session } from "../session.ts";
+import type { Drag } from "./drag.ts";
+import type { DragMode, PointerStep } from "./drag_motion.ts";
+
+const kClickReach = 4;
+const kZoomStep = 0.0012;
+const kDoubleClick = 350;
+
+type Gesture =
+  | { kind: "orbit"; pivot: Vector3 }
+  | { kind: "pan"; grabbed: Vector3 }
+  | { kind: "press"; pick: Pick; mode: DragMode | null; adds: boolean }
+  | { kind: "drag"; mode: DragMode | null; ready: Promise<boolean> };
+
+/// What the pointer does in the picture. Left: orbit on empty space, select and drag on a component; right always orbits;
+/// middle pans; the wheel zooms to the cursor; a double click focuses. Two fingers pan and zoom.
+export class PointerInput {
+  /// A click that some tool wants (measuring) instead of a selection; returns whether it took it.
+  onClick: (pick: Pick | null) => boolean = () => false;
+  /// An axis that the keyboard locked.
+  axisLock: 0 | 1 | 2 | null = null;
+
+  private gesture: Gesture | null = null;
+  private moved = false;
+  private down = { x: 0, y: 0 };
+  private last = { x: 0, y: 0 };
+  private readonly touches = new Map<number, { x: number; y: number }>();
+  private hoverAt: { x: number; y: number } | null = null;
+  private lastClick = { time: -1e9, x: 0, y: 0 };
+
+  constructor(
+    private readonly session: Session,
+    private readonly drag: Drag,
+    private readonly gizmo: Gizmo,
+  ) {
+    const { canvas } = session.viewport;
+    canvas.addEventListener("pointerdown", (event) => this.press(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.release(event));
+    canvas.addEventListener("pointercancel", (event) => this.release(event));
+    canvas.addEventListener("pointerleave", () => this.leave());
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    session.viewport.beforePicture.push(() => this.showHover());
+  }
+
+  private place(event: MouseEvent): { x: number; y: number } {
+    const box = this.session.viewport.canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  private press(event: PointerEvent): void {
+    const { viewport } = this.session;
+    const { canvas } = viewport;
+    const at = this.place(event);
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    if (event.pointerType === "touch") this.touches.set(event.pointerId, at);
+    if (this.touches.size === 2) {
+      if (this.gesture?.kind === "drag") void this.drag.end();
+      this.gesture = { kind: "pan", grabbed: this.pivot(at) };
+    }
+    if (this.gesture) return;
+    this.down = this.last = at;
+    this.moved = false;
+    if (event.button === 1) this.gesture = { kind: "pan", grabbed: this.pivot(at) };
+    else if (event.button === 2) this.gesture = { kind: "orbit", pivot: this.orbitPivot(at) };
+    else if (event.button === 0) this.pressLeft(event, at);
+  }
+
+  private pressLeft(event: PointerEvent, at: { x: number; y: number }): void {
+    const { viewport, store } = this.session;
+    const { rig } = viewport;
+    const view = viewport.cube.pick(rig, at.x, at.y);
+    if (view) return rig.lookFrom(view);
+    const arrow = viewport.directions.pick(rig, at.x, at.y);
+    if (arrow >= 0) return this.takeOutAlong(arrow);
+
+    const mode = this.gizmo.pick(rig, at.x, at.y);
+    const pick = viewport.pick(at.x, at.y);
+    if (mode && store.selection.length > 0) {
+      const point = this.selectionCenter();
+      this.gesture = { kind: "drag", mode, ready: this.drag.begin(store.selection, point) };
+    } else if (pick) {
+      this.gesture = { kind: "press", pick, mode: null, adds: event.shiftKey || event.ctrlKey };
+    } else {
+      this.gesture = { kind: "orbit", pivot: this.orbitPivot(at) };
+    }
+  }
+
+  private move(event: PointerEvent): void {
+    const at = this.place(event);
+    if (event.pointerType === "touch" && this.touches.size === 2) return this.pinch(event.pointerId, at);
+    if (!this.gesture) {
+      this.hoverAt = at;
+      this.session.viewport.invalidate();
+      return;
+    }
+    if (!this.moved && Math.hypot(at.x - this.down.x, at.y - this.down.y) < kClickReach) return;
+    const first = !this.moved;
+    this.moved = true;
+    this.carryOn(event, at, first);
+    this.last = at;
+  }
+
+  private carryOn(event: PointerEvent, at: { x: number; y: number }, first: boolean): void {
+    const { rig } = this.session.viewport;
+    if (first && this.gesture?.kind === "press") this.gesture = this.startDrag(this.gesture);
+    const [dx, dy] = [at.x - this.last.x, at.y - this.last.y];
+    if (this.gesture?.kind === "orbit") rig.orbit(dx, dy, this.gesture.pivot);
+    else if (this.gesture?.kind === "pan") rig.pan(dx, dy, this.gesture.grabbed);
+    else if (this.gesture?.kind === "drag") {
+      const free = event.altKey ? "turn" : event.shiftKey ? "depth" : "plane";
+      this.drag.mode = this.gesture.mode ?? { kind: free, axis: this.axisLock };
+      this.drag.move(this.step(at, dx, dy));
+    }
+  }
+
+  private step(at: { x: number; y: number }, dx: number, dy: number): PointerStep {
+    const { rig } = this.session.viewport;
+    return {
+      before: rig.ray(this.last.x, this.last.y),
+      after: rig.ray(at.x, at.y),
+      dx,
+      dy,
+      right: rig.axis("right"),
+      up: rig.axis("up"),
+      back: rig.axis("back"),
+      pixel: rig.pixelSize(this.drag.anchor),
+    };
+  }
+
+  private startDrag(press: Gesture & { kind: "press" }): Gesture {
+    const { store } = this.session;
+    const { component, point } = press.pick;
+    if (!store.control || this.session.store.measuring) return { kind: "orbit", pivot: point };
+    if (!store.selection.includes(component)) this.session.select([component]);
+    return { kind: "drag", mode: null, ready: this.drag.begin([...store.selection], point) };
+  }
+
+  private release(event: PointerEvent): void {
+    this.touches.delete(event.pointerId);
+    const { gesture } = this;
+    if (!gesture) return;
+    if (gesture.kind === "drag") void gesture.ready.then(() => this.drag.end());
+    else if (!this.moved && event.type === "pointerup" && event.button === 0) this.click(gesture);
+    this.gesture = null;
+    this.hoverAt = this.place(event);
+  }
+
+  private click(gesture: Gesture): void {
+    const pick = gesture.kind === "press" ? gesture.pick : null;
+    const now = performance.now();
+    const again =
+      now - this.lastClick.time < kDoubleClick &&
+      Math.hypot(this.down.x - this.lastClick.x, this.down.y - this.lastClick.y) < kClickReach;
+    this.lastClick = { time: again ? -1e9 : now, ...this.down };
+    if (this.onClick(pick)) return;
+    if (again) {
+      const { viewport } = this.session;
+      const box = pick ? viewport.model!.components[pick.component].bounds() : viewport.model?.bounds();
+      if (box) viewport.rig.fit(box);
+      return;
+    }
+    if (!pick) return this.session.select([]);
+    const { selection } = this.session.store;
+    if (gesture.kind !== "press" || !gesture.adds) return this.session.select([pick.component]);
+    const has = selection.includes(pick.component);
+    this.session.select(has ? selection.filter((c) => c !== pick.component) : [...selection, pick.component]);
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const at = this.place(event);
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1;
+    const amount = Math.max(-400, Math.min(400, event.deltaY * lines));
+    this.session.viewport.rig.zoom(Math.exp(amount * kZoomStep), this.pivot(at));
+  }
+
+  private pinch(id: number, at: { x: number; y: number }): void {
+    const other = [...this.touches.entries()].find(([key]) => key !== id)![1];
+    const before = this.touches.get(id)!;
+    this.touches.set(id, at);
+    const middle = { x: (at.x + other.x) / 2, y: (at.y + other.y) / 2 };
+    const { rig } = this.session.viewport;
+    const fixed = this.gesture?.kind === "pan" ? this.gesture.grabbed : this.pivot(middle);
+    rig.pan((at.x - before.x) / 2, (at.y - before.y) / 2, fixed);
+    const spread = (p: { x: number; y: number }) => Math.max(10, Math.hypot(p.x - other.x, p.y - other.y));
+    rig.zoom(spread(before) / spread(at), this.pivot(middle));
+    this.moved = true;
+  }
+
+  /// What a place on screen is about: the surface there, or the depth of what is looked at.
+  private pivot(at: { x: number; y: number }): Vector3 {
+    const { viewport } = this.session;
+    const pick = viewport.pick(at.x, at.y);
+    if (pick) return pick.point;
+    const { focus } = viewport.rig.current;
+    const ray = viewport.rig.ray(at.x, at.y);
+    const back = viewport.rig.axis("back");
+    return ray.at(focus.sub(ray.origin).dot(back) / ray.direction.dot(back), new Vector3());
+  }
+
+  private orbitPivot(at: { x: number; y: number }): Vector3 {
+    const { viewport } = this.session;
+    return viewport.pick(at.x, at.y)?.point ?? viewport.rig.current.focus;
+  }
+
+  private selectionCenter(): Vector3 {
+    const { viewport, store } = this.session;
+    const boxes = store.selection.map((c) => viewport.model!.components[c].bounds());
+    return boxes.reduce((all, box) => all.union(box)).getCenter(new Vector3());
+  }
+
+  private takeOutAlong(arrow: number): void {
+    const { directions } = this.session.store;
+    const free = directions?.directions.filter((way) => way.free) ?? [];
+    if (!directions || !free[arrow]) return;
+    void this.session.ask("take_out", { components: directions.components, direction: free[arrow].direction });
+  }
+
+  private leave(): void {
+    this.hoverAt = null;
+    this.session.viewport.cube.hover(null);
+    if (!this.gesture) this.session.hover(null);
+  }
+
+  private showHover(): boolean {
+    const { viewport } = this.session;
+    const at = this.hoverAt;
+    this.hoverAt = null;
+    if (!at || this.gesture) return false;
+    const view = viewport.cube.pick(viewport.rig, at.x, at.y);
+    viewport.cube.hover(view);
+    const onArrow = viewport.directions.pick(viewport.rig, at.x, at.y) >= 0;
+    const onHandle = onArrow || this.gizmo.pick(viewport.rig, at.x, at.y) !== null;
+    this.session.hover(view || onHandle ? null : (viewport.pick(at.x, at.y)?.component ?? null));
+    viewport.canvas.classList.toggle("pointing", view !== null || onHandle);
+    return false;
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { element, setText } from "../dom.ts";
+import type { Pick } from "../scene/model_view.ts";
+import type { Session } from "../session.ts";
+import { lengthText, text } from "../strings.ts";
+
+/// The distance between two points that are clicked.
+export class Measure {
+  readonly node = element("div", { id: "measure-label", class: "floating label", role: "status", hidden: true });
+  private points: Vector3[] = [];
+  private readonly line = new LineSegments2(
+    new LineSegmentsGeometry(),
+    new LineMaterial({ linewidth: 2, depthTest: false, transparent: true }),
+  );
+
+  constructor(private readonly session: Session) {
+    this.line.visible = false;
+    this.line.frustumCulled = false;
+    this.line.renderOrder = 8;
+    session.viewport.scene.add(this.line);
+    session.viewport.beforePicture.push(() => this.place());
+  }
+
+  toggle(): void {
+    const { store } = this.session;
+    this.points = [];
+    this.session.change(() => {
+      store.measuring = !store.measuring;
+    });
+    this.session.viewport.invalidate();
+  }
+
+  /// Takes a click where measuring is on.
+  click(pick: Pick | null): boolean {
+    if (!this.session.store.measuring) return false;
+    if (pick) {
+      if (this.points.length === 2) this.points = [];
+      this.points.push(pick.point);
+      this.session.viewport.invalidate();
+    }
+    return true;
+  }
+
+  private place(): boolean {
+    const { store, viewport } = this.session;
+    this.node.hidden = !store.measuring;
+    this.line.visible = store.measuring && this.points.length === 2;
+    if (!store.measuring) return false;
+    const [a, b] = this.points;
+    setText(this.node, this.words(a, b));
+    if (a && b) {
+      this.line.geometry.setPositions([...a.toArray(), ...b.toArray()]);
+      this.line.material.color.set(viewport.palette.measure);
+    }
+    const at =
+      a && b ? viewport.rig.project(a.clone().add(b).multiplyScalar(0.5)) : new Vector3(viewport.rig.size.x / 2, 40, 0);
+    this.node.style.left = `${at.x}px`;
+    this.node.style.top = `${at.y}px`;
+    return false;
+  }
+
+  private words(a: Vector3 | undefined, b: Vector3 | undefined): string {
+    if (!a) return text("measure.first");
+    if (!b) return text("measure.second");
+    const by = b.clone().sub(a);
+    const part = (value: number) => value.toFixed(2);
+    return text("measure.result", { distance: lengthText(by.length()), x: part(by.x), y: part(by.y), z: part(by.z) });
+  }
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+import { button, element } from "../dom.ts";
+import type { Session } from "../session.ts";
+import { text } from "../strings.ts";
+import type { Commands } from "../wire/messages.ts";
+
+/// What the server has open follows its greeting within this time [ms].
+const kGreeting = 250;
+const kKinds = ".step,.stp,.glb,.gltf,.obj,.stl,.ply,.urdf";
+
+/// The start page and the dialog of Open: samples, recent files, files below the roots, a file of one's own. A file
+/// dropped anywhere on the page is opened, too.
+export class OpenDialog {
+  readonly node: HTMLDialogElement;
+  private readonly samples = element("div", { class: "cards", id: "samples" });
+  private readonly recent = element("ul", { class: "rows" });
+  private readonly roots = element("div", { class: "roots" });
+  private readonly picker = element("input", {
+    type: "file",
+    accept: kKinds,
+    class: "visually-hidden",
+    id: "file-picker",
+    "aria-label": text("open.choose"),
+  });
+  private dismissed = false;
+  private waiting = false;
+
+  constructor(private readonly session: Session) {
+    this.picker.onchange = () => {
+      const file = this.picker.files?.[0];
+      if (file) void this.upload(file);
+      this.picker.value = "";
+    };
+    this.node = element(
+      "dialog",
+      { id: "open-dialog", "aria-label": text("open.title") },
+      element(
+        "header",
+        {},
+        element("h1", {}, text("open.title")),
+        button({ icon: "close", label: text("open.close"), press: () => this.close() }),
+      ),
+      element("p", { class: "lead" }, text("open.lead")),
+      element("h2", {}, text("open.samples")),
+      this.samples,
+      element(
+        "div",
+        { class: "drop" },
+        element("span", {}, text("open.drop")),
+        button({ icon: "open", label: text("open.choose"), wide: true, press: () => this.picker.click() }),
+        this.picker,
+      ),
+      element(
+        "div",
+        { class: "columns" },
+        element("section", {}, element("h2", {}, text("open.recent")), this.recent),
+        element("section", {}, element("h2", {}, text("open.roots")), this.roots),
+      ),
+    );
+    this.node.oncancel = () => {
+      this.dismissed = true;
+    };
+    this.listenForDrops();
+    session.notifier.subscribe(() => this.update());
+  }
+
+  open(): void {
+    if (!this.node.open) this.node.showModal();
+    void this.refresh();
+  }
+
+  close(): void {
+    this.dismissed = true;
+    this.node.close();
+  }
+
+  /// Without an assembly this is the start page; when one has come it goes.
+  private update(): void {
+    const { model, link, jobs } = this.session.store;
+    const idle = () => link === "open" && !this.session.store.model && jobs.size === 0 && !this.dismissed;
+    if (jobs.size > 0 && this.node.open) this.node.close();
+    if (model || !idle() || this.node.open || this.waiting) return;
+    this.waiting = true;
+    setTimeout(() => {
+      this.waiting = false;
+      if (idle()) this.open();
+    }, kGreeting);
+  }
+
+  private async refresh(): Promise<void> {
+    const [samples, recent] = await Promise.all([this.session.ask("samples", {}), this.session.ask("recent", {})]);
+    this.samples.replaceChildren(
+      ...(samples?.samples ?? []).map(({ name, description }) =>
+        element(
+          "button",
+          { type: "button", class: "card", "data-sample": name, onclick: () => void this.load({ sample: name }) },
+          element("strong", {}, name),
+          element("span", {}, description),
+        ),
+      ),
+    );
+    const files = (recent?.recent ?? []).map(({ name, folder }) =>
+      element(
+        "li",
+        {},
+        element(
+          "button",
+          { type: "button", class: "link-button", onclick: () => void this.load({ recent: name }) },
+          name,
+        ),
+        element("span", { class: "muted" }, folder),
+      ),
+    );
+    this.recent.replaceChildren(
+      ...(files.length > 0 ? files : [element("li", { class: "muted" }, text("open.recent.none"))]),
+    );
+    const { roots } = this.session.store;
+    this.roots.replaceChildren(...roots.map((root) => this.rootList(root)));
+    if (roots.length === 0) this.roots.append(element("p", { class: "muted" }, text("open.roots.none")));
+  }
+
+  private rootList(root: string): HTMLElement {
+    const list = element("ul", { class: "rows files" });
+    const show = async (folder: string): Promise<void> => {
+      const answer = await this.session.ask("files", { root, folder });
+      const rows = (answer?.entries ?? []).map((entry) => {
+        const file = folder === "" ? entry.name : `${folder}/${entry.name}`;
+        const press = () =>
+          void (entry.kind === "folder"
+            ? show(file)
+            : entry.kind === "path"
+              ? this.openPath(root, file)
+              : this.load({ root, file }));
+        return element(
+          "li",
+          {},
+          element(
+            "button",
+            { type: "button", class: "link-button", onclick: press },
+            entry.kind === "folder" ? `${entry.name}/` : entry.name,
+          ),
+        );
+      });
+      const up = element(
+        "li",
+        {},
+        element(
+          "button",
+          { type: "button", class: "link-button", onclick: () => void show(folder.split("/").slice(0, -1).join("/")) },
+          text("open.up"),
+        ),
+      );
+      list.replaceChildren(...(folder === "" ? rows : [up, ...rows]));
+    };
+    void show("");
+    return element("div", {}, element("h3", {}, root), list);
+  }
+
+  private async load(what: Commands["open"][0]): Promise<void> {
+    if (await this.session.ask("open", what)) this.close();
+  }
+
+  private async openPath(root: string, file: string): Promise<void> {
+    if (await this.session.ask("open_path", { root, file })) this.close();
+  }
+
+  /// Opens a file of the user's own machine.
+  async upload(file: File): Promise<void> {
+    const door = file.name.endsWith(".path.json") ? "guide" : "open";
+    try {
+      await this.session.connection.request(`/api/${door}?name=${encodeURIComponent(file.name)}`, {
+        method: "POST",
+        body: file,
+      });
+      this.close();
+    } catch (error) {
+      this.session.onNote("warning", (error as Error).message);
+    }
+  }
+
+  private listenForDrops(): void {
+    const over = (event: DragEvent): void => {
+      event.preventDefault();
+      document.body.classList.toggle("dropping", event.type === "dragover");
+    };
+    document.addEventListener("dragover", over);
+    document.addEventListener("dragleave", over);
+    document.addEventListener("drop", (event) => {
+      over(event);
+      const file = event.dataTransfer?.files[0];
+      if (file) void this.upload(file);
+    });
+  }
+}

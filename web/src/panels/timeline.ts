@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+import { button, element, setText } from "../dom.ts";
+import type { Session } from "../session.ts";
+import { text } from "../strings.ts";
+import type { Move, Source } from "../wire/messages.ts";
+
+const kSpeeds = [0.25, 0.5, 1, 2, 4];
+const kTicks = 1000;
+
+/// The recorded moves as blocks on a line of time, with a scrubber, and the buttons that play them.
+export class TimelinePanel {
+  readonly node: HTMLElement;
+  private readonly blocks = element("div", { class: "blocks", "aria-hidden": "true" });
+  private readonly scrub = element("input", {
+    type: "range",
+    min: "0",
+    max: String(kTicks),
+    step: "1",
+    id: "scrub",
+    "aria-label": text("timeline.scrub"),
+  });
+  private readonly speed = element("select", {
+    "aria-label": text("timeline.speed"),
+    title: text("timeline.speed"),
+    id: "speed",
+  });
+  private readonly clock = element("output", { class: "clock", for: "scrub" });
+  private readonly empty = element("p", { class: "muted" }, text("timeline.empty"));
+  private readonly buttons: Record<"start" | "reverse" | "pause" | "play" | "end" | "stop", HTMLButtonElement>;
+  private shownMoves: Move[] | null = null;
+  private scrubbing = false;
+  private seeking: Promise<unknown> | null = null;
+  private wanted: number | null = null;
+
+  constructor(private readonly session: Session) {
+    this.buttons = {
+      start: button({ icon: "start", label: text("timeline.start"), id: "play-start", press: () => this.seek(0) }),
+      reverse: button({
+        icon: "playBack",
+        label: text("timeline.reverse"),
+        id: "play-reverse",
+        press: () => this.play(-1),
+      }),
+      pause: button({
+        icon: "pause",
+        label: text("timeline.pause"),
+        id: "play-pause",
+        press: () => void session.ask("pause", {}),
+      }),
+      play: button({ icon: "play", label: text("timeline.play"), key: "P", id: "play", press: () => this.play(1) }),
+      end: button({
+        icon: "end",
+        label: text("timeline.end"),
+        id: "play-end",
+        press: () => this.seek(this.duration()),
+      }),
+      stop: button({
+        icon: "close",
+        label: text("timeline.stop"),
+        wide: true,
+        id: "play-stop",
+        press: () => void session.ask("stop", {}),
+      }),
+    };
+    for (const value of kSpeeds)
+      this.speed.append(element("option", { value: String(value), selected: value === 1 }, `${value}×`));
+    this.scrub.oninput = () => this.scrubTo(Number(this.scrub.value) / kTicks);
+    this.scrub.onchange = () => {
+      this.scrubbing = false;
+    };
+    this.speed.onchange = () => this.changeSpeed();
+    const { start, reverse, pause, play, end, stop } = this.buttons;
+    this.node = element(
+      "section",
+      { id: "timeline", "aria-label": text("timeline") },
+      element("div", { class: "transport" }, start, reverse, pause, play, end, this.speed),
+      element("div", { class: "track" }, this.blocks, this.scrub, this.empty),
+      this.clock,
+      stop,
+    );
+    session.notifier.subscribe(() => this.update());
+  }
+
+  /// Plays, or pauses what plays.
+  toggle(): void {
+    if (this.session.store.state?.playback?.playing) void this.session.ask("pause", {});
+    else this.play(1);
+  }
+
+  private source(): Source {
+    return this.session.store.state?.playback?.source ?? "recording";
+  }
+
+  private moves(): Move[] {
+    const { state } = this.session.store;
+    return (this.source() === "guide" ? state?.guide?.moves : state?.moves) ?? [];
+  }
+
+  private duration(): number {
+    const last = this.moves().at(-1);
+    return last ? last.start + last.duration : 0;
+  }
+
+  private time(): number {
+    const { state, frame } = this.session.store;
+    if (!state?.playback) return this.duration();
+    return frame?.playback ? frame.time : state.playback.time;
+  }
+
+  private async play(sign: 1 | -1): Promise<void> {
+    const { state } = this.session.store;
+    if (this.duration() === 0) return;
+    const speed = sign * Number(this.speed.value);
+    // What is recorded is where one is: playing it forward begins at its start.
+    if (!state?.playback)
+      await this.session.ask("seek", { time: sign > 0 ? 0 : this.duration(), source: this.source() });
+    else if (sign > 0 && this.time() >= this.duration() - 1e-9) await this.session.ask("seek", { time: 0 });
+    await this.session.ask("play", { speed, source: this.source() });
+  }
+
+  private changeSpeed(): void {
+    const playback = this.session.store.state?.playback;
+    if (playback?.playing)
+      void this.session.ask("play", {
+        speed: Math.sign(playback.speed) * Number(this.speed.value),
+        source: playback.source,
+      });
+  }
+
+  private seek(time: number): void {
+    if (this.duration() > 0) void this.session.ask("seek", { time, source: this.source() });
+  }
+
+  /// One seek at a time, the newest next.
+  private scrubTo(part: number): void {
+    this.scrubbing = true;
+    this.wanted = part * this.duration();
+    if (this.seeking) return;
+    const next = (): void => {
+      if (this.wanted === null) {
+        this.seeking = null;
+        return;
+      }
+      const time = this.wanted;
+      this.wanted = null;
+      this.seeking = this.session.ask("seek", { time, source: this.source() }).then(next);
+    };
+    next();
+  }
+
+  private update(): void {
+    const { state, control } = this.session.store;
+    const moves = this.moves();
+    if (moves !== this.shownMoves) this.showMoves(moves);
+    const [duration, playback] = [this.duration(), state?.playback];
+    const unavailable = duration === 0 || !control || state?.hand != null || state?.automatic != null;
+    for (const name of ["start", "reverse", "play", "end"] as const) this.buttons[name].disabled = unavailable;
+    this.buttons.pause.disabled = !playback?.playing;
+    this.buttons.stop.hidden = !playback;
+    this.scrub.disabled = unavailable;
+    this.empty.hidden = duration > 0;
+    const time = this.time();
+    if (!this.scrubbing) this.scrub.value = String(duration > 0 ? Math.round((kTicks * time) / duration) : 0);
+    const label = duration > 0 ? `${time.toFixed(1)} / ${duration.toFixed(1)} s` : "";
+    setText(this.clock, label);
+    this.scrub.setAttribute("aria-valuetext", label);
+    for (const [i, block] of [...this.blocks.children].entries()) {
+      block.classList.toggle("done", moves[i].start + moves[i].duration <= time + 1e-9);
+      block.classList.toggle("blocked", playback?.blocked != null && playback.move === i);
+    }
+  }
+
+  private showMoves(moves: Move[]): void {
+    this.shownMoves = moves;
+    this.blocks.replaceChildren(
+      ...moves.map((move) => {
+        const label = text("timeline.move", { label: move.label, duration: move.duration.toFixed(1) });
+        const block = element("div", { class: "block", title: label }, element("span", {}, move.label));
+        block.style.flexGrow = String(Math.max(move.duration, 1e-3));
+        return block;
+      }),
+    );
+  }
+}

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+import { button, element, icon, setText } from "../dom.ts";
+import type { Session } from "../session.ts";
+import { text } from "../strings.ts";
+import type { ModelEvent } from "../wire/messages.ts";
+
+interface Row {
+  item: HTMLElement;
+  name: string;
+  /// Of the rows above it in the tree, nearest first.
+  parents: Row[];
+  components: number[];
+  component: number | null;
+  eye: HTMLButtonElement;
+  xray: HTMLButtonElement;
+  badge: HTMLElement;
+  open: boolean;
+}
+
+/// The product tree: search, select, hide, see through; what is touched or taken out has a badge.
+export class TreePanel {
+  readonly node: HTMLElement;
+  private readonly list = element("div", {
+    class: "tree",
+    role: "tree",
+    "aria-label": text("tree"),
+    "aria-multiselectable": "true",
+  });
+  private readonly search = element("input", {
+    type: "search",
+    placeholder: text("tree.search"),
+    "aria-label": text("tree.search"),
+    id: "tree-search",
+  });
+  private readonly count = element("span", { class: "muted" });
+  private readonly none = element("p", { class: "muted pad" }, text("tree.none"));
+  private rows: Row[] = [];
+  private shownModel: ModelEvent | null = null;
+  private shownSelection: number[] = [];
+
+  constructor(private readonly session: Session) {
+    this.search.oninput = () => this.filter();
+    this.list.onkeydown = (event) => this.key(event);
+    this.node = element(
+      "section",
+      { class: "panel", id: "tree-panel", "aria-label": text("tree") },
+      element("header", {}, element("h2", {}, text("tree")), this.count),
+      element("div", { class: "pad-x" }, this.search),
+      this.list,
+      this.none,
+    );
+    session.notifier.subscribe(() => this.update());
+  }
+
+  focusSearch(): void {
+    this.search.focus();
+    this.search.select();
+  }
+
+  private update(): void {
+    const { model, state, selection, hovered, xray, blocking, frame } = this.session.store;
+    if (model !== this.shownModel) this.rebuild(model);
+    const touched = new Set(frame?.contacts.map(({ fixed }) => fixed));
+    for (const row of this.rows) {
+      const gone = row.components.every((c) => state?.components[c]?.hidden || state?.components[c]?.removed);
+      const seeThrough = row.components.every((c) => xray.has(c));
+      row.item.setAttribute("aria-selected", String(row.components.every((c) => selection.includes(c))));
+      row.item.classList.toggle("hovered", row.component !== null && row.component === hovered);
+      row.item.classList.toggle("gone", gone);
+      row.xray.setAttribute("aria-pressed", String(seeThrough));
+      const eye = gone ? "eyeOff" : "eye";
+      if (row.eye.dataset.icon !== eye) {
+        row.eye.replaceChildren(icon(eye));
+        row.eye.dataset.icon = eye;
+        row.eye.setAttribute("aria-label", text(gone ? "tree.show" : "tree.hide", { name: row.name }));
+      }
+      if (row.component !== null)
+        this.mark(row, row.component, touched.has(row.component), blocking.has(row.component));
+    }
+    if (selection !== this.shownSelection) this.reveal(selection);
+  }
+
+  private mark(row: Row, component: number, touched: boolean, blocks: boolean): void {
+    const state = this.session.store.state?.components[component];
+    const words =
+      blocks || touched
+        ? text("pair.contact")
+        : state?.removed
+          ? text("tree.removed")
+          : state?.pose
+            ? text("tree.moved")
+            : "";
+    setText(row.badge, words);
+    row.badge.className = `badge ${blocks ? "blocks" : touched ? "touches" : ""}`;
+    row.badge.hidden = words === "";
+  }
+
+  private rebuild(model: ModelEvent | null): void {
+    this.shownModel = model;
+    this.rows = [];
+    this.list.replaceChildren();
+    if (!model) return;
+    const children = new Map<number, number[]>();
+    model.tree.forEach(({ parent }, i) => {
+      if (i > 0) children.set(parent, [...(children.get(parent) ?? []), i]);
+    });
+    const leaves = new Map<number, number[]>();
+    model.components.forEach(({ node }, i) => {
+      leaves.set(node, [...(leaves.get(node) ?? []), i]);
+    });
+    this.addNode(0, [], { model, children, leaves });
+    if (this.rows.length > 0) this.rows[0].item.tabIndex = 0;
+    this.filter();
+  }
+
+  private addNode(
+    node: number,
+    parents: Row[],
+    tree: { model: ModelEvent; children: Map<number, number[]>; leaves: Map<number, number[]> },
+  ): number[] {
+    const own = tree.leaves.get(node) ?? [];
+    const below = tree.children.get(node) ?? [];
+    if (own.length === 1 && below.length === 0 && node > 0) {
+      this.addRow(tree.model.components[own[0]].name, parents, own[0]);
+      return own;
+    }
+    const row = this.addRow(tree.model.tree[node]?.name || tree.model.name, parents, null);
+    const inside = [row, ...parents];
+    for (const component of own) this.addRow(tree.model.components[component].name, inside, component);
+    row.components = [...own, ...below.flatMap((child) => this.addNode(child, inside, tree))];
+    return row.components;
+  }
+
+  private addRow(name: string, parents: Row[], component: number | null): Row {
+    const row = {} as Row;
+    const tool = (label: string, press: () => void) => {
+      const made = button({ label, press, class: "tiny" });
+      made.tabIndex = -1;
+      return made;
+    };
+    const eye = tool(text("tree.hide", { name }), () => this.toggleShown(row));
+    const xray = tool(text("tree.xray", { name }), () => this.session.toggleXray(row.components));
+    xray.replaceChildren(icon("xray"));
+    const badge = element("span", { class: "badge" });
+    const twist = element("span", { class: "twist" });
+    if (component === null) {
+      twist.append(icon("chevron"));
+      twist.onclick = (event) => {
+        event.stopPropagation();
+        this.toggleOpen(row);
+      };
+    }
+    const item = element(
+      "div",
+      {
+        class: `row level-${Math.min(parents.length, 8)} ${component === null ? "group" : ""}`,
+        role: "treeitem",
+        "aria-level": parents.length + 1,
+        tabIndex: -1,
+        title: name,
+      },
+      twist,
+      element("span", { class: "name" }, name),
+      badge,
+      xray,
+      eye,
+    );
+    if (component === null) item.setAttribute("aria-expanded", "true");
+    item.onclick = (event) => this.select(row, event.ctrlKey || event.shiftKey, event.target as Node);
+    item.onpointerenter = () => this.session.hover(component);
+    item.onpointerleave = () => this.session.hover(null);
+    Object.assign(row, { item, name, parents, component, eye, xray, badge, open: true });
+    row.components = component === null ? [] : [component];
+    this.rows.push(row);
+    this.list.append(item);
+    return row;
+  }
+
+  private select(row: Row, adds: boolean, target: Node): void {
+    if (row.eye.contains(target) || row.xray.contains(target)) return;
+    const { selection } = this.session.store;
+    this.setFocus(row);
+    if (!adds) return this.session.select(row.components);
+    const has = row.components.every((c) => selection.includes(c));
+    const rest = selection.filter((c) => !row.components.includes(c));
+    this.session.select(has ? rest : [...rest, ...row.components]);
+  }
+
+  private toggleShown(row: Row): void {
+    const { state } = this.session.store;
+    const removed = row.components.filter((c) => state?.components[c]?.removed);
+    const hidden = row.components.filter((c) => state?.components[c]?.hidden);
+    if (row.components.length === removed.length && hidden.length === 0) {
+      void this.session.ask("put_back", { components: row.components });
+      return;
+    }
+    const gone = row.components.length === hidden.length + removed.length;
+    if (gone) void this.session.ask("show", { components: hidden });
+    else void this.session.ask("hide", { components: row.components.filter((c) => !removed.includes(c)) });
+  }
+
+  private toggleOpen(row: Row, open = !row.open): void {
+    row.open = open;
+    row.item.setAttribute("aria-expanded", String(open));
+    this.filter();
+  }
+
+  private filter(): void {
+    const wanted = this.search.value.trim().toLowerCase();
+    const found = this.rows.filter((row) => wanted === "" || row.name.toLowerCase().includes(wanted));
+    const shown = new Set(found.flatMap((row) => [row, ...row.parents]));
+    for (const row of this.rows)
+      row.item.hidden = !shown.has(row) || (wanted === "" && row.parents.some((parent) => !parent.open));
+    const leaves = this.rows.filter((row) => row.component !== null);
+    const seen = leaves.filter((row) => shown.has(row)).length;
+    setText(
+      this.count,
+      wanted === "" ? String(leaves.length || "") : text("tree.count", { shown: seen, all: leaves.length }),
+    );
+    this.none.hidden = this.rows.length === 0 || shown.size > 0;
+  }
+
+  private reveal(selection: number[]): void {
+    this.shownSelection = selection;
+    const row = this.rows.find((candidate) => candidate.component !== null && selection.includes(candidate.component));
+    if (!row) return;
+    for (const parent of row.parents) if (!parent.open) this.toggleOpen(parent, true);
+    row.item.scrollIntoView({ block: "nearest" });
+  }
+
+  private key(event: KeyboardEvent): void {
+    const shown = this.rows.filter((row) => !row.item.hidden);
+    const at = shown.findIndex((row) => row.item === document.activeElement);
+    const row = shown[at];
+    if (!row || event.ctrlKey) return;
+    const moves: Record<string, () => void> = {
+      ArrowDown: () => this.setFocus(shown[Math.min(at + 1, shown.length - 1)]),
+      ArrowUp: () => this.setFocus(shown[Math.max(at - 1, 0)]),
+      Home: () => this.setFocus(shown[0]),
+      End: () => this.setFocus(shown[shown.length - 1]),
+      ArrowRight: () => row.component === null && this.toggleOpen(row, true),
+      ArrowLeft: () =>
+        row.component === null && row.open ? this.toggleOpen(row, false) : this.setFocus(row.parents[0] ?? row),
+      Enter: () => this.select(row, event.shiftKey, row.item),
+      " ": () => this.toggleShown(row),
+    };
+    if (!moves[event.key]) return;
+    event.preventDefault();
+    event.stopPropagation();
+    moves[event.key]();
+  }
+
+  private setFocus(row: Row): void {
+    for (const other of this.rows) other.item.tabIndex = other === row ? 0 : -1;
+    row.item.focus();
+  }
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+import {
+  type Box3,
+  MathUtils,
+  Matrix4,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Quaternion,
+  Ray,
+  Vector2,
+  Vector3,
+} from "three";
+
+/// Where one looks from.
+export interface View {
+  focus: Vector3;
+  orientation: Quaternion;
+  /// From the focus to the eye [mm].
+  distance: number;
+}
+
+const kFieldOfView = MathUtils.degToRad(30);
+const kOrbitSpeed = 0.0075;
+const kFlight = 220;
+const kUp = new Vector3(0, 0, 1);
+
+/// The camera and its turntable, z up. All places on screen are in CSS pixels from the canvas's upper left corner.
+export class CameraRig {
+  /// Called whenever the picture is not what the camera sees any more.
+  onChange: () => void = () => {};
+  /// Flights between views are skipped.
+  instant = false;
+  readonly size = new Vector2(1, 1);
+
+  private view: View = { focus: new Vector3(), orientation: orientationFrom(new Vector3(1, -1.6, 0.9)), distance: 500 };
+  private readonly perspective = new PerspectiveCamera(MathUtils.radToDeg(kFieldOfView));
+  private readonly parallel = new OrthographicCamera();
+  private isParallel = false;
+  private readonly scene = { center: new Vector3(), radius: 100 };
+  private flight: { from: View; to: View; start: number } | null = null;
+
+  get camera(): PerspectiveCamera | OrthographicCamera {
+    return this.isParallel ? this.parallel : this.perspective;
+  }
+
+  get orthographic(): boolean {
+    return this.isParallel;
+  }
+
+  set orthographic(value: boolean) {
+    this.isParallel = value;
+    this.update();
+  }
+
+  get flying(): boolean {
+    return this.flight !== null;
+  }
+
+  get current(): View {
+    return {
+      focus: this.view.focus.clone(),
+      orientation: this.view.orientation.clone(),
+      distance: this.view.distance,
+    };
+  }
+
+  /// Unit vectors of the screen in the world.
+  axis(which: "right" | "up" | "back"): Vector3 {
+    const local = { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), back: new Vector3(0, 0, 1) }[which];
+    return local.applyQuaternion(this.view.orientation);
+  }
+
+  resize(width: number, height: number): void {
+    this.size.set(Math.max(1, width), Math.max(1, height));
+    this.update();
+  }
+
+  /// What must not be cut off by the near and far planes.
+  setSceneBounds(box: Box3): void {
+    box.getCenter(this.scene.center);
+    this.scene.radius = Math.max(1e-3, box.getSize(new Vector3()).length() / 2);
+    this.update();
+  }
+
+  /// Turns about `pivot` by a motion of the pointer.
+  orbit(dx: number, dy: number, pivot: Vector3): void {
+    const back = this.axis("back");
+    const pitch = Math.asin(MathUtils.clamp(back.z, -1, 1));
+    const limit = Math.PI / 2 - 1e-3;
+    const tilt = MathUtils.clamp(pitch + dy * kOrbitSpeed, -limit, limit) - pitch;
+    const turn = new Quaternion()
+      .setFromAxisAngle(kUp, -dx * kOrbitSpeed)
+      .multiply(new Quaternion().setFromAxisAngle(this.axis("right"), -tilt));
+    this.view.orientation.premultiply(turn).normalize();
+    this.view.focus.sub(pivot).applyQuaternion(turn).add(pivot);
+    this.stay();
+  }
+
+  /// Moves so that `grabbed` follows the pointer.
+  pan(dx: number, dy: number, grabbed: Vector3): void {
+    const scale = this.pixelSize(grabbed);
+    this.view.focus.addScaledVector(this.axis("right"), -dx * scale).addScaledVector(this.axis("up"), dy * scale);
+    this.stay();
+  }
+
+  /// Zooms so that `fixed` keeps its place on screen.
+  zoom(factor: number, fixed: Vector3): void {
+    const distance = MathUtils.clamp(this.view.distance * factor, this.scene.radius * 1e-4, this.scene.radius * 40);
+    this.view.focus
+      .sub(fixed)
+      .multiplyScalar(distance / this.view.distance)
+      .add(fixed);
+    this.view.distance = distance;
+    this.stay();
+  }
+
+  /// Shows all of a box, from where one looks or from `direction` (towards the eye).
+  fit(box: Box3, direction?: Vector3): void {
+    if (box.isEmpty()) return;
+    const radius = Math.max(1e-3, box.getSize(new Vector3()).length() / 2);
+    const narrow = Math.min(1, this.size.x / this.size.y);
+    this.fly({
+      focus: box.getCenter(new Vector3()),
+      orientation: direction ? orientationFrom(direction) : this.view.orientation.clone(),
+      distance: radius / Math.sin(Math.atan(Math.tan(kFieldOfView / 2) * narrow)),
+    });
+  }
+
+  /// Looks from `direction` (towards the eye) at what is looked at now.
+  lookFrom(direction: Vector3): void {
+    this.fly({ ...this.current, orientation: orientationFrom(direction) });
+  }
+
+  fly(to: View): void {
+    this.flight = this.instant ? null : { from: this.current, to, start: performance.now() };
+    if (this.instant) this.view = to;
+    this.update();
+  }
+
+  /// Moves a flight on; call once a frame.
+  advance(now: number): void {
+    if (!this.flight) return;
+    const { from, to, start } = this.flight;
+    const part = MathUtils.clamp((now - start) / kFlight, 0, 1);
+    const eased = part * part * (3 - 2 * part);
+    this.view.focus.lerpVectors(from.focus, to.focus, eased);
+    this.view.orientation.slerpQuaternions(from.orientation, to.orientation, eased);
+    this.view.distance = from.distance * (to.distance / from.distance) ** eased;
+    if (part === 1) this.flight = null;
+    this.update();
+  }
+
+  /// The ray under a place on screen.
+  ray(x: number, y: number): Ray {
+    const device = this.deviceFromScreen(x, y);
+    const near = new Vector3(device.x, device.y, -1).unproject(this.camera);
+    const far = new Vector3(device.x, device.y, 1).unproject(this.camera);
+    return new Ray(near, far.sub(near).normalize());
+  }
+
+  /// Where a point is on screen; z below 1 in front of the far plane.
+  project(point: Vector3): Vector3 {
+    const device = point.clone().project(this.camera);
+    return new Vector3((0.5 + 0.5 * device.x) * this.size.x, (0.5 - 0.5 * device.y) * this.size.y, device.z);
+  }
+
+  /// How long a pixel is at a point [mm].
+  pixelSize(point: Vector3): number {
+    const depth = this.isParallel ? this.view.distance : this.axis("back").dot(this.camera.position.clone().sub(point));
+    return (2 * Math.max(depth, 1e-6) * Math.tan(kFieldOfView / 2)) / this.size.y;
+  }
+
+  deviceFromScreen(x: number, y: number): Vector2 {
+    return new Vector2((2 * x) / this.size.x - 1, 1 - (2 * y) / this.size.y);
+  }
+
+  private stay(): void {
+    this.flight = null;
+    this.update();
+  }
+
+  private update(): void {
+    const { focus, orientation, distance } = this.view;
+    const aspect = this.size.x / this.size.y;
+    for (const camera of [this.perspective, this.parallel]) {
+      camera.quaternion.copy(orientation);
+      camera.position.copy(focus).addScaledVector(this.axis("back"), distance);
+    }
+    const depth = this.axis("back").dot(this.perspective.position.clone().sub(this.scene.center));
+    const far = Math.max(depth + 1.6 * this.scene.radius, distance * 2);
+    this.perspective.aspect = aspect;
+    this.perspective.far = far;
+    this.perspective.near = Math.max(depth - 1.6 * this.scene.radius, Math.min(distance * 0.02, far * 1e-3));
+    const half = distance * Math.tan(kFieldOfView / 2);
+    this.parallel.left = -half * aspect;
+    this.parallel.right = half * aspect;
+    this.parallel.top = half;
+    this.parallel.bottom = -half;
+    this.parallel.near = depth - 1.6 * this.scene.radius;
+    this.parallel.far = far;
+    for (const camera of [this.perspective, this.parallel]) {
+      camera.updateProjectionMatrix();
+      camera.updateMatrixWorld(true);
+    }
+    this.onChange();
+  }
+}
+
+/// The orientation of a camera that looks from `direction`; z is up on screen, or y where it looks along z.
+export function orientationFrom(direction: Vector3): Quaternion {
+  const back = direction.clone().normalize();
+  const up = Math.abs(back.z) > 0.999 ? new Vector3(0, Math.sign(back.z), 0) : kUp;
+  return new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(back, new Vector3(), up));
+}

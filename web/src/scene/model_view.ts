@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  FrontSide,
+  Group,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  Quaternion,
+  type Ray,
+  type ShaderMaterial,
+  Vector3,
+} from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import type { WirePose } from "../wire/structs.ts";
+import type { RawAssembly, RawComponent } from "./glb.ts";
+import type { Palette } from "./palette.ts";
+import { RayTree } from "./ray_tree.ts";
+import { bodyMaterial, cutMaterial, edgeMaterial } from "./shade.ts";
+import { type Surface, surfaceFromMesh } from "./surface.ts";
+
+/// How a component stands out.
+export interface Look {
+  hovered: boolean;
+  selected: boolean;
+  blocking: boolean;
+  xray: boolean;
+  next: boolean;
+}
+
+const kPlain: Look = { hovered: false, selected: false, blocking: false, xray: false, next: false };
+const kXrayOpacity = 0.16;
+
+/// Something that the pointer is on.
+export interface Pick {
+  component: number;
+  point: Vector3;
+  normal: Vector3;
+  distance: number;
+}
+
+/// What components of one shape share.
+class SurfaceView {
+  readonly body = new BufferGeometry();
+  readonly edges = new BufferGeometry();
+  private wide: LineSegmentsGeometry | null = null;
+  private tree: RayTree | null = null;
+
+  constructor(readonly surface: Surface) {
+    this.body.setAttribute("position", new BufferAttribute(surface.positions, 3));
+    this.body.setAttribute("normal", new BufferAttribute(surface.normals, 3));
+    this.body.computeBoundingBox();
+    this.body.computeBoundingSphere();
+    this.edges.setAttribute("position", new BufferAttribute(surface.edges, 3));
+    this.edges.boundingSphere = this.body.boundingSphere;
+  }
+
+  get wideEdges(): LineSegmentsGeometry {
+    this.wide ??= new LineSegmentsGeometry().setPositions(this.surface.edges);
+    return this.wide;
+  }
+
+  get rayTree(): RayTree {
+    this.tree ??= new RayTree(this.surface.positions);
+    return this.tree;
+  }
+
+  dispose(): void {
+    this.body.dispose();
+    this.edges.dispose();
+    this.wide?.dispose();
+  }
+}
+
+/// One component as it is drawn: only ever where the engine says that it is.
+export class ComponentView {
+  readonly object = new Group();
+  readonly worldFromAssembled = new Matrix4();
+  private look: Look = kPlain;
+  private readonly body: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly edges: LineSegments<BufferGeometry, ShaderMaterial>;
+  private outline: LineSegments2 | null = null;
+  private cut: Mesh<BufferGeometry, ShaderMaterial> | null = null;
+  private readonly opacity: number;
+
+  constructor(
+    readonly raw: RawComponent,
+    readonly shape: SurfaceView,
+    private palette: Palette,
+  ) {
+    const [r, g, b, a] = raw.color;
+    this.opacity = a;
+    this.body = new Mesh(shape.body, bodyMaterial(new Color(r, g, b), a));
+    this.edges = new LineSegments(shape.edges, edgeMaterial(new Color(palette.edge), 1));
+    this.object.add(this.body, this.edges);
+    this.object.matrixAutoUpdate = false;
+    this.setPose(null);
+  }
+
+  get index(): number {
+    return this.raw.index;
+  }
+
+  get visible(): boolean {
+    return this.object.visible;
+  }
+
+  set visible(value: boolean) {
+    this.object.visible = value;
+  }
+
+  setPose(pose: WirePose | null): void {
+    setMatrixFromPose(this.worldFromAssembled, pose);
+    this.object.matrix.multiplyMatrices(this.worldFromAssembled, this.raw.assembledFromMesh);
+    this.object.matrixWorldNeedsUpdate = true;
+  }
+
+  bounds(): Box3 {
+    return this.shape.body.boundingBox!.clone().applyMatrix4(this.object.matrix);
+  }
+
+  setLook(look: Partial<Look>): void {
+    this.look = { ...this.look, ...look };
+    this.applyLook();
+  }
+
+  setPalette(palette: Palette): void {
+    this.palette = palette;
+    this.applyLook();
+  }
+
+  /// Cuts the component by that many planes; what is closed is filled there.
+  setPlaneCount(count: number): void {
+    if (count > 0 && !this.cut && this.shape.surface.closed) {
+      this.cut = new Mesh(this.shape.body, cutMaterial(this.body.material, this.index % 2 === 0 ? 1 : -1));
+      this.object.add(this.cut);
+      this.object.matrixWorldNeedsUpdate = true;
+    }
+    if (this.cut) this.cut.visible = count > 0;
+    this.body.material.side = count > 0 && this.cut ? FrontSide : DoubleSide;
+    this.body.material.stencilWrite = this.edges.material.stencilWrite = count > 0;
+    for (const material of [this.body.material, this.edges.material, this.cut?.material]) {
+      if (!material) continue;
+      material.defines.PLANES = count;
+      material.needsUpdate = true;
+    }
+  }
+
+  /// Another picture of the same component, to be shown elsewhere.
+  copyOfBody(material: ShaderMaterial): Group {
+    const copy = new Group();
+    copy.matrixAutoUpdate = false;
+    copy.add(new Mesh(this.shape.body, material));
+    return copy;
+  }
+
+  cast(worldRay: Ray): Pick | null {
+    const meshFromWorld = this.object.matrix.clone().invert();
+    const ray = worldRay.clone().applyMatrix4(meshFromWorld);
+    const hit = this.shape.rayTree.cast(ray);
+    if (!hit) return null;
+    const point = ray.at(hit.distance, new Vector3()).applyMatrix4(this.object.matrix);
+    return {
+      component: this.index,
+      point,
+      normal: this.faceNormal(hit.face),
+      distance: point.distanceTo(worldRay.origin),
+    };
+  }
+
+  dispose(): void {
+    this.body.material.dispose();
+    this.edges.material.dispose();
+    this.cut?.material.dispose();
+    this.outline?.material.dispose();
+  }
+
+  private faceNormal(face: number): Vector3 {
+    const corner = (k: number) => new Vector3().fromArray(this.shape.surface.positions, 9 * face + 3 * k);
+    const [a, b, c] = [corner(0), corner(1), corner(2)];
+    return b.sub(a).cross(c.sub(a)).transformDirection(this.object.matrix);
+  }
+
+  private applyLook(): void {
+    const { look, palette } = this;
+    const material = this.body.material;
+    const opacity = look.xray && !look.selected ? Math.min(kXrayOpacity, this.opacity) : this.opacity;
+    material.uniforms.uOpacity.value = opacity;
+    material.transparent = opacity < 1;
+    material.depthWrite = opacity === 1;
+    const standout = this.standout();
+    const tint = new Color(standout?.color ?? palette.edge);
+    material.uniforms.uTint.value.set(tint.r, tint.g, tint.b, standout?.tint ?? 0);
+    this.edges.material.uniforms.uColor.value.set(look.hovered ? palette.accent : palette.edge);
+    this.edges.material.uniforms.uOpacity.value = look.xray && !look.selected ? 0.35 : 1;
+    this.edges.material.transparent = look.xray;
+    if (this.cut) this.cut.material.transparent = material.transparent;
+    this.setOutline(standout ? { color: standout.color, width: standout.width } : null);
+  }
+
+  private standout(): { color: string; tint: number; width: number } | null {
+    const { look, palette } = this;
+    if (look.blocking) return { color: palette.blocking, tint: 0.28, width: 3.2 };
+    if (look.selected) return { color: palette.selection, tint: 0.45, width: 2.2 };
+    if (look.next) return { color: palette.next, tint: 0.4, width: 3 };
+    if (look.hovered) return { color: palette.accent, tint: 0.14, width: 1.6 };
+    return null;
+  }
+
+  private setOutline(style: { color: string; width: number } | null): void {
+    if (style && !this.outline && this.shape.surface.edges.length > 0) {
+      this.outline = new LineSegments2(this.shape.wideEdges, new LineMaterial({ linewidth: 1 }));
+      this.outline.renderOrder = 1;
+      this.object.add(this.outline);
+    }
+    if (!this.outline) return;
+    this.outline.visible = style !== null;
+    this.outline.matrixWorldNeedsUpdate = true;
+    if (style) {
+      this.outline.material.color.set(style.color);
+      this.outline.material.linewidth = style.width;
+    }
+  }
+}
+
+/// All components of an assembly.
+export class ModelView {
+  readonly root = new Group();
+  readonly components: ComponentView[] = [];
+  private readonly shapes: SurfaceView[];
+
+  constructor(raw: RawAssembly, palette: Palette) {
+    this.shapes = raw.surfaces.map((surface) => new SurfaceView(surfaceFromMesh(surface)));
+    for (const component of raw.components) {
+      const view = new ComponentView(component, this.shapes[component.surface], palette);
+      this.components.push(view);
+      this.root.add(view.object);
+    }
+  }
+
+  /// The first component that is shown along a ray and `accepts` it.
+  cast(ray: Ray, accepts: (pick: Pick) => boolean = () => true): Pick | null {
+    let best: Pick | null = null;
+    const entry = new Vector3();
+    for (const component of this.components) {
+      if (!component.visible) continue;
+      if (!ray.intersectBox(component.bounds(), entry)) continue;
+      const pick = component.cast(ray);
+      if (pick && pick.distance < (best?.distance ?? Infinity) && accepts(pick)) best = pick;
+    }
+    return best;
+  }
+
+  /// Around what is shown.
+  bounds(): Box3 {
+    const box = new Box3();
+    for (const component of this.components) if (component.visible) box.union(component.bounds());
+    return box;
+  }
+
+  setPalette(palette: Palette): void {
+    for (const component of this.components) component.setPalette(palette);
+  }
+
+  setPlaneCount(count: number): void {
+    for (const component of this.components) component.setPlaneCount(count);
+  }
+
+  dispose(): void {
+    for (const component of this.components) component.dispose();
+    for (const shape of this.shapes) shape.dispose();
+  }
+}
+
+/// @param pose null: assembled
+export function setMatrixFromPose(matrix: Matrix4, pose: WirePose | null): Matrix4 {
+  if (!pose) return matrix.identity();
+  const [w, x, y, z] = pose.rotation;
+  return matrix.compose(new Vector3(...pose.position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Box3, Color, Scene, type Vector3, WebGLRenderer } from "three";
+import { CameraRig } from "./camera_rig.ts";
+import { ArrowField, Ghost } from "./marks.ts";
+import type { ModelView, Pick } from "./model_view.ts";
+import { kPalettes, type Palette } from "./palette.ts";
+import { shared } from "./shade.ts";
+import { ViewCube } from "./view_cube.ts";
+
+/// The picture: the model, what is drawn over it, and when it is drawn (only where something changed).
+export class Viewport {
+  readonly rig = new CameraRig();
+  readonly cube = new ViewCube();
+  readonly contacts: ArrowField;
+  readonly directions: ArrowField;
+  readonly ghost: Ghost;
+  readonly scene = new Scene();
+  palette: Palette = kPalettes.light;
+  model: ModelView | null = null;
+  /// Called before each picture; returns whether another one is to follow.
+  readonly beforePicture: ((now: number) => boolean)[] = [];
+
+  private readonly renderer: WebGLRenderer;
+  private scheduled = false;
+  private pictures = 0;
+  private planeCount = 0;
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    testing: boolean,
+  ) {
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: !testing,
+      alpha: true,
+      stencil: true,
+      preserveDrawingBuffer: testing,
+    });
+    this.renderer.autoClear = false;
+    this.renderer.setPixelRatio(testing ? 1 : Math.min(devicePixelRatio, 2));
+    this.rig.instant = testing || matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.rig.onChange = () => this.invalidate();
+    this.contacts = new ArrowField(this.palette.contact, 64);
+    this.directions = new ArrowField(this.palette.free, 32);
+    this.ghost = new Ghost(this.palette.ghost);
+    this.scene.add(this.contacts.object, this.directions.object, this.ghost.object);
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+  }
+
+  /// Asks for a picture at the next frame of the screen.
+  invalidate(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame((now) => {
+      this.scheduled = false;
+      this.draw(now);
+    });
+  }
+
+  /// Whether the picture shows everything asked for.
+  get settled(): boolean {
+    return !this.scheduled;
+  }
+
+  /// How many pictures were drawn.
+  get pictureCount(): number {
+    return this.pictures;
+  }
+
+  setModel(model: ModelView | null): void {
+    if (this.model) {
+      this.scene.remove(this.model.root);
+      this.model.dispose();
+    }
+    this.model = model;
+    model?.setPlaneCount(this.planeCount);
+    if (model) this.scene.add(model.root);
+    this.updateBounds();
+    this.invalidate();
+  }
+
+  /// Call where components were moved or shown.
+  updateBounds(): void {
+    const bounds = this.model?.bounds() ?? new Box3();
+    if (!bounds.isEmpty()) this.rig.setSceneBounds(bounds);
+  }
+
+  setPalette(palette: Palette): void {
+    this.palette = palette;
+    shared.uSky.value.set(palette.sky);
+    shared.uGround.value.set(palette.ground);
+    this.contacts.color = palette.contact;
+    this.directions.color = palette.free;
+    this.ghost.color = palette.ghost;
+    const dark = new Color(palette.background[1]).getHSL({ h: 0, s: 0, l: 0 }).l < 0.5;
+    if (dark) this.cube.setColors("#39424d", "#e8edf2", "#6d7885", palette.accent);
+    else this.cube.setColors("#ffffff", "#303842", "#9aa3ad", palette.accent);
+    this.model?.setPalette(palette);
+    this.invalidate();
+  }
+
+  pick(x: number, y: number): Pick | null {
+    return this.model?.cast(this.rig.ray(x, y), (pick) => this.isKept(pick.point)) ?? null;
+  }
+
+  /// The picture as a PNG, with the background of the theme.
+  async screenshot(): Promise<Blob> {
+    this.draw(performance.now());
+    const copy = document.createElement("canvas");
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    const brush = copy.getContext("2d")!;
+    const shade = brush.createLinearGradient(0, 0, 0, copy.height);
+    this.palette.background.forEach((color, i) => {
+      shade.addColorStop(i, color);
+    });
+    brush.fillStyle = shade;
+    brush.fillRect(0, 0, copy.width, copy.height);
+    brush.drawImage(this.canvas, 0, 0);
+    return new Promise((resolve) => {
+      copy.toBlob((blob) => resolve(blob!), "image/png");
+    });
+  }
+
+  /// Cuts away what is behind the planes (n.x + d < 0).
+  setPlanes(planes: { normal: Vector3; constant: number }[]): void {
+    planes.forEach(({ normal, constant }, i) => {
+      shared.uPlanes.value[i].set(normal.x, normal.y, normal.z, constant);
+    });
+    if (planes.length !== this.planeCount) this.model?.setPlaneCount(planes.length);
+    this.planeCount = planes.length;
+    this.invalidate();
+  }
+
+  private isKept(point: Vector3): boolean {
+    const planes = shared.uPlanes.value.slice(0, this.planeCount);
+    return planes.every((plane) => plane.x * point.x + plane.y * point.y + plane.z * point.z + plane.w >= 0);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.rig.resize(clientWidth, clientHeight);
+    this.draw(performance.now());
+  }
+
+  private draw(now: number): void {
+    this.rig.advance(now);
+    let more = this.rig.flying;
+    for (const step of this.beforePicture) more = step(now) || more;
+    this.contacts.update(this.rig);
+    this.directions.update(this.rig);
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.rig.camera);
+    if (this.model) this.cube.render(this.renderer, this.rig);
+    ++this.pictures;
+    if (more) this.invalidate();
+  }
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+import { readGlb } from "./scene/glb.ts";
+import { ModelView } from "./scene/model_view.ts";
+import type { Viewport } from "./scene/viewport.ts";
+import { emptyStore, Notifier, type Store } from "./store.ts";
+import { text } from "./strings.ts";
+import { Connection } from "./wire/connection.ts";
+import type { Commands, ModelEvent, StateEvent } from "./wire/messages.ts";
+import type { PoseFrame, WirePose } from "./wire/structs.ts";
+
+/// The server's session as this page knows it, and the model that shows it: components are only ever drawn where the
+/// server says that they are.
+export class Session {
+  readonly store: Store = emptyStore();
+  readonly connection = new Connection();
+  readonly notifier = new Notifier();
+  /// Shows the user a sentence.
+  onNote: (level: "note" | "warning", sentence: string) => void = () => {};
+  onModel: () => void = () => {};
+  onFrame: ((frame: PoseFrame) => void)[] = [];
+
+  private loading: Promise<void> | null = null;
+
+  constructor(readonly viewport: Viewport) {
+    const { connection, store } = this;
+    connection.onLink = (link) =>
+      this.change(() => {
+        store.link = link;
+      });
+    connection.onFrame = (frame) => this.takeFrame(frame);
+    connection.on("hello", ({ roots }) =>
+      this.change(() => {
+        store.roots = roots;
+      }),
+    );
+    connection.on("control", ({ control, clients }) => this.change(() => Object.assign(store, { control, clients })));
+    connection.on("job", (job) => this.change(() => this.takeJob(job)));
+    connection.on("log", ({ level, text: sentence }) => this.onNote(level, sentence));
+    connection.on("error", ({ error }) => this.onNote("warning", error));
+    connection.on("model", (model) => this.takeModel(model));
+    connection.on("state", (state) => this.takeState(state));
+  }
+
+  /// Sends a command; a refusal is shown to the user and gives null.
+  async ask<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1] | null> {
+    try {
+      return await this.connection.command(name, members);
+    } catch (error) {
+      this.onNote("warning", (error as Error).message);
+      return null;
+    } finally {
+      this.notifier.notify();
+    }
+  }
+
+  change(apply: () => void): void {
+    apply();
+    this.notifier.notify();
+  }
+
+  nameOf(component: number | null): string {
+    return component === null ? "" : (this.store.model?.components[component]?.name ?? "");
+  }
+
+  /// Whether everything received is shown and everything asked is answered.
+  get settled(): boolean {
+    return this.loading === null && this.connection.settled && ![...this.store.jobs.values()].some(isRunning);
+  }
+
+  /// Where a component is now; null: assembled.
+  poseOf(component: number): WirePose | null {
+    const { state, frame } = this.store;
+    if (frame && state?.moving.includes(component) && frame.state === state.number) return frame;
+    return poseFromState(state, component);
+  }
+
+  select(components: number[]): void {
+    const before = this.store.selection;
+    if (components.length === before.length && components.every((c, i) => c === before[i])) return;
+    this.change(() => {
+      this.store.selection = components;
+      this.store.directions = null;
+      this.store.nearest = null;
+    });
+    this.showLooks();
+  }
+
+  hover(component: number | null): void {
+    if (component === this.store.hovered) return;
+    this.change(() => {
+      this.store.hovered = component;
+    });
+    this.showLooks();
+  }
+
+  block(components: Set<number>): void {
+    const before = this.store.blocking;
+    if (components.size === before.size && [...components].every((c) => before.has(c))) return;
+    this.change(() => {
+      this.store.blocking = components;
+    });
+    this.showLooks();
+  }
+
+  toggleXray(components: number[]): void {
+    const { xray } = this.store;
+    const on = !components.every((c) => xray.has(c));
+    this.change(() => {
+      for (const component of components) on ? xray.add(component) : xray.delete(component);
+    });
+    this.showLooks();
+  }
+
+  showLooks(): void {
+    const { selection, hovered, xray, blocking } = this.store;
+    for (const view of this.viewport.model?.components ?? [])
+      view.setLook({
+        selected: selection.includes(view.index),
+        hovered: hovered === view.index,
+        xray: xray.has(view.index),
+        blocking: blocking.has(view.index),
+      });
+    this.viewport.invalidate();
+  }
+
+  private takeJob(job: Store["jobs"] extends Map<number, infer Job> ? Job : never): void {
+    this.store.jobs.set(job.job, job);
+    if (job.status === "running") return;
+    this.store.jobs.delete(job.job);
+    if (job.status === "failed") this.onNote("warning", text("job.failed", { name: job.name, error: job.error ?? "" }));
+  }
+
+  private takeModel(model: ModelEvent): void {
+    const known = this.store.model?.number === model.number && this.store.model.sha256 === model.sha256;
+    this.change(() => {
+      this.store.model = model;
+    });
+    if (known && this.viewport.model) return;
+    Object.assign(this.store, { selection: [], hovered: null, xray: new Set(), blocking: new Set() });
+    Object.assign(this.store, { pairs: null, directions: null, nearest: null, planes: [], explode: 0, frame: null });
+    const loading = this.load(model).finally(() => {
+      if (this.loading === loading) this.loading = null;
+    });
+    this.loading = loading;
+  }
+
+  private async load(model: ModelEvent): Promise<void> {
+    try {
+      const answer = await this.connection.request(`/api/model.glb?model=${model.number}`);
+      const bytes = await answer.arrayBuffer();
+      if (this.store.model?.number !== model.number) return;
+      this.viewport.setModel(new ModelView(readGlb(bytes), this.viewport.palette));
+    } catch (error) {
+      if (this.store.model?.number === model.number) this.onNote("warning", (error as Error).message);
+      return;
+    }
+    if (this.store.state) this.showState(this.store.state);
+    this.onModel();
+    this.notifier.notify();
+  }
+
+  private takeState(state: StateEvent): void {
+    this.change(() => {
+      this.store.state = state;
+      if (this.store.frame && state.moving.length === 0) this.store.frame = null;
+    });
+    this.showState(state);
+  }
+
+  private showState(state: StateEvent): void {
+    if (state.model !== this.store.model?.number) return;
+    for (const view of this.viewport.model?.components ?? []) {
+      const { hidden, removed } = state.components[view.index] ?? {};
+      const moves = state.moving.includes(view.index);
+      view.visible = moves || (!hidden && !removed);
+      if (!moves || !this.store.frame) view.setPose(poseFromState(state, view.index));
+    }
+    this.viewport.updateBounds();
+    this.viewport.invalidate();
+  }
+
+  private takeFrame(frame: PoseFrame): void {
+    const { state } = this.store;
+    if (!state || frame.state !== state.number) return;
+    this.change(() => {
+      this.store.frame = frame;
+    });
+    for (const component of state.moving) this.viewport.model?.components[component]?.setPose(frame);
+    for (const listener of this.onFrame) listener(frame);
+    this.viewport.invalidate();
+  }
+}
+
+function isRunning(job: { status: string }): boolean {
+  return job.status === "running";
+}
+
+function poseFromState(state: StateEvent | null, component: number): WirePose | null {
+  const pose = state?.components[component]?.pose;
+  if (!pose) return null;
+  const [x, y, z, w, qx, qy, qz] = pose;
+  return { position: [x, y, z], rotation: [w, qx, qy, qz] };
+}

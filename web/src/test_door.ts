@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from "three";
+import type { App } from "./app.ts";
+import type { Triple } from "./wire/messages.ts";
+
+/// What tests ask of the page instead of waiting for some time and hoping. It looks, and changes nothing.
+export interface TestDoor {
+  /// When everything asked is answered, shown and drawn.
+  idle(): Promise<void>;
+  /// Where the component called `name` is drawn: the matrix from its assembled position, by columns.
+  drawnMatrix(name: string): number[];
+  drawn(name: string): boolean;
+  /// A place on screen where the component is in front, or null.
+  placeOf(name: string): { x: number; y: number } | null;
+  project(point: Triple): { x: number; y: number };
+  /// What is in front at a place on screen.
+  at(x: number, y: number): string | null;
+  readonly app: App;
+}
+
+const kGrid = 60;
+
+export function testDoor(app: App): TestDoor {
+  const view = (name: string) => app.viewport.model?.components.find(({ raw }) => raw.name === name);
+  const onPage = (x: number, y: number) => {
+    const box = app.viewport.canvas.getBoundingClientRect();
+    return { x: x + box.left, y: y + box.top };
+  };
+  const nameAt = (x: number, y: number) => {
+    const pick = app.viewport.pick(x, y);
+    return pick && app.session.nameOf(pick.component);
+  };
+  return {
+    app,
+    idle: () => waitUntilIdle(app),
+    drawnMatrix: (name) => view(name)?.worldFromAssembled.toArray() ?? [],
+    drawn: (name) => view(name)?.visible ?? false,
+    placeOf(name) {
+      const { rig } = app.viewport;
+      const bounds = view(name)?.bounds();
+      if (!bounds) return null;
+      const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
+        rig.project(
+          new Vector3(
+            k & 1 ? bounds.max.x : bounds.min.x,
+            k & 2 ? bounds.max.y : bounds.min.y,
+            k & 4 ? bounds.max.z : bounds.min.z,
+          ),
+        ),
+      );
+      const [xs, ys] = [corners.map(({ x }) => x), corners.map(({ y }) => y)];
+      const place = (values: number[], k: number) =>
+        Math.min(...values) + ((k + 0.5) / kGrid) * (Math.max(...values) - Math.min(...values));
+      const order = Array.from({ length: kGrid }, (_, k) => k).sort(
+        (a, b) => Math.abs(a - kGrid / 2) - Math.abs(b - kGrid / 2),
+      );
+      for (const i of order)
+        for (const j of order)
+          if (nameAt(place(xs, i), place(ys, j)) === name) return onPage(place(xs, i), place(ys, j));
+      return null;
+    },
+    project(point) {
+      const place = app.viewport.rig.project(new Vector3(...point));
+      return onPage(place.x, place.y);
+    },
+    at(x, y) {
+      const origin = onPage(0, 0);
+      return nameAt(x - origin.x, y - origin.y);
+    },
+  };
+}
+
+async function waitUntilIdle(app: App): Promise<void> {
+  const settled = () =>
+    app.session.settled && app.viewport.settled && app.session.store.link === "open" && !app.drag.waits;
+  for (let calm = 0; calm < 3; ) {
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    calm = settled() ? calm + 1 : 0;
+  }
+}

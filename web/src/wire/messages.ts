@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// The JSON of docs/wire.md as types. Lengths are millimetres, angles radians, times seconds.
+
+export type Triple = [number, number, number];
+export type Response = "slide" | "touch" | "stop";
+export type Source = "recording" | "guide";
+
+export interface ModelComponent {
+  name: string;
+  node: number;
+  triangles: number;
+  bounds: [Triple, Triple];
+}
+
+export interface ModelEvent {
+  number: number;
+  name: string;
+  sha256: string;
+  units: string;
+  deflection: number;
+  tolerance: number;
+  triangles: number;
+  bounds: [Triple, Triple];
+  tree: { name: string; parent: number }[];
+  components: ModelComponent[];
+}
+
+export interface ComponentState {
+  /// Position, then the quaternion w, x, y, z; absent where the component is assembled.
+  pose?: [number, number, number, number, number, number, number];
+  hidden?: boolean;
+  removed?: boolean;
+}
+
+export interface Move {
+  label: string;
+  components: number[];
+  start: number;
+  duration: number;
+}
+
+export interface Playback {
+  source: Source;
+  time: number;
+  duration: number;
+  speed: number;
+  playing: boolean;
+  move: number;
+  blocked: { time: number; by: number | null } | null;
+}
+
+export interface StateEvent {
+  number: number;
+  model: number;
+  components: ComponentState[];
+  isolated: boolean;
+  hand: { grip: number; components: number[] } | null;
+  moving: number[];
+  automatic: "take_out" | "put_back" | null;
+  response: Response;
+  undo: string | null;
+  redo: string | null;
+  moves: Move[];
+  playback: Playback | null;
+  guide: { name: string; moves: Move[] } | null;
+  resumed: boolean;
+  resumable: boolean;
+}
+
+export interface JobEvent {
+  job: number;
+  name: string;
+  stage: string;
+  fraction: number;
+  status: "running" | "done" | "failed" | "cancelled";
+  error?: string;
+}
+
+export interface Events {
+  hello: { version: string; roots: string[] };
+  control: { control: boolean; clients: number };
+  model: ModelEvent;
+  state: StateEvent;
+  job: JobEvent;
+  log: { level: "note" | "warning"; text: string };
+  error: { error: string };
+}
+
+export interface FreeDirection {
+  direction: Triple;
+  free: boolean;
+  distance: number;
+  blocked_by: number | null;
+}
+
+export interface CheckedPair {
+  a: number;
+  b: number;
+  state: "contact" | "fit" | "embedded" | "near";
+  distance: number;
+  penetration: number;
+  triangle_pairs: number;
+}
+
+export interface Clearance {
+  distance: number | null;
+  moving: number;
+  fixed: number;
+  point_moving: Triple;
+  point_fixed: Triple;
+}
+
+export interface Metrics {
+  steps_per_second: number;
+  step_us: { median: number; p99: number; max: number };
+  hand_to_pose_us: { median: number; p99: number };
+  pose_frames: number;
+  dropped_frames: number;
+  device: string;
+  clients: number;
+  uptime: number;
+}
+
+type Components = { components: number[] };
+
+/// What each command takes and what its answer holds.
+export interface Commands {
+  hold: [Components, { grip: number }];
+  release: [object, object];
+  cancel_drag: [object, object];
+  set_response: [{ response: Response }, object];
+  undo: [object, object];
+  redo: [object, object];
+  take_out: [Components & { direction?: Triple }, object];
+  put_back: [Components, object];
+  halt: [object, object];
+  hide: [Components, object];
+  show: [Components, object];
+  isolate: [Components, object];
+  restore: [object, object];
+  reset: [object, object];
+  play: [{ speed: number; source?: Source }, object];
+  pause: [object, object];
+  seek: [{ time: number; source?: Source }, object];
+  stop: [object, object];
+  save: [{ root: string; file: string }, { bytes: number }];
+  open_path: [{ root: string; file: string }, object];
+  close_guide: [object, object];
+  open: [{ sample: string } | { root: string; file: string } | { recent: string }, { job: number }];
+  cancel: [{ job: number }, object];
+  resume: [object, object];
+  samples: [object, { samples: { name: string; description: string }[] }];
+  files: [
+    { root: string; folder: string },
+    { entries: { name: string; kind: "folder" | "assembly" | "path"; bytes: number }[] },
+  ];
+  recent: [object, { recent: { name: string; folder: string }[] }];
+  free_directions: [Components, { directions: FreeDirection[] }];
+  clearance: [object, Clearance];
+  check: [object, { tolerance: number; pairs: CheckedPair[] }];
+  metrics: [object, Metrics];
+  take_control: [object, object];
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Ray, Vector3 } from "three";
+import { type DragMode, DragMotion, type PointerStep } from "../../src/input/drag_motion.ts";
+
+const kAssembled = {
+  position: [0, 0, 0] as [number, number, number],
+  rotation: [1, 0, 0, 0] as [number, number, number, number],
+};
+
+/// A parallel view along -y: x is right, z is up, a pixel is half a millimetre.
+function step(dx: number, dy: number): PointerStep {
+  const ray = (x: number, z: number) => new Ray(new Vector3(x, -100, z), new Vector3(0, 1, 0));
+  return {
+    before: ray(0, 0),
+    after: ray(dx / 2, -dy / 2),
+    dx,
+    dy,
+    right: new Vector3(1, 0, 0),
+    up: new Vector3(0, 0, 1),
+    back: new Vector3(0, -1, 0),
+    pixel: 0.5,
+  };
+}
+
+function dragged(mode: DragMode, dx: number, dy: number, center = new Vector3()): DragMotion {
+  const motion = new DragMotion(kAssembled, center, new Vector3(0, 5, 0));
+  motion.move(step(dx, dy), mode);
+  return motion;
+}
+
+const rounded = (values: number[]) => values.map((value) => Math.round(value * 1e6) / 1e6 + 0);
+
+test("in the plane of the screen the grabbed point follows the pointer", () => {
+  assert.deepEqual(rounded(dragged({ kind: "plane", axis: null }, 40, -20).target().position), [20, 0, 10]);
+});
+
+test("with an axis locked it only moves along it", () => {
+  assert.deepEqual(rounded(dragged({ kind: "plane", axis: 2 }, 40, -20).target().position), [0, 0, 10]);
+});
+
+test("along an axis that points at the eye, up on screen is away", () => {
+  assert.deepEqual(rounded(dragged({ kind: "plane", axis: 1 }, 0, -20).target().position), [0, 10, 0]);
+});
+
+test("in depth, up on screen is away from the eye", () => {
+  assert.deepEqual(rounded(dragged({ kind: "depth", axis: null }, 0, -20).target().position), [0, 10, 0]);
+});
+
+test("turning keeps the centre where it is", () => {
+  const center = new Vector3(7, 8, 9);
+  const motion = dragged({ kind: "turn", axis: 2 }, 30, 0, center);
+  const { position, rotation } = motion.target();
+  const [w, x, y, z] = rotation;
+  assert.deepEqual(rounded([x, y]), [0, 0]);
+  assert.ok(Math.abs(2 * Math.atan2(z, w) - 0.3) < 1e-9);
+  const moved = center
+    .clone()
+    .applyAxisAngle(new Vector3(0, 0, 1), 0.3)
+    .add(new Vector3(...position));
+  assert.ok(moved.distanceTo(center) < 1e-9);
+});
+
+test("the way there does not matter: pieces of a motion add up", () => {
+  const motion = new DragMotion(kAssembled, new Vector3(), new Vector3());
+  for (let i = 0; i < 10; ++i) motion.move(step(4, -2), { kind: "plane", axis: null });
+  assert.deepEqual(rounded(motion.target().position), [20, 0, 10]);
+});

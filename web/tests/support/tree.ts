@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+import { join } from "node:path";
+
+/// Where things are: web/test says so.
+function setting(name: string): string {
+  const value = process.env[name];
+  if (!value) throw new Error(`${name} is not set; run the tests by web/test`);
+  return value;
+}
+
+export const sourceFolder = (): string => setting("DISMANTLE_SOURCE_DIR");
+export const program = (): string => setting("DISMANTLE_PROGRAM");
+export const chromium = (): string => setting("DISMANTLE_CHROMIUM");
+export const goldenFile = (name: string): string => join(sourceFolder(), "tests/server/golden", name);
