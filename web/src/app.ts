@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
 import { element, saveAs } from "./dom.ts";
+import { Devices } from "./input/devices.ts";
 import { Drag } from "./input/drag.ts";
 import { listenForKeys } from "./input/keys.ts";
 import { PointerInput } from "./input/pointer.ts";
+import { RateHand } from "./input/rate_hand.ts";
 import { Banner, Toasts } from "./panels/banner.ts";
+import { GuidePanel } from "./panels/guide_panel.ts";
 import { helpDialog } from "./panels/help.ts";
 import { Inspector } from "./panels/inspector.ts";
 import { Measure } from "./panels/measure.ts";
@@ -31,6 +34,8 @@ export class App {
   readonly actions = this.makeActions();
 
   private readonly pointer: PointerInput;
+  private readonly rateHand: RateHand;
+  private readonly devices: Devices;
   private readonly inspector: Inspector;
   private readonly tree: TreePanel;
   private readonly timeline: TimelinePanel;
@@ -54,13 +59,21 @@ export class App {
     this.session = new Session(this.viewport);
     this.drag = new Drag(this.session);
     this.pointer = new PointerInput(this.session, this.drag, this.gizmo);
+    this.rateHand = new RateHand(this.session, this.drag);
+    this.devices = new Devices(this.rateHand, (sentence) => this.toasts.show("note", sentence));
     this.inspector = new Inspector(this.session, this.drag);
     this.tree = new TreePanel(this.session);
     this.timeline = new TimelinePanel(this.session);
     this.sections = new SectionPanel(this.session);
     this.measure = new Measure(this.session);
     this.openDialog = new OpenDialog(this.session);
-    stage.append(new Banner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
+    stage.append(
+      new Banner(this.session).node,
+      this.sections.node,
+      this.measure.node,
+      new GuidePanel(this.session).node,
+      this.toasts.node,
+    );
     document.body.prepend(new Toolbar(this).node, this.tree.node);
     document.body.append(this.inspector.node, this.timeline.node, new StatusLine(this.session).node);
     document.body.append(this.openDialog.node, this.help);
@@ -142,6 +155,7 @@ export class App {
       putBack: withSelection("put_back"),
       isolate: () => this.isolate(),
       toggleHidden: () => this.toggleHidden(),
+      device: () => void this.devices.choose(),
       search: () => this.tree.focusSearch(),
       escape: () => this.escape(),
     };
@@ -150,6 +164,7 @@ export class App {
   private escape(): void {
     const { store } = this.session;
     if (this.drag.active) void this.drag.cancel();
+    else if (this.rateHand.holds) void this.rateHand.cancel();
     else if (store.state?.automatic != null) void this.session.ask("halt", {});
     else if (store.measuring) this.measure.toggle();
     else if (store.directions)

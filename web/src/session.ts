@@ -102,6 +102,18 @@ export class Session {
     this.showLooks();
   }
 
+  /// Begins anew with the recording as the guide.
+  async followRecording(): Promise<void> {
+    try {
+      const path = await (await this.connection.request("/api/path.json")).blob();
+      const name = `${(this.store.model?.name ?? "").replace(/\.\w+$/, "")}.path.json`;
+      await this.connection.request(`/api/guide?name=${encodeURIComponent(name)}`, { method: "POST", body: path });
+    } catch (error) {
+      return this.onNote("warning", (error as Error).message);
+    }
+    await this.ask("reset", {});
+  }
+
   toggleXray(components: number[]): void {
     const { xray } = this.store;
     const on = !components.every((c) => xray.has(c));

@@ -29,6 +29,19 @@ const kEnglish = {
   screenshot: "Screenshot",
   theme: "Dark or light",
   help: "Keys",
+  device: "3D mouse",
+  guide: "Guide",
+  "guide.follow": "Follow this recording as a guide",
+  "guide.step": "Step {step} of {count}: take {names}",
+  "guide.practice.step": "Step {step} of {count}: what comes next?",
+  "guide.done": "Done. Everything is where the guide leads.",
+  "guide.show": "Show the way",
+  "guide.hint": "Hint",
+  "guide.skip": "Skip",
+  "guide.play": "Play all",
+  "guide.practice": "Practice",
+  "guide.score": "{points} points: {wrong} out of turn, {contacts} contacts, {hints} hints",
+  "guide.close": "Close the guide",
   save: "Save recording",
   reset: "Assemble everything",
   more: "More",
@@ -208,6 +221,7 @@ export function text(key: TextKey, members: Record<string, string | number> = {}
 export function lengthText(millimetres: number): string {
   const size = Math.abs(millimetres);
   if (size === 0) return "0 mm";
-  if (size < 0.1) return `${(millimetres * 1000).toFixed(size < 0.01 ? 1 : 0)} µm`;
-  return `${millimetres.toFixed(size < 10 ? 2 : size < 100 ? 1 : 0)} mm`;
+  const sign = millimetres < 0 ? "−" : "";
+  if (size < 0.1) return `${sign}${(size * 1000).toFixed(size < 0.01 ? 1 : 0)} µm`;
+  return `${sign}${size.toFixed(size < 10 ? 2 : size < 100 ? 1 : 0)} mm`;
 }

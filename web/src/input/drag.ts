@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, Matrix4, Vector3 } from "three";
+import type { CameraRig } from "../scene/camera_rig.ts";
+import type { Arrow } from "../scene/marks.ts";
 import { setMatrixFromPose } from "../scene/model_view.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
@@ -13,6 +15,9 @@ const kSettle = 400;
 const kStuck = 1000;
 /// A ghost nearer than this to the component is not shown [px].
 const kGhostGap = 3;
+/// Contacts nearer than this to each other on screen share an arrow, which is so long [px].
+const kArrowGap = 22;
+const kArrowLength = 30;
 
 /// A drag: the page sends targets, at most one a picture and the newest only; the engine answers with poses.
 export class Drag {
@@ -160,13 +165,7 @@ export class Drag {
   private takeFrame(frame: PoseFrame): void {
     const { store, viewport } = this.session;
     const shown = this.motion !== null || frame.automatic || frame.playback;
-    viewport.contacts.arrows = !shown
-      ? []
-      : frame.contacts.map(({ point, normal }) => ({
-          point: new Vector3(...point),
-          direction: new Vector3(...normal),
-          length: 34,
-        }));
+    viewport.contacts.arrows = shown ? contactArrows(frame, viewport.rig) : [];
     if (!this.motion || frame.grip !== this.grip) return;
     this.seen = frame.number;
     if (frame.number === this.number && (frame.reached || frame.blocked)) this.answered = frame.number;
@@ -217,6 +216,24 @@ export class Drag {
         this.session.store.dragHint = hint;
       });
   }
+}
+
+/// The contacts as arrows; of those that would cover each other on screen, the one with the least gap.
+function contactArrows(frame: PoseFrame, rig: CameraRig): Arrow[] {
+  const arrows: Arrow[] = [];
+  const places: Vector3[] = [];
+  for (const contact of frame.contacts) {
+    const point = new Vector3(...contact.point);
+    const direction = new Vector3(...contact.normal);
+    const place = rig.project(point).setZ(0);
+    const covered = arrows.some(
+      (other, i) => places[i].distanceTo(place) < kArrowGap && other.direction.dot(direction) > 0.9,
+    );
+    if (covered) continue;
+    arrows.push({ point, direction, length: kArrowLength });
+    places.push(place);
+  }
+  return arrows;
 }
 
 function turnBetween(a: WirePose, b: WirePose): number {

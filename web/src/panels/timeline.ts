@@ -26,7 +26,10 @@ export class TimelinePanel {
   });
   private readonly clock = element("output", { class: "clock", for: "scrub" });
   private readonly empty = element("p", { class: "muted" }, text("timeline.empty"));
-  private readonly buttons: Record<"start" | "reverse" | "pause" | "play" | "end" | "stop", HTMLButtonElement>;
+  private readonly buttons: Record<
+    "start" | "reverse" | "pause" | "play" | "end" | "stop" | "follow",
+    HTMLButtonElement
+  >;
   private shownMoves: Move[] | null = null;
   private scrubbing = false;
   private seeking: Promise<unknown> | null = null;
@@ -54,6 +57,12 @@ export class TimelinePanel {
         id: "play-end",
         press: () => this.seek(this.duration()),
       }),
+      follow: button({
+        icon: "guide",
+        label: text("guide.follow"),
+        id: "follow",
+        press: () => void session.followRecording(),
+      }),
       stop: button({
         icon: "close",
         label: text("timeline.stop"),
@@ -69,13 +78,14 @@ export class TimelinePanel {
       this.scrubbing = false;
     };
     this.speed.onchange = () => this.changeSpeed();
-    const { start, reverse, pause, play, end, stop } = this.buttons;
+    const { start, reverse, pause, play, end, stop, follow } = this.buttons;
     this.node = element(
       "section",
       { id: "timeline", "aria-label": text("timeline") },
       element("div", { class: "transport" }, start, reverse, pause, play, end, this.speed),
       element("div", { class: "track" }, this.blocks, this.scrub, this.empty),
       this.clock,
+      follow,
       stop,
     );
     session.notifier.subscribe(() => this.update());
@@ -157,6 +167,8 @@ export class TimelinePanel {
     for (const name of ["start", "reverse", "play", "end"] as const) this.buttons[name].disabled = unavailable;
     this.buttons.pause.disabled = !playback?.playing;
     this.buttons.stop.hidden = !playback;
+    this.buttons.follow.hidden = playback != null;
+    this.buttons.follow.disabled = unavailable;
     this.scrub.disabled = unavailable;
     this.empty.hidden = duration > 0;
     const time = this.time();

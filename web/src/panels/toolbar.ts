@@ -2,6 +2,7 @@
 
 import type { App } from "../app.ts";
 import { button, element, setText } from "../dom.ts";
+import { hasHid } from "../input/devices.ts";
 import { text } from "../strings.ts";
 import type { Response } from "../wire/messages.ts";
 
@@ -37,7 +38,7 @@ export class Toolbar {
     };
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
     const { undo, redo, gizmo, section, measure, projection, save, reset } = this.buttons;
-    const group = (...children: Node[]) => element("div", { class: "group" }, ...children);
+    const group = (...children: (Node | null)[]) => element("div", { class: "group" }, ...children);
     this.node = element(
       "header",
       { id: "toolbar", role: "toolbar", "aria-label": text("toolbar.label") },
@@ -49,6 +50,7 @@ export class Toolbar {
       group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection),
       this.name,
       group(
+        hasHid() ? button({ icon: "puck", label: text("device"), id: "device", press: actions.device }) : null,
         button({ icon: "camera", label: text("screenshot"), id: "screenshot", press: actions.screenshot }),
         button({ icon: "theme", label: text("theme"), key: "T", id: "theme", press: actions.theme }),
         button({ icon: "help", label: text("help"), key: "H", id: "help", press: actions.help }),

@@ -49,6 +49,7 @@ export class TreePanel {
       this.list,
       this.none,
     );
+    this.none.hidden = true;
     session.notifier.subscribe(() => this.update());
   }
 

@@ -209,7 +209,7 @@ export class ComponentView {
     if (look.blocking) return { color: palette.blocking, tint: 0.28, width: 3.2 };
     if (look.selected) return { color: palette.selection, tint: 0.45, width: 2.2 };
     if (look.next) return { color: palette.next, tint: 0.4, width: 3 };
-    if (look.hovered) return { color: palette.accent, tint: 0.14, width: 1.6 };
+    if (look.hovered) return { color: palette.accent, tint: 0.07, width: 1.8 };
     return null;
   }
 

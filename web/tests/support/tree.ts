@@ -12,3 +12,6 @@ export const sourceFolder = (): string => setting("DISMANTLE_SOURCE_DIR");
 export const program = (): string => setting("DISMANTLE_PROGRAM");
 export const chromium = (): string => setting("DISMANTLE_CHROMIUM");
 export const goldenFile = (name: string): string => join(sourceFolder(), "tests/server/golden", name);
+
+/// For work on the page: a folder to be served in place of the page that is in the program.
+export const pageFolder = (): string[] => (process.env.DISMANTLE_WEB ? ["--web", process.env.DISMANTLE_WEB] : []);

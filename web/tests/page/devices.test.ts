@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+const kSlide = "specimen slide";
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server, { before: fakeMouse });
+  await viewer.press("1");
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+
+/// A 3D mouse whose reports the test writes: all six axes in report 1, 16 bits each.
+function fakeMouse(): void {
+  const device = Object.assign(new EventTarget(), {
+    opened: false,
+    productName: "SpaceMouse",
+    collections: [
+      {
+        usagePage: 1,
+        usage: 8,
+        inputReports: [
+          {
+            reportId: 1,
+            items: [
+              {
+                isRange: true,
+                usageMinimum: 0x10030,
+                usageMaximum: 0x10035,
+                reportSize: 16,
+                reportCount: 6,
+                logicalMinimum: -350,
+                logicalMaximum: 350,
+              },
+            ],
+          },
+        ],
+      },
+    ],
+    async open() {
+      device.opened = true;
+    },
+  });
+  const hid = Object.assign(new EventTarget(), {
+    getDevices: async () => [device],
+    requestDevice: async () => [device],
+  });
+  Object.defineProperty(navigator, "hid", { value: hid });
+  Object.assign(window, {
+    sendReport: (...axes: number[]) => {
+      const data = new DataView(Int16Array.from(axes).buffer);
+      device.dispatchEvent(Object.assign(new Event("inputreport"), { reportId: 1, data }));
+    },
+  });
+}
+
+const deflect = (...axes: number[]) =>
+  viewer.page.evaluate(
+    (values) => (window as unknown as { sendReport: (...v: number[]) => void }).sendReport(...values),
+    axes,
+  );
+
+test("with nothing selected the 3D mouse moves the view", async () => {
+  const distance = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.rig.current.distance);
+  const start = await distance();
+  await deflect(0, -350, 0, 0, 0, 0);
+  await viewer.page.waitForFunction((d) => window.dismantle!.app.viewport.rig.current.distance > 1.1 * d, start);
+  await deflect(0, 0, 0, 0, 0, 0);
+  await viewer.press("f");
+  assert.equal((await viewer.state()).moves.length, 0);
+});
+
+test("what is selected moves with it, stops at contact, and is one entry of undo", async () => {
+  await viewer.page.evaluate((name) => {
+    const { session } = window.dismantle!.app;
+    session.select([session.store.model!.components.findIndex((c) => c.name === name)]);
+  }, kSlide);
+  await deflect(100, 0, 120, 0, 0, 0); // right, and down onto the stage
+  await viewer.page.waitForFunction((name) => window.dismantle!.drawnMatrix(name)[12] > 10, kSlide);
+  await deflect(0, 0, 0, 0, 0, 0);
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await viewer.idle();
+  const [x, , z] = await viewer.shift(kSlide);
+  assert.ok(x > 10 && Math.abs(z) < 0.2, `${x} ${z}`);
+  assert.equal((await viewer.state()).moves.length, 1);
+});
+
+test("Esc in mid-motion goes back", async () => {
+  const [start] = await viewer.shift(kSlide);
+  await deflect(300, 0, 0, 0, 0, 0);
+  await viewer.page.waitForFunction(
+    ([name, x]) => window.dismantle!.drawnMatrix(name as string)[12] > (x as number) + 3,
+    [kSlide, start],
+  );
+  await viewer.page.keyboard.press("Escape");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await deflect(0, 0, 0, 0, 0, 0);
+  await viewer.idle();
+  assert.equal((await viewer.shift(kSlide))[0], start);
+});

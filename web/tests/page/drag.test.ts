@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, afterEach, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+//   The stage from the front, z up: the slide lies on the stage, two clips hold it down, and it is free to the sides.
+//
+//        clip        clip
+//     ====#============#====   specimen slide
+//     ######################   stage plate
+
+let server: Server;
+let viewer: Viewer;
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+  await viewer.press("1");
+  await viewer.page.evaluate(() =>
+    window.dismantle!.app.viewport.rig.zoom(
+      0.45,
+      window.dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === "specimen slide")!.bounds().min,
+    ),
+  );
+  await viewer.idle();
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+afterEach(async () => {
+  if ((await viewer.state()).moves.length > 0) await viewer.click("#reset");
+});
+
+const kSlide = "specimen slide";
+const blocking = () => viewer.page.locator("#tree-panel .badge.blocks").count();
+const drag = () =>
+  viewer.page.evaluate(() => {
+    const { app } = window.dismantle!;
+    const { viewport, session } = app;
+    return {
+      ghost: viewport.ghost.object.visible,
+      contacts: viewport.contacts.object.count,
+      blocking: [...session.store.blocking].map((c) => session.nameOf(c)),
+    };
+  });
+
+test("a component pressed into a wall stops there: contacts are drawn and the wall is named", async () => {
+  await viewer.grab(kSlide, 0, 60);
+  const seen = await drag();
+  assert.equal(seen.ghost, true);
+  assert.ok(seen.contacts > 0);
+  assert.ok(seen.blocking.includes("stage plate"), String(seen.blocking));
+  assert.ok((await blocking()) > 0);
+  assert.match(await viewer.page.locator("#touches").innerText(), /stage plate/);
+  assert.match(await viewer.page.locator("#status-clearance").innerText(), /contact/);
+  const frame = await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!);
+  assert.ok(Math.abs(frame.position[2]) < 0.1, `${frame.position}`);
+  await viewer.letGo();
+  assert.equal((await drag()).ghost, false);
+  assert.equal(await blocking(), 0);
+});
+
+test("pressed down and pulled aside it slides along", async () => {
+  await viewer.grab(kSlide, 90, 25);
+  await viewer.letGo();
+  const [x, , z] = await viewer.shift(kSlide);
+  assert.ok(x > 10, `${x}`);
+  assert.ok(Math.abs(z) < 0.1, `${z}`);
+});
+
+test("with the response Stop it does not slide", async () => {
+  await viewer.page.check("#response-stop");
+  await viewer.idle();
+  assert.equal((await viewer.state()).response, "stop");
+  await viewer.grab(kSlide, 90, 25);
+  await viewer.letGo();
+  const [x] = await viewer.shift(kSlide);
+  assert.ok(x < 5, `${x}`);
+  await viewer.page.check("#response-slide");
+  await viewer.idle();
+});
+
+test("the mesh is drawn where the engine is, never where the hand is", async () => {
+  const { x, y } = await viewer.placeOf(kSlide);
+  await viewer.page.mouse.move(x, y);
+  await viewer.page.mouse.down();
+  for (let i = 1; i <= 30; ++i) {
+    await viewer.page.mouse.move(x + 3 * i, y + 2 * i);
+    const differs = await viewer.page.evaluate((name) => {
+      const { app } = window.dismantle!;
+      const { frame, state } = app.session.store;
+      if (!frame || !state!.hand) return 0;
+      const drawn = window.dismantle!.drawnMatrix(name);
+      return Math.max(...[0, 1, 2].map((k) => Math.abs(drawn[12 + k] - frame.position[k])));
+    }, kSlide);
+    assert.equal(differs, 0);
+  }
+  await viewer.letGo();
+  assert.deepEqual(await viewer.drawnShift(kSlide), await viewer.shift(kSlide));
+});
+
+test("Ctrl+Z in mid-drag goes back to its start, and leaves no entry", async () => {
+  await viewer.grab(kSlide, 80, 0);
+  assert.ok((await viewer.drawnShift(kSlide))[0] > 10);
+  await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift(kSlide), [0, 0, 0]);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.equal((await viewer.state()).hand, null);
+  await viewer.letGo();
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.equal((await viewer.state()).undo, null);
+});
+
+test("Esc in mid-drag goes back, too", async () => {
+  await viewer.grab(kSlide, 80, 0);
+  await viewer.press("Escape");
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  await viewer.letGo();
+});
+
+test("a drag is one entry of undo; redo brings it back", async () => {
+  await viewer.grab(kSlide, 60, 0);
+  await viewer.letGo();
+  await viewer.grab(kSlide, 30, 0);
+  await viewer.letGo();
+  const there = await viewer.shift(kSlide);
+  assert.equal((await viewer.state()).moves.length, 2);
+  await viewer.press("Control+z");
+  assert.equal((await viewer.state()).moves.length, 1);
+  await viewer.press("Control+z");
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  await viewer.press("Control+y", "Control+y");
+  assert.deepEqual(await viewer.shift(kSlide), there);
+});
+
+test("Z keeps a drag to the axis, Alt turns, Shift goes deeper", async () => {
+  await viewer.press("x");
+  await viewer.grab(kSlide, 40, -40);
+  await viewer.press("x");
+  await viewer.letGo();
+  const [x, y, z] = await viewer.shift(kSlide);
+  assert.ok(x > 5 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
+  await viewer.click("#reset");
+
+  await viewer.page.keyboard.down("Shift");
+  await viewer.grab(kSlide, 0, -30);
+  await viewer.page.keyboard.up("Shift");
+  assert.match(await viewer.page.locator("#status .hint").innerText(), /depth/);
+  await viewer.press("Escape");
+  await viewer.letGo();
+});
+
+test("a move by numbers goes as far as the engine lets it", async () => {
+  await viewer.page.fill("#numeric-0", "12.5");
+  await viewer.page.fill("#numeric-2", "0");
+  await viewer.click("#numeric-apply");
+  const [x, y, z] = await viewer.shift(kSlide);
+  assert.ok(Math.abs(x - 12.5) < 0.05 && Math.abs(y) < 0.1 && Math.abs(z) < 0.1, `${[x, y, z]}`);
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, before, beforeEach, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+beforeEach(async () => {
+  await viewer.page.mouse.move(5, 300);
+  await viewer.press("Escape", "1", "f");
+});
+
+const camera = () =>
+  viewer.page.evaluate(() => {
+    const { focus, orientation, distance } = window.dismantle!.app.viewport.rig.current;
+    return { focus: focus.toArray(), back: orientation.toArray(), distance };
+  });
+const kEmpty = { x: 190, y: 120 };
+
+async function dragView(button: "left" | "middle" | "right", from: { x: number; y: number }): Promise<void> {
+  await viewer.page.mouse.move(from.x, from.y);
+  await viewer.page.mouse.down({ button });
+  await viewer.page.mouse.move(from.x + 60, from.y + 30, { steps: 4 });
+  await viewer.page.mouse.up({ button });
+  await viewer.idle();
+}
+
+test("the page shows the model: many colours, all components listed, in its status line", async () => {
+  const colors = await viewer.page.evaluate(() => {
+    const { canvas } = window.dismantle!.app.viewport;
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const brush = copy.getContext("2d")!;
+    brush.drawImage(canvas, 0, 0);
+    return new Set(new Uint32Array(brush.getImageData(0, 0, copy.width, copy.height).data.buffer)).size;
+  });
+  assert.ok(colors > 200, `${colors} colours`);
+  assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), 41);
+  assert.match(await viewer.page.locator("#status").innerText(), /21,806 triangles/);
+});
+
+test("left on empty space orbits", async () => {
+  const start = await camera();
+  await dragView("left", kEmpty);
+  const end = await camera();
+  assert.notDeepEqual(end.back, start.back);
+  assert.equal(end.distance, start.distance);
+});
+
+test("right orbits on a component, too, and moves nothing", async () => {
+  const start = await camera();
+  await dragView("right", await viewer.placeOf("base"));
+  assert.notDeepEqual((await camera()).back, start.back);
+  assert.equal((await viewer.state()).moves.length, 0);
+});
+
+test("the middle button pans: what was under the pointer stays under it", async () => {
+  const place = await viewer.placeOf("base");
+  await dragView("middle", place);
+  assert.equal(await viewer.page.evaluate(({ x, y }) => window.dismantle!.at(x + 60, y + 30), place), "base");
+});
+
+test("the wheel zooms to the cursor", async () => {
+  const start = await camera();
+  const place = await viewer.placeOf("eyepiece");
+  await viewer.page.mouse.move(place.x, place.y);
+  for (let i = 0; i < 6; ++i) await viewer.page.mouse.wheel(0, -240);
+  await viewer.idle();
+  assert.ok((await camera()).distance < 0.3 * start.distance);
+  assert.equal(await viewer.page.evaluate(({ x, y }) => window.dismantle!.at(x, y), place), "eyepiece");
+});
+
+test("a double click looks at a component closely; F shows all again", async () => {
+  const all = await camera();
+  const { x, y } = await viewer.placeOf("specimen slide");
+  await viewer.page.mouse.dblclick(x, y);
+  await viewer.idle();
+  assert.ok((await camera()).distance < 0.5 * all.distance);
+  await viewer.press("Escape", "f");
+  assert.ok(Math.abs((await camera()).distance - all.distance) < 1e-6 * all.distance);
+});
+
+test("the keys 1 to 6 and the view cube look from the six sides", async () => {
+  const seen = new Set<string>();
+  for (const key of ["1", "2", "3", "4", "5", "6"]) {
+    await viewer.press(key);
+    seen.add(JSON.stringify((await camera()).back.map((value) => Number(value.toFixed(3)))));
+  }
+  assert.equal(seen.size, 6);
+  const front = await (viewer.press("1"), viewer.idle(), camera());
+  const box = (await viewer.page.locator("#view").boundingBox())!;
+  await viewer.press("3");
+  assert.notDeepEqual((await camera()).back, front.back);
+  // In the view from above, the lower rim of the cube means the view between above and the front.
+  await viewer.page.mouse.click(box.x + box.width - 60, box.y + 60 + 26);
+  await viewer.idle();
+  const between = await camera();
+  assert.notDeepEqual(between.back, front.back);
+});
+
+test("O changes to parallel projection and back", async () => {
+  const parallel = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.rig.orthographic);
+  await viewer.press("o");
+  assert.equal(await parallel(), true);
+  assert.equal(await viewer.page.getAttribute("#projection", "aria-pressed"), "true");
+  await viewer.press("o");
+  assert.equal(await parallel(), false);
+});
+
+test("the theme changes the page and the picture", async () => {
+  const [light, first] = [
+    await viewer.picture(),
+    await viewer.page.evaluate(() => document.documentElement.dataset.theme),
+  ];
+  await viewer.press("t");
+  assert.notEqual(await viewer.page.evaluate(() => document.documentElement.dataset.theme), first);
+  assert.notDeepEqual(await viewer.picture(), light);
+  await viewer.press("t");
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});

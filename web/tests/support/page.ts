@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+import { type ChildProcess, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { type Browser, chromium as driver, type Page } from "playwright-core";
+import type { StateEvent } from "../../src/wire/messages.ts";
+import { chromium, pageFolder, program } from "./tree.ts";
+
+const kChromiumFlags = [
+  "--headless",
+  "--no-sandbox",
+  "--use-gl=angle",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+];
+const kPatience = 30_000;
+
+/// A running server with an assembly, as a user starts it. Its journal and its lists are in a folder of its own.
+export class Server {
+  private constructor(
+    readonly url: string,
+    private readonly child: ChildProcess,
+    private readonly home: string,
+  ) {}
+
+  static start(...arguments_: string[]): Promise<Server> {
+    const home = mkdtempSync(join(tmpdir(), "dismantle-viewer-"));
+    const environment = {
+      ...process.env,
+      HOME: home,
+      XDG_STATE_HOME: home,
+      XDG_CACHE_HOME: home,
+      XDG_CONFIG_HOME: home,
+    };
+    const child = spawn(program(), ["view", "--no-browser", ...pageFolder(), ...arguments_], { env: environment });
+    return new Promise((resolve, reject) => {
+      let said = "";
+      const listen = (chunk: Buffer) => {
+        said += chunk.toString();
+        const url = /http:\/\/127\.0\.0\.1:\d+\/#token=[0-9a-f]+/.exec(said)?.[0];
+        if (url) resolve(new Server(url, child, home));
+      };
+      child.stdout?.on("data", listen);
+      child.stderr?.on("data", listen);
+      child.on("exit", (code) => reject(new Error(`the server ended with ${code}: ${said}`)));
+    });
+  }
+
+  async stop(): Promise<void> {
+    const ended = new Promise((resolve) => this.child.once("exit", resolve));
+    this.child.kill("SIGTERM");
+    await ended;
+    rmSync(this.home, { recursive: true, force: true });
+  }
+}
+
+let browser: Browser | null = null;
+
+export async function closeBrowser(): Promise<void> {
+  await browser?.close();
+  browser = null;
+}
+
+/// A page as a test drives it.
+export class Viewer {
+  readonly problems: string[] = [];
+
+  private constructor(readonly page: Page) {
+    page.on("pageerror", (error) => this.problems.push(String(error.stack ?? error)));
+    page.on("console", (message) => {
+      if (message.type() === "error") this.problems.push(message.text());
+    });
+  }
+
+  /// @param options.before runs in the page before its own script
+  static async open(server: Server, options: { waits?: boolean; before?: () => void } = {}): Promise<Viewer> {
+    browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags });
+    const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
+    page.setDefaultTimeout(kPatience);
+    const viewer = new Viewer(page);
+    if (options.before) await page.addInitScript(options.before);
+    await page.goto(server.url.replace("/#", "/?test#"));
+    if (options.waits ?? true) await viewer.model();
+    return viewer;
+  }
+
+  /// Waits until a model is there and drawn.
+  async model(): Promise<void> {
+    const there = () => window.dismantle?.app.viewport.model != null;
+    await this.page.waitForFunction(there).catch(async (error: Error) => {
+      const words = await this.page.locator("body").innerText();
+      throw new Error(`${error.message}\n${this.problems.join("\n")}\n${words}`);
+    });
+    await this.idle();
+  }
+
+  idle(): Promise<void> {
+    return this.page.evaluate(() => window.dismantle!.idle());
+  }
+
+  state(): Promise<StateEvent> {
+    return this.page.evaluate(() => window.dismantle!.app.session.store.state!);
+  }
+
+  index(name: string): Promise<number> {
+    return this.page.evaluate(
+      (n) => window.dismantle!.app.session.store.model!.components.findIndex((c) => c.name === n),
+      name,
+    );
+  }
+
+  /// Where the engine has a component: how far from its assembled place.
+  async shift(name: string): Promise<[number, number, number]> {
+    const [state, index] = [await this.state(), await this.index(name)];
+    const pose = state.components[index].pose;
+    return pose ? [pose[0], pose[1], pose[2]] : [0, 0, 0];
+  }
+
+  /// Where it is drawn.
+  async drawnShift(name: string): Promise<[number, number, number]> {
+    const matrix = await this.page.evaluate((n) => window.dismantle!.drawnMatrix(n), name);
+    return [matrix[12], matrix[13], matrix[14]];
+  }
+
+  /// A place on screen where the component is in front.
+  async placeOf(name: string): Promise<{ x: number; y: number }> {
+    const place = await this.page.evaluate((n) => window.dismantle!.placeOf(n), name);
+    if (!place) throw new Error(`${name} is nowhere in front`);
+    return place;
+  }
+
+  selection(): Promise<string[]> {
+    return this.page.evaluate(() => {
+      const { store } = window.dismantle!.app.session;
+      return store.selection.map((c) => store.model!.components[c].name);
+    });
+  }
+
+  async press(...keys: string[]): Promise<void> {
+    for (const key of keys) await this.page.keyboard.press(key);
+    await this.idle();
+  }
+
+  async click(selector: string): Promise<void> {
+    await this.page.click(selector);
+    await this.idle();
+  }
+
+  /// Presses the left button on a component and moves in steps; the button stays down.
+  async grab(name: string, dx: number, dy: number, steps = 6): Promise<void> {
+    const { x, y } = await this.placeOf(name);
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+    for (let i = 1; i <= steps; ++i) await this.page.mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
+    await this.idle();
+  }
+
+  async letGo(): Promise<void> {
+    await this.page.mouse.up();
+    await this.idle();
+  }
+
+  /// The picture and what lies over it, as a PNG.
+  async picture(): Promise<Buffer> {
+    await this.idle();
+    return this.page.locator("#stage").screenshot();
+  }
+
+  async close(): Promise<void> {
+    await this.page.close();
+  }
+}
