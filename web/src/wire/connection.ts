@@ -54,6 +54,11 @@ export class Connection {
     };
   }
 
+  /// Drops the socket; it comes back as after any loss.
+  reconnect(): void {
+    this.socket?.close();
+  }
+
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void {
     const listeners = (this.listeners[name] ?? []) as Listener<Events[Name]>[];
     listeners.push(listener);

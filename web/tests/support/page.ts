@@ -73,14 +73,19 @@ export class Viewer {
     });
   }
 
-  /// @param options.before runs in the page before its own script
-  static async open(server: Server, options: { waits?: boolean; before?: () => void } = {}): Promise<Viewer> {
+  static async visit(url: string, before?: () => void): Promise<Viewer> {
     browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags });
     const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
     page.setDefaultTimeout(kPatience);
+    if (before) await page.addInitScript(before);
     const viewer = new Viewer(page);
-    if (options.before) await page.addInitScript(options.before);
-    await page.goto(server.url.replace("/#", "/?test#"));
+    await page.goto(url);
+    return viewer;
+  }
+
+  /// @param options.before runs in the page before its own script
+  static async open(server: Server, options: { waits?: boolean; before?: () => void } = {}): Promise<Viewer> {
+    const viewer = await Viewer.visit(server.url.replace("/#", "/?test#"), options.before);
     if (options.waits ?? true) await viewer.model();
     return viewer;
   }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { sourceFolder } from "../support/tree.ts";
+
+let server: Server;
+let viewer: Viewer;
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+  await viewer.page.evaluate(readFileSync(join(sourceFolder(), "web/node_modules/axe-core/axe.min.js"), "utf8"));
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+
+/// What axe-core finds serious or critical.
+async function faults(): Promise<string[]> {
+  await viewer.idle();
+  return viewer.page.evaluate(async () => {
+    const { axe } = window as unknown as {
+      axe: { run(): Promise<{ violations: { id: string; impact: string; nodes: { html: string }[] }[] }> };
+    };
+    const { violations } = await axe.run();
+    return violations
+      .filter(({ impact }) => impact === "serious" || impact === "critical")
+      .flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html}`));
+  });
+}
+
+test("axe-core finds nothing serious: with a selection and its panels", async () => {
+  await viewer.press("1");
+  const { x, y } = await viewer.placeOf("base");
+  await viewer.page.mouse.click(x, y);
+  assert.deepEqual(await faults(), []);
+});
+
+test("nor with section, gizmo and the dark theme", async () => {
+  await viewer.press("s", "g", "t");
+  assert.deepEqual(await faults(), []);
+  await viewer.press("t");
+});
+
+test("nor in the dialogs", async () => {
+  await viewer.press("h");
+  assert.deepEqual(await faults(), []);
+  await viewer.page.keyboard.press("Escape");
+  await viewer.page.click("#open");
+  await viewer.page.locator("#samples .card").first().waitFor();
+  assert.deepEqual(await faults(), []);
+  await viewer.page.keyboard.press("Escape");
+});
+
+test("every button is reached by Tab, and has a name", async () => {
+  await viewer.page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  const reached = new Set<string>();
+  for (let i = 0; i < 80; ++i) {
+    await viewer.page.keyboard.press("Tab");
+    reached.add(await viewer.page.evaluate(() => document.activeElement?.id ?? ""));
+  }
+  for (const id of [
+    "open",
+    "response-slide",
+    "gizmo",
+    "section",
+    "measure",
+    "fit",
+    "theme",
+    "help",
+    "tree-search",
+    "view",
+    "take-out",
+    "isolate",
+    "numeric-0",
+  ])
+    assert.ok(reached.has(id), id);
+});

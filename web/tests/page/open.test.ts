@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+
+before(async () => {
+  server = await Server.start();
+  viewer = await Viewer.open(server, { waits: false });
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+
+const modelName = () => viewer.page.evaluate(() => window.dismantle!.app.session.store.model?.name ?? null);
+
+/// A cube of one facet a side, as an OBJ file.
+const kCube = `o cube
+${[0, 1, 2, 3, 4, 5, 6, 7].map((k) => `v ${k & 1 ? 10 : 0} ${k & 2 ? 10 : 0} ${k & 4 ? 10 : 0}`).join("\n")}
+f 1 3 4 2
+f 5 6 8 7
+f 1 2 6 5
+f 3 7 8 4
+f 1 5 7 3
+f 2 4 8 6
+`;
+
+test("without an assembly the start page offers the samples", async () => {
+  await viewer.page.locator("#samples .card").first().waitFor();
+  assert.equal(await viewer.page.locator("#samples .card").count(), 4);
+});
+
+test("a sample that is clicked is opened, and the start page goes", async () => {
+  await viewer.page.click("[data-sample=microscope]");
+  await viewer.model();
+  assert.equal(await modelName(), "microscope.step");
+  assert.equal(await viewer.page.isVisible("#open-dialog"), false);
+  assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), 41);
+});
+
+test("a file of one's own is sent and opened in its place", async () => {
+  await viewer.page.setInputFiles("#file-picker", {
+    name: "cube.obj",
+    mimeType: "text/plain",
+    buffer: Buffer.from(kCube),
+  });
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "cube.obj");
+  await viewer.idle();
+  assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), 1);
+  assert.ok(await viewer.placeOf("cube"));
+});
+
+test("a file that cannot be read is an error message, and the model stays", async () => {
+  await viewer.page.setInputFiles("#file-picker", {
+    name: "broken.step",
+    mimeType: "text/plain",
+    buffer: Buffer.from("no STEP"),
+  });
+  await viewer.page.locator(".toast.warning").first().waitFor();
+  assert.match(await viewer.page.locator(".toast.warning").first().innerText(), /broken\.step/);
+  assert.equal(await modelName(), "cube.obj");
+});
+
+test("a file dropped on the page is opened", async () => {
+  await viewer.page.evaluate((cube) => {
+    const carried = new DataTransfer();
+    carried.items.add(new File([cube], "dropped.obj"));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: carried, cancelable: true }));
+  }, kCube);
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "dropped.obj");
+  await viewer.idle();
+});

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+const kSlide = "specimen slide";
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+  await viewer.press("1");
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+
+/// Cuts the page's socket, as a lost network does.
+async function loseConnection(): Promise<void> {
+  await viewer.page.evaluate(() => window.dismantle!.app.session.connection.reconnect());
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.link === "open");
+  await viewer.idle();
+}
+
+test("a lost connection comes back with the state and the control", async () => {
+  await viewer.grab(kSlide, 40, 0);
+  await viewer.letGo();
+  const there = await viewer.shift(kSlide);
+  await loseConnection();
+  assert.deepEqual(await viewer.drawnShift(kSlide), there);
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.app.session.store.control), true);
+  await viewer.grab(kSlide, 20, 0);
+  await viewer.letGo();
+  assert.ok((await viewer.shift(kSlide))[0] > there[0]);
+});
+
+test("what is asked while the connection is lost is done once when it is back", async () => {
+  await viewer.page.evaluate(() => {
+    const { session } = window.dismantle!.app;
+    session.connection.reconnect();
+    void session.ask("undo", {});
+  });
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.link === "open");
+  await viewer.idle();
+  assert.equal((await viewer.state()).moves.length, 1);
+});
+
+test("a page that is loaded again shows the same session", async () => {
+  const there = await viewer.shift(kSlide);
+  await viewer.page.reload();
+  await viewer.model();
+  assert.deepEqual(await viewer.drawnShift(kSlide), there);
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.app.session.store.control), true);
+  await viewer.press("1");
+});
+
+test("a second page watches: it sees what the first moves, may move nothing, and can take control", async () => {
+  const watcher = await Viewer.open(server);
+  assert.equal(await watcher.page.locator("[data-banner=watching]").count(), 1);
+  assert.match((await viewer.page.locator("#status").textContent()) ?? "", /2 in this session/);
+  await viewer.grab(kSlide, 25, 0);
+  await viewer.letGo();
+  await watcher.idle();
+  assert.deepEqual(await watcher.drawnShift(kSlide), await viewer.shift(kSlide));
+
+  const before = (await viewer.state()).moves.length;
+  await watcher.press("1");
+  await watcher.grab(kSlide, 30, 0);
+  await watcher.letGo();
+  assert.equal((await viewer.state()).moves.length, before);
+
+  await watcher.click("[data-banner=watching] button");
+  await viewer.page.locator("[data-banner=watching]").waitFor();
+  await watcher.press("1");
+  await watcher.grab(kSlide, -20, 0);
+  await watcher.letGo();
+  assert.equal((await watcher.state()).moves.length, before + 1);
+  await watcher.close();
+});
+
+test("without the token nothing is shown, and the page says that it has no connection", async () => {
+  const stranger = await Viewer.visit(server.url.replace(/#token=.*/, "?test"));
+  await stranger.page.locator("#status-link[data-link=lost]").waitFor();
+  assert.equal(await stranger.page.evaluate(() => window.dismantle!.app.viewport.model), null);
+  await stranger.close();
+});

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, beforeEach, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+const kSlide = "specimen slide";
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+beforeEach(async () => {
+  await viewer.page.focus("#view");
+  await viewer.press("Escape", "1", "f");
+});
+
+async function select(name: string): Promise<void> {
+  await viewer.page.evaluate((n) => {
+    const { session } = window.dismantle!.app;
+    session.select([session.store.model!.components.findIndex((c) => c.name === n)]);
+  }, name);
+  await viewer.idle();
+}
+
+test("a section cuts the model open, filled, and what is cut away cannot be grabbed", async () => {
+  const whole = await viewer.picture();
+  const inFront = await viewer.placeOf("arm");
+  await viewer.press("s");
+  assert.notDeepEqual(await viewer.picture(), whole);
+  assert.equal(await viewer.page.locator("[data-banner=section]").count(), 1);
+  assert.notEqual(await viewer.page.evaluate(({ x, y }) => window.dismantle!.at(x, y), inFront), "arm");
+  const half = await viewer.picture();
+  await viewer.page.locator("#section-panel input[type=range]").nth(1).fill("0.3");
+  await viewer.idle();
+  assert.notDeepEqual(await viewer.picture(), half);
+  await viewer.page.focus("#view");
+  await viewer.press("s");
+  assert.deepEqual(await viewer.picture(), whole);
+});
+
+test("the cut of a closed solid is filled: no inside of it is seen", async () => {
+  await viewer.press("s");
+  const [cut, open] = await viewer.page.evaluate(() => {
+    const { model } = window.dismantle!.app.viewport;
+    const closed = model!.components.filter((view) => view.shape.surface.closed).length;
+    return [closed, model!.components.length - closed];
+  });
+  assert.ok(cut > 35, `${cut} closed, ${open} open`);
+  await viewer.press("s");
+});
+
+test("measure gives the distance of two clicked points", async () => {
+  await viewer.press("m");
+  const [a, b] = [await viewer.placeOf("base"), await viewer.placeOf("eyepiece")];
+  await viewer.page.mouse.click(a.x, a.y);
+  await viewer.page.mouse.click(b.x, b.y);
+  await viewer.idle();
+  const words = await viewer.page.locator("#measure-label").innerText();
+  const distance = Number(/([\d.]+) mm/.exec(words)![1]);
+  assert.ok(distance > 200 && distance < 450, words);
+  assert.deepEqual(await viewer.selection(), []);
+  await viewer.press("Escape");
+  assert.equal(await viewer.page.isVisible("#measure-label"), false);
+});
+
+test("a screenshot is a PNG of the picture", async () => {
+  const [download] = await Promise.all([viewer.page.waitForEvent("download"), viewer.page.click("#screenshot")]);
+  const bytes = readFileSync((await download.path())!);
+  assert.equal(download.suggestedFilename(), "microscope.png");
+  assert.equal(bytes.subarray(1, 4).toString(), "PNG");
+  assert.ok(bytes.length > 5000, `${bytes.length}`);
+});
+
+test("an arrow of the gizmo moves along its axis only, a ring turns", async () => {
+  await select(kSlide);
+  await viewer.press("g", "f");
+  const center = await viewer.page.evaluate((name) => {
+    const view = window.dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === name)!;
+    const { min, max } = view.bounds();
+    return window.dismantle!.project([(min.x + max.x) / 2, (min.y + max.y) / 2, (min.z + max.z) / 2]);
+  }, kSlide);
+  await viewer.page.mouse.move(center.x + 70, center.y);
+  await viewer.page.mouse.down();
+  await viewer.page.mouse.move(center.x + 100, center.y - 30, { steps: 5 });
+  await viewer.idle();
+  await viewer.letGo();
+  const [x, y, z] = await viewer.shift(kSlide);
+  assert.ok(x > 3 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
+  await viewer.click("#reset");
+  await viewer.page.focus("#view");
+  await viewer.press("g");
+});
+
+test("help lists the keys, and closes", async () => {
+  await viewer.press("h");
+  assert.equal(await viewer.page.isVisible("#help-dialog"), true);
+  await viewer.page.keyboard.press("Escape");
+  assert.equal(await viewer.page.isVisible("#help-dialog"), false);
+});
+
+test("free directions are arrows; one that is clicked takes the component out along it", async () => {
+  await select(kSlide);
+  await viewer.press("d");
+  await viewer.page.locator("#directions .way.free").first().waitFor();
+  const arrows = await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length);
+  assert.ok(arrows >= 2, `${arrows}`);
+  const tip = await viewer.page.evaluate(() => {
+    const { directions, rig } = window.dismantle!.app.viewport;
+    const arrow = directions.arrows.find(({ direction }) => direction.x > 0.99)!;
+    const end = arrow.point.clone().addScaledVector(arrow.direction, rig.pixelSize(arrow.point) * 60);
+    return window.dismantle!.project(end.toArray());
+  });
+  await viewer.page.mouse.click(tip.x, tip.y);
+  await viewer.page.waitForFunction(
+    (i) => window.dismantle!.app.session.store.state!.components[i].removed,
+    await viewer.index(kSlide),
+  );
+  await viewer.idle();
+  assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), false);
+});
+
+test("put back brings it home", async () => {
+  await select(kSlide);
+  await viewer.click("#put-back");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
+  await viewer.idle();
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), true);
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});
