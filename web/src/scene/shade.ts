@@ -72,8 +72,9 @@ void main() {
     float at = -(dot(uPlanes[i].xyz, vWorld) + uPlanes[i].w) / into;
     if (into > 1e-6 && at > last) { last = at; facing = -uPlanes[i].xyz; }
   }
+  vec3 back = vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2]);
   bool line = mod(gl_FragCoord.x + uHatch * gl_FragCoord.y, 9.0) < 1.3;
-  shown = lit(base, facing, toEye) * (line ? 0.62 : 0.95);
+  shown = lit(base, facing, back) * (line ? 0.62 : 0.95);
 #endif
   gl_FragColor = vec4(shown, uOpacity);
   #include <colorspace_fragment>

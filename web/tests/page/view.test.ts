@@ -96,7 +96,8 @@ test("the keys 1 to 6 and the view cube look from the six sides", async () => {
     seen.add(JSON.stringify((await camera()).back.map((value) => Number(value.toFixed(3)))));
   }
   assert.equal(seen.size, 6);
-  const front = await (viewer.press("1"), viewer.idle(), camera());
+  await viewer.press("1");
+  const front = await camera();
   const box = (await viewer.page.locator("#view").boundingBox())!;
   await viewer.press("3");
   assert.notDeepEqual((await camera()).back, front.back);
@@ -123,7 +124,7 @@ test("the theme changes the page and the picture", async () => {
   ];
   await viewer.press("t");
   assert.notEqual(await viewer.page.evaluate(() => document.documentElement.dataset.theme), first);
-  assert.notDeepEqual(await viewer.picture(), light);
+  assert.notEqual(await viewer.picture(), light);
   await viewer.press("t");
 });
 

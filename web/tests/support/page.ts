@@ -166,10 +166,10 @@ export class Viewer {
     await this.idle();
   }
 
-  /// The picture and what lies over it, as a PNG.
-  async picture(): Promise<Buffer> {
+  /// The picture, without what the page lays over it.
+  async picture(): Promise<string> {
     await this.idle();
-    return this.page.locator("#stage").screenshot();
+    return this.page.evaluate(() => window.dismantle!.app.viewport.canvas.toDataURL());
   }
 
   async close(): Promise<void> {

@@ -1,18 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { rateMessage, readPoseFrame, targetMessage } from "../../src/wire/structs.ts";
+import { goldenFile } from "../support/tree.ts";
 
-test("a target has its grip, its number and seven doubles", () => {
-  const view = new DataView(targetMessage(3, 9, { position: [1, 2, 3], rotation: [1, 0, 0, 0.5] }));
-  assert.equal(view.byteLength, 72);
-  assert.deepEqual([view.getUint8(0), view.getUint32(4, true), view.getUint32(8, true)], [1, 3, 9]);
-  assert.deepEqual([view.getFloat64(16, true), view.getFloat64(64, true)], [1, 0.5]);
+const golden = JSON.parse(readFileSync(goldenFile("wire.json"), "utf8"));
+const hex = (bytes: ArrayBuffer) => Buffer.from(bytes).toString("hex");
+
+test("a target has the bytes that the server takes", () => {
+  const { grip, number, position, rotation } = golden.target;
+  assert.equal(hex(targetMessage(grip, number, { position, rotation })), golden.target.hex);
 });
 
-test("a rate has six doubles", () => {
-  const view = new DataView(rateMessage(3, 9, [1, 2, 3], [4, 5, 6]));
-  assert.deepEqual([view.byteLength, view.getUint8(0), view.getFloat64(56, true)], [64, 2, 6]);
+test("a rate has the bytes that the server takes", () => {
+  const { grip, number, velocity, angular_velocity } = golden.rate;
+  assert.equal(hex(rateMessage(grip, number, velocity, angular_velocity)), golden.rate.hex);
+});
+
+test("a pose is read from the bytes that the server sends", () => {
+  const { flags, contacts, hex: bytes, ...expected } = golden.pose;
+  const frame = readPoseFrame(Uint8Array.from(Buffer.from(bytes, "hex")).buffer)!;
+  assert.deepEqual(
+    [frame.reached, frame.blocked, frame.playback, frame.automatic],
+    [1, 2, 4, 8].map((bit) => (flags & bit) !== 0),
+  );
+  assert.deepEqual(
+    {
+      state: frame.state,
+      grip: frame.grip,
+      answered: frame.number,
+      position: frame.position,
+      rotation: frame.rotation,
+      clearance: frame.clearance,
+      step_us: frame.stepTime,
+      steps_per_second: frame.stepsPerSecond,
+      time: frame.time,
+    },
+    expected,
+  );
+  assert.deepEqual(
+    frame.contacts.map(({ moving, fixed, faceMoving, faceFixed, gap, point, normal }) => ({
+      moving,
+      fixed,
+      face_moving: faceMoving,
+      face_fixed: faceFixed,
+      gap,
+      point,
+      normal,
+    })),
+    contacts,
+  );
 });
 
 test("a pose that is cut off, or of another kind, is none", () => {
