@@ -98,6 +98,8 @@ export class ComponentView {
     this.opacity = a;
     this.body = new Mesh(shape.body, bodyMaterial(new Color(r, g, b), a));
     this.edges = new LineSegments(shape.edges, edgeMaterial(new Color(palette.edge), 1));
+    // After all faces: the stencil then says which pixels are cuts.
+    this.edges.renderOrder = 1;
     this.object.add(this.body, this.edges);
     this.object.matrixAutoUpdate = false;
     this.setPose(null);
@@ -216,7 +218,7 @@ export class ComponentView {
   private setOutline(style: { color: string; width: number } | null): void {
     if (style && !this.outline && this.shape.surface.edges.length > 0) {
       this.outline = new LineSegments2(this.shape.wideEdges, new LineMaterial({ linewidth: 1 }));
-      this.outline.renderOrder = 1;
+      this.outline.renderOrder = 2;
       this.object.add(this.outline);
     }
     if (!this.outline) return;

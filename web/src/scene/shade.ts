@@ -122,7 +122,8 @@ export function bodyMaterial(color: Color, opacity: number): ShaderMaterial {
   });
 }
 
-/// The material of the insides of a closed solid, seen where it is cut: shares all that `body` shows.
+/// The material of the insides of a closed solid, seen where it is cut: shares all that `body` shows. It is not set back
+/// as bodies are, so that it wins over the face of a neighbour that touches from outside.
 export function cutMaterial(body: ShaderMaterial, hatch: number): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: { ...body.uniforms, uHatch: { value: hatch } },
