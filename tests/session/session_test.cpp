@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/session/session.h"
 
-#include "dismantle/audit/audit_path.h"
-#include "dismantle/collision/classify_pairs.h"
-#include "tests/support/meshes.h"
+#include "tests/session/session_table.h"
 
 #include <gtest/gtest.h>
 
@@ -12,51 +10,13 @@ namespace {
 
 using scenes::box;
 using scenes::component;
-using scenes::tube;
+using scenes::kBoth;
+using scenes::kFirst;
+using scenes::kSecond;
+using scenes::Table;
+using scenes::wall_and_block;
 
-constexpr double kTolerance = 0.01;
-const std::vector<ComponentId> kFirst{ComponentId(0)}, kSecond{ComponentId(1)}, kBoth{ComponentId(0), ComponentId(1)};
-
-/// A session over a scene; at its end its recording is audited.
-class Table {
- public:
-  explicit Table(Assembly assembly) : assembly_(std::move(assembly)) {
-    ClassifyOptions classify;
-    classify.tolerance = kTolerance;
-    session_.emplace(assembly_, *classify_pairs(assembly_, classify));
-  }
-  ~Table() {
-    const AuditReport report = audit_path(assembly_, session_->recording());
-    EXPECT_TRUE(report.holds());
-  }
-  Table(const Table&) = delete;
-  Table& operator=(const Table&) = delete;
-
-  Session& session() { return *session_; }
-  const Pose& pose(std::uint32_t component) const { return session_->poses()[component]; }
-  /// Drags a set along a straight line in steps of 10 ms, without letting go.
-  StepResult drag(const std::vector<ComponentId>& set, const Vec3& by, int steps) {
-    EXPECT_TRUE(session_->hold(set).ok());
-    const Pose start = pose(set[0].value);
-    StepResult last;
-    for (int i = 1; i <= steps; ++i)
-      last = session_->drag({start.position + (static_cast<double>(i) / steps) * by, start.rotation}, 0.01 * i);
-    return last;
-  }
-  void move(const std::vector<ComponentId>& set, const Vec3& by, int steps) {
-    drag(set, by, steps);
-    session_->release();
-  }
-
- private:
-  Assembly assembly_;
-  std::optional<Session> session_;
-};
-
-Assembly wall_and_block() {
-  return scenes::assembly(
-      {component("block", box({0, 0, 0}, {10, 10, 10})), component("wall", box({20.5, -50, -50}, {21, 50, 50}))});
-}
+constexpr double kTolerance = scenes::kTableTolerance;
 
 TEST(Session, RecordsEachDragAsOneMove) {
   Table table(wall_and_block());

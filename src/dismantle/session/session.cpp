@@ -30,6 +30,13 @@ Aabb assembled_box(const Assembly& assembly, Span<const ComponentId> components)
 
 }  // namespace
 
+std::vector<ComponentId> sorted_set(Span<const ComponentId> components) {
+  std::vector<ComponentId> set(components.begin(), components.end());
+  std::sort(set.begin(), set.end());
+  set.erase(std::unique(set.begin(), set.end()), set.end());
+  return set;
+}
+
 std::string names_of(const Assembly& assembly, Span<const ComponentId> components) {
   DISMANTLE_EXPECT(!components.empty());
   std::string text = assembly[components[0]].name;
@@ -58,21 +65,33 @@ PairList Session::embedded() const {
   return pair_list(engine_->embedded_pairs());
 }
 
-Result<Done> Session::check_set(Span<const ComponentId> components) const {
+Result<Done> Session::check_no_playback() const {
+  if (activity_ != SessionActivity::Playback) return Done{};
+  return Error{ErrorKind::Usage, "nothing can be changed now (a playback is open); stop it first"};
+}
+
+Result<Done> Session::check_one_pose(Span<const ComponentId> components) const {
+  if (Result<Done> free = check_no_playback(); !free) return free;
   if (components.empty())
-    return Error{ErrorKind::Usage, "nothing can be taken in hand (no component is selected); select at least one"};
+    return Error{ErrorKind::Usage, "nothing can be moved (no component is selected); select at least one"};
+  for (const ComponentId c : components) {
+    if (poses()[c.value] == poses()[components[0].value]) continue;
+    return Error{ErrorKind::Usage, "'" + (*assembly_)[c].name + "' and '" + (*assembly_)[components[0]].name +
+                                       "' cannot be moved as one body (they were moved apart before); move them one "
+                                       "after another"};
+  }
+  return Done{};
+}
+
+Result<Done> Session::check_set(Span<const ComponentId> components) const {
   for (const ComponentId c : components) {
     const std::string& name = (*assembly_)[c].name;
     if (removed_[c.value])
       return Error{ErrorKind::Usage, "'" + name + "' cannot be moved (it was taken out); put it back first"};
     if (visibility_.is_hidden(c))
       return Error{ErrorKind::Usage, "'" + name + "' cannot be moved (it is hidden); show it first"};
-    if (!(poses()[c.value] == poses()[components[0].value]))
-      return Error{ErrorKind::Usage, "'" + name + "' and '" + (*assembly_)[components[0]].name +
-                                         "' cannot be moved as one body (they were moved apart before); move them one "
-                                         "after another"};
   }
-  return Done{};
+  return check_one_pose(components);
 }
 
 SessionEntry Session::new_entry(std::string_view verb, Span<const ComponentId> components) const {
@@ -87,16 +106,19 @@ SessionEntry Session::new_entry(std::string_view verb, Span<const ComponentId> c
 
 Result<Done> Session::hold(Span<const ComponentId> components) {
   release();
-  std::vector<ComponentId> set(components.begin(), components.end());
-  std::sort(set.begin(), set.end());
-  set.erase(std::unique(set.begin(), set.end()), set.end());
+  std::vector<ComponentId> set = sorted_set(components);
   if (Result<Done> sane = check_set(set); !sane) return sane;
+  begin(SessionActivity::Drag, "move", std::move(set));
+  return Done{};
+}
+
+void Session::begin(SessionActivity activity, std::string_view verb, std::vector<ComponentId> set) {
   engine_->hold(set);
-  open_ = new_entry("move", set);
+  open_ = new_entry(verb, set);
+  if (journal_) journal_->begin(*open_);
   moving_center_ = assembled_box(*assembly_, set).center();
   moving_ = std::move(set);
-  activity_ = SessionActivity::Drag;
-  return Done{};
+  activity_ = activity;
 }
 
 Vec3 Session::moving_center() const {
@@ -108,19 +130,29 @@ StepResult Session::drag(const Pose& target, double time) {
   DISMANTLE_EXPECT(activity_ == SessionActivity::Drag);
   StepResult step = engine_->step(target, response_);
   std::vector<Frame>& frames = open_->frames;
-  if (!step.way.empty()) {
-    time = std::max(time, frames.back().time);
-    if (time - frames.back().time > kLongestRest) frames.push_back({time - kStepTime, frames.back().pose});
-    append_way(frames, time, step);
-  }
+  if (step.way.empty()) return step;
+  const std::size_t before = frames.size();
+  time = std::max(time, frames.back().time);
+  if (time - frames.back().time > kLongestRest) frames.push_back({time - kStepTime, frames.back().pose});
+  append_way(frames, time, step);
+  write_frames(before);
   return step;
+}
+
+void Session::write_frames(std::size_t from) {
+  const std::vector<Frame>& frames = open_->frames;
+  if (journal_ && frames.size() > from) journal_->add_frames({frames.data() + from, frames.size() - from});
 }
 
 bool Session::finish_entry() {
   SessionEntry entry = std::move(*open_);
   open_.reset();
-  if (!has_effect(entry)) return false;
+  if (!has_effect(entry)) {
+    if (journal_) journal_->drop();
+    return false;
+  }
   entry.embedded_after = embedded();
+  if (journal_) journal_->end(entry);
   entries_.resize(done_count_);
   entries_.push_back(std::move(entry));
   ++done_count_;
@@ -130,10 +162,12 @@ bool Session::finish_entry() {
 void Session::be_idle() {
   open_.reset();
   moving_.clear();
+  automatic_.reset();
   activity_ = SessionActivity::Idle;
 }
 
 bool Session::release() {
+  halt();
   if (activity_ != SessionActivity::Drag) return false;
   const bool moved = finish_entry();
   be_idle();
@@ -143,33 +177,50 @@ bool Session::release() {
 void Session::cancel_drag() {
   if (activity_ != SessionActivity::Drag) return;
   put(*open_, open_->frames.front(), open_->embedded_before);
+  if (journal_) journal_->drop();
   be_idle();
+}
+
+void Session::put(Span<const Pose> poses, const PairList& wanted) {
+  const std::vector<Pose> all(poses.begin(), poses.end());  // they may be the engine's own
+  const auto includes = [](const PairList& a, const PairList& b) {
+    return std::includes(a.begin(), a.end(), b.begin(), b.end());
+  };
+  if (!includes(embedded(), wanted)) engine_ = make_engine(wanted);
+  engine_->jump(all);
+  if (includes(wanted, embedded())) return;
+  engine_ = make_engine(wanted);
+  engine_->jump(all);
 }
 
 void Session::put(const SessionEntry& entry, const Frame& frame, const PairList& wanted) {
   std::vector<Pose> all(poses().begin(), poses().end());
   for (const ComponentId c : entry.components) all[c.value] = frame.pose;
-  if (embedded() != wanted) engine_ = make_engine(wanted);
-  engine_->jump(all);
+  put(all, wanted);
 }
 
 Result<Done> Session::undo() {
+  if (Result<Done> free = check_no_playback(); !free) return free;
   if (activity_ == SessionActivity::Drag && !release()) return Done{};  // back where it never left
+  release();
   if (done_count_ == 0) return Error{ErrorKind::Usage, "nothing can be undone (nothing was done yet)"};
   const SessionEntry& entry = entries_[--done_count_];
   put(entry, entry.frames.front(), entry.embedded_before);
   for (std::size_t i = 0; i < entry.components.size(); ++i)
     removed_[entry.components[i].value] = entry.removed_before[i];
+  if (journal_) journal_->undo();
   return Done{};
 }
 
 Result<Done> Session::redo() {
+  if (Result<Done> free = check_no_playback(); !free) return free;
   release();
   if (done_count_ == entries_.size()) return Error{ErrorKind::Usage, "nothing can be redone (nothing was undone)"};
   const SessionEntry& entry = entries_[done_count_++];
   put(entry, entry.frames.back(), entry.embedded_after);
   if (entry.removed_after)
     for (const ComponentId c : entry.components) removed_[c.value] = *entry.removed_after;
+  if (journal_) journal_->redo();
   return Done{};
 }
 
@@ -184,7 +235,8 @@ Path Session::recording() const {
   for (const SessionEntry& entry : done()) add(entry);
   if (open_) add(*open_);
 
-  const std::vector<std::string> outside = removed_components(*assembly_, poses());
+  const Span<const Pose> now = playback_ ? Span<const Pose>(live_poses_) : poses();
+  const std::vector<std::string> outside = removed_components(*assembly_, now);
   for (std::size_t c = 0; c < removed_.size(); ++c) {
     const std::string& name = assembly_->components[c].name;
     if (removed_[c] || std::find(outside.begin(), outside.end(), name) != outside.end()) path.removed.push_back(name);
@@ -193,12 +245,43 @@ Path Session::recording() const {
 }
 
 void Session::reset() {
+  stop_playback();
   engine_ = std::make_unique<CertificateEngine>(*assembly_, pairs_, options_);
   entries_.clear();
   done_count_ = 0;
   removed_.assign(removed_.size(), false);
   visibility_ = Visibility(removed_.size());
   be_idle();
+  if (journal_) journal_->reset();
+}
+
+JournalHeader Session::journal_header() const {
+  return {assembly_->source_file, assembly_->source_sha256, static_cast<std::uint32_t>(assembly_->components.size()),
+          pairs_.tolerance};
+}
+
+void Session::restore(JournalContents contents) {
+  DISMANTLE_EXPECT(entries_.empty() && contents.header == journal_header());
+  entries_ = std::move(contents.entries);
+  done_count_ = contents.done_count;
+  std::vector<Pose> all(poses().size());
+  PairList wanted = embedded();
+  for (const SessionEntry& entry : done()) {
+    for (const ComponentId c : entry.components) {
+      all[c.value] = entry.frames.back().pose;
+      if (entry.removed_after) removed_[c.value] = *entry.removed_after;
+    }
+    wanted = entry.embedded_after;
+  }
+  put(all, wanted);
+  if (contents.is_open) entries_[done_count_ - 1].embedded_after = embedded();
+  if (!journal_) return;
+  for (const SessionEntry& entry : entries_) {
+    journal_->begin(entry);
+    if (has_moved(entry)) journal_->add_frames({entry.frames.data() + 1, entry.frames.size() - 1});
+    journal_->end(entry);
+  }
+  for (std::size_t i = done_count_; i < entries_.size(); ++i) journal_->undo();
 }
 
 }  // namespace dismantle

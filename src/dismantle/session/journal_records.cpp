@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/session/journal_records.h"
+
+#include "dismantle/io/byte_order.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+constexpr std::string_view kMagic = "dismantle-journal";
+constexpr std::size_t kHeadBytes = 8;  // length and hash
+
+/// FNV-1a: tells torn and stale bytes from written ones.
+std::uint32_t hash_of(std::string_view bytes) {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+/// Makes the payload of a record.
+class Payload {
+ public:
+  explicit Payload(JournalRecord kind) { bytes_ += static_cast<char>(kind); }
+
+  template <class T>
+  Payload& number(T value) {
+    const auto raw = little_endian_bytes(value);
+    bytes_.append(raw.data(), raw.size());
+    return *this;
+  }
+  Payload& text(std::string_view value) {
+    count(value.size());
+    bytes_ += value;
+    return *this;
+  }
+  Payload& count(std::size_t value) { return number(static_cast<std::uint32_t>(value)); }
+  Payload& frame(const Frame& f) {
+    for (const double v : {f.time, f.pose.position.x, f.pose.position.y, f.pose.position.z, f.pose.rotation.w,
+                           f.pose.rotation.x, f.pose.rotation.y, f.pose.rotation.z})
+      number(v);
+    return *this;
+  }
+  Payload& pairs(const PairList& list) {
+    count(list.size());
+    for (const auto& [a, b] : list) number(a.value).number(b.value);
+    return *this;
+  }
+  std::string record() const {
+    const auto length = little_endian_bytes(static_cast<std::uint32_t>(bytes_.size()));
+    const auto hash = little_endian_bytes(hash_of(bytes_));
+    return std::string(length.data(), length.size()) + std::string(hash.data(), hash.size()) + bytes_;
+  }
+
+ private:
+  std::string bytes_;
+};
+
+/// Takes a payload apart; what is not there makes it fail.
+class Source {
+ public:
+  explicit Source(std::string_view bytes) : bytes_(bytes) {}
+
+  bool ok() const { return ok_; }
+  bool is_at_end() const { return bytes_.empty(); }
+  template <class T>
+  T number() {
+    if (bytes_.size() < sizeof(T)) ok_ = false;
+    if (!ok_) return {};
+    const T value = number_at<T>(bytes_.data(), std::endian::little);
+    bytes_.remove_prefix(sizeof(T));
+    return value;
+  }
+  /// A count of things of at least `bytes` each.
+  std::size_t count(std::size_t bytes) {
+    const auto value = number<std::uint32_t>();
+    if (value > bytes_.size() / bytes) ok_ = false;
+    return ok_ ? value : 0;
+  }
+  std::string text() {
+    const std::size_t size = count(1);
+    std::string value(bytes_.substr(0, size));
+    bytes_.remove_prefix(size);
+    return value;
+  }
+  ComponentId component(std::size_t component_count) {
+    const auto value = number<std::uint32_t>();
+    if (value >= component_count) ok_ = false;
+    return ComponentId(value);
+  }
+  Frame frame() {
+    double v[8];
+    for (double& one : v) one = number<double>();
+    return {v[0], {{v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}}};
+  }
+  PairList pairs(std::size_t component_count) {
+    PairList list(count(8));
+    for (auto& [a, b] : list) {
+      a = component(component_count);
+      b = component(component_count);
+    }
+    return list;
+  }
+
+ private:
+  std::string_view bytes_;
+  bool ok_ = true;
+};
+
+/// Does again what the records say.
+class JournalReplay {
+ public:
+  bool take(std::string_view payload) {
+    Source in(payload.substr(1));
+    const auto kind = static_cast<JournalRecord>(payload[0]);
+    if (kind == JournalRecord::Header) return take_header(in);
+    if (!has_header_) return false;
+    contents_.is_closed = false;
+    switch (kind) {
+      case JournalRecord::Begin:
+        return begin(in);
+      case JournalRecord::Frames:
+        return add_frames(in);
+      case JournalRecord::End:
+        return end(in);
+      case JournalRecord::Drop:
+        return drop();
+      case JournalRecord::Undo:
+        end_open();
+        return contents_.done_count > 0 && contents_.done_count-- > 0;
+      case JournalRecord::Redo:
+        end_open();
+        return contents_.done_count < contents_.entries.size() && ++contents_.done_count > 0;
+      case JournalRecord::Reset:
+        contents_.entries.clear();
+        contents_.done_count = 0;
+        open_.reset();
+        return true;
+      case JournalRecord::Close:
+        return contents_.is_closed = true;
+      case JournalRecord::Header:
+        break;
+    }
+    return false;
+  }
+
+  bool has_header() const { return has_header_; }
+  /// What was going on when the records ended has ended there.
+  JournalContents finish() {
+    contents_.is_open = open_ && has_effect(*open_);
+    end_open();
+    return std::move(contents_);
+  }
+
+ private:
+  /// Nothing says how it ended: its process did.
+  void end_open() {
+    if (open_ && has_effect(*open_)) {
+      contents_.entries.resize(contents_.done_count);
+      contents_.entries.push_back(std::move(*open_));
+      ++contents_.done_count;
+    }
+    open_.reset();
+  }
+
+  bool take_header(Source& in) {
+    if (has_header_ || in.text() != kMagic || in.number<std::uint32_t>() != kVersion) return false;
+    JournalHeader& h = contents_.header;
+    h.assembly_name = in.text();
+    h.assembly_sha256 = in.text();
+    h.component_count = in.number<std::uint32_t>();
+    h.tolerance = in.number<double>();
+    return has_header_ = in.ok() && in.is_at_end();
+  }
+
+  bool begin(Source& in) {
+    const std::size_t all = contents_.header.component_count;
+    SessionEntry entry;
+    entry.label = in.text();
+    entry.components.resize(in.count(5));
+    for (ComponentId& c : entry.components) c = in.component(all);
+    for (std::size_t i = 0; i < entry.components.size(); ++i)
+      entry.removed_before.push_back(in.number<std::uint8_t>() != 0);
+    entry.frames = {in.frame()};
+    entry.embedded_before = entry.embedded_after = in.pairs(all);
+    if (!in.ok() || !in.is_at_end() || entry.components.empty()) return false;
+    end_open();
+    open_ = std::move(entry);
+    return true;
+  }
+
+  bool add_frames(Source& in) {
+    const std::size_t count = in.count(sizeof(double) * 8);
+    if (!open_ || !in.ok()) return false;
+    for (std::size_t i = 0; i < count; ++i) open_->frames.push_back(in.frame());
+    return in.is_at_end();
+  }
+
+  bool end(Source& in) {
+    const auto removed = in.number<std::uint8_t>();
+    PairList embedded = in.pairs(contents_.header.component_count);
+    if (!open_ || !in.ok() || !in.is_at_end()) return false;
+    if (removed != 0) open_->removed_after = removed == 2;
+    open_->embedded_after = std::move(embedded);
+    end_open();
+    return true;
+  }
+
+  bool drop() {
+    const bool was_open = open_.has_value();
+    open_.reset();
+    return was_open;
+  }
+
+  std::optional<SessionEntry> open_;
+  JournalContents contents_;
+  bool has_header_ = false;
+};
+
+}  // namespace
+
+std::string header_record(const JournalHeader& h) {
+  return Payload(JournalRecord::Header)
+      .text(kMagic)
+      .number(kVersion)
+      .text(h.assembly_name)
+      .text(h.assembly_sha256)
+      .number(h.component_count)
+      .number(h.tolerance)
+      .record();
+}
+
+std::string begin_record(const SessionEntry& entry) {
+  Payload out(JournalRecord::Begin);
+  out.text(entry.label).count(entry.components.size());
+  for (const ComponentId c : entry.components) out.number(c.value);
+  for (const bool removed : entry.removed_before) out.number(static_cast<std::uint8_t>(removed));
+  return out.frame(entry.frames.front()).pairs(entry.embedded_before).record();
+}
+
+std::string frames_record(Span<const Frame> frames) {
+  Payload out(JournalRecord::Frames);
+  out.count(frames.size());
+  for (const Frame& f : frames) out.frame(f);
+  return out.record();
+}
+
+std::string end_record(const SessionEntry& entry) {
+  const int removed = entry.removed_after ? 1 + static_cast<int>(*entry.removed_after) : 0;
+  return Payload(JournalRecord::End).number(static_cast<std::uint8_t>(removed)).pairs(entry.embedded_after).record();
+}
+
+std::string plain_record(JournalRecord kind) {
+  return Payload(kind).record();
+}
+
+std::optional<JournalContents> parse_journal(std::string_view bytes) {
+  JournalReplay replay;
+  std::size_t at = 0;
+  while (bytes.size() - at > kHeadBytes) {
+    const auto length = number_at<std::uint32_t>(&bytes[at], std::endian::little);
+    const auto hash = number_at<std::uint32_t>(&bytes[at + 4], std::endian::little);
+    if (length == 0 || length > bytes.size() - at - kHeadBytes) break;
+    const std::string_view payload = bytes.substr(at + kHeadBytes, length);
+    if (hash_of(payload) != hash || !replay.take(payload)) break;
+    at += kHeadBytes + length;
+  }
+  if (!replay.has_header()) return {};
+  JournalContents contents = replay.finish();
+  contents.whole_bytes = at;
+  return contents;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a session does by itself: taking out, putting back, playing.
+#include "dismantle/session/session.h"
+
+#include "dismantle/math/screw.h"
+#include "dismantle/session/session_path.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How long a set takes to come out, to its parking place from there, and to go home [s].
+constexpr double kOutTime = 0.8, kParkTime = 0.2, kHomeTime = 1.2;
+/// Targets a second.
+constexpr double kTargetRate = 60;
+/// Between two parked sets, as a share of the assembly's diagonal.
+constexpr double kParkGap = 0.02;
+/// A motion by itself ends after so many targets in a row that it did not reach.
+constexpr int kMostStuck = 6;
+/// Contacts whose normals are tried as directions: nearer than so many tolerances.
+constexpr double kContactReach = 3;
+/// One advance of a motion by itself comes back after about this long.
+constexpr std::chrono::milliseconds kMostTime{8};
+
+/// Appends targets along a straight line that begin and end gently.
+void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
+  const Frame from = targets.back();
+  const int count = std::max(1, static_cast<int>(std::lround(duration * kTargetRate)));
+  for (int i = 1; i <= count; ++i) {
+    const double s = static_cast<double>(i) / count;
+    targets.push_back(
+        {from.time + s * duration, {from.pose.position + (s * s * (3 - 2 * s)) * by, from.pose.rotation}});
+  }
+}
+
+/// How much there is to do from one pose to the next: turns count as if at `lever` [mm].
+double effort(const Pose& a, const Pose& b, double lever) {
+  const Screw screw = screw_between(a, b);
+  return length(b.position - a.position) + lever * screw.angle;
+}
+
+}  // namespace
+
+Result<std::vector<FreeDirection>> Session::free_directions(Span<const ComponentId> components) {
+  const std::vector<ComponentId> set = sorted_set(components);
+  if (Result<Done> sane = check_one_pose(set); !sane) return sane.error();
+  if (activity_ != SessionActivity::Idle && moving_ != set)
+    return Error{ErrorKind::Usage,
+                 "free directions cannot be told now (another component is moving); let go of it first"};
+  if (activity_ == SessionActivity::Idle) engine_->hold(set);
+  return WayOut(*assembly_, *engine_, set).find(kContactReach * pairs_.tolerance);
+}
+
+double Session::parking_distance(const Vec3& direction) const {
+  // Those that are taken out later park nearer: each has its own stretch of the way.
+  const double gap = kParkGap * diagonal(assembled_bounds(*assembly_));
+  double sum = 0;
+  for (std::uint32_t i = 0; i < removed_.size(); ++i) {
+    if (removed_[i] || std::binary_search(moving_.begin(), moving_.end(), ComponentId(i))) continue;
+    const Vec3 size = bounds_at(assembly_->components[i], poses()[i]).size();
+    sum += std::fabs(direction.x) * size.x + std::fabs(direction.y) * size.y + std::fabs(direction.z) * size.z + gap;
+  }
+  return sum;
+}
+
+Result<Done> Session::take_out(Span<const ComponentId> components, const std::optional<Vec3>& direction) {
+  release();
+  std::vector<ComponentId> set = sorted_set(components);
+  if (Result<Done> sane = check_set(set); !sane) return sane;
+  engine_->hold(set);
+  const WayOut out(*assembly_, *engine_, set);
+  std::optional<FreeDirection> way;
+  if (direction || out.is_outside()) {
+    const std::vector<Vec3> only{direction ? normalized(*direction) : out.outward()};
+    if (!(length(only[0]) > 0))
+      return Error{ErrorKind::Usage, "nothing can be taken out that way (the direction is zero); give another"};
+    way = out.look(only).front();
+  } else if (const std::vector<FreeDirection> found = out.find(kContactReach * pairs_.tolerance); !found.empty()) {
+    way = found.front();
+  }
+  if (!way || !way->free) {
+    const std::string name = way && way->blocked_by.valid()
+                                 ? "'" + (*assembly_)[way->blocked_by].name + "' is in the way"
+                                 : "it is held from all sides";
+    return Error{ErrorKind::Usage, "'" + names_of(*assembly_, set) + "' cannot be taken out straight (" + name +
+                                       "); take that out first, or drag it out by hand"};
+  }
+
+  begin(SessionActivity::Automatic, "take out", std::move(set));
+  std::vector<Frame> targets = open_->frames;
+  if (way->distance > 0) append_line(targets, way->distance * way->direction, kOutTime);
+  append_line(targets, parking_distance(way->direction) * way->direction, kParkTime);
+  begin_automatic(AutomaticKind::TakeOut, std::move(targets));
+  return Done{};
+}
+
+std::vector<Frame> Session::way_back(ComponentId component) const {
+  std::vector<Pose> way{poses()[component.value]};
+  for (std::size_t i = done_count_; i-- > 0 && !(way.back() == Pose{});) {
+    const SessionEntry& entry = entries_[i];
+    if (!has_moved(entry) || !std::binary_search(entry.components.begin(), entry.components.end(), component)) continue;
+    for (std::size_t k = entry.frames.size(); k-- > 0;)
+      if (!(entry.frames[k].pose == way.back())) way.push_back(entry.frames[k].pose);
+  }
+  const double lever = diagonal(assembled_bounds((*assembly_)[component])) / 2;
+  double whole = 0, made = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) whole += effort(way[i - 1], way[i], lever);
+  std::vector<Frame> frames{{0, way[0]}};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    made += effort(way[i - 1], way[i], lever);
+    frames.push_back({whole > 0 ? kHomeTime * made / whole : 0, way[i]});
+  }
+  return frames;
+}
+
+Result<Done> Session::put_back(Span<const ComponentId> components) {
+  release();
+  std::vector<ComponentId> set = sorted_set(components);
+  if (Result<Done> sane = check_one_pose(set); !sane) return sane;
+  std::vector<Frame> targets = way_back(set[0]);
+  const bool is_away = std::any_of(set.begin(), set.end(), [&](ComponentId c) { return removed_[c.value]; });
+  if (targets.size() < 2 && !is_away)
+    return Error{ErrorKind::Usage, "'" + names_of(*assembly_, set) +
+                                       "' cannot be put back (it is where it belongs); take "
+                                       "it out first"};
+  begin(SessionActivity::Automatic, "put back", std::move(set));
+  if (is_away) open_->removed_after = false;
+  for (const ComponentId c : moving_) removed_[c.value] = false;
+  begin_automatic(AutomaticKind::PutBack, std::move(targets));
+  return Done{};
+}
+
+void Session::begin_automatic(AutomaticKind kind, std::vector<Frame> targets) {
+  automatic_.emplace();
+  automatic_->kind = kind;
+  automatic_->targets = std::move(targets);
+  automatic_->next = 1;
+}
+
+StepResult Session::follow(const Frame& target) {
+  // First the very way that is known to be free; where that is not allowed any more, as near as contacts let it.
+  StepResult step = engine_->step(target.pose, ResponseKind::Stop);
+  if (!step.reached) step = engine_->step(target.pose, ResponseKind::Slide);
+  const std::size_t before = open_->frames.size();
+  append_way(open_->frames, std::max(target.time, open_->frames.back().time), step);
+  write_frames(before);
+  return step;
+}
+
+StepResult Session::advance_automatic(double dt) {
+  Automatic& a = *automatic_;
+  const Clock::time_point end = Clock::now() + kMostTime;
+  StepResult last;
+  last.pose = poses()[moving_[0].value];
+  a.clock += dt;
+  while (a.next < a.targets.size() && a.targets[a.next].time <= a.clock && Clock::now() < end) {
+    last = follow(a.targets[a.next++]);
+    a.stuck = last.reached ? 0 : a.stuck + 1;
+    if (a.stuck < kMostStuck) continue;
+    finish_automatic(false);
+    return last;
+  }
+  if (a.next == a.targets.size()) finish_automatic(last.reached || a.stuck == 0);
+  return last;
+}
+
+void Session::finish_automatic(bool reached_end) {
+  const bool takes_out = automatic_->kind == AutomaticKind::TakeOut;
+  if (takes_out && (reached_end || WayOut(*assembly_, *engine_, moving_).is_outside())) {
+    open_->removed_after = true;
+    for (const ComponentId c : moving_) removed_[c.value] = true;
+  }
+  finish_entry();
+  be_idle();
+}
+
+void Session::halt() {
+  if (activity_ == SessionActivity::Automatic) finish_automatic(false);
+}
+
+StepResult Session::advance(double dt) {
+  if (activity_ == SessionActivity::Automatic) return advance_automatic(dt);
+  DISMANTLE_EXPECT(playback_ && playback_->is_playing());
+  StepResult step = playback_->advance(*engine_, dt);
+  played_removed_ = playback_->removed();
+  return step;
+}
+
+Result<Done> Session::open_playback(PlaybackSource source) {
+  if (playback_ && playback_->source() != source)
+    return Error{ErrorKind::Usage, "this cannot be played now (another playback is open); stop that first"};
+  if (playback_) return Done{};
+  release();
+  if (source == PlaybackSource::Guide && !guide_)
+    return Error{ErrorKind::Usage, "there is no guide to play (no path file is open); open one first"};
+  Timeline timeline = source == PlaybackSource::Guide ? guide_->timeline : Timeline::of_entries(done());
+  if (timeline.moves().empty())
+    return Error{ErrorKind::Usage, "there is nothing to play (nothing was moved yet); move something first"};
+  live_poses_.assign(poses().begin(), poses().end());
+  live_embedded_ = embedded();
+  const double at = source == PlaybackSource::Guide ? 0 : timeline.duration();
+  playback_.emplace(source, std::move(timeline), *assembly_, pairs_.tolerance);
+  activity_ = SessionActivity::Playback;
+  playback_->seek(at);
+  put_playback();
+  return Done{};
+}
+
+void Session::put_playback() {
+  // The pairs that may be embedded at the place; those that are apart there part by themselves.
+  const TimelineMove& move = playback_->timeline().moves()[playback_->place().move];
+  put(playback_->poses(), move.embedded_before);
+  played_removed_ = playback_->removed();
+}
+
+Result<Done> Session::play(PlaybackSource source, double speed) {
+  if (!std::isfinite(speed) || speed == 0)
+    return Error{ErrorKind::Usage, "this cannot be played (the speed is zero or no number); give another"};
+  if (Result<Done> open = open_playback(source); !open) return open;
+  const Playback& p = *playback_;
+  // From the end again from the beginning, and the other way round.
+  if (speed > 0 && p.place() == p.timeline().end()) playback_->seek(0);
+  if (speed < 0 && p.place() == TimelinePlace{}) playback_->seek(p.timeline().duration());
+  put_playback();
+  playback_->play(speed);
+  return Done{};
+}
+
+Result<Done> Session::seek(PlaybackSource source, double time) {
+  if (Result<Done> open = open_playback(source); !open) return open;
+  playback_->pause();
+  playback_->seek(time);
+  put_playback();
+  return Done{};
+}
+
+void Session::pause() {
+  if (playback_) playback_->pause();
+}
+
+void Session::stop_playback() {
+  if (!playback_) return;
+  playback_.reset();
+  put(live_poses_, live_embedded_);
+  activity_ = SessionActivity::Idle;
+}
+
+Result<Done> Session::set_guide(std::string name, std::string text, const Path& path) {
+  if (playback_ && playback_->source() == PlaybackSource::Guide) stop_playback();
+  Result<Timeline> timeline = Timeline::of_path(*assembly_, pairs_, path);
+  if (!timeline) return timeline.error();
+  guide_ = Guide{std::move(name), std::move(text), std::move(*timeline)};
+  return Done{};
+}
+
+void Session::close_guide() {
+  if (playback_ && playback_->source() == PlaybackSource::Guide) stop_playback();
+  guide_.reset();
+}
+
+}  // namespace dismantle

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/session/timeline.h"
+
+#include "dismantle/math/screw.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+bool nearly_equal(const Pose& a, const Pose& b) {
+  const double q = std::fabs(dot(a.rotation, b.rotation));
+  return max_abs(a.position - b.position) <= kTimelineJoin && 1 - q <= kTimelineJoin;
+}
+
+Error does_not_fit(std::size_t move, const std::string& why) {
+  return {ErrorKind::Unreadable, "the path cannot be played (moves[" + std::to_string(move) + "] " + why +
+                                     "); take a path of this assembly that 'dismantle audit' accepts"};
+}
+
+Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const Move& move, std::size_t index) {
+  std::vector<ComponentId> ids;
+  for (const std::string& name : move.components) {
+    const std::optional<ComponentId> id = assembly.find(name);
+    if (!id) return does_not_fit(index, "moves '" + name + "', which the assembly does not have");
+    ids.push_back(*id);
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  if (ids.empty() || move.frames.empty()) return does_not_fit(index, "moves nothing");
+  return ids;
+}
+
+PairList embedded_pairs(const PairStates& pairs) {
+  PairList list;
+  for (const ComponentPair& p : pairs.pairs)
+    if (p.state == PairState::Embedded) list.emplace_back(p.a, p.b);
+  return list;
+}
+
+}  // namespace
+
+void Timeline::add(TimelineMove move) {
+  move.start = duration();
+  moves_.push_back(std::move(move));
+}
+
+Timeline Timeline::of_entries(Span<const SessionEntry> entries) {
+  Timeline timeline;
+  for (const SessionEntry& e : entries)
+    timeline.add({e.label, e.components, e.frames, 0, e.embedded_before, e.removed_after});
+  return timeline;
+}
+
+Result<Timeline> Timeline::of_path(const Assembly& assembly, const PairStates& pairs, const Path& path) {
+  Timeline timeline;
+  std::vector<Pose> poses(assembly.components.size());
+  for (std::size_t i = 0; i < path.moves.size(); ++i) {
+    const Move& move = path.moves[i];
+    const Result<std::vector<ComponentId>> set = find_set(assembly, move, i);
+    if (!set) return set.error();
+    for (const ComponentId c : *set) {
+      if (!nearly_equal(poses[c.value], move.frames.front().pose))
+        return does_not_fit(i, "does not begin where '" + assembly[c].name + "' is then");
+      poses[c.value] = move.frames.back().pose;
+    }
+    timeline.add({move.label, *set, move.frames, 0, embedded_pairs(pairs), {}});
+  }
+  return timeline;
+}
+
+TimelinePlace Timeline::end() const {
+  if (moves_.empty()) return {};
+  return {moves_.size() - 1, moves_.back().frames.size() - 1, 0};
+}
+
+TimelinePlace Timeline::place_at(double time) const {
+  if (moves_.empty() || time <= 0) return {};
+  if (time >= duration()) return end();
+  const auto next =
+      std::upper_bound(moves_.begin(), moves_.end(), time, [](double t, const TimelineMove& m) { return t < m.start; });
+  TimelinePlace place;
+  place.move = static_cast<std::size_t>(next - moves_.begin()) - 1;
+  const TimelineMove& move = moves_[place.move];
+  const double local = time - move.start;
+  const auto later = std::upper_bound(move.frames.begin(), move.frames.end(), local,
+                                      [](double t, const Frame& f) { return t < f.time; });
+  place.frame = static_cast<std::size_t>(later - move.frames.begin()) - 1;
+  if (later != move.frames.end()) {
+    const double before = move.frames[place.frame].time;
+    place.share = (local - before) / (later->time - before);
+  }
+  return place;
+}
+
+double Timeline::time_of(const TimelinePlace& place) const {
+  if (moves_.empty()) return 0;
+  const TimelineMove& move = moves_[place.move];
+  double time = move.frames[place.frame].time;
+  if (place.share > 0) time += place.share * (move.frames[place.frame + 1].time - time);
+  return move.start + time;
+}
+
+Pose Timeline::pose_of(const TimelinePlace& place) const {
+  const std::vector<Frame>& frames = moves_[place.move].frames;
+  if (place.share == 0) return frames[place.frame].pose;
+  return pose_between(frames[place.frame].pose, frames[place.frame + 1].pose, place.share);
+}
+
+std::vector<Pose> Timeline::poses_at(const TimelinePlace& place, std::size_t component_count) const {
+  std::vector<Pose> poses(component_count);
+  if (moves_.empty()) return poses;
+  for (std::size_t i = 0; i < place.move; ++i)
+    for (const ComponentId c : moves_[i].components) poses[c.value] = moves_[i].frames.back().pose;
+  for (const ComponentId c : moves_[place.move].components) poses[c.value] = pose_of(place);
+  return poses;
+}
+
+std::vector<bool> Timeline::removed_at(const TimelinePlace& place, std::size_t component_count) const {
+  std::vector<bool> removed(component_count, false);
+  for (std::size_t i = 0; i < moves_.size() && i <= place.move; ++i) {
+    const bool is_over = i < place.move || place.frame + 1 == moves_[i].frames.size();
+    // What is put back is there from the beginning of its move, what is taken out is gone at its end.
+    if (!moves_[i].removed_after || (*moves_[i].removed_after && !is_over)) continue;
+    for (const ComponentId c : moves_[i].components) removed[c.value] = *moves_[i].removed_after;
+  }
+  return removed;
+}
+
+}  // namespace dismantle
