@@ -25,6 +25,7 @@ struct ViewOptions {
   std::string web_folder;
   int port = 0;
   bool no_browser = false;
+  bool no_journal = false;
 };
 
 /// SIGINT and SIGTERM for this thread alone: it waits for them while others serve.
@@ -48,6 +49,15 @@ void open_browser(const std::string& url) {
   waitpid(child, nullptr, 0);
 }
 
+/// Where programs keep what a user would not miss: XDG's state folder.
+std::optional<fs::path> state_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && fs::path(state).is_absolute())
+    return fs::path(state) / "dismantle";
+  if (const char* home = std::getenv("HOME"); home != nullptr && fs::path(home).is_absolute())
+    return fs::path(home) / ".local" / "state" / "dismantle";
+  return {};
+}
+
 Result<server::ServerOptions> server_options(const ViewOptions& o) {
   const Result<Executor> executor = make_executor(o.common);
   if (!executor) return executor.error();
@@ -56,6 +66,7 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   options.roots.assign(o.roots.begin(), o.roots.end());
   if (options.roots.empty() && !o.common.assembly_file.empty())
     options.roots.push_back(fs::absolute(o.common.assembly_file).parent_path());
+  if (!o.no_journal) options.state_folder = state_folder();
   if (!o.web_folder.empty()) options.web_folder = o.web_folder;
   options.model.import = o.common.import;
   options.model.classify.tolerance = o.common.tolerance;
@@ -106,6 +117,7 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--port", options->port, "Port on 127.0.0.1 and ::1 (default: one that is free)")
       ->check(CLI::Range(1, 65535));
   command->add_flag("--no-browser", options->no_browser, "Only print the URL");
+  command->add_flag("--no-journal", options->no_journal, "Keep nothing of the session on disk, and continue none");
   command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);

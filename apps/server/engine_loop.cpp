@@ -5,12 +5,12 @@ namespace dismantle::server {
 
 namespace {
 
-constexpr std::chrono::microseconds kStepInterval{1000};
 constexpr std::size_t kMostTasks = 1000;
 
 }  // namespace
 
-EngineLoop::EngineLoop(EngineListener& listener) : listener_(listener), thread_([this] { run(); }) {}
+EngineLoop::EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals)
+    : listener_(listener), bench_(std::move(roots), std::move(journals)), thread_([this] { run(); }) {}
 
 EngineLoop::~EngineLoop() {
   stop();
@@ -46,7 +46,7 @@ void EngineLoop::adopt(Model model) {
   // std::function wants what it holds to be copyable.
   post_always([this, shared = std::make_shared<Model>(std::move(model))](Workbench& bench) {
     bench.adopt(std::move(*shared));
-    listener_.on_event({true, false, text_of(model_json(*bench.model()))});
+    listener_.on_event({EngineEvent::Kind::Model, false, text_of(model_json(*bench.model()))});
   });
 }
 
@@ -74,11 +74,14 @@ bool EngineLoop::take_work(std::deque<Task>& tasks, std::optional<Wanted>& wante
 
 void EngineLoop::publish_state() {
   if (std::optional<std::string> state = bench_.take_state())
-    listener_.on_event({false, bench_.is_dragging(), std::move(*state)});
+    listener_.on_event({EngineEvent::Kind::State, bench_.is_dragging(), std::move(*state)});
+  if (const std::optional<std::string> warning = bench_.take_warning())
+    listener_.on_event(
+        {EngineEvent::Kind::Log, false, text_of(Json{{"event", "log"}, {"level", "warning"}, {"text", *warning}})});
 }
 
 void EngineLoop::make_step(Clock::time_point now) {
-  next_step_ = now + kStepInterval;
+  next_step_ = now + bench_.step_interval();
   std::optional<PoseMessage> pose = bench_.step(now);
   if (!pose) return;
   const Clock::time_point end = Clock::now();
@@ -103,6 +106,7 @@ void EngineLoop::run() {
     tasks.clear();
     publish_state();
     if (const Clock::time_point now = Clock::now(); now >= next_step_) make_step(now);
+    publish_state();  // what ended by itself
     if (!bench_.wants_step()) unanswered_.reset();
   }
 }

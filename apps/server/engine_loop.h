@@ -11,10 +11,11 @@
 
 namespace dismantle::server {
 
-/// An event `model` or `state` of docs/wire.md.
+/// An event of docs/wire.md.
 struct EngineEvent {
-  bool is_model = false;
-  bool is_dragging = false;  ///< Of `state`: a set is in hand.
+  enum class Kind { Model, State, Log };
+  Kind kind = Kind::State;
+  bool is_dragging = false;  ///< Of State: a set is in hand.
   std::string text;
 };
 
@@ -34,8 +35,8 @@ class EngineLoop {
  public:
   using Task = std::function<void(Workbench&)>;
 
-  /// Starts the thread. `listener` must outlive the loop.
-  explicit EngineLoop(EngineListener& listener);
+  /// Starts the thread. `listener` must outlive the loop. The others: as of Workbench.
+  EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals);
   ~EngineLoop();
   EngineLoop(const EngineLoop&) = delete;
   EngineLoop& operator=(const EngineLoop&) = delete;

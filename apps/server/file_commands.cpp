@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kCommands = {"samples", "files", "open", "cancel"};
+constexpr std::array<std::string_view, 5> kCommands = {"samples", "files", "recent", "open", "cancel"};
 
 std::string_view name_of(RootEntry::Kind kind) {
   switch (kind) {
@@ -40,18 +40,18 @@ std::uint64_t index_member(const Json& command, const char* name) {
   return found != command.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
 }
 
-void remove_with_folder(const fs::path& file) {
-  std::error_code ignored;
-  fs::remove(file, ignored);
-  fs::remove(file.parent_path(), ignored);
-}
-
 Result<Json> job_json(const Result<std::uint32_t>& job) {
   if (!job) return job.error();
   return Json{{"job", *job}};
 }
 
 }  // namespace
+
+void remove_with_folder(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);
+  fs::remove(file.parent_path(), ignored);
+}
 
 Result<fs::path> new_temporary_folder() {
   std::error_code error;
@@ -73,6 +73,7 @@ Result<Json> FileCommands::execute(const Json& command) {
   const std::string name = text_member(command, "command");
   if (name == "samples") return samples();
   if (name == "files") return files(command);
+  if (name == "recent") return recent();
   if (name == "open") return open(command);
   return cancel(command);
 }
@@ -91,7 +92,27 @@ Result<Json> FileCommands::files(const Json& command) const {
   return Json{{"entries", std::move(list)}};
 }
 
+std::vector<fs::path> FileCommands::recent_in_roots() const {
+  std::vector<fs::path> files = recent_.list();
+  std::erase_if(files, [this](const fs::path& file) { return !roots_.contain(file); });
+  return files;
+}
+
+Result<Json> FileCommands::recent() const {
+  Json list = Json::array();
+  for (const fs::path& file : recent_in_roots())
+    list.push_back({{"name", file.filename().string()}, {"folder", file.parent_path().filename().string()}});
+  return Json{{"recent", std::move(list)}};
+}
+
 Result<Json> FileCommands::open(const Json& command) {
+  if (command.contains("recent")) {
+    const std::vector<fs::path> files = recent_in_roots();
+    const std::uint64_t index = index_member(command, "recent");
+    if (index >= files.size())
+      return Error{ErrorKind::Usage, "there is no such recent file (the list is shorter); ask for it anew"};
+    return job_json(open_file(files[index]));
+  }
   if (command.contains("sample")) return job_json(open_sample(text_member(command, "sample")));
   const Result<fs::path> file = roots_.find(index_member(command, "root"), text_member(command, "file"));
   if (!file) return file.error();

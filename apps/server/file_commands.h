@@ -4,17 +4,21 @@
 #include "apps/server/hub.h"
 #include "apps/server/jobs.h"
 #include "apps/server/model_loader.h"
+#include "apps/server/recent_files.h"
 #include "apps/server/roots.h"
 
 #include <filesystem>
 
 namespace dismantle::server {
 
-/// The commands of docs/wire.md that are about files: samples, files, open, cancel.
+/// The commands of docs/wire.md that are about files: samples, files, recent, open, cancel.
 class FileCommands final : public ServerCommands {
  public:
-  FileCommands(Roots roots, ModelOptions options, Jobs::Listener listener)
-      : roots_(std::move(roots)), options_(std::move(options)), jobs_(std::move(listener)) {}
+  FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs::Listener listener)
+      : roots_(std::move(roots)),
+        options_(std::move(options)),
+        recent_(std::move(recent)),
+        jobs_(std::move(listener)) {}
 
   bool knows(std::string_view command) const override;
   bool is_question(std::string_view command) const override;
@@ -31,13 +35,19 @@ class FileCommands final : public ServerCommands {
  private:
   Result<Json> samples() const;
   Result<Json> files(const Json& command) const;
+  Result<Json> recent() const;
+  std::vector<std::filesystem::path> recent_in_roots() const;
   Result<Json> open(const Json& command);
   Result<Json> cancel(const Json& command);
 
   Roots roots_;
   ModelOptions options_;
+  RecentFiles recent_;
   Jobs jobs_;
 };
+
+/// Removes an upload and the folder that was made for it.
+void remove_with_folder(const std::filesystem::path& file);
 
 /// A new folder of our own in the system's folder for temporary files. Errors: Failed.
 Result<std::filesystem::path> new_temporary_folder();

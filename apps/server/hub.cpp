@@ -208,10 +208,10 @@ void Hub::broadcast(const SharedText& event) {
 
 void Hub::broadcast_event(EngineEvent event) {
   const SharedText text = shared(std::move(event.text));
-  if (event.is_model) {
+  if (event.kind == EngineEvent::Kind::Model) {
     model_ = text;
     state_ = nullptr;  // that of the model before
-  } else {
+  } else if (event.kind == EngineEvent::Kind::State) {
     state_ = text;
     dragging_ = event.is_dragging;
   }

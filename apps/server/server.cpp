@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::chrono::seconds kTick{1};
 constexpr int kPortTries = 20;
-constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30, kLargestGuide = std::uint64_t{256} << 20;
 /// How long the sockets' goodbyes may take when the server stops.
 constexpr std::chrono::milliseconds kGoodbyeTime{500};
 
@@ -53,8 +53,8 @@ class Server::Body final : public Site, private EngineListener {
  public:
   Body(ServerOptions options, Roots roots)
       : pages_(options.web_folder),
-        engine_(*this),
-        files_(std::move(roots), std::move(options.model), job_listener()),
+        engine_(*this, roots, journal_folder(options)),
+        files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), job_listener()),
         hub_(engine_, files_, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
         v4_(io_),
         v6_(io_),
@@ -103,14 +103,18 @@ class Server::Body final : public Site, private EngineListener {
 
   void get(const RequestTarget& target, Reply done) override {
     if (target.path == "/api/model.glb") return done(model_answer(target));
-    if (target.path == "/api/path.json") return send_recording(std::move(done));
+    if (target.path == "/api/path.json")
+      return send_text(&Workbench::recording_text, "there is no recording (no assembly is open); open one first", done);
+    if (target.path == "/api/guide.json")
+      return send_text(&Workbench::guide_text, "there is no guide (no path file is open); open one first", done);
     if (target.path.substr(0, 5) == "/api/") return done(not_found(target.path));
     if (std::optional<HttpAnswer> file = pages_.find(target.path)) return done(std::move(*file));
     done(not_found(target.path));
   }
 
   std::variant<UploadPlace, HttpAnswer> begin_upload(const RequestTarget& target, const std::string& client) override {
-    if (target.path != "/api/open") return not_found(target.path);
+    const bool is_guide = target.path == "/api/guide";
+    if (!is_guide && target.path != "/api/open") return not_found(target.path);
     if (!hub_.is_in_control(client))
       return error_answer(403, "nothing can be opened (another page is in control); take control first");
     const auto name = target.query.find("name");
@@ -119,10 +123,11 @@ class Server::Body final : public Site, private EngineListener {
       return error_answer(400, "the upload has no name (its kind is told by it); give ?name=FILE");
     const Result<fs::path> folder = new_temporary_folder();
     if (!folder) return error_answer(500, folder.error().message);
-    return UploadPlace{*folder / base, kLargestUpload};
+    return UploadPlace{*folder / base, is_guide ? kLargestGuide : kLargestUpload};
   }
 
   void finish_upload(const Upload& upload, Reply done) override {
+    if (upload.target.path == "/api/guide") return open_guide(upload.file, std::move(done));
     const Result<std::uint32_t> job = files_.open_upload(upload.file);
     done(job ? json_answer(202, {{"job", *job}}) : error_answer(409, job.error().message));
   }
@@ -180,13 +185,28 @@ class Server::Body final : public Site, private EngineListener {
     return {200, "model/gltf-binary", glb_, {}};
   }
 
-  void send_recording(Reply done) {
-    engine_.post_always([this, done = std::move(done)](Workbench& bench) {
-      HttpAnswer answer = error_answer(404, "there is no recording (no assembly is open); open one first");
-      if (const std::optional<std::string> text = bench.recording_text())
-        answer = {200, "application/json", std::make_shared<const std::string>(*text), bench.recording_name()};
+  void send_text(std::optional<std::string> (Workbench::*text)() const, const std::string& otherwise, Reply done) {
+    engine_.post_always([this, text, otherwise, done = std::move(done)](Workbench& bench) {
+      HttpAnswer answer = error_answer(404, otherwise);
+      if (const std::optional<std::string> found = (bench.*text)())
+        answer = {200, "application/json", std::make_shared<const std::string>(*found), bench.recording_name()};
       asio::post(io_, [done, answer] { done(answer); });
     });
+  }
+
+  void open_guide(const fs::path& file, Reply done) {
+    engine_.post_always([this, file, done = std::move(done)](Workbench& bench) {
+      const Result<Done> opened = bench.open_guide(file, file.filename().string());
+      remove_with_folder(file);
+      engine_.publish_state();
+      HttpAnswer answer = opened ? json_answer(200, Json::object()) : error_answer(422, opened.error().message);
+      asio::post(io_, [done, answer] { done(answer); });
+    });
+  }
+
+  static std::optional<fs::path> journal_folder(const ServerOptions& options) {
+    if (!options.state_folder) return {};
+    return *options.state_folder / "sessions";
   }
 
   Jobs::Listener job_listener() {

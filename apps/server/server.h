@@ -16,7 +16,8 @@ struct ServerOptions {
   std::uint16_t port = 0;                    ///< 0: one that is free.
   std::vector<std::filesystem::path> roots;  ///< Folders whose files clients may open, and save recordings in.
   ModelOptions model;
-  std::optional<std::filesystem::path> web_folder;  ///< The page's files are there, not in the program.
+  std::optional<std::filesystem::path> state_folder;  ///< For the sessions' journals and the list of recent files.
+  std::optional<std::filesystem::path> web_folder;    ///< The page's files are there, not in the program.
 };
 
 /// The viewer's server (UI.md, "Server"; docs/wire.md): on the loopback addresses only, with a token that is new each

@@ -10,19 +10,34 @@ Json bounds_json(const Aabb& box) {
 }
 
 /// The recording or a guide, as lists of moves that follow one another.
-Json moves_json(Span<const SessionEntry> entries) {
+Json moves_json(const Timeline& timeline) {
   Json list = Json::array();
-  double start = 0;
-  for (const SessionEntry& entry : entries) {
-    if (!has_moved(entry)) continue;
-    const double duration = entry.frames.back().time;
-    list.push_back({{"label", entry.label},
-                    {"components", to_json(Span<const ComponentId>(entry.components))},
-                    {"start", start},
-                    {"duration", duration}});
-    start += duration;
-  }
+  for (const TimelineMove& move : timeline.moves())
+    list.push_back({{"label", move.label},
+                    {"components", to_json(Span<const ComponentId>(move.components))},
+                    {"start", move.start},
+                    {"duration", move.duration()}});
   return list;
+}
+
+Json playback_json(const Session& session) {
+  const Playback* p = session.playback();
+  if (p == nullptr) return nullptr;
+  Json blocked;
+  if (const auto& block = p->block())
+    blocked = {{"time", block->time}, {"by", block->by.valid() ? Json(block->by.value) : Json(nullptr)}};
+  return {{"source", p->source() == PlaybackSource::Guide ? "guide" : "recording"},
+          {"time", p->time()},
+          {"duration", p->timeline().duration()},
+          {"speed", p->speed()},
+          {"playing", p->is_playing()},
+          {"move", p->place().move},
+          {"blocked", std::move(blocked)}};
+}
+
+Json automatic_json(const Session& session) {
+  if (session.activity() != SessionActivity::Automatic) return nullptr;
+  return session.automatic() == AutomaticKind::TakeOut ? "take_out" : "put_back";
 }
 
 Json components_json(const Session& session) {
@@ -85,15 +100,15 @@ Json state_json(const Session& session) {
   json["components"] = components_json(session);
   json["isolated"] = session.visibility().is_isolated();
   json["moving"] = to_json(session.moving());
-  json["automatic"] = nullptr;
+  json["automatic"] = automatic_json(session);
   json["response"] = name_of(session.response());
   json["undo"] = session.done().empty() ? Json(nullptr) : Json(session.done()[session.done().size() - 1].label);
   json["redo"] = session.undone().empty() ? Json(nullptr) : Json(session.undone()[0].label);
-  json["moves"] = moves_json(session.done());
-  json["playback"] = nullptr;
+  json["moves"] = moves_json(Timeline::of_entries(session.done()));
+  json["playback"] = playback_json(session);
   json["guide"] = nullptr;
-  json["resumed"] = false;
-  json["resumable"] = false;
+  if (const Guide* guide = session.guide())
+    json["guide"] = {{"name", guide->name}, {"moves", moves_json(guide->timeline)}};
   return json;
 }
 

@@ -2,6 +2,7 @@
 #include "apps/server/workbench.h"
 
 #include "dismantle/io/path_file.h"
+#include "dismantle/io/read_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,10 @@ namespace {
 constexpr double kRateLife = 0.15, kLongestRateStep = 0.02;
 /// Of stop and touch, which give no contact points: how far to look for them, in tolerances.
 constexpr double kContactReach = 2;
+constexpr std::chrono::microseconds kDragInterval{1000}, kByItselfInterval{8000};
+/// A motion by itself that was held up does not make up for more than this [s].
+constexpr double kLongestAdvance = 0.1;
+constexpr std::size_t kLargestGuide = std::size_t{256} << 20;
 
 double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -30,10 +35,36 @@ ContactMessage contact_message(const ContactPoint& c) {
 
 }  // namespace
 
+Workbench::~Workbench() {
+  if (model_) journals_.detach(session());
+}
+
 void Workbench::adopt(Model model) {
+  if (model_) journals_.detach(session());
   model_ = std::move(model);
   drop_targets();
+  const Result<bool> attached = journals_.attach(session());
+  is_resumed_ = attached && *attached;
+  is_resumable_ = journals_.can_resume(session());
+  journal_failed_ = !attached;
+  if (!attached) warning_ = attached.error().message;
   changed_ = true;
+}
+
+Result<Done> Workbench::open_guide(const std::filesystem::path& file, const std::string& name) {
+  if (!model_) return Error{ErrorKind::Usage, "no path can be opened (no assembly is open); open the assembly first"};
+  Result<std::string> text = read_file(file, kLargestGuide);
+  if (!text) return text.error();
+  const Result<Path> path = parse_path(*text, name);
+  if (!path) return path.error();
+  changed_ = true;
+  drop_targets();
+  return session().set_guide(name, std::move(*text), *path);
+}
+
+std::optional<std::string> Workbench::guide_text() const {
+  if (!model_ || session().guide() == nullptr) return {};
+  return session().guide()->text;
 }
 
 void Workbench::drop_targets() {
@@ -44,7 +75,8 @@ void Workbench::drop_targets() {
 }
 
 void Workbench::let_go() {
-  if (!is_dragging()) return;
+  if (!model_) return;
+  session().pause();
   session().release();
   drop_targets();
   changed_ = true;
@@ -77,8 +109,18 @@ void Workbench::set_wanted(const RateMessage& rate) {
   settled_ = false;
 }
 
+bool Workbench::moves_by_itself() const {
+  if (!model_) return false;
+  return session().activity() == SessionActivity::Automatic ||
+         (session().playback() != nullptr && session().playback()->is_playing());
+}
+
 bool Workbench::wants_step() const {
-  return is_dragging() && !settled_ && (target_ || rate_);
+  return moves_by_itself() || (is_dragging() && !settled_ && (target_ || rate_));
+}
+
+std::chrono::microseconds Workbench::step_interval() const {
+  return moves_by_itself() ? kByItselfInterval : kDragInterval;
 }
 
 Pose Workbench::wanted_pose(Clock::time_point now) {
@@ -91,29 +133,59 @@ Pose Workbench::wanted_pose(Clock::time_point now) {
   return Pose{center + dt * rate_->velocity, turn} * Pose{-center, {}} * pose;
 }
 
-std::optional<PoseMessage> Workbench::step(Clock::time_point now) {
-  if (!wants_step()) return {};
+StepResult Workbench::drag(Clock::time_point now) {
   const bool by_rate = rate_.has_value();
-  const Pose wanted = wanted_pose(now);
-  const StepResult result = session().drag(wanted, seconds_between(held_at_, now));
-  const Clock::time_point end = Clock::now();
-  statistics_.add_step(1e6 * seconds_between(now, end), end);
+  const StepResult result = session().drag(wanted_pose(now), seconds_between(held_at_, now));
   stepped_at_ = now;
   settled_ = result.reached || result.way.empty();
   if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLife;
-  return pose_message(result, now);
+  return result;
+}
+
+StepResult Workbench::advance(Clock::time_point now) {
+  const std::vector<ComponentId> before(session().moving().begin(), session().moving().end());
+  const std::size_t move = session().playback() != nullptr ? session().playback()->place().move : 0;
+  StepResult result = session().advance(std::min(seconds_between(stepped_at_, now), kLongestAdvance));
+  stepped_at_ = now;
+  const Span<const ComponentId> after = session().moving();
+  changed_ |= !moves_by_itself() || !std::equal(before.begin(), before.end(), after.begin(), after.end());
+  changed_ |= session().playback() != nullptr && session().playback()->place().move != move;
+  return result;
+}
+
+std::optional<PoseMessage> Workbench::step(Clock::time_point now) {
+  if (!wants_step()) return {};
+  const StepResult result = moves_by_itself() ? advance(now) : drag(now);
+  const Clock::time_point end = Clock::now();
+  statistics_.add_step(1e6 * seconds_between(now, end), end);
+  watch_journal();
+  PoseMessage message = pose_message(result, now);
+  message.step_us = static_cast<float>(1e6 * seconds_between(now, end));
+  return message;
+}
+
+void Workbench::watch_journal() {
+  const Journal* journal = session().journal();
+  if (journal_failed_ || journal == nullptr || !journal->has_failed()) return;
+  journal_failed_ = true;
+  warning_ = "this session is not kept any more (its journal cannot be written: is the disk full?); save the recording";
 }
 
 PoseMessage Workbench::pose_message(const StepResult& step, Clock::time_point now) const {
   PoseMessage m;
   m.flags = static_cast<std::uint8_t>(step.reached ? kReached : kStopped);
   m.state = state_number_;
-  m.grip = grip_;
+  m.grip = is_dragging() ? grip_ : 0;
   m.answered = number_;
   m.time = seconds_between(held_at_, now);
+  if (const Playback* playback = session().playback()) {
+    m.flags |= kPlayback;
+    m.time = playback->time();
+  } else if (!is_dragging()) {
+    m.flags |= kAutomatic;
+  }
   m.pose = step.pose;
   m.clearance = step.clearance;
-  m.step_us = static_cast<float>(1e3 * step.timings.overall);
   m.contacts = contact_messages(step);
   return m;
 }
@@ -148,6 +220,8 @@ std::optional<std::string> Workbench::take_state() {
   json["hand"] = nullptr;
   if (is_dragging()) json["hand"] = {{"grip", grip_}, {"components", to_json(session().moving())}};
   json.update(state_json(session()));
+  json["resumed"] = is_resumed_;
+  json["resumable"] = is_resumable_ && session().done().empty();
   return text_of(json);
 }
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "apps/server/journal_store.h"
 #include "apps/server/model.h"
+#include "apps/server/roots.h"
 #include "apps/server/session_json.h"
 #include "apps/server/step_statistics.h"
 #include "apps/server/wire.h"
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace dismantle::server {
@@ -19,7 +23,15 @@ class Workbench {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Opens another assembly; the session before is gone.
+  /// @param roots where recordings are saved and paths are read
+  /// @param journals the folder of the sessions' journals; none: they are not kept
+  Workbench(Roots roots, std::optional<std::filesystem::path> journals)
+      : roots_(std::move(roots)), journals_(std::move(journals)) {}
+  ~Workbench();
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+
+  /// Opens another assembly; the session before ends in order.
   void adopt(Model model);
   const Model* model() const { return model_ ? &*model_ : nullptr; }
 
@@ -29,8 +41,10 @@ class Workbench {
   static bool is_question(std::string_view command);
 
   bool is_dragging() const { return model_ && session().activity() == SessionActivity::Drag; }
-  /// Lets go of what is in hand: its client is gone.
+  /// Lets go of what is in hand, and ends what moves by itself: its client is gone.
   void let_go();
+  /// Opens a path file as the guide. Errors: of read_path and Session::set_guide; Usage where nothing is open.
+  Result<Done> open_guide(const std::filesystem::path& file, const std::string& name);
 
   /// What the hand asks for; passed over where it is not of the set in hand, or older than what is known.
   void set_wanted(const TargetMessage& target);
@@ -40,11 +54,17 @@ class Workbench {
   /// Moves on by one step. @return the struct to send, or nothing where it is as before
   std::optional<PoseMessage> step(Clock::time_point now);
 
+  /// Between two steps of what goes on.
+  std::chrono::microseconds step_interval() const;
   /// The recording as FORMATS has it and a name for its file; none where nothing is open.
   std::optional<std::string> recording_text() const;
   std::string recording_name() const;
   /// The event `state`, where it has changed since it was taken last.
   std::optional<std::string> take_state();
+  /// The guide's file; none where there is no guide.
+  std::optional<std::string> guide_text() const;
+  /// A warning for the users, where there is a new one.
+  std::optional<std::string> take_warning() { return std::exchange(warning_, {}); }
   StepStatistics& statistics() { return statistics_; }
 
  private:
@@ -53,12 +73,21 @@ class Workbench {
   Result<Json> hold(const std::vector<ComponentId>& components);
   void drop_targets();
   Pose wanted_pose(Clock::time_point now);
+  bool moves_by_itself() const;
+  StepResult drag(Clock::time_point now);
+  StepResult advance(Clock::time_point now);
+  void watch_journal();
   PoseMessage pose_message(const StepResult& step, Clock::time_point now) const;
   std::vector<ContactMessage> contact_messages(const StepResult& step) const;
   Session& session() { return *model_->session; }
   const Session& session() const { return *model_->session; }
 
+  Roots roots_;
+  JournalStore journals_;
   std::optional<Model> model_;
+  bool is_resumed_ = false, is_resumable_ = false;
+  bool journal_failed_ = false;
+  std::optional<std::string> warning_;
   bool changed_ = false;
   std::uint32_t state_number_ = 0;
   std::uint32_t grip_ = 0;  ///< Of the last hold.

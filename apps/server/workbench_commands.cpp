@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/workbench.h"
 
+#include "dismantle/io/atomic_file.h"
+
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace dismantle::server {
@@ -29,6 +32,48 @@ class Arguments {
       ids.emplace_back(one.get<std::uint32_t>());
     }
     return ids;
+  }
+
+  /// [x, y, z]; nothing where it is absent or null.
+  Result<std::optional<Vec3>> direction() const {
+    const auto found = command_.find("direction");
+    if (found == command_.end() || found->is_null()) return std::optional<Vec3>{};
+    Vec3 v;
+    bool is_fine = found->is_array() && found->size() == 3;
+    for (int k = 0; is_fine && k < 3; ++k) {
+      const Json& one = (*found)[static_cast<std::size_t>(k)];
+      is_fine = one.is_number() && std::fabs(one.get<double>()) <= kLargestWireNumber;
+      if (is_fine) v[k] = one.get<double>();
+    }
+    if (!is_fine) return wrong("direction", "three numbers");
+    return std::optional<Vec3>{v};
+  }
+
+  Result<double> number(const char* name) const {
+    const auto found = command_.find(name);
+    if (found == command_.end() || !found->is_number() || std::fabs(found->get<double>()) > kLargestWireNumber)
+      return wrong(name, "a number");
+    return found->get<double>();
+  }
+
+  Result<std::string> text(const char* name) const {
+    const auto found = command_.find(name);
+    if (found == command_.end() || !found->is_string()) return wrong(name, "a text");
+    return found->get<std::string>();
+  }
+
+  Result<std::uint64_t> index(const char* name) const {
+    const auto found = command_.find(name);
+    if (found == command_.end() || !found->is_number_unsigned()) return wrong(name, "an index");
+    return found->get<std::uint64_t>();
+  }
+
+  /// Absent: the recording.
+  Result<PlaybackSource> source() const {
+    const auto found = command_.find("source");
+    if (found == command_.end() || *found == "recording") return PlaybackSource::Recording;
+    if (*found == "guide") return PlaybackSource::Guide;
+    return wrong("source", "recording or guide");
   }
 
   Result<ResponseKind> response() const {
@@ -97,6 +142,80 @@ class WorkbenchCommands {
     bench_.drop_targets();
     return answer(session_.redo());
   }
+  Result<Json> take_out() {
+    const auto components = in_.components();
+    if (!components) return components.error();
+    const auto direction = in_.direction();
+    if (!direction) return direction.error();
+    return begin(session_.take_out(*components, *direction));
+  }
+  Result<Json> put_back() {
+    const auto components = in_.components();
+    return components ? begin(session_.put_back(*components)) : components.error();
+  }
+  Result<Json> halt() {
+    session_.halt();
+    return Json::object();
+  }
+  Result<Json> free_directions() {
+    const auto components = in_.components();
+    if (!components) return components.error();
+    const auto found = session_.free_directions(*components);
+    if (!found) return found.error();
+    Json list = Json::array();
+    for (const FreeDirection& d : *found)
+      list.push_back({{"direction", to_json(d.direction)},
+                      {"free", d.free},
+                      {"distance", d.distance},
+                      {"blocked_by", d.free ? Json(nullptr) : Json(d.blocked_by.value)}});
+    return Json{{"directions", std::move(list)}};
+  }
+  Result<Json> play() {
+    const auto source = in_.source();
+    if (!source) return source.error();
+    const auto speed = in_.number("speed");
+    return speed ? begin(session_.play(*source, *speed)) : speed.error();
+  }
+  Result<Json> pause() {
+    session_.pause();
+    return Json::object();
+  }
+  Result<Json> seek() {
+    auto source = in_.source();
+    if (!source) return source.error();
+    if (const Playback* open = session_.playback()) source = open->source();
+    const auto time = in_.number("time");
+    return time ? begin(session_.seek(*source, *time)) : time.error();
+  }
+  Result<Json> stop() {
+    session_.stop_playback();
+    return Json::object();
+  }
+  Result<Json> close_guide() {
+    session_.close_guide();
+    return Json::object();
+  }
+  Result<Json> resume() {
+    const Result<Done> done = bench_.journals_.resume(session_);
+    bench_.is_resumed_ |= done.ok();
+    return answer(done);
+  }
+  Result<Json> open_path() {
+    const auto file = find_file(&Roots::find);
+    if (!file) return file.error();
+    return answer(bench_.open_guide(*file, file->filename().string()));
+  }
+  Result<Json> save() {
+    const auto file = find_file(&Roots::place_for);
+    if (!file) return file.error();
+    const std::string name = file->filename().string(), suffix = ".path.json";
+    if (name.size() <= suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
+      return usage("the recording cannot be saved", "the file's name must end in .path.json", "give such a name");
+    const std::string text = *bench_.recording_text();
+    const Result<Done> written = write_file(*file, text);
+    if (!written) return written.error();
+    return Json{{"bytes", text.size()}};
+  }
   Result<Json> hide() { return change_visibility(&Visibility::hide); }
   Result<Json> show() { return change_visibility(&Visibility::show); }
   Result<Json> isolate() { return change_visibility(&Visibility::isolate); }
@@ -137,6 +256,21 @@ class WorkbenchCommands {
     return Json::object();
   }
 
+  /// What goes by itself begins now.
+  Result<Json> begin(const Result<Done>& begun) {
+    bench_.drop_targets();
+    bench_.stepped_at_ = Workbench::Clock::now();
+    return answer(begun);
+  }
+
+  Result<std::filesystem::path> find_file(Result<std::filesystem::path> (Roots::*find)(std::uint64_t,
+                                                                                       const std::string&) const) {
+    const auto root = in_.index("root");
+    if (!root) return root.error();
+    const auto file = in_.text("file");
+    return file ? (bench_.roots_.*find)(*root, *file) : file.error();
+  }
+
   Workbench& bench_;
   Session& session_;
   Arguments in_;
@@ -157,6 +291,18 @@ constexpr std::array kCommands = {
     CommandEntry{"set_response", false, &WorkbenchCommands::set_response},
     CommandEntry{"undo", false, &WorkbenchCommands::undo},
     CommandEntry{"redo", false, &WorkbenchCommands::redo},
+    CommandEntry{"take_out", false, &WorkbenchCommands::take_out},
+    CommandEntry{"put_back", false, &WorkbenchCommands::put_back},
+    CommandEntry{"halt", false, &WorkbenchCommands::halt},
+    CommandEntry{"free_directions", true, &WorkbenchCommands::free_directions},
+    CommandEntry{"play", false, &WorkbenchCommands::play},
+    CommandEntry{"pause", false, &WorkbenchCommands::pause},
+    CommandEntry{"seek", false, &WorkbenchCommands::seek},
+    CommandEntry{"stop", false, &WorkbenchCommands::stop},
+    CommandEntry{"close_guide", false, &WorkbenchCommands::close_guide},
+    CommandEntry{"resume", false, &WorkbenchCommands::resume},
+    CommandEntry{"open_path", false, &WorkbenchCommands::open_path},
+    CommandEntry{"save", false, &WorkbenchCommands::save},
     CommandEntry{"hide", false, &WorkbenchCommands::hide},
     CommandEntry{"show", false, &WorkbenchCommands::show},
     CommandEntry{"isolate", false, &WorkbenchCommands::isolate},

@@ -260,6 +260,11 @@ JournalHeader Session::journal_header() const {
           pairs_.tolerance};
 }
 
+void Session::close_journal() {
+  if (journal_) journal_->close();
+  journal_.reset();
+}
+
 void Session::restore(JournalContents contents) {
   DISMANTLE_EXPECT(entries_.empty() && contents.header == journal_header());
   entries_ = std::move(contents.entries);

@@ -91,6 +91,8 @@ class Session {
   /// Writes down from now on. @pre nothing is recorded, or the journal has it
   void set_journal(std::unique_ptr<Journal> journal) { journal_ = std::move(journal); }
   const Journal* journal() const { return journal_.get(); }
+  /// Writes that the session ended in order, and no more from then on.
+  void close_journal();
   /// Is where the session was that wrote a journal; a motion that was going on then has ended. What has a journal by
   /// now writes all of it down there. @pre nothing is recorded; the contents' header is journal_header()
   void restore(JournalContents contents);

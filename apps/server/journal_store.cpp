@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/journal_store.h"
+
+#include "dismantle/io/read_file.h"
+
+namespace dismantle::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLargestJournal = std::size_t{2} << 30;
+/// Viewers of one assembly that run at the same time.
+constexpr int kMostViewers = 8;
+constexpr std::size_t kHashDigits = 24;
+
+std::string stem_of(const JournalHeader& header) {
+  return header.assembly_sha256.substr(0, kHashDigits) + "-" + std::to_string(header.component_count);
+}
+
+/// What the journal holds where it is of the session's assembly and something was done in it.
+std::optional<JournalContents> read_journal(const fs::path& file, const JournalHeader& header) {
+  const Result<std::string> bytes = read_file(file, kLargestJournal);
+  if (!bytes) return {};
+  std::optional<JournalContents> contents = parse_journal(*bytes);
+  if (!contents || !(contents->header == header) || contents->entries.empty()) return {};
+  return contents;
+}
+
+}  // namespace
+
+Result<bool> JournalStore::attach(Session& session) {
+  file_.clear();
+  if (!folder_) return false;
+  std::error_code error;
+  fs::create_directories(*folder_, error);
+  fs::permissions(*folder_, fs::perms::owner_all, error);
+  const JournalHeader header = session.journal_header();
+  Result<std::unique_ptr<Journal>> journal = Error{};
+  std::optional<JournalContents> contents;
+  for (int viewer = 1; viewer <= kMostViewers && !journal; ++viewer) {
+    file_ = *folder_ / (stem_of(header) + (viewer > 1 ? "-" + std::to_string(viewer) : "") + ".journal");
+    contents = read_journal(file_, header);
+    const bool goes_on = contents && !contents->is_closed;
+    if (contents && !goes_on) fs::rename(file_, *folder_ / (stem_of(header) + ".previous"), error);
+    journal = goes_on ? Journal::go_on(file_, *contents) : Journal::create(file_, header);
+    if (!goes_on) contents.reset();
+  }
+  if (!journal) return journal.error();
+  if (contents) session.restore(std::move(*contents));
+  session.set_journal(std::move(*journal));
+  return contents.has_value();
+}
+
+void JournalStore::detach(Session& session) {
+  if (file_.empty() || session.journal() == nullptr) return;
+  session.stop_playback();
+  session.release();
+  const bool is_empty = session.done().empty() && session.undone().empty();
+  session.close_journal();
+  std::error_code ignored;
+  if (is_empty) fs::remove(file_, ignored);
+}
+
+std::optional<JournalContents> JournalStore::previous(const Session& session) const {
+  if (!folder_) return {};
+  const JournalHeader header = session.journal_header();
+  return read_journal(*folder_ / (stem_of(header) + ".previous"), header);
+}
+
+bool JournalStore::can_resume(const Session& session) const {
+  return previous(session).has_value();
+}
+
+Result<Done> JournalStore::resume(Session& session) const {
+  std::optional<JournalContents> contents = previous(session);
+  if (!contents)
+    return Error{ErrorKind::Usage, "no session can be continued (none of this assembly was kept); go on with this one"};
+  if (!session.done().empty() || !session.undone().empty() || session.activity() != SessionActivity::Idle)
+    return Error{ErrorKind::Usage, "the last session cannot be continued (this one has begun already); reset it first"};
+  session.restore(std::move(*contents));
+  return Done{};
+}
+
+}  // namespace dismantle::server
