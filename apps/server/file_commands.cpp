@@ -126,8 +126,11 @@ Result<Json> FileCommands::cancel(const Json& command) {
 }
 
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
-  return jobs_.start(file.filename().string(),
-                     [this, file](const ProgressCallback& progress) { return load_model(file, options_, progress); });
+  return jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
+    Result<Model> model = load_model(file, options_, progress);
+    if (model) recent_.add(file);
+    return model;
+  });
 }
 
 Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {

@@ -50,8 +50,9 @@ void Hub::connect(const std::string& key, ClientSocket& socket) {
   socket.send_text(hello_);
   send_control();
   if (model_) socket.send_text(model_);
-  if (state_) socket.send_text(state_);
   for (const auto& [job, text] : jobs_) socket.send_text(text);
+  // A state of now: while something moves, the last one is of before.
+  engine_.post_always([](Workbench& bench) { bench.tell_state(); });
 }
 
 void Hub::disconnect(const std::string& key, ClientSocket& socket) {
@@ -210,9 +211,7 @@ void Hub::broadcast_event(EngineEvent event) {
   const SharedText text = shared(std::move(event.text));
   if (event.kind == EngineEvent::Kind::Model) {
     model_ = text;
-    state_ = nullptr;  // that of the model before
   } else if (event.kind == EngineEvent::Kind::State) {
-    state_ = text;
     dragging_ = event.is_dragging;
   }
   broadcast(text);

@@ -93,7 +93,7 @@ class Hub {
   std::string controller_;
   bool dragging_ = false;  ///< As the last event `state` said.
   std::uint64_t arrivals_ = 0;
-  SharedText hello_, model_, state_;
+  SharedText hello_, model_;
   std::map<std::uint32_t, SharedText> jobs_;
   HubCounters counters_;
 };

@@ -72,8 +72,8 @@ void Jobs::run(const std::string& name, const Load& load) {
   } else {
     listener_.on_model(std::move(*result));
   }
+  running_ = false;  // who reads the news may start the next at once
   listener_.on_news(news);
-  running_ = false;
 }
 
 }  // namespace dismantle::server

@@ -59,6 +59,8 @@ class Workbench {
   /// The recording as FORMATS has it and a name for its file; none where nothing is open.
   std::optional<std::string> recording_text() const;
   std::string recording_name() const;
+  /// Has the next take_state() give one even where nothing has changed: for clients that are new.
+  void tell_state() { changed_ = true; }
   /// The event `state`, where it has changed since it was taken last.
   std::optional<std::string> take_state();
   /// The guide's file; none where there is no guide.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/io/isolated_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -138,6 +139,20 @@ TEST(RunIsolated, SilencesTheStandardOutput) {
   });
   EXPECT_EQ(result.ending, IsolatedEnding::Done);
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(RunIsolated, GivesTheWorkNoFilesOfTheParent) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(ends), 0);
+  const IsolatedResult result = run([&](IsolatedLine& line) -> Result<Done> {
+    const bool are_closed = fcntl(ends[0], F_GETFD) < 0 && fcntl(ends[1], F_GETFD) < 0;
+    line.write(are_closed ? "closed" : "open", are_closed ? 6 : 4);
+    return Done{};
+  });
+  EXPECT_EQ(result.ending, IsolatedEnding::Done);
+  EXPECT_EQ(result.bytes.size(), 6u);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST(RunIsolated, RunsFromSeveralThreadsAtOnce) {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include "apps/server/server.h"
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/io/load_assembly.h"
+#include "dismantle/io/path_file.h"
 #include "dismantle/io/write_assembly.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/server/test_client.h"
@@ -14,39 +17,67 @@
 /// A server in this process with a root of its own.
 namespace dismantle::server {
 
+/// A target at a position, not turned.
+inline std::string target_at(std::uint32_t grip, std::uint32_t number, const Vec3& position) {
+  return encode(TargetMessage{grip, number, {position, {}}});
+}
+
 class ServerScene : public testing::Test {
  protected:
   void start() {
     ServerOptions options;
-    options.roots = {folder_.path()};
+    std::filesystem::create_directories(root());
+    options.roots = {root()};
+    options.state_folder = folder_ / "state";
     Result<std::unique_ptr<Server>> started = Server::start(std::move(options));
     ASSERT_TRUE(started.ok()) << (started.ok() ? "" : started.error().message);
     server_ = std::move(*started);
     door_ = {server_->port(), server_->token()};
   }
+  std::filesystem::path root() const { return folder_ / "root"; }
   /// Writes block.obj into the root: a block of 10 mm, 10.5 mm in front of a wall; and opens it.
   void start_with_block_and_wall() {
     write_block_and_wall();
     start();
-    ASSERT_TRUE(server_->open_file(folder_.path() / "block.obj").ok());
+    ASSERT_TRUE(server_->open_file(root() / "block.obj").ok());
   }
   void write_block_and_wall() const {
+    std::filesystem::create_directories(root());
     const Assembly assembly =
         scenes::assembly({scenes::component("block", scenes::box({0, 0, 0}, {10, 10, 10})),
                           scenes::component("wall", scenes::box({20.5, -50, -50}, {21, 50, 50}))});
-    ASSERT_TRUE(write_assembly(folder_.path() / "block.obj", assembly).ok());
+    ASSERT_TRUE(write_assembly(root() / "block.obj", assembly).ok());
+  }
+  /// Takes a component in hand. @return the grip
+  static std::uint32_t hold(testing_client::Client& client, std::uint32_t component) {
+    const Json answer = client.command("hold", {{"components", {component}}});
+    EXPECT_TRUE(answer["ok"]) << answer;
+    return answer.value("grip", 0u);
+  }
+  /// Drags along a straight line in steps, each answered before the next is asked for.
+  static PoseMessage drag(testing_client::Client& client, std::uint32_t grip, const Vec3& from, const Vec3& to,
+                          std::uint32_t steps) {
+    PoseMessage last;
+    for (std::uint32_t i = 1; i <= steps; ++i) {
+      client.send_binary(target_at(grip, i, from + (static_cast<double>(i) / steps) * (to - from)));
+      last = client.pose_answering(i);
+    }
+    return last;
+  }
+  /// The recording, which must pass the audit.
+  Path audited_recording() const {
+    const testing_client::HttpReply reply = testing_client::get(door(), "/api/path.json");
+    const Result<Path> path = parse_path(reply.body, "recording");
+    EXPECT_TRUE(path.ok()) << reply.body;
+    const Result<Assembly> assembly = load_assembly(root() / "block.obj");
+    EXPECT_TRUE(audit_path(*assembly, *path).holds());
+    return *path;
   }
   const testing_client::Door& door() const { return door_; }
-  std::filesystem::path folder() const { return folder_.path(); }
 
   ScratchFolder folder_;
   std::unique_ptr<Server> server_;
   testing_client::Door door_;
 };
-
-/// A target at a position, not turned.
-inline std::string target_at(std::uint32_t grip, std::uint32_t number, const Vec3& position) {
-  return encode(TargetMessage{grip, number, {position, {}}});
-}
 
 }  // namespace dismantle::server

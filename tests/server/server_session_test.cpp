@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a page does with a session, over a real socket.
-#include "dismantle/audit/audit_path.h"
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/path_file.h"
 #include "tests/server/server_scene.h"
 
 namespace dismantle::server {
@@ -15,32 +12,6 @@ using testing_client::HttpReply;
 class ServerSession : public ServerScene {
  protected:
   void SetUp() override { start_with_block_and_wall(); }
-
-  /// Takes a component in hand. @return the grip
-  static std::uint32_t hold(Client& client, std::uint32_t component) {
-    const Json answer = client.command("hold", {{"components", {component}}});
-    EXPECT_TRUE(answer["ok"]) << answer;
-    return answer.value("grip", 0u);
-  }
-  /// Drags along a straight line in steps, each answered before the next is asked for.
-  static PoseMessage drag(Client& client, std::uint32_t grip, const Vec3& from, const Vec3& to, std::uint32_t steps) {
-    PoseMessage last;
-    for (std::uint32_t i = 1; i <= steps; ++i) {
-      client.send_binary(target_at(grip, i, from + (static_cast<double>(i) / steps) * (to - from)));
-      last = client.pose_answering(i);
-    }
-    return last;
-  }
-  /// The recording, which must pass the audit.
-  Path audited_recording() const {
-    const HttpReply reply = get(door(), "/api/path.json");
-    const Result<Path> path = parse_path(reply.body, "recording");
-    EXPECT_TRUE(path.ok()) << reply.body;
-    const Result<Assembly> assembly = load_assembly(folder() / "block.obj");
-    const AuditReport report = audit_path(*assembly, *path);
-    EXPECT_TRUE(report.holds());
-    return *path;
-  }
 };
 
 TEST_F(ServerSession, TellsWhatIsOpen) {
@@ -171,10 +142,91 @@ TEST_F(ServerSession, OpensASampleAndTellsHowItGoes) {
   EXPECT_FALSE(client.command("open", {{"sample", "spaceship"}})["ok"]);
   const Json answer = client.command("open", {{"sample", "microscope"}});
   ASSERT_TRUE(answer["ok"]) << answer;
-  const Json done = client.event_where("job", [&](const Json& j) { return j["status"] != "running"; });
+  const Json done =
+      client.event_where("job", [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
   EXPECT_EQ(done["status"], "done") << done;
   const Json model = client.event_where("model", [](const Json& j) { return j["name"] == "microscope.step"; });
   EXPECT_GT(model["components"].size(), 20u);
+}
+
+TEST_F(ServerSession, TakesAComponentOutAndPutsItBack) {
+  Client client(door());
+  client.state();
+  const Json directions = client.command("free_directions", {{"components", {0}}});
+  ASSERT_TRUE(directions["ok"]) << directions;
+  EXPECT_TRUE(directions["directions"][0]["free"]);
+  const Json blocked = client.command("take_out", {{"components", {0}}, {"direction", {1, 0, 0}}});
+  EXPECT_NE(blocked["error"].get<std::string>().find("'wall' is in the way"), std::string::npos) << blocked;
+  ASSERT_TRUE(client.command("take_out", {{"components", {0}}, {"direction", {-1, 0, 0}}})["ok"]);
+  EXPECT_EQ(client.event_where("state", [](const Json& s) { return !s["automatic"].is_null(); })["automatic"],
+            "take_out");
+  EXPECT_TRUE(client.pose().flags & kAutomatic);
+  Json state = client.event_where("state", [](const Json& s) { return s["automatic"].is_null(); });
+  EXPECT_TRUE(state["components"][0].contains("removed"));
+  EXPECT_EQ(audited_recording().removed, std::vector<std::string>{"block"});
+  ASSERT_TRUE(client.command("put_back", {{"components", {0}}})["ok"]);
+  state = client.event_where("state", [](const Json& s) { return s["automatic"].is_null(); });
+  EXPECT_EQ(state["components"][0], Json::object());
+  audited_recording();
+}
+
+TEST_F(ServerSession, PlaysTheRecordingBothWaysToTheSameBits) {
+  Client client(door());
+  client.state();
+  const std::uint32_t grip = hold(client, 0);
+  drag(client, grip, {}, {20, 12, 3}, 30);
+  client.command("release");
+  const Json there = client.state()["components"][0]["pose"];
+  ASSERT_TRUE(client.command("play", {{"speed", -5}})["ok"]);
+  const auto is_over = [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; };
+  Json state = client.event_where("state", is_over);
+  EXPECT_EQ(state["playback"]["time"], 0.0);
+  EXPECT_EQ(state["components"][0], Json::object());  // assembled: to the last bit
+  EXPECT_FALSE(client.command("hold", {{"components", {0}}})["ok"]);
+  ASSERT_TRUE(client.command("play", {{"speed", 5}})["ok"]);
+  client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && s["playback"]["playing"]; });
+  state = client.event_where("state", is_over);
+  EXPECT_EQ(state["components"][0]["pose"], there);
+  ASSERT_TRUE(client.command("seek", {{"time", 0.01}})["ok"]);
+  ASSERT_TRUE(client.command("stop")["ok"]);
+  state = client.state();
+  EXPECT_TRUE(state["playback"].is_null());
+  EXPECT_EQ(state["components"][0]["pose"], there);
+  EXPECT_EQ(state["moves"].size(), 1u);
+}
+
+TEST_F(ServerSession, SavesTheRecordingAndFollowsItAsAGuide) {
+  Client client(door());
+  client.state();
+  const std::uint32_t grip = hold(client, 0);
+  drag(client, grip, {}, {-8, 0, 0}, 8);
+  client.command("release");
+  EXPECT_TRUE(client.command("save", {{"root", 0}, {"file", "mine.path.json"}})["ok"]);
+  EXPECT_FALSE(client.command("save", {{"root", 0}, {"file", "mine.step"}})["ok"]);
+  EXPECT_FALSE(client.command("save", {{"root", 0}, {"file", "../mine.path.json"}})["ok"]);
+  EXPECT_FALSE(client.command("save", {{"root", 1}, {"file", "mine.path.json"}})["ok"]);
+  EXPECT_EQ(get(door(), "/api/guide.json").status, 404u);
+  client.command("reset");
+  const Json opened = client.command("open_path", {{"root", 0}, {"file", "mine.path.json"}});
+  ASSERT_TRUE(opened["ok"]) << opened;
+  EXPECT_EQ(client.state()["guide"]["moves"].size(), 1u);
+  EXPECT_EQ(get(door(), "/api/guide.json").status, 200u);
+  ASSERT_TRUE(client.command("play", {{"speed", 10}, {"source", "guide"}})["ok"]);
+  const Json state =
+      client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; });
+  EXPECT_EQ(state["components"][0]["pose"][0], -8.0);
+  ASSERT_TRUE(client.command("close_guide")["ok"]);
+  EXPECT_TRUE(client.state()["guide"].is_null());
+}
+
+TEST_F(ServerSession, KeepsAMotionByItselfFromCommandsThatWouldTearIt) {
+  Client client(door());
+  client.state();
+  ASSERT_TRUE(client.command("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}})["ok"]);
+  client.pose();
+  ASSERT_TRUE(client.command("undo")["ok"]);  // halts it, and takes back what it has made
+  EXPECT_EQ(client.state()["components"][0], Json::object());
+  EXPECT_TRUE(client.state()["automatic"].is_null());
 }
 
 }  // namespace

@@ -101,6 +101,10 @@ int run_work(const IsolatedWork& work, IsolatedLine& line) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kExitException);  // the parent died before it was watched
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) redirect_to_null(fd);
+  // The parent's files and sockets are none of the work's business.
+  const auto line_end = static_cast<unsigned>(descriptor);
+  if (line_end > STDERR_FILENO + 1) close_range(STDERR_FILENO + 1, line_end - 1, 0);
+  close_range(line_end + 1, ~0u, 0);
   for (const int sig : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) signal(sig, SIG_DFL);
 
   set_limit(RLIMIT_CORE, 0);

@@ -69,9 +69,10 @@ using IsolatedWork = std::function<Result<Done>(IsolatedLine&)>;
 
 /// Runs `work` in a child process and waits for it: a crash, endless loop or hunger for memory of the work ends the
 /// child and not the caller. The child is a fork: it sees the parent's memory as it is, but none of its threads, so the
-/// work must use only libraries whose thread pools the parent has not started. Its standard output and error go
-/// nowhere, it leaves no core file, and it dies with the calling thread. Under the sanitizers, which reserve address
-/// space of their own, memory is not limited. `progress` is called on the calling thread, at least ten times a second.
+/// work must use only libraries whose thread pools the parent has not started. It has none of the
+/// parent's files and sockets, its standard output and error go nowhere, it leaves no core file, and it dies with the
+/// calling thread. Under the sanitizers, which reserve address space of their own, memory is not limited. `progress` is
+/// called on the calling thread, at least ten times a second.
 IsolatedResult run_isolated(const IsolatedWork& work, const IsolationLimits& limits, const ProgressCallback& progress);
 
 }  // namespace dismantle

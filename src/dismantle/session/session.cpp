@@ -201,8 +201,11 @@ void Session::put(const SessionEntry& entry, const Frame& frame, const PairList&
 
 Result<Done> Session::undo() {
   if (Result<Done> free = check_no_playback(); !free) return free;
-  if (activity_ == SessionActivity::Drag && !release()) return Done{};  // back where it never left
-  release();
+  if (activity_ != SessionActivity::Idle) {
+    const std::size_t before = done_count_;
+    release();
+    if (done_count_ == before) return Done{};  // back where it never left
+  }
   if (done_count_ == 0) return Error{ErrorKind::Usage, "nothing can be undone (nothing was done yet)"};
   const SessionEntry& entry = entries_[--done_count_];
   put(entry, entry.frames.front(), entry.embedded_before);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several clients, and clients that are lost and come back.
+#include "tests/server/server_scene.h"
+
+namespace dismantle::server {
+namespace {
+
+using testing_client::Client;
+
+const std::string kOtherKey = "ffeeddccbbaa99887766554433221100";
+
+class ServerClients : public ServerScene {
+ protected:
+  void SetUp() override { start_with_block_and_wall(); }
+};
+
+TEST_F(ServerClients, LetsOneControlAndTheOthersWatch) {
+  Client first(door());
+  first.state();
+  Client second(door(), kOtherKey);
+  EXPECT_TRUE(first.event("control")["control"]);
+  EXPECT_FALSE(second.event("control")["control"]);
+  EXPECT_FALSE(second.command("hold", {{"components", {0}}})["ok"]);
+  EXPECT_TRUE(second.command("check")["ok"]);
+  const std::uint32_t grip = hold(first, 0);
+  second.send_binary(target_at(grip, 1, {-9, 0, 0}));  // of no effect
+  const PoseMessage pose = drag(first, grip, {}, {0, 4, 0}, 4);
+  PoseMessage seen = second.pose();
+  while (!(seen.pose == pose.pose)) seen = second.pose();
+  first.command("release");
+  EXPECT_EQ(
+      second.event_where("state", [](const Json& s) { return s["hand"].is_null() && !s["moves"].empty(); })["undo"],
+      "move block");
+}
+
+TEST_F(ServerClients, HandsControlOverButNotInMidDrag) {
+  Client first(door());
+  first.state();
+  Client second(door(), kOtherKey);
+  second.state();
+  hold(first, 0);
+  EXPECT_FALSE(second.command("take_control")["ok"]);
+  first.command("release");
+  second.event_where("state", [](const Json& s) { return s["number"] > 2; });
+  EXPECT_TRUE(second.command("take_control")["ok"]);
+  EXPECT_FALSE(first.event_where("control", [](const Json& c) { return !c["control"]; })["control"]);
+  EXPECT_FALSE(first.command("hold", {{"components", {0}}})["ok"]);
+  hold(second, 0);
+}
+
+TEST_F(ServerClients, KeepsADragForAClientThatComesBack) {
+  Json lost_state;
+  std::uint32_t grip = 0;
+  {
+    Client client(door());
+    client.state();
+    grip = hold(client, 0);
+    drag(client, grip, {}, {-5, 0, 0}, 5);
+    client.drop();
+  }
+  Client client(door());
+  EXPECT_TRUE(client.event("control")["control"]);
+  const Json state = client.state();
+  EXPECT_EQ(state["hand"]["grip"], grip);
+  EXPECT_EQ(state["components"][0]["pose"][0], -5.0);
+  client.send_binary(target_at(grip, 6, {-6, 0, 0}));
+  EXPECT_EQ(client.pose_answering(6).pose.position.x, -6);
+}
+
+TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
+  std::uint64_t id = 0;
+  {
+    Client client(door());
+    client.state();
+    const std::uint32_t grip = hold(client, 0);
+    drag(client, grip, {}, {-5, 0, 0}, 5);
+    client.command("release");
+    drag(client, hold(client, 0), {-5, 0, 0}, {-7, 0, 0}, 2);
+    client.command("release");
+    id = client.give("undo");
+    client.drop();  // its answer is lost
+  }
+  Client client(door());
+  client.state();
+  client.set_last_id(id - 1);
+  EXPECT_EQ(client.give("undo"), id);
+  EXPECT_TRUE(client.answer(id)["ok"]);
+  EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);  // one of the two is left
+  client.set_last_id(0);
+  EXPECT_TRUE(client.command("hold", {{"components", {0}}})["ok"]);  // id 1: answered from memory
+  EXPECT_TRUE(client.state()["hand"].is_null());
+}
+
+TEST_F(ServerClients, ReplacesASocketOfTheSameClient) {
+  Client old(door());
+  old.state();
+  Client fresh(door());
+  fresh.state();
+  old.wait_for_end();
+  EXPECT_TRUE(fresh.command("check")["ok"]);
+  EXPECT_TRUE(fresh.command("reset")["ok"]);
+}
+
+TEST_F(ServerClients, SaysGoodbyeWhenItStops) {
+  Client client(door());
+  client.state();
+  server_.reset();
+  client.wait_for_end();
+  EXPECT_EQ(client.close_code(), 1001u);  // going away
+}
+
+TEST_F(ServerClients, StopsWhileThingsMoveAndLoad) {
+  Client client(door());
+  client.state();
+  client.give("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}});
+  client.give("open", {{"sample", "robot"}});
+  client.pose();
+  server_.reset();
+  client.wait_for_end();
+}
+
+}  // namespace
+}  // namespace dismantle::server

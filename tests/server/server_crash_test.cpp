@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as a process of its own: killed in mid-drag, and stopped in order.
+#include "tests/server/server_scene.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace dismantle::server {
+namespace {
+
+using testing_client::Client;
+using testing_client::Door;
+
+/// `dismantle view` on block.obj.
+class ViewerProcess {
+ public:
+  ViewerProcess(const std::filesystem::path& assembly, const std::filesystem::path& state) {
+    int ends[2] = {-1, -1};
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    std::string program = DISMANTLE_PROGRAM, view = "view", file = assembly.string(), browser = "--no-browser",
+                quiet = "--quiet", place = "XDG_STATE_HOME=" + state.string();
+    char* arguments[] = {program.data(), view.data(), file.data(), browser.data(), quiet.data(), nullptr};
+    char* environment[] = {place.data(), nullptr};
+    const int status = posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments, environment);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (status != 0) throw std::runtime_error("the program cannot be started");
+    std::string url;
+    for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) url += c;
+    close(ends[0]);
+    const std::size_t colon = url.find(':', 7), mark = url.find("#token=");
+    if (mark == std::string::npos) throw std::runtime_error("it printed no URL but: " + url);
+    door_ = {static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1))), url.substr(mark + 7)};
+  }
+  ~ViewerProcess() {
+    if (process_ > 0) end(SIGKILL);
+  }
+  ViewerProcess(const ViewerProcess&) = delete;
+  ViewerProcess& operator=(const ViewerProcess&) = delete;
+
+  const Door& door() const { return door_; }
+  /// Sends a signal and waits. @return the exit code; 128 and the signal where that ended it
+  int end(int signal) {
+    kill(process_, signal);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t process_ = 0;
+  Door door_;
+};
+
+class ServerCrash : public ServerScene {
+ protected:
+  void SetUp() override { write_block_and_wall(); }
+  ViewerProcess start_process() const { return ViewerProcess(root() / "block.obj", folder_ / "state"); }
+};
+
+TEST_F(ServerCrash, GoesOnWhereItWasKilledInMidDrag) {
+  Json before;
+  {
+    ViewerProcess viewer = start_process();
+    Client client(viewer.door());
+    client.state();
+    drag(client, hold(client, 1), {}, {0, 3, 0}, 3);
+    client.command("release");
+    drag(client, hold(client, 0), {}, {15, 7, 0}, 40);  // into the wall and along it: in mid-drag
+    client.send_text(R"({"id": 90, "command": "check"})");
+    client.answer(90);
+    before = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
+    EXPECT_EQ(viewer.end(SIGKILL), 128 + SIGKILL);
+  }
+  ViewerProcess viewer = start_process();
+  Client client(viewer.door());
+  const Json state = client.state();
+  EXPECT_TRUE(state["resumed"]);
+  EXPECT_TRUE(state["hand"].is_null());
+  EXPECT_EQ(state["moves"].size(), 2u);
+  // Everything that had been answered is there, bit for bit.
+  const Json after = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
+  EXPECT_EQ(after, before);
+  EXPECT_TRUE(client.command("undo")["ok"]);
+  EXPECT_EQ(client.state()["components"][0], Json::object());
+  EXPECT_TRUE(client.command("undo")["ok"]);
+  EXPECT_FALSE(client.command("undo")["ok"]);
+}
+
+TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
+  {
+    ViewerProcess viewer = start_process();
+    Client client(viewer.door());
+    client.state();
+    drag(client, hold(client, 0), {}, {-5, 0, 0}, 5);
+    client.command("release");
+    EXPECT_EQ(viewer.end(SIGTERM), 0);
+    client.wait_for_end();
+    EXPECT_EQ(client.close_code(), 1001u);
+  }
+  for (int run = 0; run < 2; ++run) {  // one that does nothing does not lose it
+    ViewerProcess viewer = start_process();
+    Client client(viewer.door());
+    const Json state = client.state();
+    EXPECT_FALSE(state["resumed"]);
+    EXPECT_TRUE(state["resumable"]);
+    EXPECT_EQ(state["components"][0], Json::object());
+    if (run == 1) {
+      EXPECT_TRUE(client.command("resume")["ok"]);
+      EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
+      EXPECT_FALSE(client.command("resume")["ok"]);
+    }
+    EXPECT_EQ(viewer.end(SIGINT), 0);
+  }
+}
+
+TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
+  ViewerProcess one = start_process(), two = start_process();
+  Client first(one.door()), second(two.door());
+  first.state();
+  second.state();
+  drag(first, hold(first, 0), {}, {-5, 0, 0}, 5);
+  drag(second, hold(second, 0), {}, {0, 5, 0}, 5);
+  one.end(SIGKILL);
+  two.end(SIGKILL);
+  ViewerProcess again = start_process();
+  Client client(again.door());
+  EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
+}
+
+}  // namespace
+}  // namespace dismantle::server
