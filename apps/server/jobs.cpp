@@ -64,6 +64,7 @@ void Jobs::run(const std::string& name, const Load& load) {
     return !cancelled_.load();
   });
 
+  running_ = false;  // who hears of the model or the news may start the next at once; start() waits for this thread
   news.fraction = 1;
   news.status = JobNews::Status::Done;
   if (!result) {
@@ -72,7 +73,6 @@ void Jobs::run(const std::string& name, const Load& load) {
   } else {
     listener_.on_model(std::move(*result));
   }
-  running_ = false;  // who reads the news may start the next at once
   listener_.on_news(news);
 }
 
