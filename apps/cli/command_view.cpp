@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/server/server.h"
+#include "dismantle/io/path_file.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 namespace dismantle::cli {
 
@@ -78,6 +80,26 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   return options;
 }
 
+bool is_path_file(const std::string& file) {
+  constexpr std::string_view kSuffix = ".path.json";
+  return file.size() > kSuffix.size() && file.compare(file.size() - kSuffix.size(), kSuffix.size(), kSuffix) == 0;
+}
+
+/// Opens what the command line names. Of a path file, the assembly that it is of, which lies beside it.
+Result<Done> open(server::Server& server, const ViewOptions& o) {
+  const std::string& file = o.common.assembly_file;
+  if (!o.sample.empty()) return server.open_sample(o.sample);
+  if (file.empty()) return Done{};
+  if (!is_path_file(file)) return server.open_file(file);
+  const Result<Path> path = read_path(file);
+  if (!path) return path.error();
+  const fs::path assembly = fs::absolute(file).parent_path() / fs::path(path->assembly_file).filename();
+  if (!fs::exists(assembly))
+    return Error{ErrorKind::Unreadable, file + " cannot be followed (its assembly '" + path->assembly_file +
+                                            "' is not beside it); put the two into one folder"};
+  return server.open_guided(assembly, file);
+}
+
 Result<Done> run(const ViewOptions& o) {
   if (!o.sample.empty() && !o.common.assembly_file.empty())
     return Error{ErrorKind::Usage, "two assemblies are named (a file and --sample); give one of them"};
@@ -90,9 +112,7 @@ Result<Done> run(const ViewOptions& o) {
   Result<std::unique_ptr<server::Server>> started = server::Server::start(*options);
   if (!started) return started.error();
   server::Server& server = **started;
-  Result<Done> opened = Done{};
-  if (!o.common.assembly_file.empty()) opened = server.open_file(o.common.assembly_file);
-  if (!o.sample.empty()) opened = server.open_sample(o.sample);
+  const Result<Done> opened = open(server, o);
   if (!opened) return opened;
 
   fmt::print("{}\n", server.url());
@@ -109,8 +129,10 @@ Result<Done> run(const ViewOptions& o) {
 void add_view_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("view", "Take an assembly apart by hand, in a browser");
   auto options = std::make_shared<ViewOptions>();
-  command->add_option("ASSEMBLY", options->common.assembly_file,
-                      "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes (default: choose in the page)");
+  command->add_option(
+      "ASSEMBLY", options->common.assembly_file,
+      "STEP, glTF, OBJ, STL, PLY, URDF, a folder of meshes, or a *.path.json to follow (default: choose in "
+      "the page)");
   command->add_option("--sample", options->sample, "Open a bundled sample")->type_name("NAME");
   command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
       ->type_name("DIR");

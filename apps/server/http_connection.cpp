@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "apps/server/file_commands.h"
 #include "apps/server/http_headers.h"
 #include "apps/server/web_socket.h"
 
@@ -40,7 +41,13 @@ bool is_client_key(std::string_view key) {
 
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(boost::asio::ip::tcp::socket socket, Site& site) : stream_(std::move(socket)), site_(site) {}
+  HttpConnection(boost::asio::ip::tcp::socket socket, Site& site, std::shared_ptr<const void> count)
+      : stream_(std::move(socket)), site_(site), count_(std::move(count)) {}
+  ~HttpConnection() {
+    if (!upload_.file.empty()) remove_with_folder(upload_.file);  // it did not come to its end
+  }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
   void read() {
     head_.emplace();
@@ -102,7 +109,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           Keep::No);
     http::request<http::string_body> request;
     static_cast<http::request_header<>&>(request) = head_->get();
-    serve_socket(std::move(stream_), std::move(request), key->second, site_);
+    serve_socket(std::move(stream_), std::move(request), {key->second, std::move(count_)}, site_);
   }
 
   void receive(const RequestTarget& target) {
@@ -124,13 +131,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void on_body(ErrorCode error) {
     body_->get().body().close();
     if (error) {
-      std::error_code ignored;
-      std::filesystem::remove(upload_.file, ignored);
       if (error != http::error::body_limit) return;
       return send(error_answer(413, "the file is too large for an upload; put it below a root of the server"),
                   Keep::No);
     }
-    site_.finish_upload(upload_,
+    Upload whole;
+    std::swap(whole, upload_);
+    site_.finish_upload(whole,
                         [self = shared_from_this()](HttpAnswer answer) { self->send(std::move(answer), Keep::No); });
   }
 
@@ -163,6 +170,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   beast::tcp_stream stream_;
   Site& site_;
+  std::shared_ptr<const void> count_;
   beast::flat_buffer buffer_{kHeaderLimit + 64 * 1024};
   std::optional<http::request_parser<http::empty_body>> head_;
   std::optional<http::request_parser<http::file_body>> body_;
@@ -180,8 +188,8 @@ HttpAnswer error_answer(unsigned status, const std::string& error) {
   return json_answer(status, {{"error", error}});
 }
 
-void serve_connection(boost::asio::ip::tcp::socket socket, Site& site) {
-  std::make_shared<HttpConnection>(std::move(socket), site)->read();
+void serve_connection(boost::asio::ip::tcp::socket socket, Site& site, std::shared_ptr<const void> count) {
+  std::make_shared<HttpConnection>(std::move(socket), site, std::move(count))->read();
 }
 
 }  // namespace dismantle::server

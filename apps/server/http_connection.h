@@ -5,10 +5,13 @@
 
 #include <boost/asio/ip/tcp.hpp>
 
+#include <memory>
+
 namespace dismantle::server {
 
 /// Serves the requests of a connection until it ends or becomes a socket. `site` must outlive the io_context's run.
 /// Requests that break a rule of docs/wire.md are answered before anything of their body is read.
-void serve_connection(boost::asio::ip::tcp::socket socket, Site& site);
+/// @param count held as long as the connection is: its owner counts the holders
+void serve_connection(boost::asio::ip::tcp::socket socket, Site& site, std::shared_ptr<const void> count);
 
 }  // namespace dismantle::server

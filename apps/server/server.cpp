@@ -29,6 +29,8 @@ namespace {
 
 constexpr std::chrono::seconds kTick{1};
 constexpr int kPortTries = 20;
+/// More at a time are closed at once; a page has a few.
+constexpr long kMostConnections = 256;
 constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30, kLargestGuide = std::uint64_t{256} << 20;
 /// How long the sockets' goodbyes may take when the server stops.
 constexpr std::chrono::milliseconds kGoodbyeTime{500};
@@ -100,6 +102,8 @@ class Server::Body final : public Site, private EngineListener {
   const AccessRules& rules() const override { return *rules_; }
   Hub& hub() override { return hub_; }
   FileCommands& files() { return files_; }
+  /// Of the model that comes first. @pre before anything is opened
+  void follow(const fs::path& guide) { first_guide_ = guide; }
 
   void get(const RequestTarget& target, Reply done) override {
     if (target.path == "/api/model.glb") return done(model_answer(target));
@@ -155,7 +159,8 @@ class Server::Body final : public Site, private EngineListener {
   void accept(Tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](ErrorCode error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
-      if (!error) serve_connection(std::move(socket), *this);
+      if (!error && connections_.use_count() <= kMostConnections)
+        serve_connection(std::move(socket), *this, connections_);
       accept(acceptor);
     });
   }
@@ -227,6 +232,13 @@ class Server::Body final : public Site, private EngineListener {
       model_number_ = number;
     });
     engine_.adopt(std::move(model));
+    const fs::path guide = std::exchange(first_guide_, {});
+    if (guide.empty()) return;
+    engine_.post_always([this, guide](Workbench& bench) {
+      const Result<Done> opened = bench.open_guide(guide, guide.filename().string());
+      if (!opened) bench.warn(opened.error().message);
+      engine_.publish_state();
+    });
   }
 
   // On the engine's thread.
@@ -246,12 +258,14 @@ class Server::Body final : public Site, private EngineListener {
     asio::post(io_, [this, event = std::move(event)] { hub_.broadcast_event(event); });
   }
 
+  std::shared_ptr<const int> connections_ = std::make_shared<const int>(0);  ///< Its other holders are connections.
   asio::io_context io_{1};
   StaticFiles pages_;
   std::optional<AccessRules> rules_;
   std::mutex pose_mutex_;
   std::optional<std::string> pose_;  ///< The newest that the network's thread has not taken yet.
   std::atomic<std::uint32_t> models_ = 0;
+  fs::path first_guide_;  ///< Empty, or of the model that is still to come; of the job's thread then.
   SharedText glb_;
   std::uint32_t model_number_ = 0;
   EngineLoop engine_;
@@ -291,6 +305,11 @@ Result<Done> Server::open_file(const fs::path& file) {
   const Result<std::uint32_t> job = body_->files().open_file(file);
   if (!job) return job.error();
   return Done{};
+}
+
+Result<Done> Server::open_guided(const fs::path& file, const fs::path& guide) {
+  body_->follow(guide);
+  return open_file(file);
 }
 
 Result<Done> Server::open_sample(const std::string& name) {

@@ -35,6 +35,8 @@ class Server {
   std::string url() const;
   /// Opens an assembly, as a client could; clients are told how it goes. Errors: Usage where one is being opened.
   Result<Done> open_file(const std::filesystem::path& file);
+  /// As open_file(), and opens a path file as the guide once the assembly is there.
+  Result<Done> open_guided(const std::filesystem::path& file, const std::filesystem::path& guide);
   /// Opens a bundled sample. Errors: as open_file; Usage where there is none of that name.
   Result<Done> open_sample(const std::string& name);
 

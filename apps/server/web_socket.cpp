@@ -28,8 +28,8 @@ constexpr std::chrono::seconds kIdleTime{20};  // it is pinged after half of it
 /// end.
 class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSocket> {
  public:
-  WebSocket(beast::tcp_stream stream, std::string key, Site& site)
-      : stream_(std::move(stream)), key_(std::move(key)), site_(site) {}
+  WebSocket(beast::tcp_stream stream, SocketOwner owner, Site& site)
+      : stream_(std::move(stream)), count_(std::move(owner.count)), key_(std::move(owner.key)), site_(site) {}
 
   void accept(const http::request<http::string_body>& upgrade) {
     websocket::stream_base::timeout times{kHandshakeTime, kIdleTime, true};
@@ -129,6 +129,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   }
 
   websocket::stream<beast::tcp_stream> stream_;
+  std::shared_ptr<const void> count_;
   std::string key_;
   Site& site_;
   beast::flat_buffer buffer_;
@@ -141,8 +142,8 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
 
 }  // namespace
 
-void serve_socket(beast::tcp_stream stream, http::request<http::string_body> upgrade, std::string key, Site& site) {
-  const auto socket = std::make_shared<WebSocket>(std::move(stream), std::move(key), site);
+void serve_socket(beast::tcp_stream stream, http::request<http::string_body> upgrade, SocketOwner owner, Site& site) {
+  const auto socket = std::make_shared<WebSocket>(std::move(stream), std::move(owner), site);
   socket->accept(upgrade);
 }
 

@@ -11,10 +11,18 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 
+#include <memory>
+
 namespace dismantle::server {
 
-/// Makes a socket of a connection whose upgrade request was let through, and ties it to the hub as client `key`.
+/// Who a socket is of.
+struct SocketOwner {
+  std::string key;                    ///< Of the client.
+  std::shared_ptr<const void> count;  ///< As of serve_connection().
+};
+
+/// Makes a socket of a connection whose upgrade request was let through, and ties it to the hub as its client.
 void serve_socket(boost::beast::tcp_stream stream, boost::beast::http::request<boost::beast::http::string_body> upgrade,
-                  std::string key, Site& site);
+                  SocketOwner owner, Site& site);
 
 }  // namespace dismantle::server

@@ -66,6 +66,7 @@ class Workbench {
   /// The guide's file; none where there is no guide.
   std::optional<std::string> guide_text() const;
   /// A warning for the users, where there is a new one.
+  void warn(std::string text) { warning_ = std::move(text); }
   std::optional<std::string> take_warning() { return std::exchange(warning_, {}); }
   StepStatistics& statistics() { return statistics_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program as a process of its own: killed in mid-drag, and stopped in order.
+#include "dismantle/session/session_path.h"
 #include "tests/server/server_scene.h"
 
 #include <fcntl.h>
@@ -134,6 +135,18 @@ TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
   ViewerProcess again = start_process();
   Client client(again.door());
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
+}
+
+TEST_F(ServerCrash, OpensAPathFileWithTheAssemblyBesideIt) {
+  const Result<Assembly> assembly = load_assembly(root() / "block.obj");
+  Path path = empty_path(*assembly, PairStates{0.01, {}});
+  path.moves = {{"pull the block", {"block"}, {{0, {}}, {1, {{-5, 0, 0}, {}}}}}};
+  ASSERT_TRUE(write_path(root() / "pull.path.json", path).ok());
+  ViewerProcess viewer(root() / "pull.path.json", folder_ / "state");
+  Client client(viewer.door());
+  const Json state = client.event_where("state", [](const Json& s) { return !s["guide"].is_null(); });
+  EXPECT_EQ(state["guide"]["name"], "pull.path.json");
+  EXPECT_EQ(state["guide"]["moves"][0]["label"], "pull the block");
 }
 
 }  // namespace

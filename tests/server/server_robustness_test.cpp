@@ -5,6 +5,7 @@
 #include "tests/server/server_scene.h"
 
 #include <random>
+#include <thread>
 
 namespace dismantle::server {
 namespace {
@@ -146,6 +147,22 @@ TEST_F(ServerRobustness, OutlivesBrokenHttp) {
         "GET / HTTP/1.1\r\n" + host + host + "\r\n", "GET http://evil/ HTTP/1.1\r\n" + host + "\r\n",
         std::string("\x16\x03\x01\x02\x00", 5)})
     EXPECT_EQ(exchange(door(), bytes).find("HTTP/1.1 200"), std::string::npos) << bytes.substr(0, 60);
+}
+
+TEST_F(ServerRobustness, ServesNoMoreConnectionsThanItCan) {
+  std::vector<std::unique_ptr<testing_client::SilentConnection>> silent;
+  for (int i = 0; i < 300; ++i) silent.push_back(std::make_unique<testing_client::SilentConnection>(door()));
+  EXPECT_THROW(request(door(), "GET", "/"), std::exception);
+  silent.clear();
+  HttpReply reply;
+  for (int tries = 0; tries < 100 && reply.status != 200; ++tries) {
+    try {
+      reply = request(door(), "GET", "/");
+    } catch (const std::exception&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  EXPECT_EQ(reply.status, 200u);
 }
 
 TEST_F(ServerRobustness, LeavesNobodyOutsideItsFolders) {

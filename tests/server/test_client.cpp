@@ -112,6 +112,17 @@ std::string exchange(const Door& door, const std::string& bytes, std::chrono::mi
   return reply.substr(0, size);
 }
 
+class SilentConnection::Body {
+ public:
+  asio::io_context io;
+  beast::tcp_stream stream{io};
+};
+
+SilentConnection::SilentConnection(const Door& door) : body_(std::make_unique<Body>()) {
+  connect(body_->stream, door.port);
+}
+SilentConnection::~SilentConnection() = default;
+
 class Client::Body {
  public:
   Body(const Door& door, const std::string& key, const Headers& headers) : stream_(io_) {

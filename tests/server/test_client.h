@@ -44,6 +44,17 @@ HttpReply get(const Door& door, const std::string& target);
 std::string exchange(const Door& door, const std::string& bytes,
                      std::chrono::milliseconds quiet = std::chrono::milliseconds(300));
 
+/// Connects and says nothing.
+class SilentConnection {
+ public:
+  explicit SilentConnection(const Door& door);
+  ~SilentConnection();
+
+ private:
+  class Body;
+  std::unique_ptr<Body> body_;
+};
+
 /// A page as docs/wire.md has it.
 class Client {
  public:
