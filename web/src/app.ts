@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Vector3 } from "three";
+import { type Box3, Vector3 } from "three";
 import { element, saveAs } from "./dom.ts";
 import { Devices } from "./input/devices.ts";
 import { Drag } from "./input/drag.ts";
@@ -18,10 +18,12 @@ import { TimelinePanel } from "./panels/timeline.ts";
 import { Toolbar } from "./panels/toolbar.ts";
 import { TreePanel } from "./panels/tree.ts";
 import { Gizmo } from "./scene/gizmo.ts";
+import type { Arrow } from "./scene/marks.ts";
 import { kPalettes } from "./scene/palette.ts";
-import { Viewport } from "./scene/viewport.ts";
+import { Viewport, type ViewportOptions } from "./scene/viewport.ts";
 import { Session } from "./session.ts";
 import { text } from "./strings.ts";
+import type { Triple } from "./wire/messages.ts";
 
 type Theme = "light" | "dark";
 
@@ -46,7 +48,7 @@ export class App {
   private readonly toasts = new Toasts();
   private theme: Theme = "light";
 
-  constructor(testing: boolean) {
+  constructor(options: ViewportOptions) {
     const canvas = element("canvas", {
       id: "view",
       tabIndex: 0,
@@ -55,7 +57,7 @@ export class App {
     });
     const stage = element("main", { id: "stage" }, canvas);
     document.body.append(stage);
-    this.viewport = new Viewport(canvas, testing);
+    this.viewport = new Viewport(canvas, options);
     this.session = new Session(this.viewport);
     this.drag = new Drag(this.session);
     this.pointer = new PointerInput(this.session, this.drag, this.gizmo);
@@ -67,15 +69,14 @@ export class App {
     this.sections = new SectionPanel(this.session);
     this.measure = new Measure(this.session);
     this.openDialog = new OpenDialog(this.session);
-    stage.append(
-      new Banner(this.session).node,
-      this.sections.node,
-      this.measure.node,
-      new GuidePanel(this.session).node,
-      this.toasts.node,
-    );
+    stage.append(new Banner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
     document.body.prepend(new Toolbar(this).node, this.tree.node);
-    document.body.append(this.inspector.node, this.timeline.node, new StatusLine(this.session).node);
+    document.body.append(
+      this.inspector.node,
+      new GuidePanel(this.session).node,
+      this.timeline.node,
+      new StatusLine(this.session).node,
+    );
     document.body.append(this.openDialog.node, this.help);
     this.connectParts();
     this.setTheme(startTheme());
@@ -118,9 +119,7 @@ export class App {
     const mine = center && store.directions?.components.join() === store.selection.join();
     const free = mine ? store.directions!.directions.filter((way) => way.free) : [];
     const idle = store.state?.automatic == null && store.state?.playback == null;
-    this.viewport.directions.arrows = !idle
-      ? []
-      : free.map(({ direction }) => ({ point: center!, direction: new Vector3(...direction), length: 100 }));
+    this.viewport.directions.arrows = idle && box ? free.map(({ direction }) => arrowOutOf(box, direction)) : [];
     return false;
   }
 
@@ -215,6 +214,14 @@ export class App {
     if (keep) localStorage.setItem("dismantle.theme", theme);
     this.viewport.setPalette(kPalettes[theme]);
   }
+}
+
+/// An arrow from the side of a box that lies in a direction.
+function arrowOutOf(box: Box3, direction: Triple): Arrow {
+  const way = new Vector3(...direction);
+  const half = box.getSize(new Vector3()).multiplyScalar(0.5);
+  const reach = Math.min(...[0, 1, 2].map((k) => half.getComponent(k) / Math.max(1e-9, Math.abs(direction[k]))));
+  return { point: box.getCenter(new Vector3()).addScaledVector(way, reach), direction: way, length: 80 };
 }
 
 function startTheme(): Theme {

@@ -107,11 +107,11 @@ export class Session {
     try {
       const path = await (await this.connection.request("/api/path.json")).blob();
       const name = `${(this.store.model?.name ?? "").replace(/\.\w+$/, "")}.path.json`;
+      await this.connection.command("reset", {});
       await this.connection.request(`/api/guide?name=${encodeURIComponent(name)}`, { method: "POST", body: path });
     } catch (error) {
-      return this.onNote("warning", (error as Error).message);
+      this.onNote("warning", (error as Error).message);
     }
-    await this.ask("reset", {});
   }
 
   toggleXray(components: number[]): void {
@@ -174,7 +174,8 @@ export class Session {
   private takeState(state: StateEvent): void {
     this.change(() => {
       this.store.state = state;
-      if (this.store.frame && state.moving.length === 0) this.store.frame = null;
+      // A state says where everything is; the frames of an earlier one are old.
+      this.store.frame = null;
     });
     this.showState(state);
   }
@@ -185,7 +186,7 @@ export class Session {
       const { hidden, removed } = state.components[view.index] ?? {};
       const moves = state.moving.includes(view.index);
       view.visible = moves || (!hidden && !removed);
-      if (!moves || !this.store.frame) view.setPose(poseFromState(state, view.index));
+      view.setPose(poseFromState(state, view.index));
     }
     this.viewport.updateBounds();
     this.viewport.invalidate();

@@ -25,7 +25,6 @@ const kUnspoilt: Score = { wrong: 0, hints: 0, contacts: 0 };
 export class GuidePanel {
   readonly node = element("section", {
     id: "guide-panel",
-    class: "floating",
     "aria-label": text("guide"),
     hidden: true,
   });
@@ -45,6 +44,7 @@ export class GuidePanel {
   private points: Score = { ...kUnspoilt };
   private judgedGrip: number | null = null;
   private wasBlocked = false;
+  private movesBefore = 0;
 
   constructor(private readonly session: Session) {
     this.show = button({
@@ -105,6 +105,9 @@ export class GuidePanel {
     }
     this.node.hidden = state?.guide == null;
     if (!state?.guide || this.steps.length === 0) return;
+    const moves = state.moves.length;
+    if (moves === 0 && this.movesBefore > 0) this.restart();
+    this.movesBefore = moves;
     this.judge();
     const next = state.playback ? this.step : nextStep(this.steps, this.step, (c) => this.nowOf(c));
     if (next !== this.step && !state.hand) this.goTo(next);

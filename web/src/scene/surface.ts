@@ -15,16 +15,18 @@ export interface Surface {
 
 /// Above the angle between two chords of a round face at the importer's angular deflection (0.5 rad), below a chamfer.
 export const kCreaseAngle = 0.62;
+const kSmooth = Math.cos(kCreaseAngle);
 
 /// Splits a mesh at its creases.
 export function surfaceFromMesh(raw: RawSurface): Surface {
   const mesh = weld(raw);
-  const faceNormals = normalsOfFaces(mesh);
+  const faces = facesOf(mesh);
   const fans = facesAroundVertices(mesh);
-  const { edges, closed } = featureEdges(mesh, faceNormals, fans);
-  const positions = new Float32Array(9 * (mesh.corners.length / 3));
-  for (let i = 0; i < mesh.corners.length; ++i) positions.set(vertexOf(mesh, mesh.corners[i]), 3 * i);
-  return { positions, normals: creaseNormals(mesh, faceNormals, fans), edges, closed };
+  const { edges, closed } = featureEdges(mesh, faces, fans);
+  const positions = new Float32Array(3 * mesh.corners.length);
+  for (let i = 0; i < mesh.corners.length; ++i)
+    for (let k = 0; k < 3; ++k) positions[3 * i + k] = mesh.vertices[3 * mesh.corners[i] + k];
+  return { positions, normals: creaseNormals(mesh, faces, fans), edges, closed };
 }
 
 interface WeldedMesh {
@@ -38,8 +40,10 @@ interface Fans {
   face: Uint32Array;
 }
 
-function vertexOf(mesh: WeldedMesh, vertex: number): Float32Array {
-  return mesh.vertices.subarray(3 * vertex, 3 * vertex + 3);
+/// Unit normals (zero where there is no area), shape [face_count, 3], and doubled areas.
+interface Faces {
+  normals: Float32Array;
+  areas: Float32Array;
 }
 
 /// Vertices at the same place become one; faces that lose a corner by this go.
@@ -60,28 +64,37 @@ function weld(raw: RawSurface): WeldedMesh {
     if (slots[slot] < 0) slots[slot] = v;
     welded[v] = slots[slot];
   }
-  const corners: number[] = [];
+  const corners = new Uint32Array(raw.indices.length);
+  let end = 0;
   for (let i = 0; i < raw.indices.length; i += 3) {
     const [a, b, c] = [welded[raw.indices[i]], welded[raw.indices[i + 1]], welded[raw.indices[i + 2]]];
-    if (a !== b && b !== c && c !== a) corners.push(a, b, c);
+    if (a === b || b === c || c === a) continue;
+    corners.set([a, b, c], end);
+    end += 3;
   }
-  return { vertices: raw.positions, vertexCount: count, corners: Uint32Array.from(corners) };
+  return { vertices: raw.positions, vertexCount: count, corners: corners.subarray(0, end) };
 }
 
-/// Normals with the face's doubled area as length, shape [face_count, 3].
-function normalsOfFaces(mesh: WeldedMesh): Float32Array {
-  const normals = new Float32Array(mesh.corners.length);
-  for (let i = 0; i < mesh.corners.length; i += 3) {
-    const a = vertexOf(mesh, mesh.corners[i]);
-    const b = vertexOf(mesh, mesh.corners[i + 1]);
-    const c = vertexOf(mesh, mesh.corners[i + 2]);
-    const [ux, uy, uz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-    const [vx, vy, vz] = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    normals[i] = uy * vz - uz * vy;
-    normals[i + 1] = uz * vx - ux * vz;
-    normals[i + 2] = ux * vy - uy * vx;
+function facesOf({ vertices, corners }: WeldedMesh): Faces {
+  const normals = new Float32Array(corners.length);
+  const areas = new Float32Array(corners.length / 3);
+  for (let i = 0; i < corners.length; i += 3) {
+    const [a, b, c] = [3 * corners[i], 3 * corners[i + 1], 3 * corners[i + 2]];
+    const ux = vertices[b] - vertices[a];
+    const uy = vertices[b + 1] - vertices[a + 1];
+    const uz = vertices[b + 2] - vertices[a + 2];
+    const vx = vertices[c] - vertices[a];
+    const vy = vertices[c + 1] - vertices[a + 1];
+    const vz = vertices[c + 2] - vertices[a + 2];
+    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    const area = Math.sqrt(x * x + y * y + z * z);
+    areas[i / 3] = area;
+    if (area === 0) continue;
+    normals[i] = x / area;
+    normals[i + 1] = y / area;
+    normals[i + 2] = z / area;
   }
-  return normals;
+  return { normals, areas };
 }
 
 function facesAroundVertices(mesh: WeldedMesh): Fans {
@@ -95,15 +108,14 @@ function facesAroundVertices(mesh: WeldedMesh): Fans {
 }
 
 /// Whether two faces' normals differ by less than the crease angle; faces without an area bend with any other.
-function isSmooth(normals: Float32Array, f: number, g: number): boolean {
+function isSmooth({ normals, areas }: Faces, f: number, g: number): boolean {
+  if (areas[f] === 0 || areas[g] === 0) return true;
   const [a, b] = [3 * f, 3 * g];
   const dot = normals[a] * normals[b] + normals[a + 1] * normals[b + 1] + normals[a + 2] * normals[b + 2];
-  const lengths =
-    Math.hypot(normals[a], normals[a + 1], normals[a + 2]) * Math.hypot(normals[b], normals[b + 1], normals[b + 2]);
-  return lengths === 0 || dot >= Math.cos(kCreaseAngle) * lengths;
+  return dot >= kSmooth;
 }
 
-function creaseNormals(mesh: WeldedMesh, faceNormals: Float32Array, fans: Fans): Float32Array {
+function creaseNormals(mesh: WeldedMesh, faces: Faces, fans: Fans): Float32Array {
   const normals = new Float32Array(3 * mesh.corners.length);
   for (let i = 0; i < mesh.corners.length; ++i) {
     const own = Math.floor(i / 3);
@@ -111,12 +123,12 @@ function creaseNormals(mesh: WeldedMesh, faceNormals: Float32Array, fans: Fans):
     let [x, y, z] = [0, 0, 0];
     for (let k = fans.begin[vertex]; k < fans.begin[vertex + 1]; ++k) {
       const face = fans.face[k];
-      if (face !== own && !isSmooth(faceNormals, own, face)) continue;
-      x += faceNormals[3 * face];
-      y += faceNormals[3 * face + 1];
-      z += faceNormals[3 * face + 2];
+      if (face !== own && !isSmooth(faces, own, face)) continue;
+      x += faces.areas[face] * faces.normals[3 * face];
+      y += faces.areas[face] * faces.normals[3 * face + 1];
+      z += faces.areas[face] * faces.normals[3 * face + 2];
     }
-    const length = Math.hypot(x, y, z) || 1;
+    const length = Math.sqrt(x * x + y * y + z * z) || 1;
     normals[3 * i] = x / length;
     normals[3 * i + 1] = y / length;
     normals[3 * i + 2] = z / length;
@@ -124,31 +136,44 @@ function creaseNormals(mesh: WeldedMesh, faceNormals: Float32Array, fans: Fans):
   return normals;
 }
 
-function featureEdges(
-  mesh: WeldedMesh,
-  faceNormals: Float32Array,
-  fans: Fans,
-): { edges: Float32Array; closed: boolean } {
+/// The edges that bend or bound, found around each vertex towards those of higher number.
+function featureEdges(mesh: WeldedMesh, faces: Faces, fans: Fans): { edges: Float32Array; closed: boolean } {
   const ends: number[] = [];
-  const facesToward = new Map<number, number[]>();
+  const seenFrom = new Int32Array(mesh.vertexCount).fill(-1);
+  const uses = new Uint32Array(mesh.vertexCount);
+  const first = new Uint32Array(mesh.vertexCount);
+  const last = new Uint32Array(mesh.vertexCount);
   let closed = true;
   for (let vertex = 0; vertex < mesh.vertexCount; ++vertex) {
-    facesToward.clear();
+    const others: number[] = [];
     for (let k = fans.begin[vertex]; k < fans.begin[vertex + 1]; ++k) {
       const face = fans.face[k];
       for (let corner = 3 * face; corner < 3 * face + 3; ++corner) {
         const other = mesh.corners[corner];
         if (other <= vertex) continue;
-        const faces = facesToward.get(other);
-        if (faces) faces.push(face);
-        else facesToward.set(other, [face]);
+        if (seenFrom[other] !== vertex) {
+          seenFrom[other] = vertex;
+          uses[other] = 0;
+          first[other] = face;
+          others.push(other);
+        }
+        last[other] = face;
+        ++uses[other];
       }
     }
-    for (const [other, faces] of facesToward) {
-      closed &&= faces.length % 2 === 0;
-      if (faces.length === 2 && isSmooth(faceNormals, faces[0], faces[1])) continue;
-      ends.push(...vertexOf(mesh, vertex), ...vertexOf(mesh, other));
+    for (const other of others) {
+      closed &&= uses[other] % 2 === 0;
+      if (uses[other] === 2 && isSmooth(faces, first[other], last[other])) continue;
+      ends.push(vertex, other);
     }
   }
-  return { edges: Float32Array.from(ends), closed };
+  return { edges: pointsOf(mesh, ends), closed };
+}
+
+function pointsOf({ vertices }: WeldedMesh, indices: number[]): Float32Array {
+  const points = new Float32Array(3 * indices.length);
+  indices.forEach((vertex, i) => {
+    for (let k = 0; k < 3; ++k) points[3 * i + k] = vertices[3 * vertex + k];
+  });
+  return points;
 }

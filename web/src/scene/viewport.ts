@@ -7,6 +7,13 @@ import { kPalettes, type Palette } from "./palette.ts";
 import { shared } from "./shade.ts";
 import { ViewCube } from "./view_cube.ts";
 
+export interface ViewportOptions {
+  /// Views change at once, a pixel of the picture is one of the page, and pictures can be read back.
+  testing: boolean;
+  /// Smooth edges.
+  smooth: boolean;
+}
+
 /// The picture: the model, what is drawn over it, and when it is drawn (only where something changed).
 export class Viewport {
   readonly rig = new CameraRig();
@@ -27,11 +34,11 @@ export class Viewport {
 
   constructor(
     readonly canvas: HTMLCanvasElement,
-    testing: boolean,
+    { testing, smooth }: ViewportOptions,
   ) {
     this.renderer = new WebGLRenderer({
       canvas,
-      antialias: !testing,
+      antialias: smooth,
       alpha: true,
       stencil: true,
       preserveDrawingBuffer: testing,

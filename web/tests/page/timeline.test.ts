@@ -18,6 +18,14 @@ after(async () => {
   await server.stop();
 });
 
+const playback = async () => (await viewer.state()).playback;
+
+/// Until the playback stands still.
+async function stands(): Promise<void> {
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.playing === false);
+  await viewer.idle();
+}
+
 test("without a recording there is nothing to play", async () => {
   assert.equal(await viewer.page.isDisabled("#play"), true);
   assert.match(await viewer.page.locator("#timeline").innerText(), /recorded here/);
@@ -26,10 +34,48 @@ test("without a recording there is nothing to play", async () => {
 test("two drags are two blocks on the line of time", async () => {
   await viewer.grab(kSlide, 40, 0);
   await viewer.letGo();
-  await viewer.grab("eyepiece", 0, -40);
+  await viewer.press("2");
+  await viewer.grab("condenser", 0, 25);
   await viewer.letGo();
   assert.equal(await viewer.page.locator("#timeline .block").count(), 2);
   assert.equal(await viewer.page.isEnabled("#play"), true);
+});
+
+test("played backward it ends in the assembled state, to the bit", async () => {
+  const there = await viewer.shift(kSlide);
+  await viewer.page.selectOption("#speed", "4");
+  await viewer.click("#play-reverse");
+  await stands();
+  assert.equal((await playback())!.time, 0);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.deepEqual(await viewer.drawnShift("condenser"), [0, 0, 0]);
+  assert.equal(await viewer.page.locator("[data-banner=playback]").count(), 1);
+  await viewer.click("#play");
+  await stands();
+  assert.deepEqual(await viewer.drawnShift(kSlide), there);
+});
+
+test("the scrubber goes to any time", async () => {
+  await viewer.page.fill("#scrub", "0");
+  await viewer.idle();
+  assert.equal((await playback())!.time, 0);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  await viewer.page.fill("#scrub", "1000");
+  await viewer.idle();
+  const { time, duration } = (await playback())!;
+  assert.ok(Math.abs(time - duration) < 1e-6);
+});
+
+test("back to work: everything is where it was, and can be moved again", async () => {
+  const there = (await viewer.drawnShift(kSlide))[0];
+  await viewer.page.fill("#scrub", "300");
+  await viewer.click("#play-stop");
+  await viewer.press("1");
+  assert.equal(await playback(), null);
+  assert.equal((await viewer.drawnShift(kSlide))[0], there);
+  await viewer.grab(kSlide, 20, 0);
+  await viewer.letGo();
+  assert.ok((await viewer.shift(kSlide))[0] > there);
 });
 
 test("the recording is saved as a path file", async () => {
@@ -39,7 +85,7 @@ test("the recording is saved as a path file", async () => {
   assert.equal(path.format, "dismantle-path");
   assert.deepEqual(
     path.moves.map((move: { components: string[] }) => move.components[0]),
-    [kSlide, "eyepiece"],
+    [kSlide, "condenser", kSlide],
   );
 });
 

@@ -34,16 +34,16 @@ test("a section cuts the model open, filled, and what is cut away cannot be grab
   const whole = await viewer.picture();
   const inFront = await viewer.placeOf("arm");
   await viewer.press("s");
-  assert.notEqual(await viewer.picture(), whole);
+  assert.ok((await viewer.picture()) !== whole);
   assert.equal(await viewer.page.locator("[data-banner=section]").count(), 1);
   assert.notEqual(await viewer.page.evaluate(({ x, y }) => window.dismantle!.at(x, y), inFront), "arm");
   const half = await viewer.picture();
   await viewer.page.locator("#section-panel input[type=range]").nth(1).fill("0.3");
   await viewer.idle();
-  assert.notEqual(await viewer.picture(), half);
+  assert.ok((await viewer.picture()) !== half);
   await viewer.page.focus("#view");
   await viewer.press("s");
-  assert.equal(await viewer.picture(), whole);
+  assert.ok((await viewer.picture()) === whole);
 });
 
 test("the cut of a solid is filled: flat and hatched, of two colours only", async () => {
@@ -118,6 +118,36 @@ test("help lists the keys, and closes", async () => {
   assert.equal(await viewer.page.isVisible("#help-dialog"), true);
   await viewer.page.keyboard.press("Escape");
   assert.equal(await viewer.page.isVisible("#help-dialog"), false);
+});
+
+test("free directions are arrows; one that is clicked takes the component out along it", async () => {
+  await select(kSlide);
+  await viewer.press("d");
+  await viewer.page.locator("#directions .way.free").first().waitFor();
+  const arrows = await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length);
+  assert.ok(arrows >= 2, `${arrows}`);
+  const tip = await viewer.page.evaluate(() => {
+    const { directions, rig } = window.dismantle!.app.viewport;
+    const arrow = directions.arrows.find(({ direction }) => direction.x > 0.99)!;
+    const end = arrow.point.clone().addScaledVector(arrow.direction, rig.pixelSize(arrow.point) * 50);
+    return window.dismantle!.project(end.toArray());
+  });
+  await viewer.page.mouse.click(tip.x, tip.y);
+  await viewer.page.waitForFunction(
+    (i) => window.dismantle!.app.session.store.state!.components[i].removed,
+    await viewer.index(kSlide),
+  );
+  await viewer.idle();
+  assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), false);
+});
+
+test("put back brings it home", async () => {
+  await select(kSlide);
+  await viewer.click("#put-back");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
+  await viewer.idle();
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), true);
 });
 
 test("the page had no errors", () => {

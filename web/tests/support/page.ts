@@ -73,9 +73,9 @@ export class Viewer {
     });
   }
 
-  static async visit(url: string, before?: () => void): Promise<Viewer> {
+  static async visit(url: string, before?: () => void, size = { width: 800, height: 500 }): Promise<Viewer> {
     browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags });
-    const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
+    const page = await browser.newPage({ viewport: size });
     page.setDefaultTimeout(kPatience);
     if (before) await page.addInitScript(before);
     const viewer = new Viewer(page);

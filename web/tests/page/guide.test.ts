@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { closeBrowser, Server, Viewer } from "../support/page.ts";
+
+let server: Server;
+let viewer: Viewer;
+const kSlide = "specimen slide";
+
+before(async () => {
+  server = await Server.start("--sample", "microscope");
+  viewer = await Viewer.open(server);
+  await viewer.press("1");
+});
+after(async () => {
+  await closeBrowser();
+  await server.stop();
+});
+
+const step = () => viewer.page.locator("#guide-step").innerText();
+const score = () => viewer.page.locator("#guide-score").innerText();
+test("the recording becomes a guide: everything is assembled again, and the first step is named", async () => {
+  await viewer.grab(kSlide, 60, 0);
+  await viewer.letGo();
+  await viewer.press("2");
+  await viewer.grab("condenser", 0, 25);
+  await viewer.letGo();
+  await viewer.press("1");
+  await viewer.click("#follow");
+  await viewer.page.locator("#guide-panel").waitFor();
+  await viewer.idle();
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.match(await step(), /Step 1 of 2: take specimen slide/);
+});
+
+test("the ghost shows the way and goes", async () => {
+  const before = await viewer.picture();
+  await viewer.page.click("#guide-show");
+  await viewer.page.waitForTimeout(700);
+  assert.ok((await viewer.page.evaluate(() => window.dismantle!.app.viewport.canvas.toDataURL())) !== before);
+  await viewer.idle();
+  assert.ok((await viewer.picture()) === before);
+});
+
+test("a step that is done leads to the next, the last one to the end", async () => {
+  await viewer.grab(kSlide, 60, 0);
+  await viewer.letGo();
+  assert.match(await step(), /Step 2 of 2: take condenser/);
+  await viewer.press("2");
+  await viewer.grab("condenser", 0, 25);
+  await viewer.letGo();
+  assert.match(await step(), /Done/);
+});
+
+test("practice counts what is taken out of turn, contacts and hints", async () => {
+  await viewer.click("#reset");
+  await viewer.page.check("#guide-practice");
+  await viewer.idle();
+  assert.match(await step(), /Step 1 of 2: what comes next/);
+  assert.match(await score(), /^100 points/);
+  await viewer.grab("condenser", 0, 12);
+  await viewer.letGo();
+  assert.match(await score(), /1 out of turn/);
+  await viewer.press("1");
+  await viewer.grab(kSlide, 0, 40);
+  await viewer.letGo();
+  assert.match(await score(), /[1-9]\d* contacts/);
+  await viewer.click("#guide-show");
+  assert.match(await score(), /1 hints/);
+});
+
+test("the guide plays by itself", async () => {
+  await viewer.click("#reset");
+  await viewer.page.click("#guide-play");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.source === "guide");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.playing === false);
+  await viewer.idle();
+  assert.ok((await viewer.drawnShift(kSlide))[0] > 10);
+  await viewer.click("#play-stop");
+});
+
+test("closed, the guide is gone", async () => {
+  await viewer.click("#guide-close");
+  assert.equal((await viewer.state()).guide, null);
+  assert.equal(await viewer.page.isVisible("#guide-panel"), false);
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the pictures of the user's guide from the running program; web/make_pictures runs it.
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { closeBrowser, Server, Viewer } from "./support/page.ts";
+import { sourceFolder } from "./support/tree.ts";
+
+const kFolder = join(sourceFolder(), "docs/pictures");
+const kSize = { width: 1280, height: 780 };
+const kSlide = "specimen slide";
+
+async function open(server: Server): Promise<Viewer> {
+  return Viewer.visit(server.url.replace("/#", "/?test=pictures#"), undefined, kSize);
+}
+
+async function shoot(viewer: Viewer, name: string): Promise<void> {
+  await viewer.idle();
+  await viewer.page.screenshot({ path: join(kFolder, `${name}.png`) });
+}
+
+/// Looks at a component from the front right, from not too near.
+async function lookAt(viewer: Viewer, name: string, room: number): Promise<void> {
+  await viewer.press("1");
+  await viewer.page.evaluate(
+    ([wanted, margin]) => {
+      const { rig, model } = window.dismantle!.app.viewport;
+      rig.fit(
+        model!.components
+          .find(({ raw }) => raw.name === wanted)!
+          .bounds()
+          .expandByScalar(margin as number),
+      );
+      rig.orbit(-70, 45, rig.current.focus);
+    },
+    [name, room],
+  );
+  await viewer.idle();
+}
+
+async function startPage(): Promise<void> {
+  const server = await Server.start();
+  const viewer = await open(server);
+  await viewer.page.locator("#samples .card").first().waitFor();
+  await shoot(viewer, "start");
+  await viewer.close();
+  await server.stop();
+}
+
+async function contact(viewer: Viewer): Promise<void> {
+  await lookAt(viewer, kSlide, 55);
+  await viewer.grab(kSlide, 120, 70, 20);
+  await viewer.page.locator("[data-banner=stuck]").waitFor();
+  await viewer.page.locator("#pairs .badge").first().waitFor();
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.directions !== null);
+  await shoot(viewer, "contact");
+  await viewer.letGo();
+}
+
+async function tools(viewer: Viewer): Promise<void> {
+  await viewer.press("d");
+  await shoot(viewer, "directions");
+  await viewer.press("Escape", "Escape", "f", "s");
+  await viewer.page.evaluate(() =>
+    window.dismantle!.app.viewport.rig.orbit(-20, 0, window.dismantle!.app.viewport.rig.current.focus),
+  );
+  await viewer.page.locator("#section-panel input[type=checkbox]").nth(1).uncheck();
+  await viewer.page.locator("#section-panel input[type=checkbox]").nth(0).check();
+  await viewer.click("#section-panel .section-row:first-child .button");
+  await viewer.press("t");
+  await shoot(viewer, "section");
+  await viewer.page.focus("#view");
+  await viewer.press("s", "t");
+}
+
+async function guide(viewer: Viewer): Promise<void> {
+  await viewer.click("#follow");
+  await viewer.page.locator("#guide-panel").waitFor();
+  await lookAt(viewer, kSlide, 70);
+  await viewer.page.click("#guide-show");
+  await viewer.page.waitForTimeout(900);
+  await viewer.page.screenshot({ path: join(kFolder, "guide.png") });
+}
+
+mkdirSync(kFolder, { recursive: true });
+await startPage();
+const server = await Server.start("--sample", "microscope");
+const viewer = await open(server);
+await viewer.model();
+await viewer.page.mouse.move(300, 600);
+await shoot(viewer, "model");
+await contact(viewer);
+await tools(viewer);
+await guide(viewer);
+await closeBrowser();
+await server.stop();
