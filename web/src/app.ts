@@ -20,6 +20,7 @@ import { TreePanel } from "./panels/tree.ts";
 import { Gizmo } from "./scene/gizmo.ts";
 import type { Arrow } from "./scene/marks.ts";
 import { kPalettes } from "./scene/palette.ts";
+import { kStereoModes } from "./scene/stereo.ts";
 import { Viewport, type ViewportOptions } from "./scene/viewport.ts";
 import { Session } from "./session.ts";
 import { text } from "./strings.ts";
@@ -144,6 +145,15 @@ export class App {
         this.session.change(() => {
           this.viewport.rig.orthographic = !this.viewport.rig.orthographic;
         }),
+      stereo: () =>
+        this.session.change(() => {
+          const next = (kStereoModes.indexOf(this.viewport.stereo) + 1) % kStereoModes.length;
+          this.viewport.stereo = kStereoModes[next];
+        }),
+      wholeScreen: () =>
+        void (document.fullscreenElement
+          ? document.exitFullscreen()
+          : this.viewport.canvas.parentElement!.requestFullscreen()),
       fit: () => this.fit(),
       screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.fileStem()}.png`)),
       theme: () => this.setTheme(this.theme === "light" ? "dark" : "light", true),

@@ -46,6 +46,8 @@ function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
   const keys: Record<string, () => void> = {
     f: actions.fit,
     o: actions.projection,
+    v: actions.stereo,
+    w: actions.wholeScreen,
     g: actions.gizmo,
     s: actions.section,
     m: actions.measure,

@@ -50,7 +50,7 @@ export class PointerInput {
 
   private place(event: MouseEvent): { x: number; y: number } {
     const box = this.session.viewport.canvas.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
+    return this.session.viewport.placeInView(event.clientX - box.left, event.clientY - box.top);
   }
 
   private press(event: PointerEvent): void {
@@ -75,7 +75,7 @@ export class PointerInput {
   private pressLeft(event: PointerEvent, at: { x: number; y: number }): void {
     const { viewport, store } = this.session;
     const { rig } = viewport;
-    const view = viewport.cube.pick(rig, at.x, at.y);
+    const view = viewport.pickCube(at.x, at.y);
     if (view) return rig.lookFrom(view);
     const arrow = viewport.directions.pick(rig, at.x, at.y);
     if (arrow >= 0) return this.takeOutAlong(arrow);
@@ -234,7 +234,7 @@ export class PointerInput {
     const at = this.hoverAt;
     this.hoverAt = null;
     if (!at || this.gesture) return false;
-    const view = viewport.cube.pick(viewport.rig, at.x, at.y);
+    const view = viewport.pickCube(at.x, at.y);
     viewport.cube.hover(view);
     const onArrow = viewport.directions.pick(viewport.rig, at.x, at.y) >= 0;
     const onHandle = onArrow || this.gizmo.pick(viewport.rig, at.x, at.y) !== null;

@@ -13,7 +13,7 @@ export class Toolbar {
   readonly node: HTMLElement;
   private readonly name = element("span", { class: "model-name" });
   private readonly buttons: Record<
-    "undo" | "redo" | "section" | "measure" | "gizmo" | "projection" | "save" | "reset",
+    "undo" | "redo" | "section" | "measure" | "gizmo" | "projection" | "stereo" | "save" | "reset",
     HTMLButtonElement
   >;
   private readonly responses: Map<Response, HTMLInputElement>;
@@ -33,11 +33,12 @@ export class Toolbar {
         id: "projection",
         press: actions.projection,
       }),
+      stereo: button({ icon: "glasses", label: text("stereo"), key: "V", id: "stereo", press: actions.stereo }),
       save: button({ icon: "save", label: text("save"), id: "save", press: actions.save }),
       reset: button({ icon: "reset", label: text("reset"), id: "reset", press: actions.reset }),
     };
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
-    const { undo, redo, gizmo, section, measure, projection, save, reset } = this.buttons;
+    const { undo, redo, gizmo, section, measure, projection, save, reset, stereo } = this.buttons;
     const group = (...children: (Node | null)[]) => element("div", { class: "group" }, ...children);
     this.node = element(
       "header",
@@ -47,7 +48,7 @@ export class Toolbar {
       group(undo, redo, reset),
       this.responseSwitch(),
       group(gizmo, section, measure),
-      group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection),
+      group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection, stereo),
       this.name,
       group(
         hasHid() ? button({ icon: "puck", label: text("device"), id: "device", press: actions.device }) : null,
@@ -101,6 +102,9 @@ export class Toolbar {
     buttons.section.setAttribute("aria-pressed", String(planes.length > 0));
     buttons.measure.setAttribute("aria-pressed", String(measuring));
     buttons.projection.setAttribute("aria-pressed", String(this.app.viewport.rig.orthographic));
+    const { stereo } = this.app.viewport;
+    buttons.stereo.setAttribute("aria-pressed", String(stereo !== "off"));
+    buttons.stereo.title = text(`stereo.${stereo}`);
     for (const [response, radio] of this.responses) {
       radio.checked = (state?.response ?? "slide") === response;
       radio.disabled = !control || !state;

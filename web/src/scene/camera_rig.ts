@@ -33,7 +33,7 @@ export class CameraRig {
   readonly size = new Vector2(1, 1);
 
   private view: View = { focus: new Vector3(), orientation: orientationFrom(new Vector3(1, -1.6, 0.9)), distance: 500 };
-  private readonly perspective = new PerspectiveCamera(MathUtils.radToDeg(kFieldOfView));
+  readonly perspective = new PerspectiveCamera(MathUtils.radToDeg(kFieldOfView));
   private readonly parallel = new OrthographicCamera();
   private isParallel = false;
   private readonly scene = { center: new Vector3(), radius: 100 };

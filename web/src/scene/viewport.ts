@@ -5,6 +5,7 @@ import { ArrowField, Ghost } from "./marks.ts";
 import type { ModelView, Pick } from "./model_view.ts";
 import { kPalettes, type Palette } from "./palette.ts";
 import { shared } from "./shade.ts";
+import { type StereoMode, StereoPicture } from "./stereo.ts";
 import { ViewCube } from "./view_cube.ts";
 
 export interface ViewportOptions {
@@ -31,6 +32,8 @@ export class Viewport {
   private scheduled = false;
   private pictures = 0;
   private planeCount = 0;
+  private stereoMode: StereoMode = "off";
+  private readonly stereoPicture = new StereoPicture();
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -53,6 +56,22 @@ export class Viewport {
     this.scene.add(this.contacts.object, this.directions.object, this.ghost.object);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
+  }
+
+  get stereo(): StereoMode {
+    return this.stereoMode;
+  }
+
+  set stereo(mode: StereoMode) {
+    this.stereoMode = mode;
+    this.invalidate();
+  }
+
+  /// The place in the whole view that a place on the canvas shows: side by side, each half is all of it.
+  placeInView(x: number, y: number): { x: number; y: number } {
+    if (this.stereoMode !== "sideBySide") return { x, y };
+    const half = this.rig.size.x / 2;
+    return { x: 2 * (x % half), y };
   }
 
   /// Asks for a picture at the next frame of the screen.
@@ -107,6 +126,11 @@ export class Viewport {
     this.invalidate();
   }
 
+  /// The view that a place on the cube stands for; two eyes have no cube.
+  pickCube(x: number, y: number): Vector3 | null {
+    return this.stereoMode === "off" ? this.cube.pick(this.rig, x, y) : null;
+  }
+
   pick(x: number, y: number): Pick | null {
     return this.model?.cast(this.rig.ray(x, y), (pick) => this.isKept(pick.point)) ?? null;
   }
@@ -159,8 +183,13 @@ export class Viewport {
     this.contacts.update(this.rig);
     this.directions.update(this.rig);
     this.renderer.clear();
-    this.renderer.render(this.scene, this.rig.camera);
-    if (this.model) this.cube.render(this.renderer, this.rig);
+    if (this.stereoMode === "off") {
+      this.renderer.render(this.scene, this.rig.camera);
+      if (this.model) this.cube.render(this.renderer, this.rig);
+    } else {
+      const { perspective, size } = this.rig;
+      this.stereoPicture.draw(this.renderer, this.scene, perspective, this.rig.current.distance, this.stereoMode, size);
+    }
     ++this.pictures;
     if (more) this.invalidate();
   }

@@ -128,6 +128,54 @@ test("the theme changes the page and the picture", async () => {
   await viewer.press("t");
 });
 
+/// How far the picture's reds and its blues, or its halves, differ: summed over a coarse grid.
+const pictureFacts = () =>
+  viewer.page.evaluate(() => {
+    const { canvas } = window.dismantle!.app.viewport;
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const brush = copy.getContext("2d")!;
+    brush.drawImage(canvas, 0, 0);
+    const { data, width, height } = brush.getImageData(0, 0, copy.width, copy.height);
+    const half = Math.floor(width / 2);
+    let [red, sides, filled] = [0, 0, 0];
+    for (let y = 0; y < height; y += 3)
+      for (let x = 0; x < half; x += 3) {
+        const [a, b] = [4 * (y * width + x), 4 * (y * width + x + half)];
+        red += Math.abs(data[a] - data[a + 2]);
+        sides += Math.abs(data[a + 3] - data[b + 3]) > 128 ? 1 : 0;
+        filled += data[a + 3] > 128 ? 1 : 0;
+      }
+    return { red, sides, filled };
+  });
+
+test("V draws for two eyes: side by side, then red and cyan, then for one again", async () => {
+  const one = await pictureFacts();
+  const plain = await viewer.picture();
+  await viewer.press("v");
+  const beside = await pictureFacts();
+  assert.ok(beside.sides > 0 && beside.sides < 0.3 * beside.filled, `${JSON.stringify(beside)}`);
+  const selected = await viewer.page.evaluate(() => {
+    const { viewport } = window.dismantle!.app;
+    return viewport.placeInView(10, 5).x === viewport.placeInView(10 + viewport.rig.size.x / 2, 5).x;
+  });
+  assert.equal(selected, true);
+  await viewer.press("v");
+  const anaglyph = await pictureFacts();
+  assert.ok(anaglyph.red > 1.1 * one.red, `${anaglyph.red} ${one.red}`);
+  await viewer.press("v");
+  assert.ok((await viewer.picture()) === plain);
+});
+
+test("W shows the picture on the whole screen, and back", async () => {
+  const width = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.rig.size.x);
+  const start = await width();
+  await viewer.page.keyboard.press("w");
+  await viewer.page.waitForFunction((x) => window.dismantle!.app.viewport.rig.size.x > x, start);
+  await viewer.page.keyboard.press("w");
+  await viewer.page.waitForFunction((x) => window.dismantle!.app.viewport.rig.size.x === x, start);
+});
+
 test("the page had no errors", () => {
   assert.deepEqual(viewer.problems, []);
 });
