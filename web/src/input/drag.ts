@@ -30,7 +30,6 @@ export class Drag {
   private grip: number | null = null;
   private number = 0;
   private answered = 0;
-  private seen = 0;
   private unsent = false;
   private ending = false;
   private stuckSince = 0;
@@ -50,9 +49,9 @@ export class Drag {
     return this.grip !== null;
   }
 
-  /// The last target has no answer yet.
+  /// The last target is neither reached nor blocked yet.
   get waits(): boolean {
-    return this.motion !== null && (this.grip === null || this.unsent || this.ending || this.seen < this.number);
+    return this.motion !== null && (this.grip === null || this.unsent || this.ending || this.answered < this.number);
   }
 
   /// The grabbed point where the hand wants it.
@@ -71,7 +70,7 @@ export class Drag {
     const box = views.reduce((all, view) => all.union(view.bounds()), new Box3());
     this.motion = new DragMotion(this.startPose, box.getCenter(new Vector3()), grabbed);
     [this.grip, this.number, this.answered, this.unsent, this.ending] = [null, 0, 0, false, false];
-    [this.stuckSince, this.stuckAsked, this.seen] = [0, false, 0];
+    [this.stuckSince, this.stuckAsked] = [0, false];
     store.leastClearance = Number.NaN;
     viewport.ghost.show(views);
 
@@ -138,7 +137,17 @@ export class Drag {
     this.clear();
   }
 
+  /// What was found for a set that was stuck goes when it is not.
+  private forgetStuck(): void {
+    if (this.stuckAsked)
+      this.session.change(() => {
+        this.session.store.directions = null;
+      });
+    [this.stuckSince, this.stuckAsked] = [0, false];
+  }
+
   private clear(): void {
+    this.forgetStuck();
     this.motion = null;
     this.grip = null;
     this.mode = { kind: "plane", axis: null };
@@ -167,12 +176,11 @@ export class Drag {
     const shown = this.motion !== null || frame.automatic || frame.playback;
     viewport.contacts.arrows = shown ? contactArrows(frame, viewport.rig) : [];
     if (!this.motion || frame.grip !== this.grip) return;
-    this.seen = frame.number;
     if (frame.number === this.number && (frame.reached || frame.blocked)) this.answered = frame.number;
     if (!Number.isNaN(frame.clearance) && !(store.leastClearance <= frame.clearance))
       store.leastClearance = frame.clearance;
     this.session.block(new Set(frame.blocked ? frame.contacts.map(({ fixed }) => fixed) : []));
-    if (!frame.blocked) [this.stuckSince, this.stuckAsked] = [0, false];
+    if (!frame.blocked) this.forgetStuck();
     else if (this.stuckSince === 0) this.stuckSince = performance.now();
   }
 

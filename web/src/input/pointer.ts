@@ -13,7 +13,8 @@ const kDoubleClick = 350;
 type Gesture =
   | { kind: "orbit"; pivot: Vector3 }
   | { kind: "pan"; grabbed: Vector3 }
-  | { kind: "press"; pick: Pick; mode: DragMode | null; adds: boolean }
+  | { kind: "press"; pick: Pick; adds: boolean }
+  | { kind: "arrow"; arrow: number; below: Gesture }
   | { kind: "drag"; mode: DragMode | null; ready: Promise<boolean> };
 
 /// What the pointer does in the picture. Left: orbit on empty space, select and drag on a component; right always orbits;
@@ -73,23 +74,24 @@ export class PointerInput {
   }
 
   private pressLeft(event: PointerEvent, at: { x: number; y: number }): void {
-    const { viewport, store } = this.session;
+    const { viewport } = this.session;
     const { rig } = viewport;
     const view = viewport.pickCube(at.x, at.y);
     if (view) return rig.lookFrom(view);
     const arrow = viewport.directions.pick(rig, at.x, at.y);
-    if (arrow >= 0) return this.takeOutAlong(arrow);
+    this.gesture = this.gestureFor(event, at);
+    if (arrow >= 0 && this.gesture.kind !== "drag") this.gesture = { kind: "arrow", arrow, below: this.gesture };
+  }
 
+  private gestureFor(event: PointerEvent, at: { x: number; y: number }): Gesture {
+    const { viewport, store } = this.session;
+    const { rig } = viewport;
     const mode = this.gizmo.pick(rig, at.x, at.y);
+    if (mode && store.selection.length > 0)
+      return { kind: "drag", mode, ready: this.drag.begin(store.selection, this.selectionCenter()) };
     const pick = viewport.pick(at.x, at.y);
-    if (mode && store.selection.length > 0) {
-      const point = this.selectionCenter();
-      this.gesture = { kind: "drag", mode, ready: this.drag.begin(store.selection, point) };
-    } else if (pick) {
-      this.gesture = { kind: "press", pick, mode: null, adds: event.shiftKey || event.ctrlKey };
-    } else {
-      this.gesture = { kind: "orbit", pivot: this.orbitPivot(at) };
-    }
+    if (pick) return { kind: "press", pick, adds: event.shiftKey || event.ctrlKey };
+    return { kind: "orbit", pivot: this.orbitPivot(at) };
   }
 
   private move(event: PointerEvent): void {
@@ -109,6 +111,7 @@ export class PointerInput {
 
   private carryOn(event: PointerEvent, at: { x: number; y: number }, first: boolean): void {
     const { rig } = this.session.viewport;
+    if (this.gesture?.kind === "arrow") this.gesture = this.gesture.below;
     if (first && this.gesture?.kind === "press") this.gesture = this.startDrag(this.gesture);
     const [dx, dy] = [at.x - this.last.x, at.y - this.last.y];
     if (this.gesture?.kind === "orbit") rig.orbit(dx, dy, this.gesture.pivot);
@@ -153,6 +156,7 @@ export class PointerInput {
   }
 
   private click(gesture: Gesture): void {
+    if (gesture.kind === "arrow") return this.takeOutAlong(gesture.arrow);
     const pick = gesture.kind === "press" ? gesture.pick : null;
     const now = performance.now();
     const again =

@@ -102,7 +102,8 @@ test("the mesh is drawn where the engine is, never where the hand is", async () 
 
 test("Ctrl+Z in mid-drag goes back to its start, and leaves no entry", async () => {
   await viewer.grab(kSlide, 80, 0);
-  assert.ok((await viewer.drawnShift(kSlide))[0] > 10);
+  const pulled = await viewer.drawnShift(kSlide);
+  assert.ok(pulled[0] > 10, `${pulled}`);
   await viewer.press("Control+z");
   assert.deepEqual(await viewer.shift(kSlide), [0, 0, 0]);
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
