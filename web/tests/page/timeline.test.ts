@@ -34,8 +34,7 @@ test("without a recording there is nothing to play", async () => {
 test("two drags are two blocks on the line of time", async () => {
   await viewer.grab(kSlide, 40, 0);
   await viewer.letGo();
-  await viewer.press("2");
-  await viewer.grab("condenser", 0, 25);
+  await viewer.grab("foot", 0, 25);
   await viewer.letGo();
   assert.equal(await viewer.page.locator("#timeline .block").count(), 2);
   assert.equal(await viewer.page.isEnabled("#play"), true);
@@ -48,7 +47,7 @@ test("played backward it ends in the assembled state, to the bit", async () => {
   await stands();
   assert.equal((await playback())!.time, 0);
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
-  assert.deepEqual(await viewer.drawnShift("condenser"), [0, 0, 0]);
+  assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
   assert.equal(await viewer.page.locator("[data-banner=playback]").count(), 1);
   await viewer.click("#play");
   await stands();
@@ -85,7 +84,7 @@ test("the recording is saved as a path file", async () => {
   assert.equal(path.format, "dismantle-path");
   assert.deepEqual(
     path.moves.map((move: { components: string[] }) => move.components[0]),
-    [kSlide, "condenser", kSlide],
+    [kSlide, "foot", kSlide],
   );
 });
 
