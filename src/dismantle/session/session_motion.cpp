@@ -137,10 +137,11 @@ Result<Done> Session::put_back(Span<const ComponentId> components) {
 }
 
 void Session::begin_automatic(AutomaticKind kind, std::vector<Frame> targets) {
-  automatic_.emplace();
-  automatic_->kind = kind;
-  automatic_->targets = std::move(targets);
-  automatic_->next = 1;
+  Automatic begun;  // not emplace(): clang does not see a nested class's default values there
+  begun.kind = kind;
+  begun.targets = std::move(targets);
+  begun.next = 1;
+  automatic_ = std::move(begun);
 }
 
 StepResult Session::follow(const Frame& target) {
