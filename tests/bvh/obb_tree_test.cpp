@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace dismantle {
@@ -50,6 +51,51 @@ TEST(ObbTree, IsFlatOnAFlatFace) {
     if (node.leaf()) {
       EXPECT_LT(node.box.half.z, 1e-5);
     }
+}
+
+TEST(ObbTree, CutsASideIntoStripsAlongIt) {
+  // Boxes no thicker than 0.05 mm on a side of radius 5: strips of 10 degrees would do, however long it is. As wide as
+  // long they would be some 4000.
+  const TriangleMesh mesh = scenes::tube(5, 4, 0, 40, 128, 128);
+  const ObbTree tree = tree_of(mesh);
+  const auto thin = [&](std::uint32_t n) {
+    const Vec3f half = tree.nodes[n].box.half;
+    return 2 * std::min({half.x, half.y, half.z}) <= 0.05f;
+  };
+  std::size_t needed = 0;
+  for (std::uint32_t n = 1; n < tree.nodes.size(); ++n) needed += thin(n) && !thin(tree.nodes[n].parent);
+  EXPECT_LT(needed, 1000u);
+}
+
+TEST(ObbTree, KnowsTheCornersOfEveryFace) {
+  const TriangleMesh mesh = scenes::moved(scenes::tube(5, 3, 0, 20, 12, 4), {{1e3, -2e3, 5e2}, {}});
+  const ObbTree tree = tree_of(mesh);
+  ASSERT_EQ(tree.triangles.size(), mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3f corner = tree.triangles[f].corner[k];
+      const Vec3 off = Vec3{corner.x, corner.y, corner.z} - (mesh.triangle(f)[k] - tree.origin);
+      EXPECT_LE(max_abs(off), 0x1p-24 * 20);
+    }
+}
+
+TEST(ObbTree, ConesTellWhichDirectionsEveryNormalFaces) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 4);
+  const ObbTree tree = tree_of(mesh);
+  std::mt19937_64 random(3);
+  std::size_t faced = 0;
+  for (std::uint32_t leaf = 0; leaf < tree.nodes.size(); ++leaf) {
+    if (!tree.nodes[leaf].leaf()) continue;
+    const Vec3 normal = normalized(normal_unscaled(mesh.triangle(tree.nodes[leaf].child)));
+    const Vec3 w = normalized(normal + scenes::random_vector(random, 1));
+    const Vec3f unit{static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};
+    for (std::uint32_t up = leaf; up != ObbNode::kNone; up = tree.nodes[up].parent) {
+      if (dot(unit, tree.cones[up].axis) < tree.cones[up].ahead) continue;
+      ++faced;
+      EXPECT_GE(dot(normal, w), NormalCone::kLeastAhead - 1e-5);
+    }
+  }
+  EXPECT_GT(faced, 100u);
 }
 
 TEST(ObbTree, IsTheSameOnEveryExecutor) {

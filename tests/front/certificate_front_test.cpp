@@ -38,7 +38,7 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
   motion.t1 = between(end);
   motion.middle = motion.t0.rotation;
   motion.allowed = kAllowed;
-  const PairSweep sweep = front.begin_sweep(motion);
+  const LinearSweep sweep = front.begin_sweep(motion);
   FacePairs found;
   const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f) {
     found.insert({face_a, face_b});
@@ -137,6 +137,47 @@ TEST(CertificateFront, StaysBoundedBackAndForth) {
     pose = next;
   }
   EXPECT_LE(front.size(), 2 * start);
+}
+
+TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 1.95, -1, 5, 48, 12));
+  PairMotion motion;
+  motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
+  motion.allowed = kAllowed;
+  const LeafTest blocks = [](std::uint32_t, std::uint32_t, Vec3f) {
+    LeafVerdict verdict;
+    verdict.free = false;
+    verdict.certificate.offset = kNoCertificate;
+    return verdict;
+  };
+  const FrontKernels kernels = front_kernels(widest_lanes());
+  const auto sweep = [&](CertificateFront& front) {
+    FrontSweep all;
+    const LinearSweep linear = front.begin_sweep(motion);
+    for (std::size_t part = 0; part < front.part_count(); ++part) {
+      const FrontSweep found = front.sweep_part(part, linear, kernels, blocks);
+      all.blocked += found.blocked;
+      all.complete &= found.complete;
+    }
+    front.end_sweep();
+    return all;
+  };
+  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  const FrontSweep every = sweep(front);
+  EXPECT_TRUE(every.complete);
+  EXPECT_GT(every.blocked, 200u);
+
+  motion.enough_blocked = 16;
+  CertificateFront other(a.tree, b.tree, SideRule::Normals);
+  const FrontSweep some = sweep(other);
+  EXPECT_FALSE(some.complete);
+  EXPECT_GT(some.blocked, 0u);
+  EXPECT_LT(some.blocked, every.blocked / 4);
+  // What was left unlooked at is looked at by the next sweep that has to.
+  motion.enough_blocked = PairMotion().enough_blocked;
+  const FrontSweep again = sweep(other);
+  EXPECT_TRUE(again.complete);
+  EXPECT_EQ(again.blocked, every.blocked);
 }
 
 TEST(CertificateFront, LooksWithoutChanging) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/obb_fit.h"
 
+#include "dismantle/bvh/surface_moments.h"
 #include "dismantle/math/mat3.h"
 
 #include <algorithm>
@@ -40,40 +41,14 @@ Axes axes_of_triangle(const Triangle& t) {
   return {first, normalized(cross(normal, first))};
 }
 
-/// The symmetric second-moment matrix of the triangles' surface about its centroid.
-struct Moments {
-  double area = 0;
-  Vec3 mean;
-  Mat3 covariance;
-};
-
-Moments moments_of(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order) {
+Mat3 covariance_of(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order) {
   const Vec3 about = vertices[faces[order[0]].v[0]];  // keeps digits far from the origin
-  Moments m;
-  Vec3 first;
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  SurfaceMoments sum;
   for (const std::uint32_t f : order) {
     const Triangle t = triangle_of(vertices, faces[f]);
-    const Vec3 p = t[0] - about, q = t[1] - about, r = t[2] - about;
-    const Vec3 sum = p + q + r;
-    const double area = length(normal_unscaled(t)) + std::numeric_limits<double>::min();
-    const double w = area / 12;
-    m.area += area;
-    first += (area / 3) * sum;
-    xx += w * (sum.x * sum.x + p.x * p.x + q.x * q.x + r.x * r.x);
-    xy += w * (sum.x * sum.y + p.x * p.y + q.x * q.y + r.x * r.y);
-    xz += w * (sum.x * sum.z + p.x * p.z + q.x * q.z + r.x * r.z);
-    yy += w * (sum.y * sum.y + p.y * p.y + q.y * q.y + r.y * r.y);
-    yz += w * (sum.y * sum.z + p.y * p.z + q.y * q.z + r.y * r.z);
-    zz += w * (sum.z * sum.z + p.z * p.z + q.z * q.z + r.z * r.z);
+    sum += surface_moments({{t[0] - about, t[1] - about, t[2] - about}});
   }
-  m.mean = first / m.area;
-  const Vec3 c = m.mean;
-  const double n = m.area;
-  m.covariance = {{{xx - n * c.x * c.x, xy - n * c.x * c.y, xz - n * c.x * c.z},
-                   {xy - n * c.x * c.y, yy - n * c.y * c.y, yz - n * c.y * c.z},
-                   {xz - n * c.x * c.z, yz - n * c.y * c.z, zz - n * c.z * c.z}}};
-  return m;
+  return surface_covariance(sum);
 }
 
 /// Turns rows p and q of both matrices so that a[p][q] becomes 0: one Jacobi rotation.
@@ -148,7 +123,7 @@ constexpr double kCoordinateMargin = 0x1p-46;
 
 Obb obb_fit(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order, Vec3 origin) {
   const Axes axes = order.size() == 1 ? axes_of_triangle(triangle_of(vertices, faces[order[0]]))
-                                      : principal_axes(moments_of(vertices, faces, order).covariance);
+                                      : principal_axes(covariance_of(vertices, faces, order));
   Obb box;
   box.axis[0] = to_float(axes.first);
   box.axis[1] = to_float(axes.second);

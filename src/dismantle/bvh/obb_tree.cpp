@@ -2,10 +2,13 @@
 #include "dismantle/bvh/obb_tree.h"
 
 #include "dismantle/bvh/obb_fit.h"
+#include "dismantle/bvh/surface_moments.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/math/mat3.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace dismantle {
@@ -14,6 +17,10 @@ namespace {
 
 Vec3 to_double(Vec3f v) {
   return {v.x, v.y, v.z};
+}
+
+Vec3f rounded(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// Builds ranges of `order_` into nodes. A range of n triangles is split once at each of its n - 1 inner places, so the
@@ -26,11 +33,22 @@ class Builder {
   };
 
   Builder(Span<const Vec3> vertices, Span<const Face> faces, ObbTree& tree)
-      : vertices_(vertices), faces_(faces), tree_(tree), order_(faces.size()), centroids_(faces.size()) {
+      : vertices_(vertices),
+        faces_(faces),
+        tree_(tree),
+        order_(faces.size()),
+        centroids_(faces.size()),
+        normals_(faces.size()),
+        moments_(faces.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const Face& face = faces[f];
-      centroids_[f] = (1.0 / 3) * (vertices[face.v[0]] + vertices[face.v[1]] + vertices[face.v[2]]);
+      const Triangle local{
+          {vertices[face.v[0]] - tree.origin, vertices[face.v[1]] - tree.origin, vertices[face.v[2]] - tree.origin}};
+      centroids_[f] = (1.0 / 3) * (local[0] + local[1] + local[2]);
+      normals_[f] = normalized(normal_unscaled(local));
+      moments_[f] = surface_moments(local);
+      tree.triangles.push_back({{rounded(local[0]), rounded(local[1]), rounded(local[2])}});
     }
   }
 
@@ -47,7 +65,8 @@ class Builder {
       node.child = order_[range.begin];
       return false;
     }
-    node.size = range.parent == ObbNode::kNone ? node.radius : std::min(node.radius, tree_.nodes[range.parent].size);
+    const float thin = kThin * node.radius;
+    node.size = 8 * (node.box.half.x + thin) * (node.box.half.y + thin) * (node.box.half.z + thin);
     const std::uint32_t middle = split(range, node.box);
     node.child = 2 * middle - 1;
     halves[0] = {range.begin, middle, node.child, range.node};
@@ -67,49 +86,118 @@ class Builder {
 
  private:
   NormalCone cone_of(Span<const std::uint32_t> order) const {
-    const auto normal = [&](std::uint32_t f) {
-      const Face& face = faces_[f];
-      return normal_unscaled({{vertices_[face.v[0]], vertices_[face.v[1]], vertices_[face.v[2]]}});
-    };
     Vec3 sum;
-    for (const std::uint32_t f : order) sum += normal(f);
+    for (const std::uint32_t f : order) sum += moments_[f].area * normals_[f];
     const Vec3 axis = normalized(sum);
     double cosine = 1;
-    for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normalized(normal(f))));
-    constexpr double kRounding = 1e-6;
-    const auto to_float = [](double x) { return static_cast<float>(x); };
-    return {{to_float(axis.x), to_float(axis.y), to_float(axis.z)}, to_float(std::max(-1.0, cosine - kRounding))};
+    for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normals_[f]));
+    // Between w and the axis there may be the angle that is left by the widest normal.
+    const double left = std::acos(NormalCone::kLeastAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
+    return {rounded(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
   }
 
-  /// Sorts the range into two along the box's longest axis, at the mean of the centroids, or at the median where that
-  /// would leave one side with next to nothing. Ties are broken by index, so the result is unique.
+  /// A way to cut a range: triangles of which `of` (centroids or normals) is less than `border` along `axis` come
+  /// first.
+  struct Cut {
+    const std::vector<Vec3>* of = nullptr;
+    Vec3 axis;
+    double border = 0;
+    bool before(std::uint32_t f) const { return dot(axis, (*of)[f]) < border; }
+  };
+
+  /// Sorts the range into two by the cut whose halves are thinnest; where none makes them much thinner, at the mean
+  /// of the centroids along the box's longest axis.
   std::uint32_t split(const Range& range, const Obb& box) {
+    const Vec3 axes[3] = {to_double(box.axis[0]), to_double(box.axis[1]), to_double(box.third_axis())};
     int longest = 0;
     for (int i = 1; i < 3; ++i)
       if (box.half[i] > box.half[longest]) longest = i;
-    const Vec3 axis = to_double(longest == 2 ? box.third_axis() : box.axis[longest]);
+    Cut best = at_mean(range, axes[longest]);
+    if (range.size() > 2) {
+      const double floor = kFlat * static_cast<double>(box.half[longest]);
+      double least = kThinner * thickness(range, best, floor);
+      for (int i = 0; i < 3; ++i)
+        for (const Cut& cut : {at_mean(range, axes[i]), by_normals(range, axes[i])}) {
+          const double found = thickness(range, cut, floor);
+          if (found >= least) continue;
+          least = found;
+          best = cut;
+        }
+    }
+    return apply(range, best);
+  }
+
+  Cut at_mean(const Range& range, Vec3 axis) const {
+    double sum = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) sum += dot(axis, centroids_[order_[i]]);
+    return {&centroids_, axis, sum / range.size()};
+  }
+
+  /// Two thirds of the way from the least to the most: of the two ends of a shaft and its side, one end.
+  Cut by_normals(const Range& range, Vec3 axis) const {
+    double least = 1, most = -1;
+    for_samples(range, [&](std::uint32_t f) {
+      const double x = dot(axis, normals_[f]);
+      least = std::min(least, x);
+      most = std::max(most, x);
+    });
+    return {&normals_, axis, least + (most - least) * (2.0 / 3)};
+  }
+
+  /// The mean thickness of a cut's two sides, by triangles; huge where one side is empty. No side is thinner than
+  /// `floor`: what is flat is flat.
+  double thickness(const Range& range, const Cut& cut, double floor) const {
+    SurfaceMoments moments[2];
+    std::size_t count[2] = {0, 0};
+    for_samples(range, [&](std::uint32_t f) {
+      const bool before = cut.before(f);
+      moments[before] += moments_[f];
+      ++count[before];
+    });
+    if (count[0] == 0 || count[1] == 0) return std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) sum += static_cast<double>(count[k]) * surface_volume(moments[k], floor);
+    return sum / static_cast<double>(count[0] + count[1]);
+  }
+
+  /// The triangles of a range, of a large one an even choice.
+  template <class Visit>
+  void for_samples(const Range& range, Visit visit) const {
+    const std::uint32_t stride = 1 + range.size() / kMostSamples;
+    for (std::uint32_t i = range.begin; i < range.end; i += stride) visit(order_[i]);
+  }
+
+  /// At the median of the cut's numbers where it would leave one side with next to nothing and they are positions. Ties
+  /// are broken by index, so the result is unique.
+  std::uint32_t apply(const Range& range, const Cut& cut) {
     const auto begin = order_.begin() + range.begin, end = order_.begin() + range.end;
-    double mean = 0;
-    for (auto i = begin; i != end; ++i) mean += dot(axis, centroids_[*i]);
-    mean /= range.size();
-    auto middle = std::partition(begin, end, [&](std::uint32_t f) { return dot(axis, centroids_[f]) < mean; });
-    if (std::min(middle - begin, end - middle) * kLeastShare < end - begin) {
+    auto middle = std::partition(begin, end, [&](std::uint32_t f) { return cut.before(f); });
+    const std::ptrdiff_t least = std::min(middle - begin, end - middle);
+    if (least == 0 || (cut.of == &centroids_ && least * kLeastShare < end - begin)) {
       middle = begin + range.size() / 2;
       std::nth_element(begin, middle, end, [&](std::uint32_t f, std::uint32_t g) {
-        const double x = dot(axis, centroids_[f]), y = dot(axis, centroids_[g]);
+        const double x = dot(cut.axis, centroids_[f]), y = dot(cut.axis, centroids_[g]);
         return x != y ? x < y : f < g;
       });
     }
     return static_cast<std::uint32_t>(middle - order_.begin());
   }
 
+  /// Boxes count as at least so thick, of their radius.
+  static constexpr float kThin = 1e-3f;
+  /// A cut other than along the longest axis is taken where it makes the halves thinner than this share of that one's.
+  static constexpr double kThinner = 0.7;
+  /// Thinner than this, of the longest half edge, is flat.
+  static constexpr double kFlat = 1e-4;
+  static constexpr std::uint32_t kMostSamples = 1024;
   static constexpr std::ptrdiff_t kLeastShare = 64;
 
   Span<const Vec3> vertices_;
   Span<const Face> faces_;
   ObbTree& tree_;
   std::vector<std::uint32_t> order_;
-  std::vector<Vec3> centroids_;
+  std::vector<Vec3> centroids_, normals_;  // of each face
+  std::vector<SurfaceMoments> moments_;
 };
 
 /// Ranges at or below this size are built by one task.
@@ -162,7 +250,6 @@ const char* obb_tree_fault(const ObbTree& tree, Span<const Vec3> vertices, Span<
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const ObbNode& node = tree.nodes[n];
     if ((node.parent == ObbNode::kNone) != (n == 0)) return "wrong root";
-    if (n > 0 && node.size > tree.nodes[node.parent].size) return "a child is larger than its parent";
     if (!node.leaf()) {
       for (const std::uint32_t c : {node.child, node.child + 1})
         if (c >= tree.nodes.size() || tree.nodes[c].parent != n) return "a child that does not know its parent";

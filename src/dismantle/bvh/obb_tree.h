@@ -17,7 +17,8 @@ struct ObbNode {
 
   Obb box;           ///< About the tree's origin [mm].
   float radius = 0;  ///< Every point of the box is at most this far from its center [mm].
-  /// What a pair of nodes is split by: the larger one first. Never more than the parent's; negative for a leaf.
+  /// The room that the box takes, a flat one being as thick as a thousandth of its radius [mm^3]: of two nodes the
+  /// larger one is split first. Negative for a leaf.
   float size = -1;
   std::uint32_t child = 0;       ///< The first child, the second comes right behind it; for a leaf its face.
   std::uint32_t parent = kNone;  ///< kNone for the root.
@@ -25,10 +26,20 @@ struct ObbNode {
   DISMANTLE_HOST_DEVICE bool leaf() const { return size < 0; }
 };
 
-/// The directions of a node's outward normals: all are within an angle of `axis` of which this is the cosine.
+/// The directions of a node's outward normals: every unit w with w.axis >= ahead has a cosine of at least kLeastAhead
+/// with each of them.
 struct NormalCone {
+  static constexpr double kLeastAhead = 0.3;
+  /// What `ahead` is where no direction has.
+  static constexpr float kNever = 2;
+
   Vec3f axis;
-  float cosine = -1;
+  float ahead = kNever;
+};
+
+/// The corners of a face about the tree's origin, rounded [mm].
+struct TriangleF {
+  Vec3f corner[3];
 };
 
 /// A static tree of oriented boxes over one component's triangles, one triangle a leaf (Gottschalk, Lin, Manocha 1996).
@@ -37,7 +48,8 @@ struct NormalCone {
 struct ObbTree {
   Vec3 origin;  ///< [mm, the mesh's frame]
   std::vector<ObbNode> nodes;
-  std::vector<NormalCone> cones;  ///< Of each node.
+  std::vector<NormalCone> cones;     ///< Of each node.
+  std::vector<TriangleF> triangles;  ///< Of each face.
 
   bool empty() const { return nodes.empty(); }
 };

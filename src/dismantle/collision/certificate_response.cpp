@@ -204,6 +204,12 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       part = std::min(part, contacts_.part_within_reserve(pair));
     }
     if (news) continue;
+    if (!found.complete) {
+      // Others may block before: as far as these allow, all have to be looked at.
+      reach_ = part * travel;
+      if (reach_ < rest) break;
+      continue;
+    }
     reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
     if (advance(end, part, result) == 0) break;
     fresh = false;

@@ -25,6 +25,8 @@ SolidTree solid_of(const Component& component, const Executor& executor) {
 constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
+/// Effort::Quick ends with about so many blocked pairs of two components.
+constexpr std::size_t kQuickBlocked = 64;
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
   return frame == Pose{} ? pose : inverse(frame) * pose;
@@ -44,7 +46,8 @@ struct CertificateSweeper::ActivePair {
   ComponentId moving, fixed;
   CertificateFront* front;
   LeafSweep leaves;
-  PairSweep sweep;
+  LinearSweep sweep;
+  double allowed;
 };
 
 /// One part of one front, and what its sweep found.
@@ -136,13 +139,13 @@ SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
 LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
                                          Effort effort) const {
   const Pose& frame = poses_[fixed.value];
-  AdvancementLimits limits;
+  LeafRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
   if (effort == Effort::Quick) {
-    limits.steps = kQuickSteps;
-    limits.least_progress = std::max(limits.least_progress, kQuickShare * tolerance() / travel(start, end));
+    rules.limits.steps = kQuickSteps;
+    rules.limits.least_progress = std::max(rules.limits.least_progress, kQuickShare * tolerance() / travel(start, end));
   }
   return LeafSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end), deviation(start, end),
-                   allowed(moving, fixed), tolerance(), sides(moving, fixed), limits);
+                   rules);
 }
 
 LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
@@ -188,8 +191,8 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
           {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
     }
     const float gap = std::nextafter(static_cast<float>(found.gap), -std::numeric_limits<float>::infinity());
-    return LeafVerdict{found.free, gap, found.harmless,
-                       pair.leaves.certificate(moving, fixed, found.contact.axis, pair.sweep)};
+    const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
+    return LeafVerdict{found.free, gap, cut_short, found.harmless, pair.leaves.certificate(found, pair.sweep)};
   };
 }
 
@@ -208,8 +211,10 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for_each_near(pose(), travel(end), 0, result, [&](ComponentId moving, ComponentId fixed) {
     CertificateFront& front = front_of(moving, fixed).front;
     LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
-    const PairSweep sweep = front.begin_sweep(leaves.motion());
-    active.push_back({moving, fixed, &front, std::move(leaves), sweep});
+    PairMotion motion = leaves.motion();
+    if (effort == Effort::Quick) motion.enough_blocked = kQuickBlocked;
+    const LinearSweep sweep = front.begin_sweep(motion);
+    active.push_back({moving, fixed, &front, std::move(leaves), sweep, allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
@@ -226,9 +231,10 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   }
 
   for (PartTask& task : tasks) {
-    const PairSweep& sweep = active[task.pair].sweep;
+    const LinearSweep& sweep = active[task.pair].sweep;
     result.clearance = std::min<double>(result.clearance, task.found.least_gap - sweep.error);
     result.leaf_tests += task.found.leaf_tests;
+    result.complete &= task.found.complete;
     const std::pair both{active[task.pair].moving, active[task.pair].fixed};
     if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
       result.touching.push_back(both);
@@ -253,7 +259,7 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
     const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
     const CertificateFront& front = usable ? known->second.front : roots;
     const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
-    const ActivePair pair{moving, fixed, nullptr, leaves, front.begin_look(leaves.motion())};
+    const ActivePair pair{moving, fixed, nullptr, leaves, front.begin_look(leaves.motion()), allowed(moving, fixed)};
     PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}};
     const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, window));
     for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);

@@ -26,6 +26,9 @@ struct BlockedPair {
 struct CertificateSweep {
   double toi = 1;
   bool free = true;
+  /// False where blocked pairs were left out: `toi` may then be too late, and `blocked` lacks some. Free is always
+  /// complete.
+  bool complete = true;
   std::vector<BlockedPair> blocked;  ///< Those within the window of the first; by components and faces.
   double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
   std::size_t front = 0;             ///< Node pairs of the fronts looked at.
@@ -34,11 +37,10 @@ struct CertificateSweep {
   std::vector<std::pair<ComponentId, ComponentId>> touching;
 };
 
-/// How hard a triangle pair is tried before it counts as blocked. Less is never unsafe, and faster: a motion along
-/// contacts is cut up anyway.
+/// How hard a sweep tries. Less is never unsafe, and faster: a motion along contacts is cut up anyway.
 enum class Effort {
-  Full,   ///< Until nothing is gained any more.
-  Quick,  ///< A few steps, none smaller than what matters.
+  Full,   ///< Each triangle pair until nothing is gained any more; all that are blocked.
+  Quick,  ///< Each in a few steps, none smaller than what matters; some that are blocked, from all over.
 };
 
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2

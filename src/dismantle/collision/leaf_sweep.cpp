@@ -95,8 +95,15 @@ Triangle between(const TriangleMotion& motion, double t) {
 /// Bounds the rounding of a gap of two projections, relative to the largest coordinate.
 constexpr double kDotError = 0x1p-46;
 
-/// An axis faces a triangle where the cosine to its outward normal is more than this.
-constexpr double kFacing = 0.3;
+Vec3 unit_or_zero(Vec3 axis) {
+  const double size = max_abs(axis);
+  return size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
+}
+
+/// Whether an axis leads well out of the one face and into the other.
+bool face_on(Vec3 normal_moving, Vec3 normal_fixed, Vec3 axis) {
+  return dot(normal_moving, axis) > NormalCone::kLeastAhead && dot(normal_fixed, axis) < -NormalCone::kLeastAhead;
+}
 
 /// How much more often a motion may be halved than its deviation asks for.
 constexpr int kMostLevels = 12;
@@ -136,15 +143,9 @@ struct LeafSweep::Around {
 };
 
 LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
-                     double deviation, double allowed, double tolerance, SideRule sides, AdvancementLimits limits)
-    : moving_(&moving),
-      fixed_(&fixed),
-      deviation_(deviation),
-      allowed_(allowed),
-      share_(kArcShare * tolerance),
-      sides_(sides),
-      limits_(limits) {
-  DISMANTLE_EXPECT(allowed >= tolerance && tolerance > 0);
+                     double deviation, const LeafRules& rules)
+    : moving_(&moving), fixed_(&fixed), deviation_(deviation), share_(kArcShare * rules.tolerance), rules_(rules) {
+  DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0);
   while (levels_ < kMostLevels && std::ldexp(deviation, -2 * levels_) > share_) ++levels_;
   DISMANTLE_ENSURE(std::ldexp(deviation, -2 * levels_) <= share_);
   const std::size_t count = std::size_t{1} << levels_;
@@ -159,18 +160,18 @@ PairMotion LeafSweep::motion() const {
   motion.t0 = between_trees(at_.front(), moving_->tree, fixed_->tree);
   motion.t1 = between_trees(at_.back(), moving_->tree, fixed_->tree);
   motion.middle = middle_;
-  motion.allowed = allowed_ - share_;
+  motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
   return motion;
 }
 
-bool LeafSweep::never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint) const {
+bool LeafSweep::never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3& axis) const {
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
   for (std::size_t k = 0; k + 1 < at_.size(); ++k) {
-    const AxisCcdResult found =
-        ccd_triangle_triangle({moved(at_[k], moving), moved(at_[k + 1], moving)}, {fixed, fixed}, 0, hint, limits_);
+    const AxisCcdResult found = ccd_triangle_triangle({moved(at_[k], moving), moved(at_[k + 1], moving)},
+                                                      {fixed, fixed}, 0, axis, rules_.limits);
     if (found.ccd.status != CcdStatus::Free) return false;
-    hint = found.axis;
+    axis = found.axis;
   }
   return true;
 }
@@ -194,16 +195,23 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   result.contact = {face_moving, face_fixed, 1, hint};
   test_part({face_moving, face_fixed, moving_->triangle(face_moving), fixed_->triangle(face_fixed), horizon}, 0, 0,
             result);
-  const Vec3 axis = result.contact.axis;
-  const double size = max_abs(axis);
-  result.contact.axis = size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
+  result.contact.axis = unit_or_zero(result.contact.axis);
   result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
-  const Vec3 w = result.contact.axis;
-  result.harmless =
-      result.gap > 0 ||
-      (result.free && sides_ == SideRule::Normals && horizon >= 1 &&
-       ((dot(middle_ * moving_->normals[face_moving], w) > kFacing && dot(fixed_->normals[face_fixed], w) < -kFacing) ||
-        never_meet(face_moving, face_fixed, w)));
+  result.harmless = result.gap > 0;
+  if (result.harmless || !result.free || rules_.sides != SideRule::Normals || horizon < 1) return result;
+  Vec3 axis = result.contact.axis;
+  if (face_on(middle_ * moving_->normals[face_moving], fixed_->normals[face_fixed], axis)) {
+    result.harmless = true;
+  } else if (never_meet(face_moving, face_fixed, axis)) {
+    result.harmless = true;
+    // What parts them without any allowance is worth more the next time.
+    axis = unit_or_zero(axis);
+    const double gap = least_gap(face_moving, face_fixed, axis);
+    if (gap > result.gap) {
+      result.contact.axis = axis;
+      result.gap = gap;
+    }
+  }
   return result;
 }
 
@@ -220,23 +228,23 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Mat3& r
                                      double allowed, Vec3 hint) const {
   const Triangle& fixed = pair.fixed;
   const TriangleMotion still{fixed, fixed};
-  if (sides_ == SideRule::Memory) {
-    AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, limits_);
+  if (rules_.sides == SideRule::Memory) {
+    AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, rules_.limits);
     // Stopped, the pair stays on the side that it was on: what the search ended on may be another.
     if (found.ccd.status == CcdStatus::Contact && still_parts({moving.t0, moving.t0}, rotation, pair, hint, allowed))
       found.axis = hint;
     return found;
   }
-  if (sides_ == SideRule::Free) {
-    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, limits_);
+  if (rules_.sides == SideRule::Free) {
+    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, rules_.limits);
     if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;
     // Bound to the side of the hint it was stopped: the least blocking axis may be on another.
-    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
+    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{}, rules_.limits);
     return unbound.ccd.toi > found.ccd.toi ? unbound : found;
   }
   Around around;
   const OutwardNormals normals = normals_of(pair, moving.t0, rotation, around);
-  AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, limits_);
+  AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, rules_.limits);
   if (found.ccd.status == CcdStatus::Free) return found;
   // The axis that it ended on may be one that only held by chance: the response needs the one of the contact.
   LeastBlockingAxis least(moving, fixed, normals, allowed);
@@ -246,8 +254,9 @@ AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Mat3& r
   if (found.ccd.toi > 0) return found;
   // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
   const TriangleMotion start{moving.t0, moving.t0};
-  if (ccd_triangle_triangle(start, still, allowed, hint, normals, limits_).ccd.status == CcdStatus::Free) return found;
-  return ccd_triangle_triangle(moving, still, allowed, Vec3{}, limits_);
+  if (ccd_triangle_triangle(start, still, allowed, hint, normals, rules_.limits).ccd.status == CcdStatus::Free)
+    return found;
+  return ccd_triangle_triangle(moving, still, allowed, Vec3{}, rules_.limits);
 }
 
 bool LeafSweep::still_parts(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, Vec3 axis,
@@ -263,18 +272,18 @@ bool LeafSweep::still_parts(const TriangleMotion& moving, const Mat3& rotation, 
   }
   // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
   const double gap = least - most - kDotError * reach;
-  if (gap >= 0) return true;
-  if (sides_ == SideRule::Normals) {
-    const OutwardNormals own{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}};
+  double usable = allowed;
+  if (rules_.sides == SideRule::Normals) {
+    usable = OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}}.allowance(axis, allowed);
     Around around;
-    if (!own.allow(axis) && !normals_of(pair, t0, rotation, around).allow(axis)) return false;
+    if (usable < allowed && gap < -usable) usable = normals_of(pair, t0, rotation, around).allowance(axis, allowed);
   }
-  return gap >= -allowed * std::min(1.0, size) * (1 - kDotError);
+  return gap >= -usable * std::min(1.0, size) * (1 - kDotError);
 }
 
 bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result& result) const {
   const double deviation = std::ldexp(deviation_, -2 * level);
-  const double allowed = allowed_ - std::max(share_, deviation);
+  const double allowed = rules_.allowed - std::max(share_, deviation);
   const double begin = std::ldexp(static_cast<double>(index), -level);
   if (begin > 0 && begin >= pair.horizon) return true;
   if (allowed > 0) {
@@ -297,36 +306,42 @@ bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result
   return test_part(pair, level + 1, 2 * index, result) && test_part(pair, level + 1, 2 * index + 1, result);
 }
 
-Certificate LeafSweep::certificate(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis,
-                                   const PairSweep& sweep) const {
+Certificate LeafSweep::certificate(const Result& found, const LinearSweep& sweep) const {
+  const std::uint32_t face_moving = found.contact.face_moving, face_fixed = found.contact.face_fixed;
+  const Vec3 axis = found.contact.axis;
+  const bool meet = !(found.gap > 0);
   Certificate c;
-  c.epoch = sweep.epoch;
   c.axis = to_float(axis);
   c.offset = kNoCertificate;
   if (length_squared(axis) == 0) return c;
 
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
   const Vec3 origin = moving_->tree.origin;
-  c.point = to_float((1.0 / 3) * ((moving[0] - origin) + (moving[1] - origin) + (moving[2] - origin)));
-  const Vec3 w = to_double(c.axis), p = to_double(c.point);
-  const Mat3 middle{{to_double(sweep.middle[0]), to_double(sweep.middle[1]), to_double(sweep.middle[2])}};
-  double least = std::numeric_limits<double>::infinity(), most = -least, radius = 0;
-  for (int i = 0; i < 3; ++i) {
-    least = std::min(least, dot(w, fixed[i] - fixed_->tree.origin));
-    const Vec3 arm = (moving[i] - origin) - p;
-    most = std::max(most, dot(w, middle * arm));
-    radius = std::max(radius, length(arm));
-  }
+  c.hull.kind = NodeHull::kTriangle;
+  c.hull.center = to_float(moving[0] - origin);
+  for (int i = 0; i < 2; ++i) c.hull.span[i] = to_float(moving[i + 1] - origin - to_double(c.hull.center));
+  const Vec3 w = to_double(c.axis);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) least = std::min(least, dot(w, fixed[i] - fixed_->tree.origin));
   // An axis against the normals says something only without the allowance.
-  bool uses_allowance = sides_ != SideRule::Normals;
-  if (!uses_allowance) {
-    Around around;
+  double usable = rules_.allowed;
+  if (rules_.sides == SideRule::Normals) {
+    const Mat3 middle{{to_double(sweep.middle[0]), to_double(sweep.middle[1]), to_double(sweep.middle[2])}};
     const Triangle turned{{middle * moving[0], middle * moving[1], middle * moving[2]}};
-    uses_allowance = OutwardNormals{normal_unscaled(turned), normal_unscaled(fixed), {}, {}}.allow(w) ||
-                     normals_of({face_moving, face_fixed, moving, fixed, 1}, turned, middle, around).allow(w);
+    const Vec3 own = middle * moving_->normals[face_moving], other = fixed_->normals[face_fixed];
+    usable = OutwardNormals{own, other, {}, {}}.allowance(w, rules_.allowed);
+    // On edge the allowance is only for those that need it: others may be apart along another axis when they do.
+    const bool on_edge = !face_on(own, other, w);
+    if (on_edge && !meet) usable = std::min(0.0, usable);
+    Around around;
+    if (usable < rules_.allowed && meet)
+      usable =
+          normals_of({face_moving, face_fixed, moving, fixed, 1}, turned, middle, around).allowance(w, rules_.allowed);
+    if (usable > 0 && on_edge) c.hull.kind = NodeHull::kTriangleOnEdge;
   }
-  c.offset = -rounded_up(most - least + (uses_allowance ? 0 : allowed_));
-  c.radius = rounded_up(radius * (1 + 1e-9));
+  // What the front allows is taken off where none of it may be used.
+  const double taken_off = usable < rules_.allowed ? static_cast<double>(sweep.allowed) - std::min(0.0, usable) : 0;
+  c.offset = -rounded_up(taken_off - least);
   return c;
 }
 

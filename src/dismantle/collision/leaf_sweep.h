@@ -41,6 +41,14 @@ struct LeafContact {
   Vec3 axis;  ///< Unit, from the moving to the fixed one [frame of the fixed component]; zero where none parts them.
 };
 
+/// What decides whether two triangles may go on.
+struct LeafRules {
+  double allowed = 0;    ///< How deep triangles may be in each other [mm].
+  double tolerance = 0;  ///< [mm]
+  SideRule sides = SideRule::Memory;
+  AdvancementLimits limits;
+};
+
 /// The sweep of one moving component past one fixed component along a screw, seen from the fixed one: tests pairs of
 /// their triangles on the true arcs. A pair's motion is halved until its chords are as near to the arcs as the
 /// allowance that is left needs.
@@ -48,9 +56,8 @@ class LeafSweep {
  public:
   /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
   /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]
-  /// @param allowed how deep triangles may be in each other [mm]
   LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end, double deviation,
-            double allowed, double tolerance, SideRule sides, AdvancementLimits limits);
+            const LeafRules& rules);
 
   /// As the front takes it.
   PairMotion motion() const;
@@ -65,8 +72,8 @@ class LeafSweep {
   /// @param horizon looks no further into the motion than this time: free is free until then
   Result test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon = 1) const;
 
-  /// What the axis proves of the two triangles, for the front. @param sweep of this motion
-  Certificate certificate(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis, const PairSweep& sweep) const;
+  /// What the axis of a test proves of the two triangles, for the front. @param sweep of this motion
+  Certificate certificate(const Result& found, const LinearSweep& sweep) const;
 
  private:
   /// The triangles in their own frames.
@@ -75,8 +82,8 @@ class LeafSweep {
     Triangle moving, fixed;
     double horizon;
   };
-  /// Whether the axis parts the two throughout: the answer for most pairs that were apart along it before.
-  bool never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint) const;
+  /// Whether the two are apart throughout, beginning with the axis, which becomes the one that parts them at the end.
+  bool never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3& axis) const;
   double least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const;
   /// Fills in the normals around both faces, the moving one's turned by `rotation`.
   struct Around;
@@ -92,9 +99,8 @@ class LeafSweep {
   std::vector<RigidTransform> at_;  // at equal distances of time, 2^levels_ + 1
   int levels_ = 0;
   Mat3 middle_;
-  double deviation_, allowed_, share_;
-  SideRule sides_;
-  AdvancementLimits limits_;
+  double deviation_, share_;
+  LeafRules rules_;
 };
 
 }  // namespace dismantle

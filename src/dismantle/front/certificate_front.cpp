@@ -6,21 +6,28 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace dismantle {
 
 namespace {
 
 /// Parts of more pairs than this are cut in two.
-constexpr std::size_t kLargestPart = 4096;
+constexpr std::size_t kLargestPart = 2048;
 /// Every part looks for siblings to merge each so many sweeps.
 constexpr std::size_t kMergePeriod = 8;
+/// It goes on with that while more than one in so many pairs goes.
+constexpr std::size_t kMergeShare = 8;
+/// So many pairs are looked at together.
+constexpr std::size_t kBatch = 64;
+/// Where some blocked pairs are enough: so many that come from one pair of the front.
+constexpr std::size_t kEnoughOfPair = 2;
 /// The offset of a certificate of which only the side is left.
 constexpr float kForgotten = -1e29f;
-/// Epochs are kept as float: beyond this they would not be exact.
-constexpr std::uint32_t kLastEpoch = 1u << 23;
-/// Rotations nearer than this [of a unit vector] share a reference.
-constexpr double kSameRotation = 1e-7;
+/// Once a component has turned by more than this [of a unit vector], certificates are judged anew: they may use the
+/// allowance only as long as they face along the normals.
+constexpr double kMostTurn = 0.25;
 
 /// The rounding of a gap in float32, in units of u = 2^-24 times the sum of the coordinates' sizes (docs/design/
 /// 0006-certificates.md derives 40; the rest is margin).
@@ -37,35 +44,26 @@ RigidTransformF to_float(const RigidTransform& t) {
   return f;
 }
 
-/// An upper bound of how far a unit vector turned by one rotation is from the same turned by the other: the
-/// difference's spectral norm, which for rotations is its Frobenius norm over sqrt(2).
-float turn_between(const Mat3& a, const Mat3& b) {
+/// How far a unit vector turned by one rotation is at most from the same turned by the other: the difference's spectral
+/// norm, which for rotations is its Frobenius norm over sqrt(2).
+double turn_between(const Mat3& a, const Mat3& b) {
   double square = 0;
   for (int i = 0; i < 3; ++i) square += length_squared(a.row[i] - b.row[i]);
-  return square == 0 ? 0.0f : static_cast<float>(std::sqrt(square / 2) * (1 + 1e-6));
+  return std::sqrt(square / 2);
+}
+
+/// The gap of a certificate with A where `t` has it, up to LinearSweep::error.
+float gap_at(const Certificate& c, const RigidTransformF& t) {
+  const Vec3f w = c.axis.x * t.row[0] + c.axis.y * t.row[1] + c.axis.z * t.row[2];
+  const NodeHull& h = c.hull;
+  const float s0 = dot(w, h.span[0]), s1 = dot(w, h.span[1]), s2 = dot(w, h.span[2]);
+  const float reach = h.kind > NodeHull::kBox ? std::max({0.0f, s0, s1}) : std::abs(s0) + std::abs(s1) + std::abs(s2);
+  return c.offset - dot(c.axis, t.translation) - dot(w, h.center) - reach;
 }
 
 float reach(const ObbTree& tree) {
   const ObbNode& root = tree.nodes[0];
   return root.radius + length(root.box.center);
-}
-
-/// Which of two nodes the tree of pairs descends into: the larger one; leaves last. True for A.
-bool splits_a(const ObbNode& a, const ObbNode& b) {
-  return a.size >= b.size;
-}
-
-/// Whole nodes may use the allowance only along axes that all their normals face by this cosine: things that lie over
-/// each other by their faces. What is seen edge-on is left to pairs of triangles.
-constexpr float kLeastAhead = 0.3f;
-
-/// True where every normal of the cone points ahead along `w` (unit).
-bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
-  if (cosine <= 0) return false;
-  const float along = dot(w, axis);
-  const float across = std::sqrt(std::max(0.0f, 1 - along * along)),
-              sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return along * cosine - across * sine >= kLeastAhead;
 }
 
 }  // namespace
@@ -74,6 +72,20 @@ bool all_ahead(Vec3f w, Vec3f axis, float cosine) {
 struct CertificateFront::Work {
   std::vector<std::uint32_t> failing;  // indices into the part
   std::vector<Item> items;             // the failing ones, in order, then their descendants
+  std::vector<Certificate> proofs;
+  std::vector<std::uint32_t> blocked;  // of each failing one
+  std::vector<std::uint32_t> waiting;  // indices of items, the next one last
+  std::vector<std::uint32_t> batch;
+  std::vector<BoxPairQuery> queries;  // of a batch
+  std::vector<std::uint32_t> asked;   // their items
+  std::vector<TrianglePairQuery> triangle_queries;
+  std::vector<std::uint32_t> triangles_asked;
+  std::vector<NodeSeparation> separations;
+
+  void prove(Item& item, const Certificate& certificate) {
+    item.proof = static_cast<std::uint32_t>(proofs.size());
+    proofs.push_back(certificate);
+  }
 };
 
 CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides)
@@ -81,7 +93,7 @@ CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule 
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
   Certificate nothing;
   nothing.offset = kNoCertificate;
-  parts_[0].append(pair_of(0, 0), nothing);
+  parts_[0].append({0, 0}, nothing);
 }
 
 std::size_t CertificateFront::size() const {
@@ -90,45 +102,43 @@ std::size_t CertificateFront::size() const {
   return sum;
 }
 
-PairSweep CertificateFront::begin_sweep(const PairMotion& motion) {
-  if (epoch_ == 0 || turn_between(references_[epoch_ % PairSweep::kEpochs], motion.middle) > kSameRotation) {
-    if (epoch_ == kLastEpoch) forget();
-    ++epoch_;
-    references_[epoch_ % PairSweep::kEpochs] = motion.middle;
+bool CertificateFront::judges(const Mat3& rotation) const {
+  return sides_ != SideRule::Normals || turn_between(judged_, rotation) <= kMostTurn;
+}
+
+LinearSweep CertificateFront::begin_sweep(const PairMotion& motion) {
+  if (!judges(motion.middle)) {
+    forget();
+    judged_ = motion.middle;
   }
-  return sweep_about(references_[epoch_ % PairSweep::kEpochs], motion);
+  return begin_look(motion);
 }
 
-PairSweep CertificateFront::begin_look(const PairMotion& motion) const {
-  return sweep_about(motion.middle, motion);
-}
-
-PairSweep CertificateFront::sweep_about(const Mat3& middle, const PairMotion& motion) const {
-  PairSweep sweep;
+LinearSweep CertificateFront::begin_look(const PairMotion& motion) const {
+  LinearSweep sweep;
   sweep.t0 = to_float(motion.t0);
   sweep.t1 = to_float(motion.t1);
-  for (int i = 0; i < 3; ++i) sweep.middle[i] = to_float(middle.row[i]);
-  sweep.turn = std::max(turn_between(middle, motion.t0.rotation), turn_between(middle, motion.t1.rotation));
-  sweep.epoch = epoch_;
-  for (std::uint32_t k = 0; k < PairSweep::kEpochs && k < epoch_; ++k) {
-    const std::uint32_t place = (epoch_ - k) % PairSweep::kEpochs;
-    sweep.turn_t0[place] = turn_between(references_[place], motion.t0.rotation);
-    sweep.turn_t1[place] = turn_between(references_[place], motion.t1.rotation);
-  }
+  for (int i = 0; i < 3; ++i) sweep.middle[i] = to_float(motion.middle.row[i]);
+  sweep.enough_blocked = static_cast<std::uint32_t>(
+      std::clamp<std::size_t>(motion.enough_blocked / parts_.size(), kEnoughOfPair, sweep.enough_blocked));
+  sweep.judged = judges(motion.middle);
   const double size = std::max(length(motion.t0.translation), length(motion.t1.translation)) + reach(*a_) + reach(*b_);
   const double error = kGapRoundings * 0x1p-24 * size;
   sweep.error = static_cast<float>(error);
   sweep.allowed = static_cast<float>(motion.allowed);
   sweep.limit = static_cast<float>(-motion.allowed + motion.deviation + error);
+  sweep.meeting = static_cast<float>(motion.deviation + error);
   sweep.apart = static_cast<float>(motion.allowed + motion.deviation + error);
   return sweep;
 }
 
-FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& sweep, const FrontKernels& kernels,
+FrontSweep CertificateFront::sweep_part(std::size_t index, const LinearSweep& sweep, const FrontKernels& kernels,
                                         const LeafTest& test) {
   CertificatePart& part = parts_[index];
   FrontSweep result;
-  if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1) merge(part, sweep, kernels);
+  if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1)
+    while (merge(part, sweep, kernels) * kMergeShare > part.size()) {
+    }
 
   Work work;
   find_failing(part, sweep, kernels, work, result);
@@ -139,23 +149,33 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PairSweep& swee
   return result;
 }
 
-void CertificateFront::find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels,
+void CertificateFront::find_failing(const CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels,
                                     Work& work, FrontSweep& result) const {
   work.failing.resize(part.size());
-  const CertificateCheck check = kernels.check_certificates(part.arrays(), part.size(), sweep, work.failing.data());
+  CertificateCheck check;
+  if (sweep.judged) {
+    check = kernels.check_certificates(part.blocks(), part.size(), sweep, work.failing.data());
+  } else {
+    std::iota(work.failing.begin(), work.failing.end(), 0u);
+    check.failing = part.size();
+  }
   result.least_gap = std::min(result.least_gap, check.least_gap);
-  result.touching |= sides_ != SideRule::Normals && check.least_gap < sweep.apart - sweep.allowed;
+  result.touching |= sides_ != SideRule::Normals && check.least_gap < sweep.meeting;
   for (std::size_t k = 0; k < check.failing; ++k) {
-    const std::size_t i = work.failing[k];
-    const Certificate old = part.certificate(i);
-    Item item{part.pair(i).a, part.pair(i).b, hint_of(old, sweep), false, 0, i, old};
-    item.old_leaves = old.offset > kNoCertificate && a_->nodes[item.a].leaf() && b_->nodes[item.b].leaf();
-    if (item.old_leaves) item.hint = old.axis;
+    const std::uint32_t i = work.failing[k];
+    Item item;
+    item.a = part.pair(i).a;
+    item.b = part.pair(i).b;
+    item.place = i;
+    item.origin = static_cast<std::uint32_t>(k);
+    item.hint = hint_of(part, i, sweep);
+    item.of_triangles = part.kind(i) != NodeHull::kBox;
+    item.on_edge = part.kind(i) == NodeHull::kTriangleOnEdge;
     work.items.push_back(item);
   }
 }
 
-FrontSweep CertificateFront::look(const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
+FrontSweep CertificateFront::look(const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
   FrontSweep result;
   for (const CertificatePart& part : parts_) {
     Work work;
@@ -165,158 +185,233 @@ FrontSweep CertificateFront::look(const PairSweep& sweep, const FrontKernels& ke
   return result;
 }
 
-Vec3f CertificateFront::hint_of(const Certificate& c, const PairSweep& sweep) const {
-  if (!(c.offset > kNoCertificate)) return {};
-  if (sides_ != SideRule::Memory) return c.axis;
-  const Vec3f p = c.point;
-  const RigidTransformF& t = sweep.t0;
-  const Vec3f at{dot(t.row[0], p) + t.translation.x, dot(t.row[1], p) + t.translation.y,
-                 dot(t.row[2], p) + t.translation.z};
-  const bool known = sweep.epoch - c.epoch < PairSweep::kEpochs;
-  const float turn = known ? sweep.turn_t0[c.epoch % PairSweep::kEpochs] : 2.0f;
-  return c.offset - dot(c.axis, at) - turn * c.radius < sweep.error ? c.axis : Vec3f{};
+Vec3f CertificateFront::hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const {
+  if (sides_ != SideRule::Memory || !(part.offset(i) > kNoCertificate)) return {};
+  return gap_at(part.certificate(i), sweep.t0) < sweep.error ? part.axis(i) : Vec3f{};
 }
 
-void CertificateFront::face(BoxSeparation& separation, std::uint32_t a, std::uint32_t b, const PairSweep& sweep) const {
-  if (sides_ != SideRule::Normals || separation.gap >= sweep.error || separation.gap < sweep.limit) return;
-  const NormalCone& moving = b_moves_ ? b_->cones[b] : a_->cones[a];
-  const NormalCone& fixed = b_moves_ ? a_->cones[a] : b_->cones[b];
-  const Vec3f turned{dot(sweep.middle[0], moving.axis), dot(sweep.middle[1], moving.axis),
-                     dot(sweep.middle[2], moving.axis)};
-  const Vec3f w = separation.certificate.axis;
-  if (all_ahead(w, turned, moving.cosine) && all_ahead(-w, fixed.axis, fixed.cosine)) return;
-  separation.gap -= sweep.allowed;
-  separation.certificate.offset -= sweep.allowed;
-}
-
-void CertificateFront::resolve(Work& work, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+void CertificateFront::resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                                FrontSweep& result) const {
-  std::vector<BoxPairQuery> queries;
-  std::vector<std::size_t> asked;
-  std::vector<BoxSeparation> separations;
-  for (std::size_t done = 0; done < work.items.size();) {
-    const std::size_t end = work.items.size();
-    queries.clear();
-    asked.clear();
-    for (std::size_t i = done; i < end; ++i) {
-      Item& item = work.items[i];
-      if (item.old_leaves) {
-        test_leaves(item, test, result);
-        continue;
-      }
-      queries.push_back(query(item.a, item.b, item.hint));
-      asked.push_back(i);
+  const std::size_t failing = work.items.size();
+  const bool some = sweep.enough_blocked < LinearSweep().enough_blocked;
+  work.blocked.assign(failing, 0);
+  // Where some are enough they should lie far from each other, as the front's pairs do not: in long strides.
+  std::size_t stride = some ? failing * 5 / 8 | 1 : 1;
+  while (std::gcd(stride, failing) != 1) stride += 2;
+  for (std::size_t k = 0; k < failing; ++k)
+    work.waiting.push_back(static_cast<std::uint32_t>((failing - 1 - k) * stride % failing));
+  while (!work.waiting.empty()) {
+    const std::size_t kept = work.waiting.size() - std::min(kBatch, work.waiting.size());
+    work.batch.assign(work.waiting.begin() + static_cast<std::ptrdiff_t>(kept), work.waiting.end());
+    work.waiting.resize(kept);
+    if (some) {
+      const auto enough = [&](std::uint32_t i) {
+        return result.blocked >= sweep.enough_blocked || work.blocked[work.items[i].origin] >= kEnoughOfPair;
+      };
+      result.complete &= std::erase_if(work.batch, enough) == 0;
     }
-    separations.resize(queries.size());
-    if (!queries.empty()) kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-      Item& item = work.items[asked[k]];
-      face(separations[k], item.a, item.b, sweep);
-      if (separations[k].gap >= sweep.limit) {
-        result.least_gap = std::min(result.least_gap, separations[k].gap);
-        result.touching |= sides_ != SideRule::Normals && separations[k].gap < sweep.apart - sweep.allowed;
-        item.certificate = separations[k].certificate;
-      } else if (queries[k].a->leaf() && queries[k].b->leaf()) {
-        test_leaves(item, test, result);
-      } else {
-        descend(work.items, asked[k]);
-      }
-    }
-    done = end;
+    resolve_batch(work, sweep, kernels, test, result);
   }
 }
 
-void CertificateFront::test_leaves(Item& item, const LeafTest& test, FrontSweep& result) const {
+void CertificateFront::separate_boxes(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const {
+  work.queries.clear();
+  work.asked.clear();
+  for (const std::uint32_t i : work.batch) {
+    const Item& item = work.items[i];
+    if (item.of_triangles) continue;
+    work.queries.push_back(query(item.a, item.b, item.hint));
+    // Nodes lie far apart: the kernel would wait for each.
+    __builtin_prefetch(work.queries.back().a);
+    __builtin_prefetch(work.queries.back().b);
+    work.asked.push_back(i);
+  }
+  work.separations.resize(work.queries.size());
+  if (!work.queries.empty())
+    kernels.separate_boxes(work.queries.data(), work.queries.size(), sweep, work.separations.data());
+}
+
+void CertificateFront::separate_triangles(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const {
+  work.triangle_queries.clear();
+  for (const std::uint32_t i : work.triangles_asked) {
+    const Item& item = work.items[i];
+    work.triangle_queries.push_back(triangle_query(item.a, item.b, item.hint));
+    __builtin_prefetch(work.triangle_queries.back().a);
+    __builtin_prefetch(work.triangle_queries.back().b);
+  }
+  work.separations.resize(work.triangle_queries.size());
+  if (!work.triangle_queries.empty())
+    kernels.separate_triangles(work.triangle_queries.data(), work.triangle_queries.size(), sweep,
+                               work.separations.data());
+}
+
+bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
+                            FrontSweep& result) const {
+  if (separation.gap < sweep.limit) return false;
+  const bool on_edge = separation.certificate.hull.kind == NodeHull::kTriangleOnEdge;
+  const bool may_meet = separation.gap < sweep.meeting && (on_edge || sides_ != SideRule::Normals);
+  // Moving triangles may be apart although no one axis says so: that has to be found out once.
+  if (may_meet && on_edge && !item.on_edge) return false;
+  result.least_gap = std::min(result.least_gap, separation.gap);
+  result.touching |= may_meet;
+  work.prove(item, separation.certificate);
+  return true;
+}
+
+void CertificateFront::resolve_batch(Work& work, const LinearSweep& sweep, const FrontKernels& kernels,
+                                     const LeafTest& test, FrontSweep& result) const {
+  separate_boxes(work, sweep, kernels);
+  work.triangles_asked.clear();
+  for (const std::uint32_t i : work.batch)
+    if (work.items[i].of_triangles) work.triangles_asked.push_back(i);
+  for (std::size_t k = 0; k < work.asked.size(); ++k) {
+    const std::uint32_t i = work.asked[k];
+    if (take(work, work.items[i], work.separations[k], sweep, result)) continue;
+    if (work.queries[k].a->leaf() && work.queries[k].b->leaf()) {
+      work.triangles_asked.push_back(i);
+    } else {
+      descend(work, i);
+    }
+  }
+
+  separate_triangles(work, sweep, kernels);
+  for (std::size_t k = 0; k < work.triangles_asked.size(); ++k) {
+    Item& item = work.items[work.triangles_asked[k]];
+    if (take(work, item, work.separations[k], sweep, result)) continue;
+    if (sides_ != SideRule::Memory) item.hint = work.separations[k].certificate.axis;
+    test_leaves(work, item, test, result);
+  }
+}
+
+void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
   const LeafVerdict verdict = test(moving_face(item.a, item.b), fixed_face(item.a, item.b), item.hint);
-  item.certificate = verdict.certificate;
-  item.certificate.epoch = epoch_;
-  if (!verdict.free) ++result.blocked;
+  work.prove(item, verdict.certificate);
+  if (!verdict.free || verdict.cut_short) {
+    ++result.blocked;
+    ++work.blocked[item.origin];
+  }
   result.least_gap = std::min(result.least_gap, verdict.gap);
   result.touching |= !verdict.harmless;
 }
 
-void CertificateFront::descend(std::vector<Item>& items, std::size_t i) const {
-  const Item parent = items[i];
-  items[i].first_child = static_cast<std::uint32_t>(items.size());
+void CertificateFront::descend(Work& work, std::uint32_t i) const {
+  const Item parent = work.items[i];
+  const auto first = static_cast<std::uint32_t>(work.items.size());
+  work.items[i].first_child = first;
   const ObbNode& a = a_->nodes[parent.a];
   const ObbNode& b = b_->nodes[parent.b];
   for (std::uint32_t k = 0; k < 2; ++k) {
     Item child = parent;
     // The first takes its parent's place, others come behind all.
-    if (k > 0) child.place = Item::kNew;
-    if (splits_a(a, b)) {
+    if (k > 0) child.place = Item::kNone;
+    if (a.size >= b.size) {
       child.a = a.child + k;
     } else {
       child.b = b.child + k;
     }
-    items.push_back(child);
+    work.items.push_back(child);
+    work.waiting.push_back(first + k);
   }
 }
 
 void CertificateFront::replace(CertificatePart& part, const Work& work) const {
-  for (std::size_t i = 0; i < work.items.size(); ++i) {
+  for (std::uint32_t i = 0; i < work.items.size(); ++i) {
     const Item& item = work.items[i];
-    if (item.first_child != 0) continue;
-    if (item.place == Item::kNew) {
-      part.append(pair_of(item.a, item.b), item.certificate);
+    if (item.first_child != Item::kNone) continue;
+    Certificate certificate;
+    if (item.proof != Item::kNone) {
+      certificate = work.proofs[item.proof];
+    } else if (i < work.blocked.size()) {
+      continue;  // stays as it was
     } else {
-      part.set(item.place, pair_of(item.a, item.b), item.certificate);
+      certificate.axis = item.hint;
+      certificate.offset = length_squared(item.hint) > 0 ? kForgotten : kNoCertificate;
+    }
+    if (item.place == Item::kNone) {
+      part.append({item.a, item.b}, certificate);
+    } else {
+      part.set(item.place, {item.a, item.b}, certificate);
     }
   }
 }
 
-FrontPair CertificateFront::pair_of(std::uint32_t a, std::uint32_t b) const {
-  const std::uint32_t up_a = a_->nodes[a].parent, up_b = b_->nodes[b].parent;
-  if (up_a == ObbNode::kNone && up_b == ObbNode::kNone) return {a, b, ObbNode::kNone, ObbNode::kNone};
-  // The larger parent was split first: the last split was that of the other.
-  const bool split_a =
-      up_b == ObbNode::kNone || (up_a != ObbNode::kNone && !splits_a(a_->nodes[up_a], b_->nodes[up_b]));
-  return split_a ? FrontPair{a, b, up_a, b} : FrontPair{a, b, a, up_b};
-}
+namespace {
 
-void CertificateFront::merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const {
+/// An open hash table from the pair that a pair of nodes would merge into, and whether it is half of its A or its B, to
+/// the first of the two halves seen. Two pairs that share 64 bits of hash would merely miss a merge.
+class SiblingTable {
+ public:
+  explicit SiblingTable(std::size_t halves) : table_(std::bit_ceil(2 * halves + 1)) {}
+
+  /// The other half if it came before; else this one is kept for it.
+  std::optional<std::uint32_t> meet(std::uint32_t up_a, std::uint32_t up_b, bool halves_a, std::uint32_t pair) {
+    const std::uint64_t key = ((std::uint64_t{up_a} << 32 | up_b) + 1) * 0x9E3779B97F4A7C15ull + halves_a;
+    const std::uint64_t hash = (key ^ key >> 29) * 0xBF58476D1CE4E5B9ull;
+    const auto tag = static_cast<std::uint32_t>(hash);
+    for (std::size_t place = hash >> 32;; ++place) {
+      Entry& entry = table_[place & (table_.size() - 1)];
+      if (entry.pair == 0) {
+        entry = {tag, pair + 1};
+        return {};
+      }
+      if (entry.tag == tag) return entry.pair - 1;
+    }
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t tag = 0, pair = 0;
+  };
+  std::vector<Entry> table_;
+};
+
+}  // namespace
+
+std::size_t CertificateFront::merge(CertificatePart& part, const LinearSweep& sweep,
+                                    const FrontKernels& kernels) const {
   struct Siblings {
-    std::uint32_t parent_a, parent_b;
-    std::size_t first, second;
+    FrontPair parent;
+    std::uint32_t first, second;
   };
   std::vector<Siblings> found;
   std::vector<BoxPairQuery> queries;
-  // An open hash table from parents to the first of their children seen.
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * part.size() + 2), 0);
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    const FrontPair& pair = part.pair(i);
-    if (pair.parent_a == ObbNode::kNone) continue;
-    std::size_t place = (pair.parent_a * 0x9E3779B97F4A7C15ull ^ pair.parent_b * 0xC2B2AE3D27D4EB4Full) >> 20;
-    for (;; ++place) {
-      std::uint32_t& entry = table[place & (table.size() - 1)];
-      if (entry == 0) {
-        entry = static_cast<std::uint32_t>(i) + 1;
-        break;
-      }
-      const std::size_t other = entry - 1;
-      if (part.pair(other).parent_a != pair.parent_a || part.pair(other).parent_b != pair.parent_b) continue;
-      // Siblings on different sides of the same thing stay apart; one side is handed on.
-      const Vec3f one = hint_of(part.certificate(other), sweep), two = hint_of(part.certificate(i), sweep);
-      if (sides_ == SideRule::Memory && dot(one, two) < 0) break;
-      queries.push_back(query(pair.parent_a, pair.parent_b, length_squared(one) > 0 ? one : two));
-      found.push_back({pair.parent_a, pair.parent_b, other, i});
-      break;
-    }
+  SiblingTable table(2 * part.size());
+  const auto siblings = [&](FrontPair x, FrontPair y, bool halves_a) {
+    return halves_a ? x.b == y.b && a_->nodes[x.a].parent == a_->nodes[y.a].parent
+                    : x.a == y.a && b_->nodes[x.b].parent == b_->nodes[y.b].parent;
+  };
+  const auto look_for = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
+    const std::optional<std::uint32_t> other = table.meet(parent.a, parent.b, halves_a, i);
+    if (!other || !siblings(part.pair(*other), part.pair(i), halves_a)) return;
+    // Siblings on different sides of the same thing stay apart; one side is handed on.
+    const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
+    if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
+    queries.push_back(query(parent.a, parent.b, length_squared(one) > 0 ? one : two));
+    found.push_back({parent, *other, i});
+  };
+  for (std::uint32_t i = 0; i < part.size(); ++i) {
+    const FrontPair pair = part.pair(i);
+    const std::uint32_t up_a = a_->nodes[pair.a].parent, up_b = b_->nodes[pair.b].parent;
+    if (up_a != ObbNode::kNone) look_for({up_a, pair.b}, true, i);
+    if (up_b != ObbNode::kNone) look_for({pair.a, up_b}, false, i);
   }
-  if (queries.empty()) return;
-  std::vector<BoxSeparation> separations(queries.size());
+  if (queries.empty()) return 0;
+  std::vector<NodeSeparation> separations(queries.size());
   kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
 
-  std::vector<std::size_t> gone;
+  std::vector<bool> merged(part.size());
+  std::vector<std::uint32_t> gone;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    face(separations[k], found[k].parent_a, found[k].parent_b, sweep);
-    if (separations[k].gap < sweep.limit) continue;
-    part.set(found[k].first, pair_of(found[k].parent_a, found[k].parent_b), separations[k].certificate);
-    gone.push_back(found[k].second);
+    const Siblings& s = found[k];
+    if (separations[k].gap < sweep.limit || merged[s.first] || merged[s.second]) continue;
+    part.set(s.first, s.parent, separations[k].certificate);
+    merged[s.first] = merged[s.second] = true;
+    gone.push_back(s.second);
   }
   std::sort(gone.begin(), gone.end());
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) part.remove(*i);
+  return gone.size();
 }
 
 CertificatePart CertificateFront::cut(CertificatePart& part) const {
@@ -384,7 +479,6 @@ void CertificateFront::forget() {
       c.offset = std::min(c.offset, kForgotten);
       part.set_certificate(i, c);
     }
-  epoch_ = 0;
 }
 
 }  // namespace dismantle

@@ -4,16 +4,18 @@
 #include "dismantle/front/certificate_part.h"
 #include "dismantle/math/rigid_transform.h"
 
-#include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
 
 /// What a test of two triangles says of a sweep.
 struct LeafVerdict {
-  bool free = true;         ///< They are certainly allowed during all of the sweep.
-  float gap = -3e38f;       ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
+  bool free = true;    ///< They are certainly allowed during all of the sweep.
+  float gap = -3e38f;  ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
+  /// What comes after some time was not looked at, and may block.
+  bool cut_short = false;
   bool harmless = false;    ///< They do not meet at all, or face on face.
   Certificate certificate;  ///< The axis that the test ended on: the one to begin with next time.
 };
@@ -22,12 +24,14 @@ struct LeafVerdict {
 /// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none).
 using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint)>;
 
-/// The motion of the moving component in the fixed one's frame, in double: between trees' frames as PairSweep has it.
+/// The motion of the moving component in the fixed one's frame, in double: between trees' frames as LinearSweep has it.
 struct PairMotion {
   RigidTransform t0, t1;
   Mat3 middle;           ///< The rotation half way.
   double deviation = 0;  ///< The largest distance of an arc from its chord [mm].
   double allowed = 0;    ///< How deep triangles may be in each other on the true paths [mm].
+  /// So many blocked pairs are enough, or two of each part of the front; the rest may be left unlooked at.
+  std::size_t enough_blocked = static_cast<std::size_t>(-1);
 };
 
 /// What sweeping a part of a front found.
@@ -35,6 +39,7 @@ struct FrontSweep {
   float least_gap = 3e38f;     ///< No certified pair came nearer during the sweep [mm].
   std::size_t leaf_tests = 0;  ///< Calls of the LeafTest.
   std::size_t blocked = 0;     ///< Those that were not free.
+  bool complete = true;        ///< Nothing was left unlooked at.
   /// Some pair was not certainly apart all the time, nor lay face on face: only such pairs can hide a deep vertex, as a
   /// triangle is never deeper across its own plane than it is thin.
   bool touching = false;
@@ -69,12 +74,12 @@ class CertificateFront {
   std::size_t part_count() const { return parts_.size(); }
 
   /// Begins a sweep.
-  PairSweep begin_sweep(const PairMotion& motion);
+  LinearSweep begin_sweep(const PairMotion& motion);
   /// The same for look(), which leaves the front as it is.
-  PairSweep begin_look(const PairMotion& motion) const;
-  FrontSweep sweep_part(std::size_t part, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test);
+  LinearSweep begin_look(const PairMotion& motion) const;
+  FrontSweep sweep_part(std::size_t part, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test);
   /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
-  FrontSweep look(const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
+  FrontSweep look(const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
   void end_sweep();
 
@@ -97,38 +102,60 @@ class CertificateFront {
  private:
   /// A pair that has to be looked at, and what comes of it.
   struct Item {
-    std::uint32_t a, b;
-    Vec3f hint;  // the axis of this pair or the one it came from; where sides are remembered only if it binds
-    bool old_leaves = false;        // a pair of leaves that the front had already
-    std::uint32_t first_child = 0;  // index of the first of two items; 0: none
-    static constexpr std::size_t kNew = static_cast<std::size_t>(-1);
-    std::size_t place = kNew;  // in the part
-    Certificate certificate;
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    std::uint32_t a = 0, b = 0;
+    Vec3f hint;                         ///< The axis to begin with; where sides are remembered only if it binds.
+    std::uint32_t place = kNone;        ///< In the part; none for what comes behind all.
+    std::uint32_t first_child = kNone;  ///< Index of the first of two items that replace it.
+    std::uint32_t proof = kNone;        ///< Index of its certificate; none for what was left unlooked at.
+    std::uint32_t origin = 0;           ///< Index of the pair of the front that it comes from.
+    bool of_triangles = false;          ///< The front tested these triangles before,
+    bool on_edge = false;               ///< and found that they are in each other on edge.
   };
   struct Work;
 
   BoxPairQuery query(std::uint32_t a, std::uint32_t b, Vec3f guard) const {
-    const ObbNode* node_a = &a_->nodes[a];
-    const ObbNode* node_b = &b_->nodes[b];
-    if (sides_ != SideRule::Memory) guard = {};
-    return b_moves_ ? BoxPairQuery{node_b, node_a, guard} : BoxPairQuery{node_a, node_b, guard};
+    BoxPairQuery query{&a_->nodes[a], &b_->nodes[b], guard};
+    if (sides_ == SideRule::Normals) {
+      query.cone_a = &a_->cones[a];
+      query.cone_b = &b_->cones[b];
+    }
+    if (b_moves_) {
+      std::swap(query.a, query.b);
+      std::swap(query.cone_a, query.cone_b);
+    }
+    return query;
+  }
+  TrianglePairQuery triangle_query(std::uint32_t a, std::uint32_t b, Vec3f guard) const {
+    const TriangleF *face_a = &a_->triangles[a_->nodes[a].child], *face_b = &b_->triangles[b_->nodes[b].child];
+    const bool facing = sides_ == SideRule::Normals;
+    return b_moves_ ? TrianglePairQuery{face_b, face_a, guard, facing}
+                    : TrianglePairQuery{face_a, face_b, guard, facing};
   }
   std::uint32_t moving_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).a->child; }
   std::uint32_t fixed_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).b->child; }
-  PairSweep sweep_about(const Mat3& middle, const PairMotion& motion) const;
+  /// Whether certificates that face along the normals still do with A turned like this.
+  bool judges(const Mat3& rotation) const;
   /// The pairs of a part that do not hold, as items to be resolved.
-  void find_failing(const CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels, Work& work,
+  void find_failing(const CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
-  Vec3f hint_of(const Certificate& certificate, const PairSweep& sweep) const;
-  /// Takes the allowance from what only holds by it against the normals of closed solids.
-  void face(BoxSeparation& separation, std::uint32_t a, std::uint32_t b, const PairSweep& sweep) const;
-  /// The pair of these nodes, with the one whose split made it.
-  FrontPair pair_of(std::uint32_t a, std::uint32_t b) const;
-  void merge(CertificatePart& part, const PairSweep& sweep, const FrontKernels& kernels) const;
-  void resolve(Work& work, const PairSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+  /// The axis of pair i where it binds the pair to its side; zero otherwise.
+  Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
+  /// Replaces siblings by their parents where these can be separated; gives how many pairs went.
+  std::size_t merge(CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels) const;
+  void resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
-  void test_leaves(Item& item, const LeafTest& test, FrontSweep& result) const;
-  void descend(std::vector<Item>& items, std::size_t i) const;
+  /// Which of two nodes that cannot be separated is split: the one that takes more room.
+  bool splits_a(const Item& item) const;
+  void resolve_batch(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+                     FrontSweep& result) const;
+  void separate_boxes(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const;
+  void separate_triangles(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const;
+  /// Keeps what certifies the item; false where it does not.
+  bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
+            FrontSweep& result) const;
+  void test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const;
+  void descend(Work& work, std::uint32_t i) const;
   void replace(CertificatePart& part, const Work& work) const;
   /// Cuts the part in two of about the same size, siblings together.
   CertificatePart cut(CertificatePart& part) const;
@@ -136,8 +163,7 @@ class CertificateFront {
   const ObbTree* a_;
   const ObbTree* b_;
   std::vector<CertificatePart> parts_;
-  std::array<Mat3, PairSweep::kEpochs> references_;
-  std::uint32_t epoch_ = 0;
+  Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.
   std::size_t sweeps_ = 0;
   bool b_moves_ = false;
   SideRule sides_;

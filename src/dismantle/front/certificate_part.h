@@ -9,19 +9,23 @@
 
 namespace dismantle {
 
-/// A pair of nodes, and the pair of which it is one half: both kNone for the roots.
+/// A pair of nodes.
 struct FrontPair {
   std::uint32_t a, b;
-  std::uint32_t parent_a, parent_b;
 };
 
-/// A part of a front: pairs of nodes and their certificates, as arrays padded to whole lanes. In no order.
+/// A part of a front: pairs of nodes and their certificates, padded to whole blocks. In no order.
 class CertificatePart {
  public:
   std::size_t size() const { return pairs_.size(); }
   const FrontPair& pair(std::size_t i) const { return pairs_[i]; }
   Certificate certificate(std::size_t i) const;
-  CertificateArrays arrays() const;
+  /// Its axis, whatever it proves.
+  Vec3f axis(std::size_t i) const { return vector(i, 0); }
+  float offset(std::size_t i) const { return data_[CertificateBlocks::place(i, 3)]; }
+  /// Of the certificate's hull.
+  float kind(std::size_t i) const { return data_[CertificateBlocks::place(i, 16)]; }
+  CertificateBlocks blocks() const { return {data_.data()}; }
 
   void append(const FrontPair& pair, const Certificate& certificate);
   void set(std::size_t i, const FrontPair& pair, const Certificate& certificate);
@@ -30,16 +34,13 @@ class CertificatePart {
   void remove(std::size_t i);
 
  private:
-  static constexpr std::size_t kFields = 9;  // axis, point, offset, radius, epoch
-  static constexpr std::size_t kPadding = 16;
-
-  float* field(std::size_t k) { return data_.data() + k * capacity_; }
-  const float* field(std::size_t k) const { return data_.data() + k * capacity_; }
-  void grow();
+  Vec3f vector(std::size_t i, std::size_t k) const {
+    const float* from = data_.data() + CertificateBlocks::place(i, k);
+    return {from[0], from[CertificateBlocks::kBlock], from[2 * CertificateBlocks::kBlock]};
+  }
 
   std::vector<FrontPair> pairs_;
   std::vector<float> data_;
-  std::size_t capacity_ = 0;
 };
 
 }  // namespace dismantle

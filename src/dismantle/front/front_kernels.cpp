@@ -5,7 +5,8 @@ namespace dismantle {
 
 FrontKernels front_kernels(LaneCount lanes) {
   return with_lanes(lanes, [](auto count) {
-    return FrontKernels{&check_certificates_kernel<count>, &separate_boxes_kernel<count>};
+    return FrontKernels{&check_certificates_kernel<count>, &separate_boxes_kernel<count>,
+                        &separate_triangles_kernel<count>};
   });
 }
 

@@ -31,7 +31,9 @@ struct AxisGuess {
 /// The outward normals of two faces of closed solids, and of the faces around each. An axis from A to B that uses the
 /// allowance has to leave A through its outside and enter B through its: one that does not calls things apart that are
 /// in each other behind a face's edge, and would be used up later with no way back. At a sharp edge the neighbouring
-/// face's outside does as well.
+/// face's outside does as well. An axis against both normals parts the two behind each other's backs, with their solids
+/// between them: it counts only where it parts them by kBehind allowances, or faces that touch would be free to change
+/// sides.
 struct OutwardNormals {
   Vec3 a, b;                            ///< Of any length.
   Span<const Vec3> around_a, around_b;  ///< Unit normals of the faces at the corners.
@@ -41,9 +43,23 @@ struct OutwardNormals {
   /// A neighbour has to face the axis by more than that.
   static constexpr double kLeastCosineAround = 0.3;
 
+  /// An axis is against a normal where the cosine between them is less than minus this.
+  static constexpr double kLeastCosineAgainst = 0.3;
+  static constexpr double kBehind = 3;
+
   DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const { return ahead(w, a, around_a) && ahead(-w, b, around_b); }
+  /// How deep faces may be in each other along an axis, less than 0 for a gap that is needed.
+  DISMANTLE_HOST_DEVICE double allowance(Vec3 w, double allowed) const {
+    if (allow(w)) return allowed;
+    return against(w, a) && against(-w, b) ? -kBehind * allowed : 0;
+  }
 
  private:
+  DISMANTLE_HOST_DEVICE static bool against(Vec3 w, Vec3 normal) {
+    const double along = dot(w, normal);
+    return along < 0 &&
+           along * along > (kLeastCosineAgainst * kLeastCosineAgainst) * length_squared(w) * length_squared(normal);
+  }
   DISMANTLE_HOST_DEVICE static bool ahead(Vec3 w, Vec3 normal, Span<const Vec3> around) {
     const double along = dot(w, normal), square = length_squared(w);
     if (along >= 0 || along * along <= square * (kLeastCosine * kLeastCosine) * length_squared(normal)) return true;
@@ -66,8 +82,8 @@ class FurthestAxis {
     start(0);
   }
 
-  /// From now on axes that the normals do not allow must separate without any allowance; those that they do allow may
-  /// be left for any other, as the normals know the side.
+  /// From now on axes that the normals do not allow must separate by what OutwardNormals asks; those that they do allow
+  /// may be left for any other, as the normals know the side.
   DISMANTLE_HOST_DEVICE void face(const OutwardNormals& normals) {
     normals_ = normals;
     facing_ = true;
@@ -122,12 +138,14 @@ class FurthestAxis {
       keep_if_further(projections, w);
     } else if (projections.separates_until(now_) > end_) {
       // Worth something only where it gets further: at a contact the axis has to be one that the normals allow.
-      const AxisProjections<kCountA, kCountB> bare(hulls_, w, 0);
+      const AxisProjections<kCountA, kCountB> bare(hulls_, w, allowance_of(w));
       if (bare.separates_until(now_) > now_ + kLeastProgress) keep_if_further(bare, w);
     }
   }
 
-  DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const { return !facing_ || normals_.allow(w) ? allowed_ : 0; }
+  DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const {
+    return facing_ ? normals_.allowance(w, allowed_) : allowed_;
+  }
 
   /// Whether the axis that the step began with has used part of the allowance is only asked when it matters.
   DISMANTLE_HOST_DEVICE bool refused(Vec3 w) {
