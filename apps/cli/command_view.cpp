@@ -112,7 +112,7 @@ Result<Done> run(const ViewOptions& o) {
   Result<std::unique_ptr<server::Server>> started = server::Server::start(*options);
   if (!started) return started.error();
   server::Server& server = **started;
-  const Result<Done> opened = open(server, o);
+  Result<Done> opened = open(server, o);
   if (!opened) return opened;
 
   fmt::print("{}\n", server.url());
