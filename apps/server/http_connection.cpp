@@ -109,7 +109,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           Keep::No);
     http::request<http::string_body> request;
     static_cast<http::request_header<>&>(request) = head_->get();
-    serve_socket(std::move(stream_), std::move(request), {key->second, std::move(count_)}, site_);
+    serve_socket(std::move(stream_), request, {key->second, std::move(count_)}, site_);
   }
 
   void receive(const RequestTarget& target) {
@@ -137,13 +137,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     }
     Upload whole;
     std::swap(whole, upload_);
-    site_.finish_upload(whole,
-                        [self = shared_from_this()](HttpAnswer answer) { self->send(std::move(answer), Keep::No); });
+    site_.finish_upload(whole, [self = shared_from_this()](HttpAnswer answer) { self->send(answer, Keep::No); });
   }
 
   enum class Keep { Yes, No };
 
-  void send(HttpAnswer answer, Keep keep) {
+  void send(const HttpAnswer& answer, Keep keep) {
     body_kept_ = answer.body;
     auto response = std::make_shared<http::response<http::span_body<const char>>>();
     response->version(11);

@@ -142,7 +142,8 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
 
 }  // namespace
 
-void serve_socket(beast::tcp_stream stream, http::request<http::string_body> upgrade, SocketOwner owner, Site& site) {
+void serve_socket(beast::tcp_stream stream, const http::request<http::string_body>& upgrade, SocketOwner owner,
+                  Site& site) {
   const auto socket = std::make_shared<WebSocket>(std::move(stream), std::move(owner), site);
   socket->accept(upgrade);
 }

@@ -22,7 +22,8 @@ struct SocketOwner {
 };
 
 /// Makes a socket of a connection whose upgrade request was let through, and ties it to the hub as its client.
-void serve_socket(boost::beast::tcp_stream stream, boost::beast::http::request<boost::beast::http::string_body> upgrade,
-                  SocketOwner owner, Site& site);
+void serve_socket(boost::beast::tcp_stream stream,
+                  const boost::beast::http::request<boost::beast::http::string_body>& upgrade, SocketOwner owner,
+                  Site& site);
 
 }  // namespace dismantle::server

@@ -135,7 +135,7 @@ Pose Workbench::wanted_pose(Clock::time_point now) {
 
 StepResult Workbench::drag(Clock::time_point now) {
   const bool by_rate = rate_.has_value();
-  const StepResult result = session().drag(wanted_pose(now), seconds_between(held_at_, now));
+  StepResult result = session().drag(wanted_pose(now), seconds_between(held_at_, now));
   stepped_at_ = now;
   settled_ = result.reached || result.way.empty();
   if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLife;
@@ -198,6 +198,7 @@ std::vector<ContactMessage> Workbench::contact_messages(const StepResult& step) 
                    [](const ContactPoint& a, const ContactPoint& b) { return a.gap < b.gap; });
   points.resize(std::min(points.size(), kMostContacts));
   std::vector<ContactMessage> messages;
+  messages.reserve(points.size());
   for (const ContactPoint& p : points) messages.push_back(contact_message(p));
   return messages;
 }
