@@ -67,14 +67,14 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::optional<RequestTarget> target = parse_target(view(head_->get().target()));
     if (std::optional<HttpAnswer> refusal = find_refusal(target)) {
       ++site_.hub().counters().refused;
-      return send(std::move(*refusal), Keep::No);
+      return send(*refusal, Keep::No);
     }
     if (target->path == "/session") return upgrade(*target);
     if (head_->get().method() == http::verb::post) return receive(*target);
     if (head_->get().method() != http::verb::get)
       return send(error_answer(405, "this cannot be done (only GET and POST are known here); use one of these"),
                   Keep::No);
-    site_.get(*target, [self = shared_from_this()](HttpAnswer answer) { self->send(std::move(answer), Keep::Yes); });
+    site_.get(*target, [self = shared_from_this()](const HttpAnswer& answer) { self->send(answer, Keep::Yes); });
   }
 
   /// The rules of docs/wire.md, "Doors", in their order.
@@ -115,7 +115,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void receive(const RequestTarget& target) {
     const std::string client(view(headers()["X-Client"]));
     auto place = site_.begin_upload(target, client);
-    if (auto* refusal = std::get_if<HttpAnswer>(&place)) return send(std::move(*refusal), Keep::No);
+    if (auto* refusal = std::get_if<HttpAnswer>(&place)) return send(*refusal, Keep::No);
     upload_ = {target, client, std::get<Site::UploadPlace>(place).file};
     body_.emplace(std::move(*head_));
     body_->body_limit(std::get<Site::UploadPlace>(place).limit);
@@ -137,7 +137,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     }
     Upload whole;
     std::swap(whole, upload_);
-    site_.finish_upload(whole, [self = shared_from_this()](HttpAnswer answer) { self->send(answer, Keep::No); });
+    site_.finish_upload(whole, [self = shared_from_this()](const HttpAnswer& answer) { self->send(answer, Keep::No); });
   }
 
   enum class Keep { Yes, No };
