@@ -33,7 +33,7 @@ double largest_distance(const CertificateSweeper& sweeper) {
 /// One candidate motion, cut so that its arcs stay near their chords.
 FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target) {
   const Pose start = sweeper.pose();
-  const double most = CertificateSweeper::kMostArcs * sweeper.tolerance();
+  const double most = kArcShare * sweeper.tolerance();
   const int cuts = std::max(1, static_cast<int>(std::ceil(std::sqrt(sweeper.deviation(target) / most))));
   FirstContact first;
   for (int k = 0; k < cuts; ++k) {

@@ -148,7 +148,7 @@ void CertificateResponse::report(const CertificateSweep& sweep, StepResult& resu
 void CertificateResponse::go(const Pose& target, bool touch, StepResult& result) {
   const Pose start = sweeper_.pose();
   const double travel = sweeper_.travel(target), tolerance = sweeper_.tolerance();
-  const int cuts = cut_count(sweeper_.deviation(target), CertificateSweeper::kMostArcs * tolerance);
+  const int cuts = cut_count(sweeper_.deviation(target), kArcShare * tolerance);
   for (double at = 0; at < 1;) {
     // Stop is all or nothing; Touch, once stopped, tries little first: what lies behind a contact costs most.
     const double part = touch ? std::min(1.0 / cuts, reach_ / travel) : 1.0 / cuts;
@@ -175,6 +175,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
   const double lever = std::max(sweeper_.radius() / 2, tolerance);
   bool fresh = contacts_.empty();  // the contacts' axes are those of the motion that is wanted from here
+  bool on_course = false;          // the last motion was on the screw to the target
   for (int tries = 0; tries < kMostTries;) {
     const SlideContacts::Twist wanted = twist_to(target);
     const SlideContacts::Twist tried = shortened(wanted, reach_);
@@ -191,6 +192,9 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     tries += !found.free || twist.bounded;
     if (found.free) {
       const bool made = advance(end, 1, result) > 0;
+      const bool was_on_course = std::exchange(on_course, !twist.bounded);
+      // What goes on along one screw is one motion.
+      if (made && was_on_course && on_course) result.way.erase(result.way.end() - 2);
       reach_ *= kTryGrowth;
       fresh = false;
       const bool creeping = twist.bounded && travel < kCreepShare * travel_of(wanted);
@@ -212,7 +216,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     }
     reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
     if (advance(end, part, result) == 0) break;
-    fresh = false;
+    fresh = on_course = false;
   }
   contacts_.drop_beyond(kContactReach * tolerance);
   result.touching = contacts_.points(tolerance);
@@ -231,7 +235,7 @@ SlideContacts::Twist CertificateResponse::slide_twist(const SlideContacts::Twist
 
 Pose CertificateResponse::within_arcs(const Pose& target) const {
   const double deviation = sweeper_.deviation(target);
-  const double most = CertificateSweeper::kMostArcs * sweeper_.tolerance();
+  const double most = kArcShare * sweeper_.tolerance();
   return deviation <= most ? target : pose_between(sweeper_.pose(), target, std::sqrt(most / deviation) * (1 - 1e-6));
 }
 

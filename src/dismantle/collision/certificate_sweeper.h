@@ -58,7 +58,7 @@ class CertificateSweeper {
   /// The motion of the set in hand by the one screw from its pose to `end`. Nothing moves.
   /// @param window how long after the first contact others are reported, as a part of the motion
   /// @param effort how hard a triangle pair is tried before it counts as blocked
-  /// @pre deviation(end) is at most kMostArcs times the tolerance
+  /// @pre deviation(end) is less than the tolerance; beyond kArcShare of it what is allowed may be found blocked
   CertificateSweep sweep(const Pose& end, double window, Effort effort = Effort::Full);
   /// As sweep() for a motion from `start`, leaving the fronts as they are: any number may be looked at side by side.
   CertificateSweep look(const Pose& start, const Pose& end, double window) const;
@@ -90,9 +90,6 @@ class CertificateSweeper {
   Vec3 center() const { return transform_from_pose(pose()) * center_; }
   double radius() const { return radius_; }
   std::size_t front_size() const;
-
-  /// Motions longer than this many tolerances between arc and chord have to be cut.
-  static constexpr double kMostArcs = 2;
 
  private:
   /// Components a < b and their front.

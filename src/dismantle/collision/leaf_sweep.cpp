@@ -105,9 +105,6 @@ bool face_on(Vec3 normal_moving, Vec3 normal_fixed, Vec3 axis) {
   return dot(normal_moving, axis) > NormalCone::kLeastAhead && dot(normal_fixed, axis) < -NormalCone::kLeastAhead;
 }
 
-/// How much more often a motion may be halved than its deviation asks for.
-constexpr int kMostLevels = 12;
-
 }  // namespace
 
 void find_normals(SolidTree& solid) {
@@ -144,21 +141,22 @@ struct LeafSweep::Around {
 
 LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
                      double deviation, const LeafRules& rules)
-    : moving_(&moving), fixed_(&fixed), deviation_(deviation), share_(kArcShare * rules.tolerance), rules_(rules) {
-  DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0);
-  while (levels_ < kMostLevels && std::ldexp(deviation, -2 * levels_) > share_) ++levels_;
-  DISMANTLE_ENSURE(std::ldexp(deviation, -2 * levels_) <= share_);
-  const std::size_t count = std::size_t{1} << levels_;
-  for (std::size_t k = 0; k <= count; ++k)
-    at_.push_back(transform_from_pose(pose_between(start, end, static_cast<double>(k) / static_cast<double>(count))));
-  middle_ =
-      at_[0].rotation == at_.back().rotation ? at_[0].rotation : mat3_from_quat(pose_between(start, end, 0.5).rotation);
+    : moving_(&moving),
+      fixed_(&fixed),
+      start_(transform_from_pose(start)),
+      end_(transform_from_pose(end)),
+      deviation_(deviation),
+      share_(kArcShare * rules.tolerance),
+      allowed_(rules.allowed - std::max(share_, deviation)),
+      rules_(rules) {
+  DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && allowed_ > 0);
+  middle_ = start_.rotation == end_.rotation ? start_.rotation : mat3_from_quat(pose_between(start, end, 0.5).rotation);
 }
 
 PairMotion LeafSweep::motion() const {
   PairMotion motion;
-  motion.t0 = between_trees(at_.front(), moving_->tree, fixed_->tree);
-  motion.t1 = between_trees(at_.back(), moving_->tree, fixed_->tree);
+  motion.t0 = between_trees(start_, moving_->tree, fixed_->tree);
+  motion.t1 = between_trees(end_, moving_->tree, fixed_->tree);
   motion.middle = middle_;
   motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
@@ -167,12 +165,10 @@ PairMotion LeafSweep::motion() const {
 
 bool LeafSweep::never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3& axis) const {
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
-  for (std::size_t k = 0; k + 1 < at_.size(); ++k) {
-    const AxisCcdResult found = ccd_triangle_triangle({moved(at_[k], moving), moved(at_[k + 1], moving)},
-                                                      {fixed, fixed}, 0, axis, rules_.limits);
-    if (found.ccd.status != CcdStatus::Free) return false;
-    axis = found.axis;
-  }
+  const AxisCcdResult found =
+      ccd_triangle_triangle({moved(start_, moving), moved(end_, moving)}, {fixed, fixed}, 0, axis, rules_.limits);
+  if (found.ccd.status != CcdStatus::Free) return false;
+  axis = found.axis;
   return true;
 }
 
@@ -180,7 +176,7 @@ double LeafSweep::least_gap(std::uint32_t face_moving, std::uint32_t face_fixed,
   const Triangle moving = moving_->triangle(face_moving), fixed = fixed_->triangle(face_fixed);
   double least = std::numeric_limits<double>::infinity(), most = -least, reach = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 t0 = at_.front() * moving[i], t1 = at_.back() * moving[i];
+    const Vec3 t0 = start_ * moving[i], t1 = end_ * moving[i];
     least = std::min(least, dot(axis, fixed[i]));
     most = std::max({most, dot(axis, t0), dot(axis, t1)});
     reach = std::max({reach, max_abs(fixed[i]), max_abs(t0), max_abs(t1)});
@@ -193,8 +189,16 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
                                   double horizon) const {
   Result result;
   result.contact = {face_moving, face_fixed, 1, hint};
-  test_part({face_moving, face_fixed, moving_->triangle(face_moving), fixed_->triangle(face_fixed), horizon}, 0, 0,
-            result);
+  const Triangle own = moving_->triangle(face_moving);
+  const Pair pair{face_moving, face_fixed, moved(start_, own), fixed_->triangle(face_fixed)};
+  TriangleMotion motion{pair.moving, moved(end_, own)};
+  if (!still_parts(motion, pair, hint)) {
+    if (horizon < 1) motion.t1 = between(motion, horizon);
+    const AxisCcdResult found = test_chords(motion, pair, hint);
+    result.free = found.ccd.status == CcdStatus::Free;
+    result.contact.axis = found.axis;
+    if (!result.free) result.contact.toi = horizon * found.ccd.toi;
+  }
   result.contact.axis = unit_or_zero(result.contact.axis);
   result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
   result.harmless = result.gap > 0;
@@ -215,52 +219,50 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   return result;
 }
 
-OutwardNormals LeafSweep::normals_of(const Pair& pair, const Triangle& moving, const Mat3& rotation,
-                                     Around& around) const {
+OutwardNormals LeafSweep::normals_of(const Pair& pair, const Mat3& rotation, Around& around) const {
   const std::size_t count_moving = Around::gather(*moving_, pair.face_moving, around.moving);
   const std::size_t count_fixed = Around::gather(*fixed_, pair.face_fixed, around.fixed);
   for (std::size_t k = 0; k < count_moving; ++k) around.moving[k] = rotation * around.moving[k];
-  return {
-      normal_unscaled(moving), normal_unscaled(pair.fixed), {around.moving, count_moving}, {around.fixed, count_fixed}};
+  return {normal_unscaled(pair.moving),
+          normal_unscaled(pair.fixed),
+          {around.moving, count_moving},
+          {around.fixed, count_fixed}};
 }
 
-AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair,
-                                     double allowed, Vec3 hint) const {
+AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Pair& pair, Vec3 hint) const {
   const Triangle& fixed = pair.fixed;
   const TriangleMotion still{fixed, fixed};
   if (rules_.sides == SideRule::Memory) {
-    AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, rules_.limits);
+    AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed_, hint, rules_.limits);
     // Stopped, the pair stays on the side that it was on: what the search ended on may be another.
-    if (found.ccd.status == CcdStatus::Contact && still_parts({moving.t0, moving.t0}, rotation, pair, hint, allowed))
-      found.axis = hint;
+    if (found.ccd.status == CcdStatus::Contact && still_parts({moving.t0, moving.t0}, pair, hint)) found.axis = hint;
     return found;
   }
   if (rules_.sides == SideRule::Free) {
-    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, rules_.limits);
+    const AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed_, hint, rules_.limits);
     if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;
     // Bound to the side of the hint it was stopped: the least blocking axis may be on another.
-    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed, Vec3{}, rules_.limits);
+    const AxisCcdResult unbound = ccd_triangle_triangle(moving, still, allowed_, Vec3{}, rules_.limits);
     return unbound.ccd.toi > found.ccd.toi ? unbound : found;
   }
   Around around;
-  const OutwardNormals normals = normals_of(pair, moving.t0, rotation, around);
-  AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed, hint, normals, rules_.limits);
+  const OutwardNormals normals = normals_of(pair, start_.rotation, around);
+  AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed_, hint, normals, rules_.limits);
   if (found.ccd.status == CcdStatus::Free) return found;
   // The axis that it ended on may be one that only held by chance: the response needs the one of the contact.
-  LeastBlockingAxis least(moving, fixed, normals, allowed);
+  LeastBlockingAxis least(moving, fixed, normals, allowed_);
   least.consider_all(moving.t0);
   if (found.ccd.toi > 0) least.consider_all(between(moving, found.ccd.toi));
   if (length_squared(least.axis()) > 0) found.axis = least.axis();
   if (found.ccd.toi > 0) return found;
   // Where no axis that the normals allow parts them to begin with (overlaps of tessellations), any other may.
   const TriangleMotion start{moving.t0, moving.t0};
-  if (ccd_triangle_triangle(start, still, allowed, hint, normals, rules_.limits).ccd.status == CcdStatus::Free)
+  if (ccd_triangle_triangle(start, still, allowed_, hint, normals, rules_.limits).ccd.status == CcdStatus::Free)
     return found;
-  return ccd_triangle_triangle(moving, still, allowed, Vec3{}, rules_.limits);
+  return ccd_triangle_triangle(moving, still, allowed_, Vec3{}, rules_.limits);
 }
 
-bool LeafSweep::still_parts(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, Vec3 axis,
-                            double allowed) const {
+bool LeafSweep::still_parts(const TriangleMotion& moving, const Pair& pair, Vec3 axis) const {
   const Triangle &t0 = moving.t0, &t1 = moving.t1;
   const double size = length(axis);
   if (!(size > 0.5 && size < 2)) return false;
@@ -272,38 +274,14 @@ bool LeafSweep::still_parts(const TriangleMotion& moving, const Mat3& rotation, 
   }
   // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
   const double gap = least - most - kDotError * reach;
-  double usable = allowed;
+  double usable = allowed_;
   if (rules_.sides == SideRule::Normals) {
-    usable = OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}}.allowance(axis, allowed);
+    usable = OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}}.allowance(axis, allowed_);
     Around around;
-    if (usable < allowed && gap < -usable) usable = normals_of(pair, t0, rotation, around).allowance(axis, allowed);
+    if (usable < allowed_ && gap < -usable)
+      usable = normals_of(pair, start_.rotation, around).allowance(axis, allowed_);
   }
   return gap >= -usable * std::min(1.0, size) * (1 - kDotError);
-}
-
-bool LeafSweep::test_part(const Pair& pair, int level, std::size_t index, Result& result) const {
-  const double deviation = std::ldexp(deviation_, -2 * level);
-  const double allowed = rules_.allowed - std::max(share_, deviation);
-  const double begin = std::ldexp(static_cast<double>(index), -level);
-  if (begin > 0 && begin >= pair.horizon) return true;
-  if (allowed > 0) {
-    const std::size_t stride = std::size_t{1} << (levels_ - level);
-    const double length = std::min(1.0, std::ldexp(pair.horizon - begin, level));
-    const Mat3& rotation = at_[index * stride].rotation;
-    TriangleMotion motion{moved(at_[index * stride], pair.moving), moved(at_[(index + 1) * stride], pair.moving)};
-    if (still_parts(motion, rotation, pair, result.contact.axis, allowed)) return true;
-    if (length < 1)
-      for (int i = 0; i < 3; ++i) motion.t1[i] = (1 - length) * motion.t0[i] + length * motion.t1[i];
-    const AxisCcdResult found = test_chords(motion, rotation, pair, allowed, result.contact.axis);
-    if (found.ccd.status == CcdStatus::Free || level == levels_) {
-      result.contact.axis = found.axis;
-      if (found.ccd.status == CcdStatus::Free) return true;
-      result.free = false;
-      result.contact.toi = std::ldexp(static_cast<double>(index) + length * found.ccd.toi, -level);
-      return false;
-    }
-  }
-  return test_part(pair, level + 1, 2 * index, result) && test_part(pair, level + 1, 2 * index + 1, result);
 }
 
 Certificate LeafSweep::certificate(const Result& found, const LinearSweep& sweep) const {
@@ -335,8 +313,7 @@ Certificate LeafSweep::certificate(const Result& found, const LinearSweep& sweep
     if (on_edge && !meet) usable = std::min(0.0, usable);
     Around around;
     if (usable < rules_.allowed && meet)
-      usable =
-          normals_of({face_moving, face_fixed, moving, fixed, 1}, turned, middle, around).allowance(w, rules_.allowed);
+      usable = normals_of({face_moving, face_fixed, turned, fixed}, middle, around).allowance(w, rules_.allowed);
     if (usable > 0 && on_edge) c.hull.kind = NodeHull::kTriangleOnEdge;
   }
   // What the front allows is taken off where none of it may be used.

@@ -10,9 +10,9 @@
 
 namespace dismantle {
 
-/// How far the linear vertex paths that decide a triangle pair may be from the true screw, as a share of the tolerance.
-/// The share is taken off every allowance whatever the motion, so that a state reached by a translation is not too deep
-/// for a rotation.
+/// How far the linear vertex paths that decide a triangle pair may be from the true screw, as a share of the tolerance:
+/// longer motions are cut. The share is taken off every allowance whatever the motion, so that a state reached by a
+/// translation is not too deep for a rotation.
 inline constexpr double kArcShare = 0.125;
 
 /// A component as the method `certificates` sees it: its triangles in the assembled state, and their tree.
@@ -50,12 +50,13 @@ struct LeafRules {
 };
 
 /// The sweep of one moving component past one fixed component along a screw, seen from the fixed one: tests pairs of
-/// their triangles on the true arcs. A pair's motion is halved until its chords are as near to the arcs as the
-/// allowance that is left needs.
+/// their triangles on the chords of the true arcs, and takes the arcs' deviation off the allowance.
 class LeafSweep {
  public:
   /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
-  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]
+  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]; what is more
+  /// than kArcShare of the tolerance costs allowance that may be in use already
+  /// @pre deviation is less than the allowance
   LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end, double deviation,
             const LeafRules& rules);
 
@@ -76,30 +77,25 @@ class LeafSweep {
   Certificate certificate(const Result& found, const LinearSweep& sweep) const;
 
  private:
-  /// The triangles in their own frames.
+  /// The triangles as the motion begins.
   struct Pair {
     std::uint32_t face_moving, face_fixed;
     Triangle moving, fixed;
-    double horizon;
   };
   /// Whether the two are apart throughout, beginning with the axis, which becomes the one that parts them at the end.
   bool never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3& axis) const;
   double least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const;
   /// Fills in the normals around both faces, the moving one's turned by `rotation`.
   struct Around;
-  OutwardNormals normals_of(const Pair& pair, const Triangle& moving, const Mat3& rotation, Around& around) const;
-  bool still_parts(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, Vec3 axis,
-                   double allowed) const;
-  AxisCcdResult test_chords(const TriangleMotion& moving, const Mat3& rotation, const Pair& pair, double allowed,
-                            Vec3 hint) const;
-  bool test_part(const Pair& pair, int level, std::size_t index, Result& result) const;
+  OutwardNormals normals_of(const Pair& pair, const Mat3& rotation, Around& around) const;
+  bool still_parts(const TriangleMotion& moving, const Pair& pair, Vec3 axis) const;
+  AxisCcdResult test_chords(const TriangleMotion& moving, const Pair& pair, Vec3 hint) const;
 
   const SolidTree* moving_;
   const SolidTree* fixed_;
-  std::vector<RigidTransform> at_;  // at equal distances of time, 2^levels_ + 1
-  int levels_ = 0;
+  RigidTransform start_, end_;
   Mat3 middle_;
-  double deviation_, share_;
+  double deviation_, share_, allowed_;
   LeafRules rules_;
 };
 
