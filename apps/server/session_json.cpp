@@ -9,14 +9,19 @@ Json bounds_json(const Aabb& box) {
   return {to_json(box.lower), to_json(box.upper)};
 }
 
-/// The recording or a guide, as lists of moves that follow one another.
-Json moves_json(const Timeline& timeline) {
+/// The recording or a guide: moves that follow one another, without their frames.
+template <class Moves>
+Json moves_json(const Moves& moves) {
   Json list = Json::array();
-  for (const TimelineMove& move : timeline.moves())
+  double start = 0;
+  for (const auto& move : moves) {
+    const double duration = move.frames.back().time;
     list.push_back({{"label", move.label},
                     {"components", to_json(Span<const ComponentId>(move.components))},
-                    {"start", move.start},
-                    {"duration", move.duration()}});
+                    {"start", start},
+                    {"duration", duration}});
+    start += duration;
+  }
   return list;
 }
 
@@ -104,11 +109,11 @@ Json state_json(const Session& session) {
   json["response"] = name_of(session.response());
   json["undo"] = session.done().empty() ? Json(nullptr) : Json(session.done()[session.done().size() - 1].label);
   json["redo"] = session.undone().empty() ? Json(nullptr) : Json(session.undone()[0].label);
-  json["moves"] = moves_json(Timeline::of_entries(session.done()));
+  json["moves"] = moves_json(session.done());
   json["playback"] = playback_json(session);
   json["guide"] = nullptr;
   if (const Guide* guide = session.guide())
-    json["guide"] = {{"name", guide->name}, {"moves", moves_json(guide->timeline)}};
+    json["guide"] = {{"name", guide->name}, {"moves", moves_json(guide->timeline.moves())}};
   return json;
 }
 

@@ -44,6 +44,13 @@ class ServerRobustness : public ServerScene {
     return end_of_job(client, Json::parse(reply.body).value("job", 0));
   }
 
+  /// Opens what the command `open` can name, and waits for what becomes of it.
+  static Json open(Client& client, const Json& what) {
+    const Json opened = client.command("open", what);
+    EXPECT_TRUE(opened["ok"]) << opened;
+    return opened["ok"] ? end_of_job(client, opened["job"]) : opened;
+  }
+
   static Json end_of_job(Client& client, int job) {
     return client.event_where("job", [&](const Json& j) { return j["job"] == job && j["status"] != "running"; });
   }
@@ -189,9 +196,7 @@ TEST_F(ServerRobustness, LeavesNobodyOutsideItsFolders) {
   std::vector<std::string> names;
   for (const Json& entry : list) names.push_back(entry["name"]);
   EXPECT_EQ(names, (std::vector<std::string>{"alias.obj", "block.obj"}));
-  const Json opened = client.command("open", {{"root", 0}, {"file", "alias.obj"}});
-  ASSERT_TRUE(opened["ok"]) << opened;
-  EXPECT_EQ(end_of_job(client, opened["job"])["status"], "done");
+  EXPECT_EQ(open(client, {{"root", 0}, {"file", "alias.obj"}})["status"], "done");
 }
 
 TEST_F(ServerRobustness, OpensAnUploadAndCleansUpBehindIt) {
@@ -244,9 +249,7 @@ TEST_F(ServerRobustness, OutlivesHostileFiles) {
   upload(client, "scrambled.step", step);  // whatever becomes of it
   EXPECT_EQ(upload(client, "program.exe", "MZ")["status"], "failed");
   // Back to the scene that expect_alive() knows.
-  const Json opened = client.command("open", {{"root", 0}, {"file", "block.obj"}});
-  ASSERT_TRUE(opened["ok"]) << opened;
-  EXPECT_EQ(end_of_job(client, opened["job"])["status"], "done");
+  EXPECT_EQ(open(client, {{"root", 0}, {"file", "block.obj"}})["status"], "done");
 }
 
 TEST_F(ServerRobustness, CancelsAnImport) {
@@ -266,9 +269,7 @@ TEST_F(ServerRobustness, RemembersRecentFilesBelowItsRoots) {
   const Json recent = client.command("recent");
   ASSERT_EQ(recent["recent"].size(), 1u) << recent;
   EXPECT_EQ(recent["recent"][0]["name"], "block.obj");
-  const Json opened = client.command("open", {{"recent", 0}});
-  ASSERT_TRUE(opened["ok"]) << opened;
-  EXPECT_EQ(end_of_job(client, opened["job"])["status"], "done");
+  EXPECT_EQ(open(client, {{"recent", 0}})["status"], "done");
   EXPECT_FALSE(client.command("open", {{"recent", 5}})["ok"]);
 }
 

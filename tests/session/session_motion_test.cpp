@@ -5,14 +5,7 @@
 namespace dismantle {
 namespace {
 
-using scenes::box;
-using scenes::component;
-using scenes::kBoth;
-using scenes::kFirst;
-using scenes::kSecond;
-using scenes::pinned_plates;
-using scenes::Table;
-using scenes::wall_and_block;
+using namespace scenes;
 
 const Vec3 kUp{0, 0, 1};
 

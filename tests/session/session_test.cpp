@@ -8,15 +8,9 @@
 namespace dismantle {
 namespace {
 
-using scenes::box;
-using scenes::component;
-using scenes::kBoth;
-using scenes::kFirst;
-using scenes::kSecond;
-using scenes::Table;
-using scenes::wall_and_block;
+using namespace scenes;
 
-constexpr double kTolerance = scenes::kTableTolerance;
+constexpr double kTolerance = kTableTolerance;
 
 TEST(Session, RecordsEachDragAsOneMove) {
   Table table(wall_and_block());

@@ -103,7 +103,6 @@ export class App {
     session.notifier.subscribe(() => {
       if (this.drag.active && (session.store.link === "lost" || session.store.state?.hand === null) && this.drag.held)
         this.drag.drop();
-      viewport.invalidate();
     });
     listenForKeys(this);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.setTheme(startTheme()));
@@ -112,8 +111,9 @@ export class App {
   /// Puts the gizmo and the arrows of free directions where the selection is.
   private placeMarks(): boolean {
     const { store } = this.session;
-    const views = store.selection.map((c) => this.viewport.model?.components[c]).filter((view) => view?.visible);
-    const box = views.length > 0 ? views.map((view) => view!.bounds()).reduce((all, next) => all.union(next)) : null;
+    const { model } = this.viewport;
+    const shown = store.selection.filter((c) => model?.components[c]?.visible);
+    const box = shown.length > 0 ? model!.boundsOf(shown) : null;
     const center = box?.getCenter(new Vector3()) ?? null;
     this.gizmo.place(store.gizmo && store.control ? center : null);
     this.gizmo.update(this.viewport.rig);
@@ -185,9 +185,8 @@ export class App {
 
   private fit(): void {
     const { selection } = this.session.store;
-    const boxes = selection.map((c) => this.viewport.model!.components[c].bounds());
-    const all = this.viewport.model?.bounds();
-    if (all) this.viewport.rig.fit(boxes.length > 0 ? boxes.reduce((sum, box) => sum.union(box)) : all);
+    const { model, rig } = this.viewport;
+    if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
   }
 
   private isolate(): void {

@@ -52,7 +52,6 @@ const kIcons = {
   reset: "M3 3v4h4M3 7a5.5 5.5 0 1 1-.5 3",
   arrow: "M2 8h11M9 4l4 4-4 4",
   guide: "M3 2.5h10v11H3zM5.5 5.5h5M5.5 8h5M5.5 10.5h3",
-  panels: "M2 3h12v10H2zM6 3v10M10.5 3v10",
 } as const;
 
 export type IconName = keyof typeof kIcons;

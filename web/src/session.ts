@@ -5,7 +5,7 @@ import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
 import { Connection } from "./wire/connection.ts";
-import type { Commands, ModelEvent, StateEvent } from "./wire/messages.ts";
+import type { Commands, JobEvent, ModelEvent, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
 
 /// The server's session as this page knows it, and the model that shows it: components are only ever drawn where the
@@ -13,7 +13,7 @@ import type { PoseFrame, WirePose } from "./wire/structs.ts";
 export class Session {
   readonly store: Store = emptyStore();
   readonly connection = new Connection();
-  readonly notifier = new Notifier();
+  readonly notifier: Notifier;
   /// Shows the user a sentence.
   onNote: (level: "note" | "warning", sentence: string) => void = () => {};
   onModel: () => void = () => {};
@@ -23,6 +23,11 @@ export class Session {
 
   constructor(readonly viewport: Viewport) {
     const { connection, store } = this;
+    this.notifier = new Notifier(() => viewport.invalidate());
+    viewport.beforePicture.push(() => {
+      this.notifier.tell();
+      return false;
+    });
     connection.onLink = (link) =>
       this.change(() => {
         store.link = link;
@@ -80,7 +85,6 @@ export class Session {
     this.change(() => {
       this.store.selection = components;
       this.store.directions = null;
-      this.store.nearest = null;
     });
     this.showLooks();
   }
@@ -135,7 +139,7 @@ export class Session {
     this.viewport.invalidate();
   }
 
-  private takeJob(job: Store["jobs"] extends Map<number, infer Job> ? Job : never): void {
+  private takeJob(job: JobEvent): void {
     this.store.jobs.set(job.job, job);
     if (job.status === "running") return;
     this.store.jobs.delete(job.job);
@@ -149,7 +153,7 @@ export class Session {
     });
     if (known && this.viewport.model) return;
     Object.assign(this.store, { selection: [], hovered: null, xray: new Set(), blocking: new Set() });
-    Object.assign(this.store, { pairs: null, directions: null, nearest: null, planes: [], explode: 0, frame: null });
+    Object.assign(this.store, { pairs: null, directions: null, planes: [], frame: null });
     const loading = this.load(model).finally(() => {
       if (this.loading === loading) this.loading = null;
     });

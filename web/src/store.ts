@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import type { Link } from "./wire/connection.ts";
-import type {
-  CheckedPair,
-  Clearance,
-  FreeDirection,
-  JobEvent,
-  Metrics,
-  ModelEvent,
-  StateEvent,
-} from "./wire/messages.ts";
+import type { CheckedPair, FreeDirection, JobEvent, Metrics, ModelEvent, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame } from "./wire/structs.ts";
 
 export interface SectionPlane {
@@ -39,9 +31,7 @@ export interface Store {
   xray: Set<number>;
   blocking: Set<number>;
   directions: { components: number[]; directions: FreeDirection[] } | null;
-  nearest: Clearance | null;
   planes: SectionPlane[];
-  explode: number;
   gizmo: boolean;
   measuring: boolean;
   dragHint: string;
@@ -65,30 +55,33 @@ export function emptyStore(): Store {
     xray: new Set(),
     blocking: new Set(),
     directions: null,
-    nearest: null,
     planes: [],
-    explode: 0,
     gizmo: false,
     measuring: false,
     dragHint: "",
   };
 }
 
-/// Calls panels once after any number of changes, before the next picture.
+/// Calls panels once after any number of changes, before the next picture: poses come faster than pictures.
 export class Notifier {
   private readonly listeners: (() => void)[] = [];
-  private scheduled = false;
+  private changed = false;
+
+  /// @param ask asks for a picture, before which `tell` is to be called
+  constructor(private readonly ask: () => void) {}
 
   subscribe(listener: () => void): void {
     this.listeners.push(listener);
   }
 
   notify(): void {
-    if (this.scheduled) return;
-    this.scheduled = true;
-    queueMicrotask(() => {
-      this.scheduled = false;
-      for (const listener of this.listeners) listener();
-    });
+    this.changed = true;
+    this.ask();
+  }
+
+  tell(): void {
+    if (!this.changed) return;
+    this.changed = false;
+    for (const listener of this.listeners) listener();
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Matrix4, Vector3 } from "three";
+import { Matrix4, Vector3 } from "three";
 import type { CameraRig } from "../scene/camera_rig.ts";
 import type { Arrow } from "../scene/marks.ts";
 import { setMatrixFromPose } from "../scene/model_view.ts";
@@ -67,8 +67,8 @@ export class Drag {
     this.grabbed = grabbed.clone();
     this.startPose = this.session.poseOf(components[0]) ?? kAssembled;
     const views = components.map((c) => viewport.model!.components[c]);
-    const box = views.reduce((all, view) => all.union(view.bounds()), new Box3());
-    this.motion = new DragMotion(this.startPose, box.getCenter(new Vector3()), grabbed);
+    const center = viewport.model!.boundsOf(components).getCenter(new Vector3());
+    this.motion = new DragMotion(this.startPose, center, grabbed);
     [this.grip, this.number, this.answered, this.unsent, this.ending] = [null, 0, 0, false, false];
     [this.stuckSince, this.stuckAsked] = [0, false];
     store.leastClearance = Number.NaN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Matrix4, Quaternion, type Ray, Vector3 } from "three";
+import { Quaternion, type Ray, Vector3 } from "three";
 import type { WirePose } from "../wire/structs.ts";
 
 /// What the hand may do: follow the pointer in the plane of the screen, go deeper, turn, or keep to an axis.
@@ -51,10 +51,6 @@ export class DragMotion {
     return this.place(this.grabbed.clone());
   }
 
-  centerTarget(): Vector3 {
-    return this.center.clone().add(this.offset);
-  }
-
   target(): WirePose {
     const [w, x, y, z] = this.start.rotation;
     const rotation = this.turn
@@ -103,17 +99,6 @@ export class DragMotion {
     }
     this.turn.premultiply(turn).normalize();
   }
-}
-
-/// How far a pose moves a point.
-export function shiftOf(from: WirePose, to: WirePose, point: Vector3): number {
-  const a = matrixOf(from);
-  return point.clone().applyMatrix4(a.invert()).applyMatrix4(matrixOf(to)).distanceTo(point);
-}
-
-function matrixOf(pose: WirePose): Matrix4 {
-  const [w, x, y, z] = pose.rotation;
-  return new Matrix4().compose(new Vector3(...pose.position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
 }
 
 function meetPlane(ray: Ray, point: Vector3, normal: Vector3): Vector3 | null {

@@ -216,8 +216,7 @@ export class PointerInput {
 
   private selectionCenter(): Vector3 {
     const { viewport, store } = this.session;
-    const boxes = store.selection.map((c) => viewport.model!.components[c].bounds());
-    return boxes.reduce((all, box) => all.union(box)).getCenter(new Vector3());
+    return viewport.model!.boundsOf(store.selection).getCenter(new Vector3());
   }
 
   private takeOutAlong(arrow: number): void {

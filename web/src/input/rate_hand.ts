@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { Session } from "../session.ts";
 import type { Triple } from "../wire/messages.ts";
 import { rateMessage } from "../wire/structs.ts";
@@ -82,8 +82,8 @@ export class RateHand {
 
   private send(grip: number): void {
     const { rig, model } = this.session.viewport;
-    const box = this.session.store.selection.reduce((all, c) => all.union(model!.components[c].bounds()), new Box3());
-    const speed = kLinearSpeed * rig.size.y * rig.pixelSize(box.getCenter(new Vector3()));
+    const center = model!.boundsOf(this.session.store.selection).getCenter(new Vector3());
+    const speed = kLinearSpeed * rig.size.y * rig.pixelSize(center);
     const linear = this.inWorld(this.wanted.linear).multiplyScalar(speed);
     const angular = this.inWorld(this.wanted.angular).multiplyScalar(kAngularSpeed);
     const message = rateMessage(grip, ++this.number, linear.toArray() as Triple, angular.toArray() as Triple);

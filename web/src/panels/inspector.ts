@@ -4,7 +4,7 @@ import { button, element, setText } from "../dom.ts";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
 import { lengthText, text } from "../strings.ts";
-import type { FreeDirection, Triple } from "../wire/messages.ts";
+import type { Triple } from "../wire/messages.ts";
 import { clearanceText } from "./status.ts";
 
 /// The right side: what is selected, what can be done with it, what it touches and where it can go.
@@ -136,9 +136,8 @@ export class Inspector {
   private async moveByNumbers(): Promise<void> {
     const values = this.numbers.map((field) => Number(field.value) || 0);
     const { selection } = this.session.store;
-    const boxes = selection.map((c) => this.session.viewport.model!.components[c].bounds());
-    if (boxes.length === 0 || values.every((value) => value === 0)) return;
-    const center = boxes.reduce((all, box) => all.union(box)).getCenter(new Vector3());
+    if (selection.length === 0 || values.every((value) => value === 0)) return;
+    const center = this.session.viewport.model!.boundsOf(selection).getCenter(new Vector3());
     if (!(await this.drag.begin([...selection], center))) return;
     const turn = new Vector3(values[3], values[4], values[5]).multiplyScalar(Math.PI / 180);
     this.drag.moveBy(new Vector3(values[0], values[1], values[2]), turn);
@@ -294,8 +293,6 @@ export function directionText(direction: Triple): string {
   if (main >= 0) return `${direction[main] > 0 ? "+" : "−"}${"XYZ"[main]}`;
   return `(${direction.map((value) => value.toFixed(2).replace("-", "−")).join(", ")})`;
 }
-
-export type Way = FreeDirection;
 
 function numberField(index: number): HTMLInputElement {
   return element("input", { type: "number", step: "any", value: "0", id: `numeric-${index}` });

@@ -13,7 +13,7 @@ const kKinds = ".step,.stp,.glb,.gltf,.obj,.stl,.ply,.urdf";
 export class OpenDialog {
   readonly node: HTMLDialogElement;
   private readonly samples = element("div", { class: "cards", id: "samples" });
-  private readonly recent = element("ul", { class: "rows" });
+  private readonly recent = element("ul", { class: "rows", id: "recent" });
   private readonly roots = element("div", { class: "roots" });
   private readonly picker = element("input", {
     type: "file",
@@ -99,13 +99,13 @@ export class OpenDialog {
         ),
       ),
     );
-    const files = (recent?.recent ?? []).map(({ name, folder }) =>
+    const files = (recent?.recent ?? []).map(({ name, folder }, index) =>
       element(
         "li",
         {},
         element(
           "button",
-          { type: "button", class: "link-button", onclick: () => void this.load({ recent: name }) },
+          { type: "button", class: "link-button", onclick: () => void this.load({ recent: index }) },
           name,
         ),
         element("span", { class: "muted" }, folder),
@@ -115,11 +115,11 @@ export class OpenDialog {
       ...(files.length > 0 ? files : [element("li", { class: "muted" }, text("open.recent.none"))]),
     );
     const { roots } = this.session.store;
-    this.roots.replaceChildren(...roots.map((root) => this.rootList(root)));
+    this.roots.replaceChildren(...roots.map((name, root) => this.rootList(name, root)));
     if (roots.length === 0) this.roots.append(element("p", { class: "muted" }, text("open.roots.none")));
   }
 
-  private rootList(root: string): HTMLElement {
+  private rootList(name: string, root: number): HTMLElement {
     const list = element("ul", { class: "rows files" });
     const show = async (folder: string): Promise<void> => {
       const answer = await this.session.ask("files", { root, folder });
@@ -153,14 +153,14 @@ export class OpenDialog {
       list.replaceChildren(...(folder === "" ? rows : [up, ...rows]));
     };
     void show("");
-    return element("div", {}, element("h3", {}, root), list);
+    return element("div", {}, element("h3", {}, name), list);
   }
 
   private async load(what: Commands["open"][0]): Promise<void> {
     if (await this.session.ask("open", what)) this.close();
   }
 
-  private async openPath(root: string, file: string): Promise<void> {
+  private async openPath(root: number, file: string): Promise<void> {
     if (await this.session.ask("open_path", { root, file })) this.close();
   }
 

@@ -65,7 +65,7 @@ export class StatusLine {
       model ? text("status.triangles", { count: model.triangles.toLocaleString("en") }) : "",
     );
     setText(this.parts.clients, store.clients > 1 ? text("status.watchers", { count: store.clients }) : "");
-    setText(this.parts.link, text(`status.${link}` as "status.open"));
+    setText(this.parts.link, text(`status.${link}`));
     this.parts.link.dataset.link = link;
   }
 }

@@ -37,6 +37,7 @@ export class TreePanel {
   private rows: Row[] = [];
   private shownModel: ModelEvent | null = null;
   private shownSelection: number[] = [];
+  private shown: unknown[] = [];
 
   constructor(private readonly session: Session) {
     this.search.oninput = () => this.filter();
@@ -62,6 +63,9 @@ export class TreePanel {
     const { model, state, selection, hovered, xray, blocking, frame } = this.session.store;
     if (model !== this.shownModel) this.rebuild(model);
     const touched = new Set(frame?.contacts.map(({ fixed }) => fixed));
+    const now = [model, state, selection, hovered, blocking, [...xray].join(), [...touched].sort().join()];
+    if (now.every((value, i) => value === this.shown[i])) return;
+    this.shown = now;
     for (const row of this.rows) {
       const gone = row.components.every((c) => state?.components[c]?.hidden || state?.components[c]?.removed);
       const seeThrough = row.components.every((c) => xray.has(c));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import { CanvasTexture, Group, Quaternion, Sprite, SpriteMaterial, SRGBColorSpace, Vector2, Vector3 } from "three";
+import { Group, Quaternion, Sprite, SpriteMaterial, Vector2, Vector3 } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { DragMode } from "../input/drag_motion.ts";
 import type { CameraRig } from "./camera_rig.ts";
 import { ArrowField, distanceToSegment } from "./marks.ts";
+import { wordTexture } from "./word_texture.ts";
 
 const kArrow = 84;
 const kRing = 58;
@@ -89,20 +90,13 @@ function ring(axis: Vector3, color: string): LineSegments2 {
 }
 
 function letter(name: string, color: string): Sprite {
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 64;
-  const brush = canvas.getContext("2d")!;
-  brush.fillStyle = color;
-  brush.beginPath();
-  brush.arc(32, 32, 26, 0, 2 * Math.PI);
-  brush.fill();
-  brush.fillStyle = "#ffffff";
-  brush.font = "700 36px system-ui, sans-serif";
-  brush.textAlign = "center";
-  brush.textBaseline = "middle";
-  brush.fillText(name, 32, 34);
-  const map = new CanvasTexture(canvas);
-  map.colorSpace = SRGBColorSpace;
+  const disc = (brush: CanvasRenderingContext2D) => {
+    brush.fillStyle = color;
+    brush.beginPath();
+    brush.arc(0, 0, 26, 0, 2 * Math.PI);
+    brush.fill();
+  };
+  const map = wordTexture(name, { size: 64, color: "#ffffff", font: "700 36px", ground: disc });
   const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false, transparent: true }));
   sprite.renderOrder = 11;
   return sprite;

@@ -50,6 +50,7 @@ export class ArrowField {
 
   /// Sizes the arrows for the camera; call before each picture.
   update(rig: CameraRig): void {
+    if (this.arrows.length === 0 && this.object.count === 0) return;
     const matrix = new Matrix4();
     const shown = this.arrows.slice(0, this.capacity);
     shown.forEach((arrow, i) => {

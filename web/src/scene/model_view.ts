@@ -35,13 +35,13 @@ export interface Look {
 }
 
 const kPlain: Look = { hovered: false, selected: false, blocking: false, xray: false, next: false };
+const kLooks = Object.keys(kPlain) as (keyof Look)[];
 const kXrayOpacity = 0.16;
 
 /// Something that the pointer is on.
 export interface Pick {
   component: number;
   point: Vector3;
-  normal: Vector3;
   distance: number;
 }
 
@@ -103,6 +103,7 @@ export class ComponentView {
     this.object.add(this.body, this.edges);
     this.object.matrixAutoUpdate = false;
     this.setPose(null);
+    this.applyLook();
   }
 
   get index(): number {
@@ -128,8 +129,9 @@ export class ComponentView {
   }
 
   setLook(look: Partial<Look>): void {
-    this.look = { ...this.look, ...look };
-    this.applyLook();
+    const before = this.look;
+    this.look = { ...before, ...look };
+    if (kLooks.some((key) => this.look[key] !== before[key])) this.applyLook();
   }
 
   setPalette(palette: Palette): void {
@@ -168,12 +170,7 @@ export class ComponentView {
     const hit = this.shape.rayTree.cast(ray);
     if (!hit) return null;
     const point = ray.at(hit.distance, new Vector3()).applyMatrix4(this.object.matrix);
-    return {
-      component: this.index,
-      point,
-      normal: this.faceNormal(hit.face),
-      distance: point.distanceTo(worldRay.origin),
-    };
+    return { component: this.index, point, distance: point.distanceTo(worldRay.origin) };
   }
 
   dispose(): void {
@@ -181,12 +178,6 @@ export class ComponentView {
     this.edges.material.dispose();
     this.cut?.material.dispose();
     this.outline?.material.dispose();
-  }
-
-  private faceNormal(face: number): Vector3 {
-    const corner = (k: number) => new Vector3().fromArray(this.shape.surface.positions, 9 * face + 3 * k);
-    const [a, b, c] = [corner(0), corner(1), corner(2)];
-    return b.sub(a).cross(c.sub(a)).transformDirection(this.object.matrix);
   }
 
   private applyLook(): void {
@@ -257,6 +248,11 @@ export class ModelView {
       if (pick && pick.distance < (best?.distance ?? Infinity) && accepts(pick)) best = pick;
     }
     return best;
+  }
+
+  /// Around some of them, where they are.
+  boundsOf(components: number[]): Box3 {
+    return components.reduce((box, c) => box.union(this.components[c].bounds()), new Box3());
   }
 
   /// Around what is shown.

@@ -24,14 +24,20 @@ void clip(vec3 world) {}
 #endif
 `;
 
-const kBodyVertex = /* glsl */ `
-varying vec3 vNormal;
+const kPlace = /* glsl */ `
 varying vec3 vWorld;
-void main() {
+void place() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vWorld = world.xyz;
-  vNormal = mat3(modelMatrix) * normal;
   gl_Position = projectionMatrix * viewMatrix * world;
+}`;
+
+const kBodyVertex = /* glsl */ `
+varying vec3 vNormal;
+${kPlace}
+void main() {
+  place();
+  vNormal = mat3(modelMatrix) * normal;
 }`;
 
 // Behind a section plane the first thing that a ray meets of a closed solid is its inside, and nothing else is between
@@ -81,11 +87,9 @@ void main() {
 }`;
 
 const kEdgeVertex = /* glsl */ `
-varying vec3 vWorld;
+${kPlace}
 void main() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
-  vWorld = world.xyz;
-  gl_Position = projectionMatrix * viewMatrix * world;
+  place();
 }`;
 
 const kEdgeFragment = /* glsl */ `

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
   BoxGeometry,
-  CanvasTexture,
+  type CanvasTexture,
   Color,
   EdgesGeometry,
   Group,
@@ -12,13 +12,13 @@ import {
   OrthographicCamera,
   Raycaster,
   Scene,
-  SRGBColorSpace,
   Vector2,
   Vector3,
   type WebGLRenderer,
 } from "three";
 import { type TextKey, text } from "../strings.ts";
 import type { CameraRig } from "./camera_rig.ts";
+import { wordTexture } from "./word_texture.ts";
 
 const kSize = 104;
 const kMargin = 8;
@@ -129,20 +129,11 @@ export class ViewCube {
   }
 
   private label(name: string, turn: number): CanvasTexture {
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = 128;
-    const brush = canvas.getContext("2d")!;
-    brush.fillStyle = this.colors.face;
-    brush.fillRect(0, 0, 128, 128);
-    brush.translate(64, 64);
-    brush.rotate(turn);
-    brush.fillStyle = this.colors.ink;
-    brush.font = "600 27px system-ui, sans-serif";
-    brush.textAlign = "center";
-    brush.textBaseline = "middle";
-    brush.fillText(name, 0, 2);
-    const texture = new CanvasTexture(canvas);
-    texture.colorSpace = SRGBColorSpace;
+    const ground = (brush: CanvasRenderingContext2D) => {
+      brush.fillStyle = this.colors.face;
+      brush.fillRect(-64, -64, 128, 128);
+    };
+    const texture = wordTexture(name, { size: 128, color: this.colors.ink, font: "600 27px", ground, turn });
     texture.anisotropy = 4;
     return texture;
   }

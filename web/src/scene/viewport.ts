@@ -30,7 +30,6 @@ export class Viewport {
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
-  private pictures = 0;
   private planeCount = 0;
   private stereoMode: StereoMode = "off";
   private readonly stereoPicture = new StereoPicture();
@@ -87,11 +86,6 @@ export class Viewport {
   /// Whether the picture shows everything asked for.
   get settled(): boolean {
     return !this.scheduled;
-  }
-
-  /// How many pictures were drawn.
-  get pictureCount(): number {
-    return this.pictures;
   }
 
   setModel(model: ModelView | null): void {
@@ -190,7 +184,6 @@ export class Viewport {
       const { perspective, size } = this.rig;
       this.stereoPicture.draw(this.renderer, this.scene, perspective, this.rig.current.distance, this.stereoMode, size);
     }
-    ++this.pictures;
     if (more) this.invalidate();
   }
 }

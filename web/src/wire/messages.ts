@@ -143,15 +143,15 @@ export interface Commands {
   pause: [object, object];
   seek: [{ time: number; source?: Source }, object];
   stop: [object, object];
-  save: [{ root: string; file: string }, { bytes: number }];
-  open_path: [{ root: string; file: string }, object];
+  save: [{ root: number; file: string }, { bytes: number }];
+  open_path: [{ root: number; file: string }, object];
   close_guide: [object, object];
-  open: [{ sample: string } | { root: string; file: string } | { recent: string }, { job: number }];
+  open: [{ sample: string } | { root: number; file: string } | { recent: number }, { job: number }];
   cancel: [{ job: number }, object];
   resume: [object, object];
   samples: [object, { samples: { name: string; description: string }[] }];
   files: [
-    { root: string; folder: string },
+    { root: number; folder: string },
     { entries: { name: string; kind: "folder" | "assembly" | "path"; bytes: number }[] },
   ];
   recent: [object, { recent: { name: string; folder: string }[] }];

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { axisFields, type HidAxes, type HidCollection, readAxes } from "../../src/input/hid_axes.ts";
+import { kSpaceMouse } from "../support/space_mouse.ts";
 
 const kRest: HidAxes = [0, 0, 0, 0, 0, 0];
 const usages = (from: number, count: number) => Array.from({ length: count }, (_, i) => 0x00010030 + from + i);
@@ -52,30 +53,6 @@ const kTwoReports: HidCollection[] = [
   },
 ];
 
-/// The SpaceMouse Wireless's descriptor: all six axes in report 1.
-const kOneReport: HidCollection[] = [
-  {
-    usagePage: 1,
-    usage: 8,
-    inputReports: [
-      {
-        reportId: 1,
-        items: [
-          {
-            isRange: true,
-            usageMinimum: 0x00010030,
-            usageMaximum: 0x00010035,
-            reportSize: 16,
-            reportCount: 6,
-            logicalMinimum: -350,
-            logicalMaximum: 350,
-          },
-        ],
-      },
-    ],
-  },
-];
-
 function report(...values: number[]): DataView {
   const view = new DataView(new ArrayBuffer(2 * values.length));
   values.forEach((value, i) => {
@@ -93,7 +70,7 @@ test("axes in two reports are found, and each report changes its own", () => {
 });
 
 test("all axes in one report are found", () => {
-  const fields = axisFields(kOneReport);
+  const fields = axisFields(kSpaceMouse);
   assert.deepEqual(
     fields.map(({ axis, begin }) => [axis, begin]),
     [0, 1, 2, 3, 4, 5].map((axis) => [axis, 16 * axis]),
@@ -112,7 +89,7 @@ test("axes that begin within a byte, after padding, are read by their bits", () 
 });
 
 test("a report that is too short, and one of another id, change nothing", () => {
-  const fields = axisFields(kOneReport);
+  const fields = axisFields(kSpaceMouse);
   assert.deepEqual(readAxes(fields, 1, report(), kRest), kRest);
   assert.deepEqual(readAxes(fields, 9, report(350, 0, 0, 0, 0, 0), kRest), kRest);
 });

@@ -2,21 +2,13 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { test } from "node:test";
+import { useMicroscope, viewer } from "../support/scene.ts";
 import { sourceFolder } from "../support/tree.ts";
 
-let server: Server;
-let viewer: Viewer;
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-  await viewer.page.evaluate(readFileSync(join(sourceFolder(), "web/node_modules/axe-core/axe.min.js"), "utf8"));
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
+useMicroscope({
+  prepare: () =>
+    viewer.page.evaluate(readFileSync(join(sourceFolder(), "web/node_modules/axe-core/axe.min.js"), "utf8")),
 });
 
 /// What axe-core finds serious or critical.

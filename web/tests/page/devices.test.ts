@@ -1,49 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { kSpaceMouse } from "../support/space_mouse.ts";
 
-let server: Server;
-let viewer: Viewer;
-const kSlide = "specimen slide";
+useMicroscope({ view: "1", before: (page) => page.addInitScript(fakeMouse, kSpaceMouse) });
 
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server, { before: fakeMouse });
-  await viewer.press("1");
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
-
-/// A 3D mouse whose reports the test writes: all six axes in report 1, 16 bits each.
-function fakeMouse(): void {
+/// A 3D mouse whose reports the test writes.
+function fakeMouse(collections: object): void {
   const device = Object.assign(new EventTarget(), {
     opened: false,
     productName: "SpaceMouse",
-    collections: [
-      {
-        usagePage: 1,
-        usage: 8,
-        inputReports: [
-          {
-            reportId: 1,
-            items: [
-              {
-                isRange: true,
-                usageMinimum: 0x10030,
-                usageMaximum: 0x10035,
-                reportSize: 16,
-                reportCount: 6,
-                logicalMinimum: -350,
-                logicalMaximum: 350,
-              },
-            ],
-          },
-        ],
-      },
-    ],
+    collections,
     async open() {
       device.opened = true;
     },
@@ -78,10 +46,7 @@ test("with nothing selected the 3D mouse moves the view", async () => {
 });
 
 test("what is selected moves with it, stops at contact, and is one entry of undo", async () => {
-  await viewer.page.evaluate((name) => {
-    const { session } = window.dismantle!.app;
-    session.select([session.store.model!.components.findIndex((c) => c.name === name)]);
-  }, kSlide);
+  await viewer.select(kSlide);
   await deflect(100, 0, 120, 0, 0, 0); // right, and down onto the stage
   await viewer.page.waitForFunction((name) => window.dismantle!.drawnMatrix(name)[12] > 10, kSlide);
   await deflect(0, 0, 0, 0, 0, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { afterEach, test } from "node:test";
+import { audit, kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 //   The stage from the front, z up: the slide lies on the stage, two clips hold it down, and it is free to the sides.
 //
@@ -9,30 +9,12 @@ import { closeBrowser, Server, Viewer } from "../support/page.ts";
 //     ====#============#====   specimen slide
 //     ######################   stage plate
 
-let server: Server;
-let viewer: Viewer;
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-  await viewer.press("1");
-  await viewer.page.evaluate(() =>
-    window.dismantle!.app.viewport.rig.zoom(
-      0.45,
-      window.dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === "specimen slide")!.bounds().min,
-    ),
-  );
-  await viewer.idle();
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope({ view: "1", prepare: () => viewer.zoomTo(kSlide, 0.45) });
 afterEach(async () => {
+  await audit();
   if ((await viewer.state()).moves.length > 0) await viewer.click("#reset");
 });
 
-const kSlide = "specimen slide";
 const blocking = () => viewer.page.locator("#tree-panel .badge.blocks").count();
 const drag = () =>
   viewer.page.evaluate(() => {

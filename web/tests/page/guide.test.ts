@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-const kSlide = "specimen slide";
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-  await viewer.press("1");
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope({ view: "1" });
 
 const step = () => viewer.page.locator("#guide-step").innerText();
 const score = () => viewer.page.locator("#guide-score").innerText();

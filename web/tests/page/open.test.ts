@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, join } from "node:path";
+import { after, test } from "node:test";
+import { useViewer, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-
-before(async () => {
-  server = await Server.start();
-  viewer = await Viewer.open(server, { waits: false });
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+const folder = mkdtempSync(join(tmpdir(), "dismantle-root-"));
+useViewer(["--root", folder], { waits: false });
+after(() => rmSync(folder, { recursive: true }));
 
 const modelName = () => viewer.page.evaluate(() => window.dismantle!.app.session.store.model?.name ?? null);
 
@@ -71,4 +66,20 @@ test("a file dropped on the page is opened", async () => {
   }, kCube);
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "dropped.obj");
   await viewer.idle();
+});
+
+test("files below the roots are listed and opened; those opened are recent", async () => {
+  writeFileSync(join(folder, "box.obj"), kCube);
+  await viewer.click("#open");
+  await viewer.page.locator(".roots h3", { hasText: basename(folder) }).waitFor();
+  await viewer.page.click('.roots .link-button:text-is("box.obj")');
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "box.obj");
+  await viewer.click("#open");
+  await viewer.page.click('#recent .link-button:text-is("box.obj")');
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.number === 5);
+  assert.equal(await modelName(), "box.obj");
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
 });

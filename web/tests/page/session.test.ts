@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { test } from "node:test";
+import { Viewer } from "../support/page.ts";
+import { kSlide, server, useMicroscope, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-const kSlide = "specimen slide";
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-  await viewer.press("1");
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope({ view: "1" });
 
 /// Cuts the page's socket, as a lost network does.
 async function loseConnection(): Promise<void> {

@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-const kSlide = "specimen slide";
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-  await viewer.press("1");
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope({ view: "1" });
 
 const playback = async () => (await viewer.state()).playback;
 

@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, beforeEach, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { beforeEach, test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-const kSlide = "specimen slide";
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope();
 beforeEach(async () => {
   await viewer.page.focus("#view");
   if ((await viewer.page.locator("[data-banner=section]").count()) > 0) await viewer.press("s");
   await viewer.press("Escape", "1", "f");
 });
-
-async function select(name: string): Promise<void> {
-  await viewer.page.evaluate((n) => {
-    const { session } = window.dismantle!.app;
-    session.select([session.store.model!.components.findIndex((c) => c.name === n)]);
-  }, name);
-  await viewer.idle();
-}
 
 test("a section cuts the model open, filled, and what is cut away cannot be grabbed", async () => {
   const whole = await viewer.picture();
@@ -94,7 +75,7 @@ test("a screenshot is a PNG of the picture", async () => {
 });
 
 test("an arrow of the gizmo moves along its axis only, a ring turns", async () => {
-  await select(kSlide);
+  await viewer.select(kSlide);
   await viewer.press("g", "f");
   const center = await viewer.page.evaluate((name) => {
     const view = window.dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === name)!;
@@ -121,7 +102,7 @@ test("help lists the keys, and closes", async () => {
 });
 
 test("free directions are arrows; one that is clicked takes the component out along it", async () => {
-  await select(kSlide);
+  await viewer.select(kSlide);
   await viewer.press("d");
   await viewer.page.locator("#directions .way.free").first().waitFor();
   const arrows = await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length);
@@ -142,7 +123,7 @@ test("free directions are arrows; one that is clicked takes the component out al
 });
 
 test("put back brings it home", async () => {
-  await select(kSlide);
+  await viewer.select(kSlide);
   await viewer.click("#put-back");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
   await viewer.idle();

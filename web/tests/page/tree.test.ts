@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, before, beforeEach, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
+import { beforeEach, test } from "node:test";
+import { useMicroscope, viewer } from "../support/scene.ts";
 
-let server: Server;
-let viewer: Viewer;
-
-before(async () => {
-  server = await Server.start("--sample", "microscope");
-  viewer = await Viewer.open(server);
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
+useMicroscope();
 beforeEach(async () => {
   await viewer.page.fill("#tree-search", "");
   await viewer.page.focus("#view");

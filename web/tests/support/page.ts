@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type ChildProcess, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { type ChildProcess, execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { type Browser, chromium as driver, type Page } from "playwright-core";
 import type { StateEvent } from "../../src/wire/messages.ts";
 import { chromium, pageFolder, program } from "./tree.ts";
 
-const kChromiumFlags = [
-  "--headless",
-  "--no-sandbox",
-  "--use-gl=angle",
-  "--use-angle=swiftshader",
-  "--enable-unsafe-swiftshader",
-];
+/// Drawn by Mesa on the processor: twice as fast as what the browser itself has for machines without a GPU.
+const kChromiumFlags = ["--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
 const kPatience = 30_000;
 
-/// A running server with an assembly, as a user starts it. Its journal and its lists are in a folder of its own.
+/// A running server with an assembly, as a user starts it.
 export class Server {
   private constructor(
     readonly url: string,
     private readonly child: ChildProcess,
-    private readonly home: string,
+    /// The server's own folder: its journal, its lists, and what a test puts there.
+    readonly home: string,
   ) {}
 
   static start(...arguments_: string[]): Promise<Server> {
@@ -47,6 +43,13 @@ export class Server {
     });
   }
 
+  /// An assembly that was opened: a test's own in `home`, or else a sample.
+  fileOf(name: string): string {
+    const file = join(this.home, name);
+    if (!existsSync(file)) execFileSync(program(), ["sample", basename(name, ".step"), "-o", file]);
+    return file;
+  }
+
   async stop(): Promise<void> {
     const ended = new Promise((resolve) => this.child.once("exit", resolve));
     this.child.kill("SIGTERM");
@@ -62,6 +65,15 @@ export async function closeBrowser(): Promise<void> {
   browser = null;
 }
 
+export interface OpenOptions {
+  /// Until the model is there and drawn; true where it is not given.
+  waits?: boolean;
+  /// The key of the standard view to begin with.
+  view?: string;
+  /// What is done with the page before its own script runs.
+  before?: (page: Page) => Promise<unknown>;
+}
+
 /// A page as a test drives it.
 export class Viewer {
   readonly problems: string[] = [];
@@ -73,20 +85,20 @@ export class Viewer {
     });
   }
 
-  static async visit(url: string, before?: () => void, size = { width: 800, height: 500 }): Promise<Viewer> {
+  static async visit(url: string, before?: OpenOptions["before"], size = { width: 800, height: 500 }): Promise<Viewer> {
     browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags });
     const page = await browser.newPage({ viewport: size });
     page.setDefaultTimeout(kPatience);
-    if (before) await page.addInitScript(before);
+    await before?.(page);
     const viewer = new Viewer(page);
     await page.goto(url);
     return viewer;
   }
 
-  /// @param options.before runs in the page before its own script
-  static async open(server: Server, options: { waits?: boolean; before?: () => void } = {}): Promise<Viewer> {
-    const viewer = await Viewer.visit(server.url.replace("/#", "/?test#"), options.before);
-    if (options.waits ?? true) await viewer.model();
+  static async open(server: Server, { waits = true, view, before }: OpenOptions = {}): Promise<Viewer> {
+    const viewer = await Viewer.visit(server.url.replace("/#", "/?test#"), before);
+    if (waits) await viewer.model();
+    if (view) await viewer.press(view);
     return viewer;
   }
 
@@ -135,11 +147,39 @@ export class Viewer {
     return place;
   }
 
+  /// The recording as a path file.
+  recording(): Promise<string> {
+    return this.page.evaluate(async () => {
+      const { connection } = window.dismantle!.app.session;
+      return (await connection.request("/api/path.json")).text();
+    });
+  }
+
+  async select(...names: string[]): Promise<void> {
+    await this.page.evaluate((wanted) => {
+      const { session } = window.dismantle!.app;
+      session.select(wanted.map((name) => session.store.model!.components.findIndex((c) => c.name === name)));
+    }, names);
+    await this.idle();
+  }
+
   selection(): Promise<string[]> {
     return this.page.evaluate(() => {
       const { store } = window.dismantle!.app.session;
       return store.selection.map((c) => store.model!.components[c].name);
     });
+  }
+
+  /// Zooms towards a corner of a component's box.
+  async zoomTo(name: string, factor: number): Promise<void> {
+    await this.page.evaluate(
+      ([n, by]) => {
+        const { rig, model } = window.dismantle!.app.viewport;
+        rig.zoom(by as number, model!.components.find(({ raw }) => raw.name === n)!.bounds().min);
+      },
+      [name, factor],
+    );
+    await this.idle();
   }
 
   async press(...keys: string[]): Promise<void> {
