@@ -12,7 +12,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <thread>
 
 namespace dismantle::cli {
 
@@ -40,15 +42,37 @@ sigset_t block_signals() {
   return set;
 }
 
-/// Starts the user's browser where there is a screen. The URL holds the token: it is the browser's argument, as with
-/// every program that does this, and of no use from other machines.
-void open_browser(const std::string& url) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  std::string program = "xdg-open", argument = url;
+void say_no_browser() {
+  std::fprintf(stderr, "No browser can be opened from here: open the address above in one on this machine.\n");
+}
+
+/// Starts a program that is not to inherit the signals that are blocked here. None where it cannot be started.
+std::optional<pid_t> spawn(std::string program, std::string argument) {
   char* arguments[] = {program.data(), argument.data(), nullptr};
+  posix_spawnattr_t attributes;
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
   pid_t child = 0;
-  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments, environ) != 0) return;
-  waitpid(child, nullptr, 0);
+  const int failed = posix_spawnp(&child, arguments[0], nullptr, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  if (failed != 0) return {};
+  return child;
+}
+
+/// Starts the user's browser where there is a screen; says so where that cannot be. The URL holds the token: it is the
+/// browser's argument, as with every program that does this, and of no use from other machines.
+void open_browser(const std::string& url) {
+  const bool has_screen = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  const std::optional<pid_t> child = has_screen ? spawn("xdg-open", url) : std::nullopt;
+  if (!child) return say_no_browser();
+  std::thread([pid = *child] {  // some browsers end only when they are closed
+    int status = 0;
+    if (waitpid(pid, &status, 0) == pid && status != 0) say_no_browser();
+  })
+      .detach();
 }
 
 /// Where programs keep what a user would not miss: XDG's state folder.
