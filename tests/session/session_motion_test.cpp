@@ -158,6 +158,19 @@ TEST(SessionPlayback, GivesTheSameFramesAtAnySpeed) {
   }
 }
 
+TEST(SessionPlayback, ComesToItsEndWhateverTheTimesRoundTo) {
+  ASSERT_LT((0.2 + 0.5) - 0.2, 0.5);
+  Table table(wall_and_block());
+  table.move(kFirst, {-10, 0, 0}, 20);
+  table.move(kSecond, {0, 20, 0}, 50);
+  for (const double speed : {-4.0, 1.0, -1.0, 4.0}) {
+    ASSERT_TRUE(table.session().play(PlaybackSource::Recording, speed).ok());
+    table.let_run();
+    EXPECT_EQ(table.pose(0).position.x, speed > 0 ? -10 : 0) << speed;
+    EXPECT_EQ(table.pose(1).position.y, speed > 0 ? 20 : 0) << speed;
+  }
+}
+
 TEST(SessionPlayback, SeeksAnywhereAndBack) {
   Table table(wall_and_block());
   table.move(kFirst, {-10, 0, 0}, 10);

@@ -7,6 +7,7 @@ import { listenForKeys } from "./input/keys.ts";
 import { PointerInput } from "./input/pointer.ts";
 import { RateHand } from "./input/rate_hand.ts";
 import { Banner, Toasts } from "./panels/banner.ts";
+import { ExplodePanel } from "./panels/explode_panel.ts";
 import { GuidePanel } from "./panels/guide_panel.ts";
 import { helpDialog } from "./panels/help.ts";
 import { Inspector } from "./panels/inspector.ts";
@@ -44,6 +45,7 @@ export class App {
   private readonly timeline: TimelinePanel;
   private readonly sections: SectionPanel;
   private readonly measure: Measure;
+  private readonly explode: ExplodePanel;
   private readonly openDialog: OpenDialog;
   private readonly help = helpDialog();
   private readonly toasts = new Toasts();
@@ -69,8 +71,15 @@ export class App {
     this.timeline = new TimelinePanel(this.session);
     this.sections = new SectionPanel(this.session);
     this.measure = new Measure(this.session);
+    this.explode = new ExplodePanel(this.session);
     this.openDialog = new OpenDialog(this.session);
-    stage.append(new Banner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
+    stage.append(
+      new Banner(this.session).node,
+      this.sections.node,
+      this.explode.node,
+      this.measure.node,
+      this.toasts.node,
+    );
     document.body.prepend(new Toolbar(this).node, this.tree.node);
     document.body.append(
       this.inspector.node,
@@ -141,6 +150,7 @@ export class App {
         }),
       section: () => this.sections.toggle(),
       measure: () => this.measure.toggle(),
+      explode: () => this.explode.toggle(),
       projection: () =>
         this.session.change(() => {
           this.viewport.rig.orthographic = !this.viewport.rig.orthographic;

@@ -5,7 +5,7 @@ import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
 import { Connection } from "./wire/connection.ts";
-import type { Commands, JobEvent, ModelEvent, StateEvent } from "./wire/messages.ts";
+import type { Commands, JobEvent, ModelEvent, Move, Source, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
 
 /// The server's session as this page knows it, and the model that shows it: components are only ever drawn where the
@@ -106,6 +106,18 @@ export class Session {
     this.showLooks();
   }
 
+  movesOf(source: Source): Move[] {
+    const { state } = this.store;
+    return (source === "guide" ? state?.guide?.moves : state?.moves) ?? [];
+  }
+
+  /// Where the playback is [s]; null where none is open.
+  get playedTime(): number | null {
+    const { state, frame } = this.store;
+    if (!state?.playback) return null;
+    return frame?.playback ? frame.time : state.playback.time;
+  }
+
   /// Begins anew with the recording as the guide.
   async followRecording(): Promise<void> {
     try {
@@ -153,7 +165,7 @@ export class Session {
     });
     if (known && this.viewport.model) return;
     Object.assign(this.store, { selection: [], hovered: null, xray: new Set(), blocking: new Set() });
-    Object.assign(this.store, { pairs: null, directions: null, planes: [], frame: null });
+    Object.assign(this.store, { pairs: null, directions: null, planes: [], exploding: false, frame: null });
     const loading = this.load(model).finally(() => {
       if (this.loading === loading) this.loading = null;
     });
@@ -189,7 +201,9 @@ export class Session {
     for (const view of this.viewport.model?.components ?? []) {
       const { hidden, removed } = state.components[view.index] ?? {};
       const moves = state.moving.includes(view.index);
-      view.visible = moves || (!hidden && !removed);
+      // Exploded, what was taken out is shown where the path has put it.
+      const gone = removed && !(this.store.exploding && state.playback);
+      view.visible = moves || (!hidden && !gone);
       view.setPose(poseFromState(state, view.index));
     }
     this.viewport.updateBounds();

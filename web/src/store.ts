@@ -32,6 +32,7 @@ export interface Store {
   blocking: Set<number>;
   directions: { components: number[]; directions: FreeDirection[] } | null;
   planes: SectionPlane[];
+  exploding: boolean;
   gizmo: boolean;
   measuring: boolean;
   dragHint: string;
@@ -56,6 +57,7 @@ export function emptyStore(): Store {
     blocking: new Set(),
     directions: null,
     planes: [],
+    exploding: false,
     gizmo: false,
     measuring: false,
     dragHint: "",

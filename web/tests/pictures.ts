@@ -72,6 +72,14 @@ async function tools(viewer: Viewer): Promise<void> {
   await viewer.press("s", "t");
 }
 
+async function explode(viewer: Viewer): Promise<void> {
+  await viewer.click("#reset");
+  for (const name of [kSlide, "foot", "foot#2"]) await viewer.takeOut(name);
+  await viewer.press("Escape", "e");
+  await shoot(viewer, "explode");
+  await viewer.press("e");
+}
+
 async function guide(viewer: Viewer): Promise<void> {
   await viewer.click("#follow");
   await viewer.page.locator("#guide-panel").waitFor();
@@ -91,5 +99,7 @@ await shoot(viewer, "model");
 await contact(viewer);
 await tools(viewer);
 await guide(viewer);
+await viewer.click("#guide-close");
+await explode(viewer);
 await closeBrowser();
 await server.stop();

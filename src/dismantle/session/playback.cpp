@@ -45,10 +45,11 @@ TimelinePlace Playback::forward(double goal) const {
   const TimelineMove& move = timeline_.moves()[place_.move];
   if (place_.frame + 1 == move.frames.size())
     return place_.move + 1 < timeline_.moves().size() ? TimelinePlace{place_.move + 1, 0, 0} : place_;
-  const double local = goal - move.start;
-  const double from = move.frames[place_.frame].time, to = move.frames[place_.frame + 1].time;
-  if (to <= local) return {place_.move, place_.frame + 1, 0};
-  return {place_.move, place_.frame, std::clamp((local - from) / (to - from), place_.share, 1 - 1e-12)};
+  // In the timeline's time, not the move's: their difference is rounded, and the end would never be reached.
+  const double from = move.start + move.frames[place_.frame].time;
+  const double to = move.start + move.frames[place_.frame + 1].time;
+  if (to <= goal) return {place_.move, place_.frame + 1, 0};
+  return {place_.move, place_.frame, std::clamp((goal - from) / (to - from), place_.share, 1 - 1e-12)};
 }
 
 TimelinePlace Playback::backward(double goal) const {
@@ -57,13 +58,12 @@ TimelinePlace Playback::backward(double goal) const {
     return {place_.move - 1, timeline_.moves()[place_.move - 1].frames.size() - 1, 0};
   }
   const TimelineMove& move = timeline_.moves()[place_.move];
-  const double local = goal - move.start;
   const std::size_t frame = place_.share > 0 ? place_.frame : place_.frame - 1;
-  const double from = move.frames[frame].time, to = move.frames[frame + 1].time;
-  if (from >= local) return {place_.move, frame, 0};
-  if (place_.share == 0 && local >= to) return place_;
+  const double from = move.start + move.frames[frame].time, to = move.start + move.frames[frame + 1].time;
+  if (from >= goal) return {place_.move, frame, 0};
+  if (place_.share == 0 && goal >= to) return place_;
   return {place_.move, frame,
-          std::clamp((local - from) / (to - from), 1e-12, place_.share > 0 ? place_.share : 1 - 1e-12)};
+          std::clamp((goal - from) / (to - from), 1e-12, place_.share > 0 ? place_.share : 1 - 1e-12)};
 }
 
 TimelinePlace Playback::next_place(double goal) const {

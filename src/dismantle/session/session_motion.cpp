@@ -85,11 +85,12 @@ Result<Done> Session::take_out(Span<const ComponentId> components, const std::op
     way = found.front();
   }
   if (!way || !way->free) {
-    const std::string name = way && way->blocked_by.valid()
-                                 ? "'" + (*assembly_)[way->blocked_by].name + "' is in the way"
-                                 : "it is held from all sides";
-    return Error{ErrorKind::Usage, "'" + names_of(*assembly_, set) + "' cannot be taken out straight (" + name +
-                                       "); take that out first, or drag it out by hand"};
+    const std::string why =
+        way && way->blocked_by.valid()
+            ? "'" + (*assembly_)[way->blocked_by].name + "' is in the way); take that out first, or "
+            : "it is held from all sides); take out what it touches first, or ";
+    return Error{ErrorKind::Usage,
+                 "'" + names_of(*assembly_, set) + "' cannot be taken out straight (" + why + "drag it out by hand"};
   }
 
   begin(SessionActivity::Automatic, "take out", std::move(set));

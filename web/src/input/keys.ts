@@ -51,6 +51,7 @@ function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
     g: actions.gizmo,
     s: actions.section,
     m: actions.measure,
+    e: actions.explode,
     t: actions.theme,
     h: actions.help,
     p: actions.play,

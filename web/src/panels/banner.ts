@@ -39,7 +39,7 @@ export class Banner {
   private notices(): Notice[] {
     const { store } = this.session;
     const { state } = store;
-    const ask = (command: "restore" | "take_control" | "resume") => () => void this.session.ask(command, {});
+    const ask = (command: "restore" | "take_control" | "resume" | "stop") => () => void this.session.ask(command, {});
     const notices: Notice[] = [];
     const jobs = [...store.jobs.values()];
     for (const { job, name, stage, fraction } of jobs) {
@@ -69,8 +69,12 @@ export class Banner {
       const { blocked } = state.playback;
       const words = blocked
         ? text("timeline.blocked", { name: this.session.nameOf(blocked.by) })
-        : text("banner.playback");
-      notices.push({ key: "playback", words });
+        : text(store.exploding ? "banner.exploded" : "banner.playback");
+      notices.push({
+        key: store.exploding ? "exploded" : "playback",
+        words,
+        action: store.control ? { label: text("timeline.stop"), press: ask("stop") } : undefined,
+      });
     }
     if (state.isolated)
       notices.push({

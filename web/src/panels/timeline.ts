@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, setText } from "../dom.ts";
+import { Seeker } from "../seeker.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { Move, Source } from "../wire/messages.ts";
@@ -32,10 +33,10 @@ export class TimelinePanel {
   >;
   private shownMoves: Move[] | null = null;
   private scrubbing = false;
-  private seeking: Promise<unknown> | null = null;
-  private wanted: number | null = null;
+  private readonly seeker: Seeker;
 
   constructor(private readonly session: Session) {
+    this.seeker = new Seeker(session);
     this.buttons = {
       start: button({ icon: "start", label: text("timeline.start"), id: "play-start", press: () => this.seek(0) }),
       reverse: button({
@@ -102,8 +103,7 @@ export class TimelinePanel {
   }
 
   private moves(): Move[] {
-    const { state } = this.session.store;
-    return (this.source() === "guide" ? state?.guide?.moves : state?.moves) ?? [];
+    return this.session.movesOf(this.source());
   }
 
   private duration(): number {
@@ -112,9 +112,7 @@ export class TimelinePanel {
   }
 
   private time(): number {
-    const { state, frame } = this.session.store;
-    if (!state?.playback) return this.duration();
-    return frame?.playback ? frame.time : state.playback.time;
+    return this.session.playedTime ?? this.duration();
   }
 
   private async play(sign: 1 | -1): Promise<void> {
@@ -141,21 +139,9 @@ export class TimelinePanel {
     if (this.duration() > 0) void this.session.ask("seek", { time, source: this.source() });
   }
 
-  /// One seek at a time, the newest next.
   private scrubTo(part: number): void {
     this.scrubbing = true;
-    this.wanted = part * this.duration();
-    if (this.seeking) return;
-    const next = (): void => {
-      if (this.wanted === null) {
-        this.seeking = null;
-        return;
-      }
-      const time = this.wanted;
-      this.wanted = null;
-      this.seeking = this.session.ask("seek", { time, source: this.source() }).then(next);
-    };
-    next();
+    void this.seeker.seek(part * this.duration(), this.source());
   }
 
   private update(): void {

@@ -13,7 +13,7 @@ export class Toolbar {
   readonly node: HTMLElement;
   private readonly name = element("span", { class: "model-name" });
   private readonly buttons: Record<
-    "undo" | "redo" | "section" | "measure" | "gizmo" | "projection" | "stereo" | "save" | "reset",
+    "undo" | "redo" | "section" | "measure" | "explode" | "gizmo" | "projection" | "stereo" | "save" | "reset",
     HTMLButtonElement
   >;
   private readonly responses: Map<Response, HTMLInputElement>;
@@ -26,6 +26,7 @@ export class Toolbar {
       gizmo: button({ icon: "move", label: text("gizmo"), key: "G", id: "gizmo", press: actions.gizmo }),
       section: button({ icon: "section", label: text("section"), key: "S", id: "section", press: actions.section }),
       measure: button({ icon: "measure", label: text("measure"), key: "M", id: "measure", press: actions.measure }),
+      explode: button({ icon: "explode", label: text("explode"), key: "E", id: "explode", press: actions.explode }),
       projection: button({
         icon: "parallel",
         label: text("projection"),
@@ -38,7 +39,7 @@ export class Toolbar {
       reset: button({ icon: "reset", label: text("reset"), id: "reset", press: actions.reset }),
     };
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
-    const { undo, redo, gizmo, section, measure, projection, save, reset, stereo } = this.buttons;
+    const { undo, redo, gizmo, section, measure, explode, projection, save, reset, stereo } = this.buttons;
     const group = (...children: (Node | null)[]) => element("div", { class: "group" }, ...children);
     this.node = element(
       "header",
@@ -47,7 +48,7 @@ export class Toolbar {
       group(button({ icon: "open", label: text("open"), id: "open", wide: true, press: actions.open }), save),
       group(undo, redo, reset),
       this.responseSwitch(),
-      group(gizmo, section, measure),
+      group(gizmo, section, measure, explode),
       group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection, stereo),
       this.name,
       group(
@@ -89,7 +90,7 @@ export class Toolbar {
   }
 
   private update(): void {
-    const { state, model, control, gizmo, planes, measuring } = this.app.session.store;
+    const { state, model, control, gizmo, planes, measuring, exploding } = this.app.session.store;
     const busy = !control || state?.automatic != null || state?.playback != null;
     const { buttons } = this;
     buttons.undo.disabled = busy || (state?.undo == null && !this.app.drag.active);
@@ -101,6 +102,7 @@ export class Toolbar {
     buttons.gizmo.setAttribute("aria-pressed", String(gizmo));
     buttons.section.setAttribute("aria-pressed", String(planes.length > 0));
     buttons.measure.setAttribute("aria-pressed", String(measuring));
+    buttons.explode.setAttribute("aria-pressed", String(exploding));
     buttons.projection.setAttribute("aria-pressed", String(this.app.viewport.rig.orthographic));
     const { stereo } = this.app.viewport;
     buttons.stereo.setAttribute("aria-pressed", String(stereo !== "off"));

@@ -170,6 +170,17 @@ export class Viewer {
     });
   }
 
+  /// Takes a component out by the button, and waits until it is.
+  async takeOut(name: string): Promise<void> {
+    await this.select(name);
+    await this.page.click("#take-out");
+    await this.page.waitForFunction(
+      (i) => window.dismantle!.app.session.store.state!.components[i].removed,
+      await this.index(name),
+    );
+    await this.idle();
+  }
+
   /// Zooms towards a corner of a component's box.
   async zoomTo(name: string, factor: number): Promise<void> {
     await this.page.evaluate(

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+
+useMicroscope({ view: "1" });
+
+const words = () => viewer.page.locator("#explode-step").innerText();
+const drawn = (name: string) => viewer.page.evaluate((n) => window.dismantle!.drawn(n), name);
+const playback = async () => (await viewer.state()).playback;
+const scrub = async (position: number) => {
+  await viewer.page.fill("#explode-slider", String(position));
+  await viewer.idle();
+};
+
+test("without a path there is nothing to explode, and the panel says what to do", async () => {
+  await viewer.press("e");
+  assert.match(await words(), /There is none yet: take components out/);
+  assert.equal(await viewer.page.isVisible("#explode-slider"), false);
+  assert.equal(await playback(), null);
+  await viewer.press("e");
+  assert.equal(await viewer.page.isVisible("#explode-panel"), false);
+});
+
+test("exploded, what was taken out is where the path took it, and a banner says so", async () => {
+  await viewer.takeOut(kSlide);
+  await viewer.takeOut("foot");
+  assert.equal(await drawn(kSlide), false);
+  await viewer.press("Escape", "e");
+  assert.match(await words(), /Step 2 of 2: take out foot/);
+  assert.equal(await viewer.page.locator("[data-banner=exploded]").count(), 1);
+  for (const name of [kSlide, "foot"]) {
+    assert.equal(await drawn(name), true, name);
+    assert.deepEqual(await viewer.drawnShift(name), await viewer.shift(name));
+    assert.ok(Math.hypot(...(await viewer.shift(name))) > 50, name);
+  }
+});
+
+test("the steps are scrubbed one after another, with trails", async () => {
+  const apart = await viewer.shift(kSlide);
+  const trails = () =>
+    viewer.page.evaluate(() => {
+      const { scene } = window.dismantle!.app.viewport;
+      const lines = scene.children.filter((child) => child.visible && "isLineSegments2" in child);
+      return lines.map((line) => (line as unknown as { geometry: { instanceCount: number } }).geometry.instanceCount);
+    });
+  const [both] = await trails();
+  await scrub(1);
+  assert.match(await words(), /Step 1 of 2: take out specimen slide/);
+  assert.deepEqual(await viewer.shift("foot"), [0, 0, 0]);
+  assert.deepEqual(await viewer.shift(kSlide), apart);
+  const [one] = await trails();
+  assert.ok(one > 0 && one < both, `${one} ${both}`);
+  await scrub(0.5);
+  const [part, whole] = [await viewer.shift(kSlide), apart].map((shift) => Math.hypot(...shift));
+  assert.ok(part > 20 && part < 0.9 * whole, `${part} of ${whole}`);
+  await scrub(0);
+  assert.match(await words(), /Assembled/);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  assert.deepEqual(await trails(), []);
+});
+
+test("buttons and arrow keys go from step to step", async () => {
+  await viewer.click("#explode-after");
+  assert.match(await words(), /Step 1 of 2/);
+  await viewer.click("#explode-after");
+  assert.match(await words(), /Step 2 of 2/);
+  await viewer.click("#explode-before");
+  assert.match(await words(), /Step 1 of 2/);
+  await viewer.page.focus("#explode-slider");
+  await viewer.press("ArrowLeft");
+  assert.ok((await playback())!.time < 1);
+});
+
+test("back to work everything is as it was", async () => {
+  await viewer.click("[data-banner=exploded] button");
+  await viewer.page.locator("#explode-panel").waitFor({ state: "hidden" });
+  await viewer.idle();
+  assert.equal(await playback(), null);
+  assert.equal(await drawn(kSlide), false);
+  assert.equal((await viewer.state()).moves.length, 2);
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});
