@@ -21,6 +21,7 @@ std::string describe_faults(const MeshFaults& f) {
   add(f.boundary_edges, "boundary edges");
   add(f.nonmanifold_edges, "non-manifold edges");
   add(f.misoriented_edges, "misoriented edges");
+  if (!text.empty() && !f.closed() && f.open_edges == 0) text += ": cracks of no width";
   if (f.inside_out) text += fmt::format("{}inside out", text.empty() ? "" : ", ");
   return text.empty() ? "closed" : text;
 }
@@ -44,6 +45,7 @@ Json to_json(const Assembly& a) {
                           {"boundary_edges", f.boundary_edges},
                           {"nonmanifold_edges", f.nonmanifold_edges},
                           {"misoriented_edges", f.misoriented_edges},
+                          {"open_edges", f.open_edges},
                           {"inside_out", f.inside_out}});
   }
   return {{"format", "dismantle-info"},

@@ -240,6 +240,23 @@ TEST(CertificateEngine, HoldsOpenSheetsApart) {
   EXPECT_LE(h.engine.poses()[1].position.z - h.engine.poses()[0].position.z, 1 + 2 * kTolerance);
 }
 
+TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) {
+  const TriangleMesh low{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{{0, 1, 2}}}};
+  for (const double gap : {0.9 * kTolerance, 0.3 * kTolerance, 0.0}) {
+    // Face to face: the upper one looks down.
+    const TriangleMesh high{{{-3, -3, gap}, {3, -3, gap}, {0, 3, gap}}, {{{0, 2, 1}}}};
+    const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
+    const PairStates states = states_of(assembly);
+    Held down(assembly, states, 0), up(assembly, states, 0);
+    for (int step = 1; step <= 40; ++step) {
+      down.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
+      up.engine.step({{0.1 * step, 0, 0.0005 * step}, {}}, ResponseKind::Slide);
+    }
+    EXPECT_GE(down.engine.poses()[0].position.z, -gap - kTolerance) << "gap " << gap;
+    EXPECT_NEAR(up.engine.poses()[0].position.z, 0.02, 1e-12) << "gap " << gap;
+  }
+}
+
 TEST(CertificateEngine, DoesNotCareHowTheAssemblyIsTurned) {
   const Pose turn{{30, -20, 10}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)};
   Assembly turned = block_and_floor();

@@ -196,12 +196,23 @@ TEST(CertificateFront, LooksWithoutChanging) {
   EXPECT_EQ(front.size(), 1u);
 }
 
+TEST(CertificateFront, TakesNoSideThatNeedsTheAllowanceWhereNoneIsRemembered) {
+  // Nearer to each other than the allowance, either side would do: which one it is only the triangles can tell.
+  const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
+  const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
+  CertificateFront sheets(a.tree, b.tree, SideRule::Memory), overlapping(a.tree, b.tree, SideRule::Free);
+  const Pose near{{0, 0, 0.998}, {}}, on{{0, 0, 1}, {}};
+  EXPECT_FALSE(uncertified(sheets, a, b, near, on).empty());
+  EXPECT_TRUE(uncertified(overlapping, a, b, near, on).empty());
+}
+
 TEST(CertificateFront, RemembersSidesWhenRolesAreExchanged) {
   // A sheet just past another within the allowance: turned round, the sheet must still be blocked from going on.
   const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
   const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
   CertificateFront front(a.tree, b.tree, SideRule::Memory);
-  EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 1.005}, {}}).empty());
+  EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 0.9}, {}}).empty());
+  EXPECT_TRUE(uncertified(front, a, b, {{0, 0, 0.9}, {}}, {{0, 0, 1.005}, {}}).empty());
   front.exchange_roles(Mat3{});
   // Now B moves: down by 0.02 past A, seen from A's frame, where A is 1.005 higher.
   EXPECT_FALSE(uncertified(front, b, a, {{0, 0, -1.005}, {}}, {{0, 0, -1.025}, {}}).empty());

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -30,6 +31,61 @@ TEST(Adjacency, CountsBoundaryNonManifoldAndMisorientedEdges) {
   EXPECT_EQ(edge_faults(mesh).boundary, 4u);
   mesh.faces.push_back({{1, 0, 4}});
   EXPECT_EQ(edge_faults(mesh).nonmanifold, 1u);
+}
+
+/// A box whose face 0 is cut in two at the middle of its first edge, `aside` off it: its neighbour keeps the edge
+/// whole.
+TriangleMesh cracked_box(double aside) {
+  TriangleMesh mesh = scenes::box({0, 0, 0}, {10, 20, 30});
+  const Face f = mesh.faces[0];
+  const Triangle t = mesh.triangle(0);
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(0.5 * (t[0] + t[1]) + aside * normalized(normal_unscaled(t)));
+  mesh.faces[0] = {{f.v[0], middle, f.v[2]}};
+  mesh.faces.push_back({{middle, f.v[1], f.v[2]}});
+  return mesh;
+}
+
+TEST(Adjacency, TellsCracksFromOpenings) {
+  EXPECT_EQ(edge_faults(cracked_box(0)).boundary, 3u);
+  EXPECT_EQ(edge_faults(cracked_box(0)).open, 0u);
+  EXPECT_EQ(edge_faults(cracked_box(1e-5)).open, 0u);
+  EXPECT_EQ(edge_faults(cracked_box(1e-2)).open, 3u);
+
+  TriangleMesh open = scenes::box({0, 0, 0}, {1, 1, 1});
+  open.faces.pop_back();
+  EXPECT_EQ(edge_faults(open).open, 3u);
+  TriangleMesh flipped = scenes::box({0, 0, 0}, {1, 1, 1});
+  std::swap(flipped.faces[0].v[1], flipped.faces[0].v[2]);
+  EXPECT_EQ(edge_faults(flipped).misoriented, 3u);
+  EXPECT_EQ(edge_faults(flipped).open, 3u);
+}
+
+TEST(Adjacency, TakesARolledSheetForOpenThoughItsSlitIsClosed) {
+  // A tube's outside alone, each strip with vertices of its own: all seams are cracks, only its two ends are open.
+  TriangleMesh sheet;
+  for (int k = 0; k < 12; ++k) {
+    const auto at = [](int i, double z) {
+      return Vec3{std::cos(i % 12 * std::acos(-1) / 6), std::sin(i % 12 * std::acos(-1) / 6), z};
+    };
+    const auto first = static_cast<std::uint32_t>(sheet.vertices.size());
+    for (const Vec3 p : {at(k, 0), at(k + 1, 0), at(k + 1, 2), at(k, 2)}) sheet.vertices.push_back(p);
+    sheet.faces.push_back({{first, first + 1, first + 2}});
+    sheet.faces.push_back({{first, first + 2, first + 3}});
+  }
+  EXPECT_EQ(edge_faults(sheet).open, 24u);
+}
+
+TEST(Adjacency, SeesNoOpeningWhereTwoSolidsShareAnEdge) {
+  TriangleMesh mesh = scenes::box({0, 0, 0}, {1, 1, 1});
+  const TriangleMesh other = scenes::box({1, 1, 0}, {2, 2, 1});
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Face& f : other.faces) mesh.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
+  const CleanedMesh cleaned = clean_mesh(mesh);
+  EXPECT_EQ(cleaned.faults.nonmanifold_edges, 1u);
+  EXPECT_FALSE(cleaned.faults.closed());
+  EXPECT_TRUE(cleaned.faults.bounds_solid());
 }
 
 TEST(Adjacency, GivesEveryVertexAndEdgeExactlyOneRepresentative) {

@@ -15,9 +15,9 @@ SolidTree solid_of(const Component& component, const Executor& executor) {
   SolidTree solid;
   solid.vertices = assembled_vertices(component);
   solid.faces = component.mesh->faces;
-  solid.closed = component.faults.closed() && !component.faults.inside_out;
+  solid.has_outside = component.faults.bounds_solid();
   solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
-  if (solid.closed) find_normals(solid);
+  if (solid.has_outside) find_normals(solid);
   return solid;
 }
 
@@ -132,7 +132,7 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
-  if (!solid(a).closed || !solid(b).closed) return SideRule::Memory;
+  if (!solid(a).has_outside || !solid(b).has_outside) return SideRule::Memory;
   return allowed(a, b) > tolerance() ? SideRule::Free : SideRule::Normals;
 }
 

@@ -229,10 +229,20 @@ OutwardNormals LeafSweep::normals_of(const Pair& pair, const Mat3& rotation, Aro
           {around.fixed, count_fixed}};
 }
 
+Vec3 LeafSweep::side_of(const Triangle& moving, const Triangle& fixed) const {
+  const TriangleMotion now{moving, moving}, still{fixed, fixed};
+  AxisCcdResult found = ccd_triangle_triangle(now, still, 0, Vec3{}, rules_.limits);
+  if (found.ccd.status == CcdStatus::Free) return found.axis;
+  const OutwardNormals normals{normal_unscaled(moving), normal_unscaled(fixed), {}, {}};
+  found = ccd_triangle_triangle(now, still, allowed_, Vec3{}, normals, rules_.limits);
+  return found.ccd.status == CcdStatus::Free ? found.axis : Vec3{};
+}
+
 AxisCcdResult LeafSweep::test_chords(const TriangleMotion& moving, const Pair& pair, Vec3 hint) const {
   const Triangle& fixed = pair.fixed;
   const TriangleMotion still{fixed, fixed};
   if (rules_.sides == SideRule::Memory) {
+    if (length_squared(hint) == 0) hint = side_of(moving.t0, fixed);
     AxisCcdResult found = ccd_triangle_triangle(moving, still, allowed_, hint, rules_.limits);
     // Stopped, the pair stays on the side that it was on: what the search ended on may be another.
     if (found.ccd.status == CcdStatus::Contact && still_parts({moving.t0, moving.t0}, pair, hint)) found.axis = hint;

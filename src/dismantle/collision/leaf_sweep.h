@@ -19,9 +19,9 @@ inline constexpr double kArcShare = 0.125;
 struct SolidTree {
   std::vector<Vec3> vertices;  ///< [mm, assembled]
   Span<const Face> faces;
-  bool closed = false;
+  bool has_outside = false;  ///< It encloses a volume, and its normals point out of it (MeshFaults::bounds_solid).
   ObbTree tree;
-  std::vector<Vec3> normals;                ///< Unit, of each face; of closed components only.
+  std::vector<Vec3> normals;                ///< Unit, of each face; where it has an outside.
   std::vector<std::uint32_t> around_begin;  ///< Where each vertex's faces begin in `around`, and the end of the last.
   std::vector<std::uint32_t> around;        ///< The faces at each vertex.
 
@@ -31,7 +31,7 @@ struct SolidTree {
   }
 };
 
-/// Fills in what SolidTree knows of the outside of a closed component.
+/// Fills in what SolidTree knows of the outside of a component that has one.
 void find_normals(SolidTree& solid);
 
 /// Where two triangles are stopped.
@@ -89,6 +89,9 @@ class LeafSweep {
   struct Around;
   OutwardNormals normals_of(const Pair& pair, const Mat3& rotation, Around& around) const;
   bool still_parts(const TriangleMotion& moving, const Pair& pair, Vec3 axis) const;
+  /// An axis from the moving triangle to the fixed one, where each knows no side of the other: as they are apart, or as
+  /// their normals say where they touch; zero where neither tells.
+  Vec3 side_of(const Triangle& moving, const Triangle& fixed) const;
   AxisCcdResult test_chords(const TriangleMotion& moving, const Pair& pair, Vec3 hint) const;
 
   const SolidTree* moving_;

@@ -190,6 +190,10 @@ Vec3f CertificateFront::hint_of(const CertificatePart& part, std::size_t i, cons
   return gap_at(part.certificate(i), sweep.t0) < sweep.error ? part.axis(i) : Vec3f{};
 }
 
+float CertificateFront::limit(Vec3f guard, const LinearSweep& sweep) const {
+  return sides_ == SideRule::Memory && length_squared(guard) == 0 ? sweep.meeting : sweep.limit;
+}
+
 void CertificateFront::resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                                FrontSweep& result) const {
   const std::size_t failing = work.items.size();
@@ -247,7 +251,7 @@ void CertificateFront::separate_triangles(Work& work, const LinearSweep& sweep, 
 
 bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
                             FrontSweep& result) const {
-  if (separation.gap < sweep.limit) return false;
+  if (separation.gap < limit(item.hint, sweep)) return false;
   const bool on_edge = separation.certificate.hull.kind == NodeHull::kTriangleOnEdge;
   const bool may_meet = separation.gap < sweep.meeting && (on_edge || sides_ != SideRule::Normals);
   // Moving triangles may be apart although no one axis says so: that has to be found out once.
@@ -404,7 +408,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const LinearSweep& sw
   std::vector<std::uint32_t> gone;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Siblings& s = found[k];
-    if (separations[k].gap < sweep.limit || merged[s.first] || merged[s.second]) continue;
+    if (separations[k].gap < limit(queries[k].guard, sweep) || merged[s.first] || merged[s.second]) continue;
     part.set(s.first, s.parent, separations[k].certificate);
     merged[s.first] = merged[s.second] = true;
     gone.push_back(s.second);

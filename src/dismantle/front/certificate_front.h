@@ -50,7 +50,8 @@ enum class SideRule {
   /// Closed solids: an axis that uses the allowance has to agree with the outward normals. Any that does may be taken,
   /// so the least blocking one is.
   Normals,
-  /// Open sheets: an axis that has used part of the allowance may only be left for one within a right angle of it.
+  /// Open sheets: the side on which they were when last apart is kept while they are in each other by the allowance. An
+  /// axis may only be left for one within a right angle of it, or one that needs no allowance.
   Memory,
   /// Closed solids that overlap by design, where normals say little: any axis. Their other faces stop what one pair of
   /// faces lets through.
@@ -141,6 +142,8 @@ class CertificateFront {
                     FrontSweep& result) const;
   /// The axis of pair i where it binds the pair to its side; zero otherwise.
   Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
+  /// The least gap that certifies a pair. One that remembers no side gets it from an axis that needs no allowance.
+  float limit(Vec3f guard, const LinearSweep& sweep) const;
   /// Replaces siblings by their parents where these can be separated; gives how many pairs went.
   std::size_t merge(CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels) const;
   void resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,

@@ -42,16 +42,60 @@ void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
   }
 }
 
+/// An edge where the surface ends, in the direction in which its faces run along it.
+struct Rim {
+  Vec3 from, to;
+};
+
+/// How far the two sides of a crack may be apart, as a share of the mesh's diagonal: what rounding of coordinates and
+/// slivers left out leave open.
+constexpr double kCrackWidth = 1e-4;
+/// So many rims are looked at; a mesh with more is open.
+constexpr std::size_t kMostRims = 20000;
+
+double distance_to_segment(Vec3 p, const Rim& rim) {
+  const Vec3 along = rim.to - rim.from;
+  const double t = std::clamp(dot(p - rim.from, along) / length_squared(along), 0.0, 1.0);
+  return length(p - (rim.from + t * along));
+}
+
+/// The rims that no others run along the other way.
+std::size_t count_open(std::vector<Rim> rims, double width) {
+  if (rims.size() > kMostRims) return rims.size();
+  const auto lowest = [](const Rim& r) { return std::min(r.from.x, r.to.x); };
+  const auto highest = [](const Rim& r) { return std::max(r.from.x, r.to.x); };
+  std::sort(rims.begin(), rims.end(), [&](const Rim& a, const Rim& b) { return lowest(a) < lowest(b); });
+  double longest = 0;
+  for (const Rim& r : rims) longest = std::max(longest, highest(r) - lowest(r));
+  const auto covered = [&](const Rim& rim, Vec3 p) {
+    auto other = std::lower_bound(rims.begin(), rims.end(), p.x - longest - width,
+                                  [&](const Rim& r, double x) { return lowest(r) < x; });
+    for (; other != rims.end() && lowest(*other) <= p.x + width; ++other)
+      if (dot(other->to - other->from, rim.to - rim.from) < 0 && distance_to_segment(p, *other) <= width) return true;
+    return false;
+  };
+  return static_cast<std::size_t>(std::count_if(rims.begin(), rims.end(), [&](const Rim& rim) {
+    return !covered(rim, rim.from) || !covered(rim, 0.5 * (rim.from + rim.to)) || !covered(rim, rim.to);
+  }));
+}
+
 }  // namespace
 
 EdgeFaults edge_faults(const TriangleMesh& mesh) {
   EdgeFaults faults;
+  std::vector<Rim> rims;
   for_each_edge(sorted_half_edges(mesh), [&](const HalfEdge* first, const HalfEdge* last) {
     const auto count = last - first;
     if (count == 1) ++faults.boundary;
     if (count > 2) ++faults.nonmanifold;
     if (count == 2 && first[0].forward == first[1].forward) ++faults.misoriented;
+    const auto forward = std::count_if(first, last, [](const HalfEdge& e) { return e.forward; });
+    if (2 * forward == count) return;
+    const Vec3 low = mesh.vertices[first->low], high = mesh.vertices[first->high];
+    rims.push_back(2 * forward > count ? Rim{low, high} : Rim{high, low});
   });
+  const Aabb box = bounds(mesh);
+  if (!rims.empty()) faults.open = count_open(std::move(rims), kCrackWidth * length(box.upper - box.lower));
   return faults;
 }
 

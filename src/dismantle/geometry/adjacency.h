@@ -14,6 +14,10 @@ struct EdgeFaults {
   std::size_t boundary = 0;
   std::size_t nonmanifold = 0;
   std::size_t misoriented = 0;
+  /// Edges at which the oriented surface really ends: those that it does not run along as often one way as the other,
+  /// less those that others of these run along the other way, as where a vertex of one face lies on the edge of the
+  /// next, or a sliver is missing. With none the surface encloses a volume, but for cracks of next to no width.
+  std::size_t open = 0;
 };
 
 EdgeFaults edge_faults(const TriangleMesh& mesh);

@@ -81,7 +81,8 @@ CleanedMesh clean_mesh(const TriangleMesh& mesh) {
   result.faults.boundary_edges = edges.boundary;
   result.faults.nonmanifold_edges = edges.nonmanifold;
   result.faults.misoriented_edges = edges.misoriented;
-  result.faults.inside_out = !result.mesh.faces.empty() && result.faults.closed() && signed_volume(result.mesh) < 0;
+  result.faults.open_edges = edges.open;
+  result.faults.inside_out = edges.open == 0 && signed_volume(result.mesh) < 0;
   return result;
 }
 

@@ -42,10 +42,13 @@ struct MeshFaults {
   std::size_t boundary_edges = 0;     ///< Edges with one triangle: the mesh is open there.
   std::size_t nonmanifold_edges = 0;  ///< Edges with more than two triangles.
   std::size_t misoriented_edges = 0;  ///< Edges whose two triangles run through it the same way.
-  bool inside_out = false;            ///< Closed, but with negative volume.
+  std::size_t open_edges = 0;         ///< Of all these, the ones that are not merely cracks: EdgeFaults::open.
+  bool inside_out = false;            ///< Without open edges, but with negative volume.
   friend bool operator==(const MeshFaults&, const MeshFaults&) = default;
   /// A closed, consistently oriented surface: "inside" means something.
   bool closed() const { return boundary_edges == 0 && nonmanifold_edges == 0 && misoriented_edges == 0; }
+  /// The faces' normals point out of a volume that the surface encloses, but for cracks.
+  bool bounds_solid() const { return open_edges == 0 && !inside_out; }
 };
 
 /// A cleaned mesh and what was found on the way.

@@ -83,16 +83,16 @@ bool indices_valid(const TriangleMesh& mesh) {
 }
 
 void write_faults(const MeshFaults& f, Writer& out) {
-  for (const std::size_t count :
-       {f.welded_vertices, f.degenerate_faces, f.boundary_edges, f.nonmanifold_edges, f.misoriented_edges})
+  for (const std::size_t count : {f.welded_vertices, f.degenerate_faces, f.boundary_edges, f.nonmanifold_edges,
+                                  f.misoriented_edges, f.open_edges})
     out.value<std::uint64_t>(count);
   out.value<std::uint8_t>(f.inside_out ? 1 : 0);
 }
 
 MeshFaults read_faults(Reader& in) {
   MeshFaults f;
-  for (std::size_t* count :
-       {&f.welded_vertices, &f.degenerate_faces, &f.boundary_edges, &f.nonmanifold_edges, &f.misoriented_edges})
+  for (std::size_t* count : {&f.welded_vertices, &f.degenerate_faces, &f.boundary_edges, &f.nonmanifold_edges,
+                             &f.misoriented_edges, &f.open_edges})
     *count = in.value<std::uint64_t>();
   f.inside_out = in.value<std::uint8_t>() != 0;
   return f;

@@ -71,9 +71,10 @@ struct OutwardNormals {
   }
 };
 
-/// The axis that separates furthest of those looked at, among those that separate at the present time. An axis that has
-/// used part of the allowance by then may only be left for one within a right angle of it, or one that separates by
-/// more than the allowance: else two flat faces, which have no thickness, could pass through each other.
+/// The axis that separates furthest of those looked at, among those that separate at the present time. An axis may only
+/// be left for one within a right angle of it, or one that needs no allowance; where it has itself used part of the
+/// allowance by then, for one that separates by more than that: else two flat faces, which have no thickness, could
+/// pass through each other, or be taken for having done so.
 template <int kCountA, int kCountB>
 class FurthestAxis {
  public:
@@ -147,15 +148,16 @@ class FurthestAxis {
     return facing_ ? normals_.allowance(w, allowed_) : allowed_;
   }
 
-  /// Whether the axis that the step began with has used part of the allowance is only asked when it matters.
+  /// How the axis that the step began with separates is only asked when it matters.
   DISMANTLE_HOST_DEVICE bool refused(Vec3 w) {
     if (!(dot(w, guard_) < 0)) return false;
     if (!guard_checked_) {
       guard_checked_ = true;
+      guard_apart_ = separates_now(guard_, 0);
       // Twice the allowance: where the guard has just been used up to the last bit, rounding must not let it go.
-      if (separates_now(guard_, 0) || !separates_now(guard_, 2 * allowed_)) guard_ = {};
+      if (!guard_apart_ && !separates_now(guard_, 2 * allowed_)) guard_ = {};
     }
-    return dot(w, guard_) < 0 && !separates_now(w, -allowed_);
+    return dot(w, guard_) < 0 && !separates_now(w, guard_apart_ ? 0 : -allowed_);
   }
 
   [[gnu::noinline]] DISMANTLE_HOST_DEVICE bool separates_now(Vec3 w, double allowed) const {
@@ -167,7 +169,7 @@ class FurthestAxis {
   double now_ = 0, end_ = -1;
   Vec3 axis_;
   Vec3 guard_;  ///< The axis not to be turned away from; zero for none.
-  bool guard_checked_ = false;
+  bool guard_checked_ = false, guard_apart_ = false;
   OutwardNormals normals_;
   bool facing_ = false;
 };
