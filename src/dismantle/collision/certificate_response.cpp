@@ -42,13 +42,17 @@ int cut_count(double deviation, double limit) {
 
 CertificateResponse::CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs)
     : sweeper_(sweeper),
-      guard_(assembly, pairs, sweeper.executor()),
+      guard_(
+          assembly, pairs, [&sweeper](ComponentId c) -> const SolidTree& { return sweeper.solid(c); },
+          sweeper.executor()),
       embedded_(assembly, pairs, sweeper.executor()),
       from_(assembly.components.size()),
       to_(assembly.components.size()),
       held_(assembly.components.size()),
       contacts_(sweeper),
-      reach_(std::numeric_limits<double>::infinity()) {}
+      reach_(std::numeric_limits<double>::infinity()) {
+  guard_.prepare();
+}
 
 StepResult CertificateResponse::step(const Pose& target, ResponseKind response) {
   const Clock::time_point start = Clock::now();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/solid_query.h"
 
+#include "dismantle/collision/ray_crossing.h"
 #include "dismantle/narrowphase/closest_points.h"
 
 #include <numeric>
@@ -8,35 +9,6 @@
 namespace dismantle {
 
 namespace {
-
-/// Directions that no CAD model is aligned with.
-constexpr Vec3 kRayDirections[] = {{0.5318, 0.3177, 0.7850},   {-0.4129, 0.8231, 0.3899},  {0.6972, -0.2213, -0.6819},
-                                   {-0.2891, -0.6173, 0.7317}, {0.1733, 0.9411, -0.2903},  {-0.8839, 0.1291, -0.4495},
-                                   {0.3571, -0.7919, 0.4953},  {-0.6143, -0.4337, -0.6591}};
-
-/// Relative size below which a side of a ray cannot be told from rounding.
-constexpr double kRaySideError = 1e-12;
-
-enum class RayHit { Miss, Hit, Unclear };
-
-/// On which side of the ray from the origin along `d` the segment a-b passes, scaled; 0 where it cannot be told.
-double side(Vec3 d, Vec3 a, Vec3 b) {
-  const double value = dot(d, cross(a, b));
-  return std::abs(value) <= kRaySideError * norm_one(a) * norm_one(b) ? 0 : value;
-}
-
-/// Crosses the ray from the origin along `d` the triangle?
-RayHit ray_hit(Vec3 d, const Triangle& t) {
-  const double ab = side(d, t[0], t[1]), bc = side(d, t[1], t[2]), ca = side(d, t[2], t[0]);
-  const bool some_right = ab < 0 || bc < 0 || ca<0, some_left = ab> 0 || bc > 0 || ca > 0;
-  if (some_right && some_left) return RayHit::Miss;
-  if (ab == 0 || bc == 0 || ca == 0) return RayHit::Unclear;
-  // The line crosses; before or behind the origin, by the sign of the triangle's plane.
-  const Vec3 n = normal_unscaled(t);
-  const double height = dot(n, t[0]), slope = dot(n, d);
-  if (std::abs(height) <= kRaySideError * norm_one(n) * norm_one(t[0]) || slope == 0) return RayHit::Unclear;
-  return (height > 0) == (slope > 0) ? RayHit::Hit : RayHit::Miss;
-}
 
 /// May the ray from `p` along `d` pass through the box of the k-DOP?
 bool ray_meets(Vec3 p, Vec3 d, const Kdop16& k) {

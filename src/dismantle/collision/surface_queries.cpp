@@ -154,16 +154,6 @@ SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component
   return nearest;
 }
 
-SurfaceDepth surface_depth(const AssemblySurface& s, ComponentId component, Vec3 point, double harmless) {
-  const NodeIndex root = s.root_of(component);
-  const double outside_box = root == kNoNode ? std::numeric_limits<double>::infinity()
-                                             : std::sqrt(box_distance_squared(s.bounds[root], point));
-  if (outside_box > 0) return {-outside_box, kNoNode};
-  const SurfaceDistance nearest = surface_distance(s, component, point);
-  const bool inside = nearest.distance <= harmless || point_in_component(s.assembled(), point, component);
-  return {inside ? nearest.distance : -nearest.distance, nearest.leaf};
-}
-
 double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId outer,
                       const std::vector<NodeIndex>& crossing) {
   const NodeIndex root = s.root_of(outer);

@@ -51,17 +51,6 @@ struct SurfaceDistance {
 };
 SurfaceDistance surface_distance(const AssemblySurface& surface, ComponentId component, Vec3 point);
 
-/// How deep a point is inside a component.
-struct SurfaceDepth {
-  double depth = 0;  ///< The distance to the surface where inside, the negative distance (or less far) outside [mm].
-  NodeIndex leaf = kNoNode;  ///< Of the nearest triangle; kNoNode where the component's box alone gave the answer.
-};
-
-/// An upper bound of the point's depth. Points at most `harmless` [mm] from the surface are taken for inside without
-/// asking, which saves the ray; elsewhere the depth is exact, but for points outside the component's box. @pre the
-/// component is closed
-SurfaceDepth surface_depth(const AssemblySurface& surface, ComponentId component, Vec3 point, double harmless);
-
 /// The depth of the deepest vertex of `inner` inside `outer` [mm]: its distance to the surface of `outer`; 0 where none
 /// is inside. `crossing` are the leaves of `inner` that intersect `outer` (surface_overlap): vertices that are joined
 /// by other triangles are all inside or all outside, so that one ray a region is enough.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/leaf_sweep.h"
+
+#include <limits>
+
+namespace dismantle {
+
+/// The face of a component's surface that is nearest to a point.
+struct NearestFace {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  double distance = std::numeric_limits<double>::infinity();  ///< Of the point from it [mm].
+  std::uint32_t face = kNone;                                 ///< None for a component without faces.
+};
+
+/// A lower bound of the distance from a point to the component's surface, from the tree's root alone: 0 inside its box
+/// [mm].
+double distance_to_bounds(const SolidTree& solid, Vec3 point);
+
+/// The nearest face, up to the rounding of closest_points_vertex_face.
+/// @param point [mm, assembled]
+/// @param hint a face to begin with: the nearer it is the less is looked at; NearestFace::kNone for none
+/// @param enough the search may end with any face that is nearer than this [mm]; 0 for the nearest
+NearestFace nearest_face(const SolidTree& solid, Vec3 point, std::uint32_t hint, double enough = 0);
+
+/// As point_in_component (solid_query.h), of the assembled component. @pre it is closed
+bool point_in_solid(const SolidTree& solid, Vec3 point);
+
+}  // namespace dismantle
