@@ -3,6 +3,7 @@
 
 #include "dismantle/bvh/surface_moments.h"
 #include "dismantle/math/mat3.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,19 +89,6 @@ Axes principal_axes(Mat3 a) {
   Vec3 second = vectors.row[order[1]];
   second = normalized(second - dot(first, second) * first);
   return {first, length_squared(second) > 0.5 ? second : across(first)};
-}
-
-float rounded_up(double x) {
-  const auto f = static_cast<float>(x);
-  return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
-}
-
-Vec3f to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Vec3 to_double(Vec3f v) {
-  return {v.x, v.y, v.z};
 }
 
 /// The rows that give the coordinates (t0, t1, t2) of x = t0 u0 + t1 u1 + t2 u2 for axes that are not quite orthogonal.

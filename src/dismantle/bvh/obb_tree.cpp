@@ -5,6 +5,7 @@
 #include "dismantle/bvh/surface_moments.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/math/mat3.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +15,6 @@
 namespace dismantle {
 
 namespace {
-
-Vec3 to_double(Vec3f v) {
-  return {v.x, v.y, v.z};
-}
-
-Vec3f rounded(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// Builds ranges of `order_` into nodes. A range of n triangles is split once at each of its n - 1 inner places, so the
 /// children that a split at place m makes are nodes 2m - 1 and 2m: subtrees can be built in any order, side by side.
@@ -48,7 +41,7 @@ class Builder {
       centroids_[f] = (1.0 / 3) * (local[0] + local[1] + local[2]);
       normals_[f] = normalized(normal_unscaled(local));
       moments_[f] = surface_moments(local);
-      tree.triangles.push_back({{rounded(local[0]), rounded(local[1]), rounded(local[2])}});
+      tree.triangles.push_back({{to_float(local[0]), to_float(local[1]), to_float(local[2])}});
     }
   }
 
@@ -93,7 +86,7 @@ class Builder {
     for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normals_[f]));
     // Between w and the axis there may be the angle that is left by the widest normal.
     const double left = std::acos(NormalCone::kLeastAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
-    return {rounded(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
+    return {to_float(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
   }
 
   /// A way to cut a range: triangles of which `of` (centroids or normals) is less than `border` along `axis` come

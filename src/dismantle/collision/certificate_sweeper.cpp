@@ -2,6 +2,7 @@
 #include "dismantle/collision/certificate_sweeper.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +191,7 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
       task.blocked.push_back(
           {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
     }
-    const float gap = std::nextafter(static_cast<float>(found.gap), -std::numeric_limits<float>::infinity());
+    const float gap = -rounded_up(-found.gap);
     const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
     return LeafVerdict{found.free, gap, cut_short, found.harmless, pair.leaves.certificate(found, pair.sweep)};
   };

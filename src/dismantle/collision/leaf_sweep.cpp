@@ -2,9 +2,9 @@
 #include "dismantle/collision/leaf_sweep.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace dismantle {
@@ -18,19 +18,6 @@ Triangle moved(const RigidTransform& t, const Triangle& triangle) {
 /// From the frame of one tree to that of the other.
 RigidTransform between_trees(const RigidTransform& t, const ObbTree& from, const ObbTree& to) {
   return {t.rotation, t * from.origin - to.origin};
-}
-
-Vec3f to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Vec3 to_double(Vec3f v) {
-  return {v.x, v.y, v.z};
-}
-
-float rounded_up(double x) {
-  const auto f = static_cast<float>(x);
-  return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
 /// Looks for the axis of a contact: of those that the normals allow, the one along which the motion goes furthest

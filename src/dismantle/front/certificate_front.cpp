@@ -2,6 +2,7 @@
 #include "dismantle/front/certificate_front.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <bit>
@@ -32,10 +33,6 @@ constexpr double kMostTurn = 0.25;
 /// The rounding of a gap in float32, in units of u = 2^-24 times the sum of the coordinates' sizes (docs/design/
 /// 0006-certificates.md derives 40; the rest is margin).
 constexpr double kGapRoundings = 48;
-
-Vec3f to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 RigidTransformF to_float(const RigidTransform& t) {
   RigidTransformF f;

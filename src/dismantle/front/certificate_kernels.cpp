@@ -94,10 +94,7 @@ struct FurthestAxes {
     const F found = (nearest - half) * scale;
     const auto better = (found > gap) & !((along < F(0)) & (found < apart));
     gap = select(better, found, gap);
-    const F factor = side * scale;
-    axis.x = select(better, factor * line.x, axis.x);
-    axis.y = select(better, factor * line.y, axis.y);
-    axis.z = select(better, factor * line.z, axis.z);
+    axis = select_vector<kLanes>(better, (side * scale) * line, axis);
   }
 };
 
@@ -215,9 +212,7 @@ void separate_boxes_kernel<DISMANTLE_LANE_COUNT>(const BoxPairQuery* queries, st
     const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
     if (any(close)) {
       consider_all<kLanes>(boxes, way, chosen);
-      axis.x = select(close, chosen.axis.x, axis.x);
-      axis.y = select(close, chosen.axis.y, axis.y);
-      axis.z = select(close, chosen.axis.z, axis.z);
+      axis = select_vector<kLanes>(close, chosen.axis, axis);
     }
     const Hulls<kLanes> hull{
         boxes.center_a,

@@ -31,6 +31,12 @@ Vec3T<Lanes<kLanes>> transformed(const RigidTransformF& t, Vec3T<Lanes<kLanes>> 
   return rotated<kLanes>(t.row, p) + uniform<kLanes>(t.translation);
 }
 
+/// Of either vector where `mask` says so.
+template <int kLanes, class Mask>
+Vec3T<Lanes<kLanes>> select_vector(Mask mask, const Vec3T<Lanes<kLanes>>& yes, const Vec3T<Lanes<kLanes>>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
 template <std::size_t kFields, int kLanes>
 void store_vector(float (&field)[kFields][kLanes], int first, const Vec3T<Lanes<kLanes>>& v) {
   v.x.store(field[first]);
@@ -106,9 +112,7 @@ struct FacingAxes {
     const F counts = found - facing.taken_off(w);
     const auto better = (counts > gap) & !((dot(w, guard) < F(0)) & (found < apart));
     gap = select(better, counts, gap);
-    axis.x = select(better, w.x, axis.x);
-    axis.y = select(better, w.y, axis.y);
-    axis.z = select(better, w.z, axis.z);
+    axis = select_vector<kLanes>(better, w, axis);
   }
 
   /// As FurthestAxes has it; either side of the line.

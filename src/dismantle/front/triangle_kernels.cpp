@@ -123,8 +123,7 @@ void separate_triangles_kernel<DISMANTLE_LANE_COUNT>(const TrianglePairQuery* qu
     // On edge only what cannot be otherwise; the margin is for what rounding does to `well`.
     const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
     const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
-    const V axis{chosen(on_edge.axis.x, well.axis.x), chosen(on_edge.axis.y, well.axis.y),
-                 chosen(on_edge.axis.z, well.axis.z)};
+    const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
     hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
     F least_b(3e38f);
     for (int k = 0; k < 3; ++k) least_b = min(least_b, dot(axis, pairs.b[k]));

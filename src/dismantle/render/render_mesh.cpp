@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/render/render_mesh.h"
 
+#include "dismantle/math/vec3f.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,10 +10,6 @@
 namespace dismantle {
 
 namespace {
-
-Vec3f to_float(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// The triangles around each vertex: those of vertex v are faces[first[v]] to faces[first[v + 1]].
 struct VertexFaces {
