@@ -2,10 +2,9 @@
 #include "dismantle/bvh/vertex_tree.h"
 
 #include "dismantle/geometry/aabb.h"
+#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace dismantle {
@@ -26,14 +25,14 @@ class Builder {
     const auto begin = tree_.order.begin() + node.begin, end = tree_.order.begin() + node.end;
     Aabb box;
     for (auto v = begin; v != end; ++v) box.extend(vertices_[*v]);
-    const Vec3 offset = box.center() - tree_.origin, size = box.size();
+    const Vec3 size = box.size();
     VertexTree::Sphere sphere;
-    sphere.center = {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z)};
-    const Vec3 center = tree_.origin + Vec3{sphere.center.x, sphere.center.y, sphere.center.z};
+    sphere.center = to_float(box.center() - tree_.origin);
+    const Vec3 center = tree_.origin + to_double(sphere.center);
     double radius = 0;
     for (auto v = begin; v != end; ++v) radius = std::max(radius, length(vertices_[*v] - center));
     radius += kLengthRounding * (4 * radius + max_abs(center) + max_abs(tree_.origin));
-    sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
+    sphere.radius = rounded_up(radius);
     tree_.spheres[node.place] = sphere;
 
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
@@ -59,7 +58,7 @@ class Builder {
 VertexSphere VertexTree::sphere(const VertexNode& node, Span<const Vec3> vertices) const {
   if (node.leaf()) return {vertices[order[node.begin]], 0};
   const Sphere& s = spheres[node.place];
-  return {origin + Vec3{s.center.x, s.center.y, s.center.z}, s.radius};
+  return {origin + to_double(s.center), s.radius};
 }
 
 VertexTree vertex_tree_build(Span<const Vec3> vertices, const Executor& executor) {

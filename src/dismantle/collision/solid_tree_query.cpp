@@ -2,6 +2,7 @@
 #include "dismantle/collision/solid_tree_query.h"
 
 #include "dismantle/collision/ray_crossing.h"
+#include "dismantle/math/vec3f.h"
 #include "dismantle/narrowphase/closest_points.h"
 
 #include <algorithm>
@@ -15,24 +16,20 @@ namespace {
 /// What a box's axes are off being of unit length and at right angles, and float coordinates off doubles, at most;
 /// relative to lengths, and to the box's radius.
 constexpr double kAxisRounding = 2e-6;
-/// Trees are not deeper than that: each level at least halves, or is one of few that do not.
+/// How many nodes are left open at once, as a rule.
 constexpr std::size_t kUsualDepth = 64;
-
-Vec3 widened(Vec3f v) {
-  return {v.x, v.y, v.z};
-}
 
 /// Where `point` is seen from the box, along its axes.
 struct Seen {
   double along[3];
 };
 Seen seen_along(const Obb& box, Vec3 v) {
-  return {{dot(v, widened(box.axis[0])), dot(v, widened(box.axis[1])), dot(v, widened(box.third_axis()))}};
+  return {{dot(v, to_double(box.axis[0])), dot(v, to_double(box.axis[1])), dot(v, to_double(box.third_axis()))}};
 }
 
 /// The squared distance of a point (about the tree's origin) from the box, but for the rounding of its axes.
 double box_distance_squared(const Obb& box, Vec3 point) {
-  const Seen seen = seen_along(box, point - widened(box.center));
+  const Seen seen = seen_along(box, point - to_double(box.center));
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double beyond = std::max(std::abs(seen.along[i]) - box.half[i], 0.0);
@@ -49,7 +46,7 @@ double squared_beyond(double distance, const ObbNode& node) {
 
 /// May the ray from `p` (about the tree's origin) along the unit vector `d` meet the node's box?
 bool ray_meets(const ObbNode& node, Vec3 p, Vec3 d) {
-  const Vec3 offset = p - widened(node.box.center);
+  const Vec3 offset = p - to_double(node.box.center);
   const Seen from = seen_along(node.box, offset), by = seen_along(node.box, d);
   const double margin = kAxisRounding * (node.radius + norm_one(offset));
   double enter = 0, leave = std::numeric_limits<double>::infinity();
