@@ -72,6 +72,25 @@ void add_assembly_argument(CLI::App& command, CommonOptions& o) {
   command.add_option("ASSEMBLY", o.assembly_file, "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes")->required();
 }
 
+bool is_path_file(const std::string& file) {
+  constexpr std::string_view kSuffix = ".path.json";
+  return file.size() > kSuffix.size() && file.compare(file.size() - kSuffix.size(), kSuffix.size(), kSuffix) == 0;
+}
+
+Result<std::filesystem::path> assembly_beside(const std::string& path_file, const Path& path) {
+  namespace fs = std::filesystem;
+  fs::path assembly = fs::absolute(path_file).parent_path() / fs::path(path.assembly_file).filename();
+  if (!fs::exists(assembly))
+    return Error{ErrorKind::Unreadable, path_file + " cannot be followed (its assembly '" + path.assembly_file +
+                                            "' is not beside it); put the two into one folder"};
+  return assembly;
+}
+
+void note_other_version(const Path& path, const Assembly& assembly) {
+  if (!path.assembly_sha256.empty() && path.assembly_sha256 != assembly.source_sha256)
+    std::fprintf(stderr, "dismantle: note: the path was made from another version of the assembly (SHA-256 differs)\n");
+}
+
 ProgressCallback progress_printer(const CommonOptions& options) {
   std::signal(SIGINT, interrupt);
   const bool show = !options.quiet && isatty(STDERR_FILENO);

@@ -3,6 +3,7 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/pair_state.h"
+#include "dismantle/assembly/path.h"
 #include "dismantle/collision/classify_pairs.h"
 #include "dismantle/core/result.h"
 #include "dismantle/exec/executor.h"
@@ -10,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <string>
 
 /// What the commands of the program share. A command is one file, command_<name>.cpp, with one function
@@ -37,6 +39,14 @@ struct CommonOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Declares the positional ASSEMBLY argument.
 void add_assembly_argument(CLI::App& command, CommonOptions& options);
+
+/// Whether a file's name says that it is a path: *.path.json.
+bool is_path_file(const std::string& file);
+/// The assembly that a path file is of, which lies beside it. Errors: Unreadable where there is none.
+Result<std::filesystem::path> assembly_beside(const std::string& path_file, const Path& path);
+
+/// Says on stderr where a path was made from another version of the assembly.
+void note_other_version(const Path& path, const Assembly& assembly);
 
 /// Prints progress on one line of stderr where that is a terminal, and cancels on Ctrl+C.
 ProgressCallback progress_printer(const CommonOptions& options);

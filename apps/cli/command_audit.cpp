@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -90,8 +89,7 @@ ExitCode run_audit(const AuditCommand& command) {
   if (!path) return report(path.error());
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return report(assembly.error());
-  if (!path->assembly_sha256.empty() && path->assembly_sha256 != assembly->source_sha256)
-    std::fprintf(stderr, "dismantle: note: the path was made from another version of the assembly (SHA-256 differs)\n");
+  note_other_version(*path, *assembly);
 
   const AuditReport audit = audit_path(*assembly, *path, {*executor, progress_printer(command.common)});
   if (!audit.complete) return report({ErrorKind::Failed, "the audit was cancelled; start it again"});

@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <thread>
 
 namespace dismantle::cli {
@@ -104,11 +103,6 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   return options;
 }
 
-bool is_path_file(const std::string& file) {
-  constexpr std::string_view kSuffix = ".path.json";
-  return file.size() > kSuffix.size() && file.compare(file.size() - kSuffix.size(), kSuffix.size(), kSuffix) == 0;
-}
-
 /// Opens what the command line names. Of a path file, the assembly that it is of, which lies beside it.
 Result<Done> open(server::Server& server, const ViewOptions& o) {
   const std::string& file = o.common.assembly_file;
@@ -117,11 +111,9 @@ Result<Done> open(server::Server& server, const ViewOptions& o) {
   if (!is_path_file(file)) return server.open_file(file);
   const Result<Path> path = read_path(file);
   if (!path) return path.error();
-  const fs::path assembly = fs::absolute(file).parent_path() / fs::path(path->assembly_file).filename();
-  if (!fs::exists(assembly))
-    return Error{ErrorKind::Unreadable, file + " cannot be followed (its assembly '" + path->assembly_file +
-                                            "' is not beside it); put the two into one folder"};
-  return server.open_guided(assembly, file);
+  const Result<fs::path> assembly = assembly_beside(file, *path);
+  if (!assembly) return assembly.error();
+  return server.open_guided(*assembly, file);
 }
 
 Result<Done> run(const ViewOptions& o) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/session_json.h"
 
+#include "dismantle/export/viewer_model.h"
+
 namespace dismantle::server {
 
 namespace {
-
-Json bounds_json(const Aabb& box) {
-  return {to_json(box.lower), to_json(box.upper)};
-}
 
 /// The recording or a guide: moves that follow one another, without their frames.
 template <class Moves>
@@ -79,25 +77,10 @@ Json to_json(Span<const ComponentId> components) {
 }
 
 Json model_json(const Model& model) {
-  const Assembly& a = *model.assembly;
-  Json tree = Json::array(), components = Json::array();
-  for (const TreeNode& node : a.tree) tree.push_back({{"name", node.name}, {"parent", node.parent}});
-  for (const Component& c : a.components)
-    components.push_back({{"name", c.name},
-                          {"node", c.tree_node},
-                          {"triangles", c.mesh->faces.size()},
-                          {"bounds", bounds_json(assembled_bounds(c))}});
-  return {{"event", "model"},
-          {"number", model.number},
-          {"name", a.source_file},
-          {"sha256", a.source_sha256},
-          {"units", a.source_units},
-          {"deflection", a.deflection},
-          {"tolerance", model.session->pairs().tolerance},
-          {"triangles", triangle_count(a)},
-          {"bounds", bounds_json(assembled_bounds(a))},
-          {"tree", std::move(tree)},
-          {"components", std::move(components)}};
+  Json json = Json::parse(viewer_model_json(*model.assembly, model.session->pairs().tolerance));
+  json["event"] = "model";
+  json["number"] = model.number;
+  return json;
 }
 
 Json state_json(const Session& session) {

@@ -3,6 +3,7 @@
 
 #include "dismantle/io/read_gltf.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/support/check_glb.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +64,8 @@ TEST(WriteGlb, ReadsBackEqualToFloatPrecision) {
 TEST(WriteGlb, PutsComponentsWhereTheirPosesSay) {
   const ScratchFolder folder;
   Assembly a = scene();
-  const GlbOptions options{{{}, {{1, 2, 3}, quat_about({1, 0, 0}, 0.4)}, {{0, 0, 99}, {}}}};
+  GlbOptions options;
+  options.poses = {{}, {{1, 2, 3}, quat_about({1, 0, 0}, 0.4)}, {{0, 0, 99}, {}}};
   ASSERT_TRUE(write_glb(a, folder / "posed.glb", options).ok());
   const Result<Assembly> b = read_gltf(folder / "posed.glb", {});
   ASSERT_TRUE(b.ok()) << b.error().message;
@@ -93,6 +95,17 @@ TEST(WriteGlb, IsUnderstoodByAnotherReader) {
   EXPECT_FLOAT_EQ(static_cast<float>(model.accessors[0].maxValues[0]), 0.05f);
   EXPECT_EQ(model.materials.size(), 3u);
   EXPECT_EQ(model.materials[2].alphaMode, "BLEND");
+}
+
+TEST(WriteGlb, BreaksNoRuleOfTheFormat) {
+  EXPECT_EQ(CheckedGlb(*glb_from_assembly(scene())).faults(), std::vector<std::string>{});
+  EXPECT_EQ(CheckedGlb(*glb_from_assembly(Assembly{})).faults(), std::vector<std::string>{});
+}
+
+TEST(WriteGlb, LeavesOutAnAnimationInWhichNothingLeavesItsPlace) {
+  GlbOptions options;
+  options.animations = {{"rest", {{ComponentId(1), {{0, {}}, {1, {}}}}}}};
+  EXPECT_FALSE(CheckedGlb(*glb_from_assembly(scene(), options)).json().contains("animations"));
 }
 
 TEST(WriteGlb, GivesComponentsOfOneTreeNodeANodeEach) {

@@ -20,14 +20,12 @@ import { Toolbar } from "./panels/toolbar.ts";
 import { TreePanel } from "./panels/tree.ts";
 import { Gizmo } from "./scene/gizmo.ts";
 import type { Arrow } from "./scene/marks.ts";
-import { kPalettes } from "./scene/palette.ts";
 import { kStereoModes } from "./scene/stereo.ts";
 import { Viewport, type ViewportOptions } from "./scene/viewport.ts";
 import { Session } from "./session.ts";
 import { text } from "./strings.ts";
+import { ThemeSwitch } from "./theme.ts";
 import type { Triple } from "./wire/messages.ts";
-
-type Theme = "light" | "dark";
 
 /// The page: its parts, and what its buttons and keys do.
 export class App {
@@ -49,7 +47,7 @@ export class App {
   private readonly openDialog: OpenDialog;
   private readonly help = helpDialog();
   private readonly toasts = new Toasts();
-  private theme: Theme = "light";
+  private readonly theme: ThemeSwitch;
 
   constructor(options: ViewportOptions) {
     const canvas = element("canvas", {
@@ -89,7 +87,7 @@ export class App {
     );
     document.body.append(this.openDialog.node, this.help);
     this.connectParts();
-    this.setTheme(startTheme());
+    this.theme = new ThemeSwitch(this.viewport);
     this.session.connection.connect();
   }
 
@@ -114,7 +112,6 @@ export class App {
         this.drag.drop();
     });
     listenForKeys(this);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.setTheme(startTheme()));
   }
 
   /// Puts the gizmo and the arrows of free directions where the selection is.
@@ -166,7 +163,7 @@ export class App {
           : this.viewport.canvas.parentElement!.requestFullscreen()),
       fit: () => this.fit(),
       screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.fileStem()}.png`)),
-      theme: () => this.setTheme(this.theme === "light" ? "dark" : "light", true),
+      theme: () => this.theme.toggle(),
       help: () => this.help.showModal(),
       play: () => this.timeline.toggle(),
       directions: () => void this.inspector.find(),
@@ -226,13 +223,6 @@ export class App {
   private fileStem(): string {
     return (this.session.store.model?.name ?? "dismantle").replace(/\.\w+$/, "");
   }
-
-  private setTheme(theme: Theme, keep = false): void {
-    this.theme = theme;
-    document.documentElement.dataset.theme = theme;
-    if (keep) localStorage.setItem("dismantle.theme", theme);
-    this.viewport.setPalette(kPalettes[theme]);
-  }
 }
 
 /// An arrow from the side of a box that lies in a direction.
@@ -241,10 +231,4 @@ function arrowOutOf(box: Box3, direction: Triple): Arrow {
   const half = box.getSize(new Vector3()).multiplyScalar(0.5);
   const reach = Math.min(...[0, 1, 2].map((k) => half.getComponent(k) / Math.max(1e-9, Math.abs(direction[k]))));
   return { point: box.getCenter(new Vector3()).addScaledVector(way, reach), direction: way, length: 80 };
-}
-
-function startTheme(): Theme {
-  const kept = localStorage.getItem("dismantle.theme");
-  if (kept === "light" || kept === "dark") return kept;
-  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 }

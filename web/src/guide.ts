@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Quaternion, Vector3 } from "three";
+import { poseBetween } from "./screw.ts";
 import type { Triple } from "./wire/messages.ts";
 import type { WirePose } from "./wire/structs.ts";
 
@@ -56,10 +57,7 @@ export function poseAt(step: GuideStep, time: number): WirePose {
   if (after === 0) return frames[0].pose;
   if (after < 0) return frames[frames.length - 1].pose;
   const [a, b] = [frames[after - 1], frames[after]];
-  const part = b.t > a.t ? (time - a.t) / (b.t - a.t) : 1;
-  const position = new Vector3(...a.pose.position).lerp(new Vector3(...b.pose.position), part);
-  const turn = quaternion(a.pose).slerp(quaternion(b.pose), part);
-  return { position: position.toArray() as Triple, rotation: [turn.w, turn.x, turn.y, turn.z] };
+  return poseBetween(a.pose, b.pose, b.t > a.t ? (time - a.t) / (b.t - a.t) : 1);
 }
 
 /// Whether a component is where a step leads, or far enough on the way, or gone altogether.

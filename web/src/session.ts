@@ -4,7 +4,7 @@ import { ModelView } from "./scene/model_view.ts";
 import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
-import { Connection } from "./wire/connection.ts";
+import { Connection, type Wire } from "./wire/connection.ts";
 import type { Commands, JobEvent, ModelEvent, Move, Source, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
 
@@ -12,7 +12,6 @@ import type { PoseFrame, WirePose } from "./wire/structs.ts";
 /// server says that they are.
 export class Session {
   readonly store: Store = emptyStore();
-  readonly connection = new Connection();
   readonly notifier: Notifier;
   /// Shows the user a sentence.
   onNote: (level: "note" | "warning", sentence: string) => void = () => {};
@@ -21,8 +20,11 @@ export class Session {
 
   private loading: Promise<void> | null = null;
 
-  constructor(readonly viewport: Viewport) {
-    const { connection, store } = this;
+  constructor(
+    readonly viewport: Viewport,
+    readonly connection: Wire = new Connection(),
+  ) {
+    const { store } = this;
     this.notifier = new Notifier(() => viewport.invalidate());
     viewport.beforePicture.push(() => {
       this.notifier.tell();

@@ -52,6 +52,10 @@ const kEnglish = {
   "guide.practice": "Practice",
   "guide.score": "{points} points: {wrong} out of turn, {contacts} contacts, {hints} hints",
   "guide.close": "Close the guide",
+  steps: "Steps",
+  "offline.view": "Model. Left or right button turns, middle button moves the view.",
+  "offline.cannot": "This cannot be done here (this page has no engine); open the assembly in dismantle.",
+  "offline.hidden": "Not all components are shown.",
   save: "Save recording",
   reset: "Assemble everything",
   response: "At contact",
@@ -169,7 +173,9 @@ const kEnglish = {
 } as const;
 
 /// The list of keys; each group: a title, and pairs of what one does and what comes of it.
-export const kHelp: [string, [string, string][]][] = [
+export type Help = [string, [string, string][]][];
+
+export const kHelp: Help = [
   [
     "View",
     [
@@ -214,6 +220,27 @@ export const kHelp: [string, [string, string][]][] = [
       ["E", "Explode: the steps of the path, with trails"],
       ["T", "Dark or light"],
       ["/", "Search the components"],
+      ["H", "This list"],
+    ],
+  ],
+];
+
+/// Of a page that was exported.
+export const kOfflineHelp: Help = [
+  ["View", kHelp[0][1].filter(([keys]) => keys !== "V")],
+  [
+    "Everything else",
+    [
+      ["P", "Play, or pause"],
+      [". ,", "Play the next step, the one before"],
+      ["Click", "Select a component; Shift or Ctrl adds"],
+      ["Space", "Hide or show"],
+      ["I", "Isolate; again: show all"],
+      ["S", "Section"],
+      ["M", "Measure"],
+      ["T", "Dark or light"],
+      ["/", "Search the components"],
+      ["Esc", "Clear the selection"],
       ["H", "This list"],
     ],
   ],

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
 import type { App } from "./app.ts";
+import type { Drag } from "./input/drag.ts";
+import type { Viewport } from "./scene/viewport.ts";
+import type { Session } from "./session.ts";
 import type { Triple } from "./wire/messages.ts";
 
+/// A page that tests look at.
+interface Tested {
+  readonly viewport: Viewport;
+  readonly session: Session;
+  readonly drag: Drag;
+}
+
 /// What tests ask of the page instead of waiting for some time and hoping. It looks, and changes nothing.
-export interface TestDoor {
+export interface TestDoor<Page extends Tested = App> {
   /// When everything asked is answered, shown and drawn.
   idle(): Promise<void>;
   /// Where the component called `name` is drawn: the matrix from its assembled position, by columns.
@@ -15,12 +25,12 @@ export interface TestDoor {
   project(point: Triple): { x: number; y: number };
   /// What is in front at a place on screen.
   at(x: number, y: number): string | null;
-  readonly app: App;
+  readonly app: Page;
 }
 
 const kGrid = 60;
 
-export function testDoor(app: App): TestDoor {
+export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
   const view = (name: string) => app.viewport.model?.components.find(({ raw }) => raw.name === name);
   const onPage = (x: number, y: number) => {
     const box = app.viewport.canvas.getBoundingClientRect();
@@ -70,7 +80,7 @@ export function testDoor(app: App): TestDoor {
   };
 }
 
-async function waitUntilIdle(app: App): Promise<void> {
+async function waitUntilIdle(app: Tested): Promise<void> {
   const settled = () =>
     app.session.settled && app.viewport.settled && app.session.store.link === "open" && !app.drag.waits;
   for (let calm = 0; calm < 3; ) {

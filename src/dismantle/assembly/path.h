@@ -44,6 +44,14 @@ struct Path {
   friend bool operator==(const Path&, const Path&) = default;
 };
 
+/// The frames of a move the other way, from its last one at time 0 to its first.
+std::vector<Frame> reversed(std::vector<Frame> frames);
+
+/// A path and then its way back, move by move from the last, so that every component ends where it began: how an
+/// assembly that a path takes apart is put together again. The labels of the way back end in ", reversed"; nothing is
+/// removed in the end.
+Path there_and_back(Path path);
+
 /// How a motion goes on at contact.
 enum class ResponseKind {
   Stop,   ///< Back to the last collision-free pose (Du et al. 2015).

@@ -2,6 +2,7 @@
 #include "dismantle/io/write_glb.h"
 
 #include "dismantle/io/atomic_file.h"
+#include "dismantle/io/glb_keys.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,9 +20,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr int kFloat = 5126, kUInt16 = 5123, kUInt32 = 5125;      // component types
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;  // what a view is for
+constexpr const char* kLists[] = {"nodes", "meshes", "materials", "accessors", "bufferViews", "animations"};
 constexpr std::size_t kLongestGlb = std::numeric_limits<std::uint32_t>::max() - 8;
 
 double linear_from_srgb(double c) {
@@ -45,23 +46,33 @@ class GlbBuilder {
     json_["asset"] = {{"version", "2.0"}, {"generator", "dismantle"}};
     json_["scene"] = 0;
     json_["scenes"] = {{{"nodes", {0}}}};
-    for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews"}) json_[list] = Json::array();
+    for (const char* list : kLists) json_[list] = Json::array();
   }
 
   Result<std::string> build() {
     add_tree();
     for (std::size_t i = 0; i < assembly_.components.size(); ++i) {
       add_component(i);
-      if (binary_.size() > kLongestGlb)
-        return Error{ErrorKind::Failed, "the assembly is too large for a GLB file (4 GiB); simplify it"};
+      if (binary_.size() > kLongestGlb) return too_large();
     }
-    for (const char* list : {"meshes", "materials", "accessors", "bufferViews"})
+    for (std::size_t i = 0; i < options_.animations.size(); ++i) {
+      add_animation(options_.animations[i]);
+      if (binary_.size() > kLongestGlb) return too_large();
+      const double done = static_cast<double>(i + 1) / static_cast<double>(options_.animations.size());
+      if (!report_progress(options_.progress, "writing animations", done))
+        return Error{ErrorKind::Failed, "the file was not written (cancelled); start it again"};
+    }
+    for (const char* list : kLists)
       if (json_[list].empty()) json_.erase(list);  // glTF allows no empty lists
     if (!binary_.empty()) json_["buffers"] = {{{"byteLength", binary_.size()}}};
     return container();
   }
 
  private:
+  static Error too_large() {
+    return {ErrorKind::Failed, "the assembly is too large for a GLB file (4 GiB); simplify it"};
+  }
+
   void add_tree() {
     std::vector<std::uint32_t> uses(assembly_.tree.size(), 0);  // children and components of each node
     for (std::size_t i = 1; i < assembly_.tree.size(); ++i) ++uses[assembly_.tree[i].parent];
@@ -96,6 +107,47 @@ class GlbBuilder {
     if (!(t == Vec3{})) json["translation"] = {t.x, t.y, t.z};
     if (!(q == Quat{})) json["rotation"] = {q.x, q.y, q.z, q.w};
     json["mesh"] = mesh_of(c);
+    component_nodes_.push_back(node);
+  }
+
+  Pose rest(ComponentId c) const { return options_.poses.empty() ? Pose{} : options_.poses[c.value]; }
+
+  void add_animation(const GlbAnimation& animation) {
+    Json samplers = Json::array(), channels = Json::array();
+    for (const GlbTrack& track : animation.tracks) {
+      const auto stays = [at = rest(track.component)](const Frame& f) { return f.pose == at; };
+      if (std::all_of(track.frames.begin(), track.frames.end(), stays)) continue;
+      const GlbKeys keys = glb_keys(assembly_[track.component].assembly_from_mesh, track.frames);
+      const std::size_t times = add_keys(keys.times, 1);
+      for (const auto& [path, output] : {std::pair{"translation", add_keys(keys.translations, 3)},
+                                         std::pair{"rotation", add_keys(keys.rotations, 4)}}) {
+        channels.push_back({{"sampler", samplers.size()},
+                            {"target", {{"node", component_nodes_[track.component.value]}, {"path", path}}}});
+        samplers.push_back({{"input", times}, {"output", output}});  // linear, and spherically so
+      }
+    }
+    if (!channels.empty())
+      json_["animations"].push_back(
+          {{"name", animation.name}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
+  }
+
+  /// The accessor of keys of so many values each; the same one where these keys are there already.
+  std::size_t add_keys(const std::vector<float>& values, std::size_t width) {
+    const auto [place, is_new] = keys_.try_emplace({width, values}, json_["accessors"].size());
+    if (!is_new) return place->second;
+    static constexpr const char* kTypes[] = {"", "SCALAR", "", "VEC3", "VEC4"};
+    const std::size_t begin = binary_.size();
+    append_values(binary_, values);
+    Json accessor{{"bufferView", add_view(begin)},
+                  {"componentType", kFloat},
+                  {"count", values.size() / width},
+                  {"type", kTypes[width]}};
+    if (width == 1) {  // times have to tell their ends
+      accessor["min"] = {values.front()};
+      accessor["max"] = {values.back()};
+    }
+    json_["accessors"].push_back(std::move(accessor));
+    return place->second;
   }
 
   std::size_t mesh_of(const Component& c) {
@@ -112,9 +164,10 @@ class GlbBuilder {
     return place->second;
   }
 
-  std::size_t add_view(std::size_t begin, int target) {
-    json_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary_.size() - begin}, {"target", target}});
+  std::size_t add_view(std::size_t begin, std::optional<int> target = {}) {
+    Json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary_.size() - begin}};
+    if (target) view["target"] = *target;
+    json_["bufferViews"].push_back(std::move(view));
     return json_["bufferViews"].size() - 1;
   }
 
@@ -183,8 +236,7 @@ class GlbBuilder {
     std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t length = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
-    if (length > kLongestGlb)
-      return Error{ErrorKind::Failed, "the assembly is too large for a GLB file (4 GiB); simplify it"};
+    if (length > kLongestGlb) return too_large();
     std::string glb = "glTF";
     glb.reserve(length);
     append_u32(glb, 2);
@@ -206,6 +258,8 @@ class GlbBuilder {
   Json json_;
   std::string binary_;
   std::vector<bool> exclusive_;  // of each tree node: a leaf with one component and nothing else
+  std::vector<std::size_t> component_nodes_;
+  std::map<std::pair<std::size_t, std::vector<float>>, std::size_t> keys_;
   std::unordered_map<const TriangleMesh*, Accessors> accessors_;
   std::map<std::pair<const TriangleMesh*, std::size_t>, std::size_t> meshes_;
   std::map<std::array<float, 4>, std::size_t> materials_;

@@ -44,6 +44,12 @@ export class Drag {
     return this.motion !== null;
   }
 
+  /// Whether components may be taken in hand now.
+  get allowed(): boolean {
+    const { control, state } = this.session.store;
+    return control && state?.playback == null;
+  }
+
   /// The server has given a grip.
   get held(): boolean {
     return this.grip !== null;
@@ -61,7 +67,7 @@ export class Drag {
 
   /// Takes components in hand at a point of the world. Gives whether they could be.
   async begin(components: number[], grabbed: Vector3): Promise<boolean> {
-    if (this.active || this.session.store.state?.playback) return false;
+    if (this.active || !this.allowed) return false;
     const { viewport, store } = this.session;
     this.components = components;
     this.grabbed = grabbed.clone();

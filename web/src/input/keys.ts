@@ -1,13 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { App } from "../app.ts";
 import { kStandardViews } from "../scene/view_cube.ts";
+import type { Viewport } from "../scene/viewport.ts";
 
 const kTurn = 40;
 const kPan = 40;
 const kZoom = 1.2;
 
+type Act = () => void;
+type Action =
+  | "undo"
+  | "redo"
+  | "fit"
+  | "projection"
+  | "stereo"
+  | "wholeScreen"
+  | "gizmo"
+  | "section"
+  | "measure"
+  | "theme"
+  | "help"
+  | "play"
+  | "directions"
+  | "isolate"
+  | "putBack"
+  | "takeOut"
+  | "escape"
+  | "search"
+  | "toggleHidden"
+  | "nextStep"
+  | "previousStep";
+
+/// A page with keys; those of actions that it has not do nothing.
+export interface Keyed {
+  readonly viewport: Viewport;
+  readonly drag: { readonly active: boolean };
+  readonly actions: { readonly [Name in Action]?: Act };
+  lockAxis?(axis: 0 | 1 | 2): void;
+}
+
 /// The keyboard's way to everything. Keys typed into a field are the field's.
-export function listenForKeys(app: App): void {
+export function listenForKeys(app: Keyed): void {
   window.addEventListener("keydown", (event) => {
     if (isTyping(event) || document.querySelector("dialog[open]")) return;
     const act = event.ctrlKey || event.metaKey ? withControl(app, event) : plain(app, event);
@@ -27,23 +59,24 @@ export function listenForKeys(app: App): void {
 function isTyping(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
   if (event.key === "Escape") return false;
-  if (target instanceof HTMLInputElement) return !["checkbox", "radio"].includes(target.type) || event.key === " ";
+  if (target instanceof HTMLInputElement)
+    return !["checkbox", "radio", "range"].includes(target.type) || event.key === " ";
   if (target instanceof HTMLButtonElement) return event.key === " " || event.key === "Enter";
   return target instanceof HTMLSelectElement;
 }
 
-function withControl(app: App, event: KeyboardEvent): (() => void) | undefined {
+function withControl(app: Keyed, event: KeyboardEvent): Act | undefined {
   const key = event.key.toLowerCase();
   if (key === "z") return event.shiftKey ? app.actions.redo : app.actions.undo;
   if (key === "y") return app.actions.redo;
   return undefined;
 }
 
-function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
+function plain(app: Keyed, event: KeyboardEvent): Act | undefined {
   const { actions } = app;
   const view = kStandardViews.find(({ key }) => key === event.key);
   if (view) return () => app.viewport.rig.lookFrom(view.direction);
-  const keys: Record<string, () => void> = {
+  const keys: Record<string, Act | undefined> = {
     f: actions.fit,
     o: actions.projection,
     v: actions.stereo,
@@ -55,6 +88,8 @@ function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
     t: actions.theme,
     h: actions.help,
     p: actions.play,
+    ".": actions.nextStep,
+    ",": actions.previousStep,
     d: actions.directions,
     i: actions.isolate,
     b: actions.putBack,
@@ -62,14 +97,14 @@ function plain(app: App, event: KeyboardEvent): (() => void) | undefined {
     escape: actions.escape,
     "/": actions.search,
     " ": actions.toggleHidden,
-    x: () => app.lockAxis(0),
-    y: () => app.lockAxis(1),
-    z: () => app.lockAxis(2),
+    x: () => app.lockAxis?.(0),
+    y: () => app.lockAxis?.(1),
+    z: () => app.lockAxis?.(2),
   };
   return keys[event.key.toLowerCase()] ?? aboutView(app, event);
 }
 
-function aboutView(app: App, event: KeyboardEvent): (() => void) | undefined {
+function aboutView(app: Keyed, event: KeyboardEvent): Act | undefined {
   const { rig, canvas } = app.viewport;
   if (event.key === "+" || event.key === "=") return () => rig.zoom(1 / kZoom, rig.current.focus);
   if (event.key === "-") return () => rig.zoom(kZoom, rig.current.focus);

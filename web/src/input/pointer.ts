@@ -140,7 +140,7 @@ export class PointerInput {
   private startDrag(press: Gesture & { kind: "press" }): Gesture {
     const { store } = this.session;
     const { component, point } = press.pick;
-    if (!store.control || this.session.store.measuring) return { kind: "orbit", pivot: point };
+    if (!this.drag.allowed || store.measuring) return { kind: "orbit", pivot: point };
     if (!store.selection.includes(component)) this.session.select([component]);
     return { kind: "drag", mode: null, ready: this.drag.begin([...store.selection], point) };
   }

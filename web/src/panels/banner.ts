@@ -4,7 +4,7 @@ import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import { directionText } from "./inspector.ts";
 
-interface Notice {
+export interface Notice {
   key: string;
   words: string;
   action?: { label: string; press: () => void };
@@ -15,7 +15,7 @@ export class Banner {
   readonly node = element("div", { id: "banners", role: "status" });
   private shown = "";
 
-  constructor(private readonly session: Session) {
+  constructor(protected readonly session: Session) {
     session.notifier.subscribe(() => this.update());
   }
 
@@ -36,7 +36,7 @@ export class Banner {
     );
   }
 
-  private notices(): Notice[] {
+  protected notices(): Notice[] {
     const { store } = this.session;
     const { state } = store;
     const ask = (command: "restore" | "take_control" | "resume" | "stop") => () => void this.session.ask(command, {});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element } from "../dom.ts";
-import { kHelp, text } from "../strings.ts";
+import { type Help, kHelp, text } from "../strings.ts";
 
-export function helpDialog(): HTMLDialogElement {
-  const groups = kHelp.map(([title, rows]) =>
+export function helpDialog(help: Help = kHelp): HTMLDialogElement {
+  const groups = help.map(([title, rows]) =>
     element(
       "section",
       {},

@@ -15,8 +15,26 @@ type Listener<T> = (value: T) => void;
 const kFirstRetry = 200;
 const kLongestRetry = 2000;
 
+/// What a session talks to: the server, or what stands in its place.
+export interface Wire {
+  onFrame: Listener<PoseFrame>;
+  onLink: Listener<Link>;
+  /// Whether every command has its answer.
+  readonly settled: boolean;
+  connect(): void;
+  /// Drops the connection; it comes back as after any loss.
+  reconnect(): void;
+  on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void;
+  /// Sends a command. Rejects with a sentence where it is refused.
+  command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]>;
+  /// Sends a struct, or drops it where the connection is lost or behind: the next one is newer.
+  sendStruct(bytes: ArrayBuffer): void;
+  /// Asks one of the doors under /api/.
+  request(address: string, options?: { method?: string; body?: Blob }): Promise<globalThis.Response>;
+}
+
 /// The socket to the server, which comes back by itself: commands that were not answered are sent again.
-export class Connection {
+export class Connection implements Wire {
   onFrame: Listener<PoseFrame> = () => {};
   onLink: Listener<Link> = () => {};
   link: Link = "connecting";
@@ -54,7 +72,6 @@ export class Connection {
     };
   }
 
-  /// Drops the socket; it comes back as after any loss.
   reconnect(): void {
     this.socket?.close();
   }
@@ -65,7 +82,6 @@ export class Connection {
     (this.listeners as Record<string, unknown>)[name] = listeners;
   }
 
-  /// Sends a command. Rejects with the server's sentence where it refuses.
   command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]> {
     const id = Number(kept("dismantle.command", () => "0")) + 1;
     sessionStorage.setItem("dismantle.command", String(id));
@@ -76,12 +92,10 @@ export class Connection {
     });
   }
 
-  /// Sends a struct, or drops it where the connection is lost or behind: the next one is newer.
   sendStruct(bytes: ArrayBuffer): void {
     if (this.socket?.readyState === WebSocket.OPEN && this.socket.bufferedAmount < 4096) this.socket.send(bytes);
   }
 
-  /// Asks one of the doors under /api/.
   async request(address: string, options: { method?: string; body?: Blob } = {}): Promise<globalThis.Response> {
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": this.client };
     const answer = await fetch(address, { ...options, headers });
@@ -90,7 +104,6 @@ export class Connection {
     throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
   }
 
-  /// Whether every command has its answer.
   get settled(): boolean {
     return this.waiting.size === 0;
   }

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "apps/server/viewer_files.h"
+
+#include "dismantle/export/moves_table.h"
+#include "dismantle/export/offline_page.h"
+#include "dismantle/export/path_animations.h"
+#include "dismantle/io/atomic_file.h"
+#include "dismantle/io/bill_of_materials.h"
+#include "dismantle/io/path_file.h"
+#include "dismantle/io/write_glb.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace dismantle::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class ExportFormat { Glb, Html, Moves, BillCsv, BillJson, Path };
+
+struct ExportCommand {
+  CommonOptions common;
+  std::string path_file;
+  std::string output;
+  std::optional<ExportFormat> format;
+  bool reverse = false;
+  bool clearance = false;
+};
+
+/// What is exported: an assembly, and its path where one is given.
+struct Exported {
+  Assembly assembly;
+  std::optional<Path> path;
+  Timeline timeline;  ///< Of the path.
+};
+
+/// By how the name ends; nothing where that tells nothing.
+std::optional<ExportFormat> format_of(const std::string& file) {
+  static const std::pair<std::string, ExportFormat> kEndings[] = {
+      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson}, {"bom.csv", ExportFormat::BillCsv},
+      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html}};
+  for (const auto& [ending, format] : kEndings)
+    if (file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+      return format;
+  return {};
+}
+
+bool needs_path(ExportFormat format) {
+  return format == ExportFormat::Moves || format == ExportFormat::Path;
+}
+
+bool knows_direction(ExportFormat format) {
+  return format != ExportFormat::BillCsv && format != ExportFormat::BillJson;
+}
+
+Result<ExportFormat> check(const ExportCommand& command) {
+  const std::optional<ExportFormat> format = command.format ? command.format : format_of(command.output);
+  if (!format)
+    return Error{ErrorKind::Usage, command.output +
+                                       " cannot be written (its name tells no format); end it with .glb, .html, "
+                                       ".csv, bom.csv, bom.json or .path.json, or give --format"};
+  if (command.path_file.empty() && needs_path(*format))
+    return Error{ErrorKind::Usage,
+                 "there is no path to export (only an assembly is given, and this format is about "
+                 "moves); give a *.path.json, too"};
+  if (command.reverse && (command.path_file.empty() || !knows_direction(*format)))
+    return Error{ErrorKind::Usage,
+                 "--reverse has nothing to reverse (there is no path, or the format has no moves); leave it out"};
+  if (command.clearance && *format != ExportFormat::Moves)
+    return Error{ErrorKind::Usage,
+                 "--clearance has no place in this format (only the table of moves tells it); "
+                 "leave it out, or write a .csv"};
+  return *format;
+}
+
+/// Reads what the command names. A path alone is of the assembly beside it.
+Result<Exported> read(ExportCommand command) {
+  Exported exported;
+  if (!command.path_file.empty()) {
+    Result<Path> path = read_path(command.path_file);
+    if (!path) return path.error();
+    exported.path = std::move(*path);
+  }
+  if (command.common.assembly_file.empty()) {
+    const Result<fs::path> beside = assembly_beside(command.path_file, *exported.path);
+    if (!beside) return beside.error();
+    command.common.assembly_file = beside->string();
+  }
+  Result<Assembly> assembly = load(command.common);
+  if (!assembly) return assembly.error();
+  exported.assembly = std::move(*assembly);
+  if (!exported.path) return exported;
+
+  note_other_version(*exported.path, exported.assembly);
+  Result<Timeline> timeline = Timeline::of_path(exported.assembly, PairStates{}, *exported.path);
+  if (!timeline) return timeline.error();
+  exported.timeline = std::move(*timeline);
+  return exported;
+}
+
+PathDirection direction(const ExportCommand& command) {
+  return command.reverse ? PathDirection::Reversed : PathDirection::Forward;
+}
+
+Result<std::string> glb(const Exported& exported, const ExportCommand& command) {
+  GlbOptions options;
+  options.animations = path_animations(exported.timeline, direction(command));
+  if (command.reverse)
+    options.poses = exported.timeline.poses_at(exported.timeline.end(), exported.assembly.components.size());
+  options.progress = progress_printer(command.common);
+  return glb_from_assembly(exported.assembly, options);
+}
+
+Result<std::string> html(const Exported& exported, const ExportCommand& command) {
+  OfflinePageOptions options;
+  options.direction = direction(command);
+  options.progress = progress_printer(command.common);
+  return offline_page(exported.assembly, exported.path.value_or(Path{}), server::viewer_files(), options);
+}
+
+Result<std::string> moves(const Exported& exported, const ExportCommand& command) {
+  MovesTableOptions options;
+  options.direction = direction(command);
+  if (command.clearance) {
+    const Result<PairStates> states = classify(exported.assembly, command.common);
+    if (!states) return states.error();
+    const Result<Executor> executor = make_executor(command.common);
+    if (!executor) return executor.error();
+    auto clearances = move_clearances(exported.assembly, *states, exported.timeline, {*executor, widest_lanes()},
+                                      progress_printer(command.common));
+    if (!clearances) return Error{ErrorKind::Failed, "the table was not written (cancelled); start it again"};
+    options.clearances = std::move(*clearances);
+  }
+  return moves_csv(exported.assembly, exported.timeline, options);
+}
+
+Result<std::string> content(ExportFormat format, const Exported& exported, const ExportCommand& command) {
+  switch (format) {
+    case ExportFormat::Glb:
+      return glb(exported, command);
+    case ExportFormat::Html:
+      return html(exported, command);
+    case ExportFormat::Moves:
+      return moves(exported, command);
+    case ExportFormat::BillCsv:
+      return bill_csv(exported.assembly, bill_of_materials(exported.assembly));
+    case ExportFormat::BillJson:
+      return bill_json(exported.assembly, bill_of_materials(exported.assembly));
+    case ExportFormat::Path:
+      return path_text(command.reverse ? there_and_back(*exported.path) : *exported.path);
+  }
+  return std::string();
+}
+
+Result<Done> run(const ExportCommand& command) {
+  const Result<ExportFormat> format = check(command);
+  if (!format) return format.error();
+  const Result<Exported> exported = read(command);
+  if (!exported) return exported.error();
+  const Result<std::string> bytes = content(*format, *exported, command);
+  if (!bytes) return bytes.error();
+  const Result<Done> written = write_file(command.output, *bytes);
+  if (!written) return written.error();
+
+  const std::size_t moves = exported->timeline.moves().size();
+  if (command.common.json) {
+    using Json = nlohmann::ordered_json;
+    const Json report{{"format", "dismantle-export"},
+                      {"version", 1},
+                      {"file", command.output},
+                      {"bytes", bytes->size()},
+                      {"moves", moves}};
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("wrote {}: {} components, {} moves, {} bytes\n", command.output, exported->assembly.components.size(),
+               moves, bytes->size());
+  }
+  return Done{};
+}
+
+/// A path alone stands where the assembly is expected.
+void sort_arguments(ExportCommand& command) {
+  if (command.path_file.empty() && is_path_file(command.common.assembly_file))
+    std::swap(command.path_file, command.common.assembly_file);
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, ExitCode& exit_code) {
+  static const std::map<std::string, ExportFormat> kFormats{
+      {"glb", ExportFormat::Glb},         {"html", ExportFormat::Html},         {"moves", ExportFormat::Moves},
+      {"bom-csv", ExportFormat::BillCsv}, {"bom-json", ExportFormat::BillJson}, {"path", ExportFormat::Path}};
+  CLI::App* command =
+      app.add_subcommand("export", "An assembly and its path for others: animation, page, tables, path file");
+  auto options = std::make_shared<ExportCommand>();
+  command
+      ->add_option("ASSEMBLY", options->common.assembly_file,
+                   "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes; or PATH alone, with its assembly beside it")
+      ->required();
+  command->add_option("PATH", options->path_file, "What a session, move or plan wrote (*.path.json)");
+  command
+      ->add_option("-o,--output", options->output,
+                   "File to write: .glb (animated), .html (a page that plays it), .csv (a row a move), bom.csv or "
+                   "bom.json (bill of materials), "
+                   ".path.json")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--format", options->format, "Format of the file (default: by its name)")
+      ->transform(CLI::CheckedTransformer(kFormats))
+      ->type_name("glb|html|moves|bom-csv|bom-json|path");
+  command->add_flag("--reverse", options->reverse,
+                    "The assembly: moves the other way, last first (.path.json: apart and together again)");
+  command->add_flag("--clearance", options->clearance, "Table of moves: measure the least clearance of each");
+  add_common_options(*command, options->common);
+  command->callback([options, &exit_code] {
+    sort_arguments(*options);
+    if (const Result<Done> done = run(*options); !done) exit_code = report(done.error());
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/cli_fixture.h"
+#include "tests/support/check_glb.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace dismantle {
+namespace {
+
+using Json = nlohmann::json;
+
+/// With the path of the block that goes 7 mm and then up to the wall.
+class CliExport : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    ASSERT_EQ(run("move parts pull.motion.json -o pull.path.json --tolerance 0.01").exit_code, 0);
+  }
+  Outcome export_to(const std::string& arguments) const { return run("export parts pull.path.json -o " + arguments); }
+};
+
+TEST_F(CliExport, WritesAnAnimatedGlb) {
+  const Outcome o = export_to("pull.glb --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(Json::parse(o.out)["moves"], 1);
+  const CheckedGlb glb(read_all(in("pull.glb")));
+  EXPECT_EQ(glb.faults(), std::vector<std::string>{});
+  ASSERT_EQ(glb.json()["animations"].size(), 4u);
+  const auto [times, places] = glb.keys(glb.json()["animations"][0], glb.node_of("block"), "translation");
+  ASSERT_GE(times.size(), 3u);
+  EXPECT_EQ(times[1], 0.1f);
+  EXPECT_EQ(places[3], 0.007f);
+}
+
+TEST_F(CliExport, PutsTheAssemblyTogetherWhereReversed) {
+  ASSERT_EQ(export_to("back.glb --reverse").exit_code, 0);
+  const CheckedGlb glb(read_all(in("back.glb")));
+  EXPECT_EQ(glb.faults(), std::vector<std::string>{});
+  EXPECT_EQ(glb.json()["animations"][0]["name"], "all, reversed");
+  EXPECT_GT(glb.json()["nodes"][glb.node_of("block")]["translation"][0], 0.0104) << "it begins taken apart";
+}
+
+TEST_F(CliExport, WritesAPageThatHoldsEverything) {
+  ASSERT_EQ(export_to("pull.html").exit_code, 0);
+  const std::string page = read_all(in("pull.html"));
+  EXPECT_EQ(page.find("<!DOCTYPE html>"), 0u);
+  EXPECT_NE(page.find("id=\"offline-model\""), std::string::npos);
+  EXPECT_GT(page.size(), 400'000u) << "the viewer is not in it";
+  EXPECT_EQ(page.find("<link rel=\"stylesheet\""), std::string::npos);
+  EXPECT_EQ(page.find("<script type=\"module\" src"), std::string::npos);
+}
+
+TEST_F(CliExport, WritesATableOfTheMoves) {
+  ASSERT_EQ(export_to("pull.csv").exit_code, 0);
+  const std::string csv = read_all(in("pull.csv"));
+  EXPECT_EQ(csv.find("move,label,components,start_s,end_s,"), 0u);
+  EXPECT_NE(csv.find("\r\n1,move block,block,0,0.2,"), std::string::npos) << csv;
+}
+
+TEST_F(CliExport, MeasuresTheClearanceOnRequest) {
+  ASSERT_EQ(export_to("pull.csv --clearance").exit_code, 0);
+  const std::string csv = read_all(in("pull.csv"));
+  EXPECT_NE(csv.find(",0.2,wall\r\n"), std::string::npos) << csv;
+}
+
+TEST_F(CliExport, WritesTheBillOfMaterials) {
+  ASSERT_EQ(run("export parts -o parts-bom.csv").exit_code, 0);
+  EXPECT_NE(read_all(in("parts-bom.csv")).find("\r\n1,block,1,10,10,10,1000,600,12,"), std::string::npos);
+  ASSERT_EQ(run("export parts -o bom.json").exit_code, 0);
+  EXPECT_EQ(Json::parse(read_all(in("bom.json")))["items"].size(), 2u);
+}
+
+TEST_F(CliExport, WritesAPathThatComesBackAndPassesTheAudit) {
+  ASSERT_EQ(export_to("same.path.json").exit_code, 0);
+  EXPECT_EQ(Json::parse(read_all(in("same.path.json"))), Json::parse(read_all(in("pull.path.json"))));
+  ASSERT_EQ(export_to("back.path.json --reverse").exit_code, 0);
+  const Json back = Json::parse(read_all(in("back.path.json")));
+  ASSERT_EQ(back["moves"].size(), 2u);
+  EXPECT_EQ(back["moves"][1]["frames"].back()["position"], Json::array({0.0, 0.0, 0.0}));
+  EXPECT_EQ(run("audit parts back.path.json").exit_code, 0);
+}
+
+TEST_F(CliExport, FindsTheAssemblyBesideAPathThatStandsAlone) {
+  const Outcome o = run("export pull.path.json -o alone.glb");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(read_all(in("alone.glb")).substr(0, 4), "glTF");
+  fs::rename(in("parts"), in("elsewhere"));
+  expect_error("export pull.path.json -o alone.glb", 3, "is not beside it");
+}
+
+TEST_F(CliExport, TakesTheFormatByNameWhereTheFileTellsNone) {
+  ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
+  expect_error("export parts pull.path.json -o pull.xyz", 2, "its name tells no format");
+}
+
+TEST_F(CliExport, RefusesWhatMakesNoSense) {
+  expect_error("export parts -o moves.csv", 2, "there is no path to export");
+  expect_error("export parts -o parts.path.json", 2, "there is no path to export");
+  expect_error("export parts -o bom.csv --reverse", 2, "--reverse has nothing to reverse");
+  expect_error("export parts pull.path.json -o pull.glb --clearance", 2, "--clearance has no place");
+  EXPECT_FALSE(fs::exists(in("moves.csv")));
+}
+
+TEST_F(CliExport, RefusesAPathOfAnotherAssembly) {
+  fs::rename(in("parts/block.obj"), in("parts/brick.obj"));
+  expect_error("export parts pull.path.json -o pull.glb", 3, "the path cannot be played");
+  EXPECT_FALSE(fs::exists(in("pull.glb")));
+}
+
+TEST_F(CliExport, LeavesTheOldFileWhereItFails) {
+  write("pull.glb", "what was there");
+  write("broken.path.json", "{");
+  expect_error("export parts broken.path.json -o pull.glb", 3, "broken.path.json");
+  EXPECT_EQ(read_all(in("pull.glb")), "what was there");
+  expect_error("export parts pull.path.json -o nowhere/pull.glb", 4, "nowhere");
+}
+
+}  // namespace
+}  // namespace dismantle
