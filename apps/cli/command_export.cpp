@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
 
 #include "dismantle/export/moves_table.h"
 #include "dismantle/export/offline_page.h"
 #include "dismantle/export/path_animations.h"
+#include "dismantle/export/step_scene.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/bill_of_materials.h"
 #include "dismantle/io/path_file.h"
 #include "dismantle/io/write_glb.h"
+#include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum class ExportFormat { Glb, Html, Moves, BillCsv, BillJson, Path };
+enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path };
 
 struct ExportCommand {
   CommonOptions common;
@@ -33,6 +36,8 @@ struct ExportCommand {
   std::optional<ExportFormat> format;
   bool reverse = false;
   bool clearance = false;
+  std::size_t step = 0;  ///< From 1; 0: the assembly as it is at the beginning.
+  PictureOptions picture;
 };
 
 /// What is exported: an assembly, and its path where one is given.
@@ -46,7 +51,8 @@ struct Exported {
 std::optional<ExportFormat> format_of(const std::string& file) {
   static const std::pair<std::string, ExportFormat> kEndings[] = {
       {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson}, {"bom.csv", ExportFormat::BillCsv},
-      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html}};
+      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html},
+      {".png", ExportFormat::Png}};
   for (const auto& [ending, format] : kEndings)
     if (file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
       return format;
@@ -65,7 +71,7 @@ Result<ExportFormat> check(const ExportCommand& command) {
   const std::optional<ExportFormat> format = command.format ? command.format : format_of(command.output);
   if (!format)
     return Error{ErrorKind::Usage, command.output +
-                                       " cannot be written (its name tells no format); end it with .glb, .html, "
+                                       " cannot be written (its name tells no format); end it with .glb, .html, .png, "
                                        ".csv, bom.csv, bom.json or .path.json, or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
@@ -78,6 +84,10 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  "--clearance has no place in this format (only the table of moves tells it); "
                  "leave it out, or write a .csv"};
+  if (command.step > 0 && (*format != ExportFormat::Png || command.path_file.empty()))
+    return Error{ErrorKind::Usage,
+                 "--step has no step to show (only a picture shows one, and only of a path); "
+                 "leave it out, or write a .png of a path"};
   return *format;
 }
 
@@ -126,6 +136,26 @@ Result<std::string> html(const Exported& exported, const ExportCommand& command)
   return offline_page(exported.assembly, exported.path.value_or(Path{}), server::viewer_files(), options);
 }
 
+Result<std::string> png(const Exported& exported, const ExportCommand& command) {
+  const Result<Executor> executor = make_executor(command.common);
+  if (!executor) return executor.error();
+  const std::size_t count = exported.timeline.moves().size();
+  if (command.step > count)
+    return Error{ErrorKind::Usage,
+                 fmt::format("there is no step {} (the path has {}); give one that it has", command.step, count)};
+  AssemblySceneOptions options;
+  if (command.reverse)
+    options.poses = exported.timeline.poses_at(exported.timeline.end(), exported.assembly.components.size());
+  RenderScene scene = command.step > 0
+                          ? step_scene(exported.assembly, exported.timeline, command.step - 1, direction(command))
+                          : make_scene(exported.assembly, options);
+  const Result<Image> picture =
+      take_picture(std::move(scene), assembled_bounds(exported.assembly), command.picture, *executor);
+  if (!picture) return picture.error();
+  const std::vector<std::uint8_t> bytes = encode_png(*picture);
+  return std::string(bytes.begin(), bytes.end());
+}
+
 Result<std::string> moves(const Exported& exported, const ExportCommand& command) {
   MovesTableOptions options;
   options.direction = direction(command);
@@ -148,6 +178,8 @@ Result<std::string> content(ExportFormat format, const Exported& exported, const
       return glb(exported, command);
     case ExportFormat::Html:
       return html(exported, command);
+    case ExportFormat::Png:
+      return png(exported, command);
     case ExportFormat::Moves:
       return moves(exported, command);
     case ExportFormat::BillCsv:
@@ -196,10 +228,11 @@ void sort_arguments(ExportCommand& command) {
 
 void add_export_command(CLI::App& app, ExitCode& exit_code) {
   static const std::map<std::string, ExportFormat> kFormats{
-      {"glb", ExportFormat::Glb},         {"html", ExportFormat::Html},         {"moves", ExportFormat::Moves},
-      {"bom-csv", ExportFormat::BillCsv}, {"bom-json", ExportFormat::BillJson}, {"path", ExportFormat::Path}};
+      {"glb", ExportFormat::Glb},     {"html", ExportFormat::Html},       {"png", ExportFormat::Png},
+      {"moves", ExportFormat::Moves}, {"bom-csv", ExportFormat::BillCsv}, {"bom-json", ExportFormat::BillJson},
+      {"path", ExportFormat::Path}};
   CLI::App* command =
-      app.add_subcommand("export", "An assembly and its path for others: animation, page, tables, path file");
+      app.add_subcommand("export", "An assembly and its path for others: animation, page, picture, tables, path file");
   auto options = std::make_shared<ExportCommand>();
   command
       ->add_option("ASSEMBLY", options->common.assembly_file,
@@ -208,17 +241,22 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("PATH", options->path_file, "What a session, move or plan wrote (*.path.json)");
   command
       ->add_option("-o,--output", options->output,
-                   "File to write: .glb (animated), .html (a page that plays it), .csv (a row a move), bom.csv or "
+                   "File to write: .glb (animated), .html (a page that plays it), .png (a picture), .csv (a row a "
+                   "move), bom.csv or "
                    "bom.json (bill of materials), "
                    ".path.json")
       ->required()
       ->type_name("FILE");
   command->add_option("--format", options->format, "Format of the file (default: by its name)")
       ->transform(CLI::CheckedTransformer(kFormats))
-      ->type_name("glb|html|moves|bom-csv|bom-json|path");
+      ->type_name("glb|html|png|moves|bom-csv|bom-json|path");
   command->add_flag("--reverse", options->reverse,
                     "The assembly: moves the other way, last first (.path.json: apart and together again)");
   command->add_flag("--clearance", options->clearance, "Table of moves: measure the least clearance of each");
+  command->add_option("--step", options->step, "Picture: of step N, with what moves, where to, and how")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     sort_arguments(*options);

@@ -52,6 +52,17 @@ TEST_F(CliExport, WritesAPageThatHoldsEverything) {
   EXPECT_EQ(page.find("<script type=\"module\" src"), std::string::npos);
 }
 
+TEST_F(CliExport, TakesPicturesOfTheAssemblyAndOfAStep) {
+  const std::string png("\x89PNG\r\n\x1a\n");
+  ASSERT_EQ(run("export parts -o parts.png --size 160x120").exit_code, 0);
+  ASSERT_EQ(export_to("step.png --size 160x120 --step 1 --view front").exit_code, 0);
+  EXPECT_EQ(read_all(in("parts.png")).substr(0, 8), png);
+  EXPECT_EQ(read_all(in("step.png")).substr(0, 8), png);
+  expect_error("export parts pull.path.json -o step.png --step 2", 2, "there is no step 2 (the path has 1)");
+  expect_error("export parts -o step.png --step 1", 2, "--step has no step to show");
+  expect_error("export parts -o parts.png --size 0x7", 2, "is no picture size");
+}
+
 TEST_F(CliExport, WritesATableOfTheMoves) {
   ASSERT_EQ(export_to("pull.csv").exit_code, 0);
   const std::string csv = read_all(in("pull.csv"));

@@ -25,8 +25,16 @@ TEST(MakeScene, KeepsTheComponentsOrderAndSharesTheMeshesOfInstances) {
   EXPECT_TRUE(scene.items[0].closed);
 }
 
+TEST(MakeScene, PutsComponentsWhereTheirPosesSay) {
+  AssemblySceneOptions options;
+  options.poses = {{}, {{0, 7, 0}, {}}};
+  const RenderScene scene = make_scene(two_boxes(), options);
+  EXPECT_EQ(scene.items[0].world_from_mesh.translation, Vec3{});
+  EXPECT_EQ(scene.items[1].world_from_mesh.translation, (Vec3{0, 7, 0}));
+}
+
 TEST(MakeScene, ExplodesAwayFromTheMiddle) {
-  const RenderScene scene = make_scene(two_boxes(), {0.5});
+  const RenderScene scene = make_scene(two_boxes(), {.explode = 0.5});
   EXPECT_EQ(scene.items[0].world_from_mesh.translation, (Vec3{-1, 0, 0}));
   EXPECT_EQ(scene.items[1].world_from_mesh.translation, (Vec3{1, 0, 0}));
 }

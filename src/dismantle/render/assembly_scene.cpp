@@ -52,6 +52,7 @@ TriangleMesh revolved(const std::vector<std::array<double, 2>>& profile) {
 }  // namespace
 
 RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& options) {
+  DISMANTLE_EXPECT(options.poses.empty() || options.poses.size() == assembly.components.size());
   const Vec3 middle = assembled_bounds(assembly).center();
   const bool use_palette = assembly.components.size() > 1 && all_default_colored(assembly);
   std::unordered_map<const TriangleMesh*, std::shared_ptr<const RenderMesh>> prepared;
@@ -63,6 +64,7 @@ RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& opt
     RenderItem item;
     item.mesh = mesh;
     item.world_from_mesh = c.assembly_from_mesh;
+    if (!options.poses.empty()) item.world_from_mesh = transform_from_pose(options.poses[i]) * item.world_from_mesh;
     const Aabb box = assembled_bounds(c);
     if (options.explode != 0 && !box.empty())
       item.world_from_mesh.translation += options.explode * (box.center() - middle);

@@ -11,10 +11,12 @@ namespace dismantle {
 struct AssemblySceneOptions {
   double explode = 0;  ///< Each component is moved away from the middle by this times its distance from it.
   double crease_angle = kDefaultCreaseAngle;  ///< [rad]
+  std::vector<Pose> poses = {};               ///< Where each component is, shape [component_count]; empty: assembled.
 };
 
-/// The assembly's components as items, in their order, in the assembled state. Where all components have the one
-/// default colour, they get colours of a palette, so that they can be told apart. Instances share their RenderMesh.
+/// The assembly's components as items, in their order. Where all components have the one default colour, they get
+/// colours of a palette, so that they can be told apart. Instances share their RenderMesh.
+/// @pre options.poses is empty or has an entry a component
 RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& options = {});
 
 /// The vertices of items where they are in the scene [mm, world frame], for fit_camera.

@@ -21,6 +21,7 @@ type Action =
   | "help"
   | "play"
   | "directions"
+  | "explode"
   | "isolate"
   | "putBack"
   | "takeOut"

@@ -65,7 +65,6 @@ export class OfflineApp implements Keyed {
     pointer.onClick = (pick) => this.measure.click(pick);
     this.session.onNote = (level, sentence) => this.toasts.show(level, sentence);
     this.session.onModel = () => this.viewport.rig.fit(this.viewport.model!.bounds(), new Vector3(1, -1.6, 0.9));
-    this.session.notifier.subscribe(() => this.viewport.invalidate());
     listenForKeys(this);
     this.player.connect();
   }
