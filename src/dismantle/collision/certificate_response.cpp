@@ -22,7 +22,8 @@ constexpr double kBackoffShare = 1e-3;
 constexpr double kRestShare = 2e-3;
 /// Sweeps of one step of response Slide, apart from free ones of an unbounded motion.
 constexpr int kMostTries = 20;
-/// A step ends with a motion along contacts that made less than this share of what was still wanted: the next goes on.
+/// A step ends before a motion along contacts that makes less than this share of what is still wanted, or with it where
+/// it is the step's first: the next goes on.
 constexpr double kCreepShare = 0.02;
 /// How far a twist's second-order part may take a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
@@ -187,7 +188,8 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (!std::exchange(fresh, true)) contacts_.choose_axes(within_arcs(whole ? target : twisted(tried)));
     const SlideContacts::Twist twist = slide_twist(tried, lever);
     const double travel = travel_of(twist);
-    if (travel < rest) break;
+    const bool creeping = twist.bounded && travel < kCreepShare * travel_of(wanted);
+    if (travel < rest || (creeping && !result.way.empty())) break;
 
     const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
     const CertificateSweep found =
@@ -201,7 +203,6 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       if (made && was_on_course && on_course) result.way.erase(result.way.end() - 2);
       reach_ *= kTryGrowth;
       fresh = false;
-      const bool creeping = twist.bounded && travel < kCreepShare * travel_of(wanted);
       if (!made || creeping || sweeper_.pose() == target) break;
       continue;
     }
