@@ -180,6 +180,30 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
   EXPECT_EQ(again.blocked, every.blocked);
 }
 
+TEST(CertificateFront, CutsPartsWhereMostPairsHaveTheSameNode) {
+  // 3000 triangles across one that is as long as all of them, and a ladder of 10,000 through the middle: of the nodes
+  // of the second tree the least is in most pairs, and the others reach far.
+  TriangleMesh row;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const double x = 0.1 * i;
+    row.vertices.insert(row.vertices.end(), {{x, -0.5, 0}, {x + 0.08, -0.5, 0}, {x, 0.5, 0}});
+    row.faces.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
+  }
+  TriangleMesh other;
+  other.vertices = {{-500, 0, -900}, {800, 0, -900}, {150, 0, 900}};
+  other.faces = {{{0, 1, 2}}};
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    const double z = 0.1 * (i - 5000.0);
+    const auto first = static_cast<std::uint32_t>(other.vertices.size());
+    other.vertices.insert(other.vertices.end(), {{149.9, 0.2, z}, {150.1, 0.2, z}, {150, 0.2, z + 0.1}});
+    other.faces.push_back({{first, first + 1, first + 2}});
+  }
+  const Body a = body_of(row), b = body_of(other);
+  CertificateFront front(a.tree, b.tree, SideRule::Free);
+  for (int sweep = 0; sweep < 3; ++sweep) EXPECT_GE(uncertified(front, a, b, {}, {}).size(), 3000u);
+  EXPECT_GT(front.part_count(), 1u);
+}
+
 TEST(CertificateFront, LooksWithoutChanging) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
   const CertificateFront front(a.tree, b.tree, SideRule::Normals);

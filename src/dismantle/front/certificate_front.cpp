@@ -432,7 +432,10 @@ CertificatePart CertificateFront::cut(CertificatePart& part) const {
     return *most - *least;
   };
   const bool by_a = spread(of_a) >= spread(of_b);
-  const std::uint32_t border = middle_of(by_a ? of_a : of_b);
+  std::vector<std::uint32_t>& nodes = by_a ? of_a : of_b;
+  std::uint32_t border = middle_of(nodes);
+  // Where most pairs have the first node, it and its sibling go before the border: something has to.
+  if (*std::min_element(nodes.begin(), nodes.end()) >= border) border += 2;
   CertificatePart kept, rest;
   for (std::size_t i = 0; i < part.size(); ++i)
     ((by_a ? part.pair(i).a : part.pair(i).b) < border ? kept : rest).append(part.pair(i), part.certificate(i));
