@@ -23,6 +23,8 @@ interface Hid extends EventTarget {
 /// Multi-axis controllers: the generic desktop page's usage of 3D mice.
 const kMultiAxis = { usagePage: 1, usage: 8 };
 const kRest: HidAxes = [0, 0, 0, 0, 0, 0];
+/// Sticks that are let go of stay off their middle by less than this.
+const kPadRest = 0.08;
 
 /// Whether this browser can reach 3D mice at all.
 export function hasHid(): boolean {
@@ -31,6 +33,9 @@ export function hasHid(): boolean {
 
 /// 3D mice by WebHID, and gamepads, as the rate hand's deflection.
 export class Devices {
+  private polling = false;
+  private padDeflected = false;
+
   constructor(
     private readonly hand: RateHand,
     private readonly onNote: (sentence: string) => void,
@@ -41,7 +46,9 @@ export class Devices {
         .then((devices) => Promise.all(devices.map((device) => this.listen(device))));
       hid().addEventListener("connect", (event) => void this.listen((event as Event & { device: HidDevice }).device));
     }
-    window.addEventListener("gamepadconnected", () => this.pollGamepads());
+    window.addEventListener("gamepadconnected", () => {
+      if (!this.polling) this.pollGamepads();
+    });
   }
 
   /// Lets the user choose a 3D mouse; only by a press of a button.
@@ -78,13 +85,16 @@ export class Devices {
   /// turn; shoulder buttons: roll; the second button: back to where the motion began.
   private pollGamepads(): void {
     const pad = navigator.getGamepads().find((candidate) => candidate?.mapping === "standard");
+    this.polling = pad !== undefined;
     if (!pad) return;
     const pressed = (i: number) => pad.buttons[i]?.value ?? 0;
     if (pressed(1) > 0.5 && this.hand.holds) void this.hand.cancel();
-    this.hand.deflect({
-      linear: new Vector3(pad.axes[0], -pad.axes[1], pressed(6) - pressed(7)),
-      angular: new Vector3(pad.axes[3], pad.axes[2], pressed(4) - pressed(5)),
-    });
+    const linear = new Vector3(pad.axes[0], -pad.axes[1], pressed(6) - pressed(7));
+    const angular = new Vector3(pad.axes[3], pad.axes[2], pressed(4) - pressed(5));
+    // A gamepad that lies there must not bring another device to rest.
+    const deflected = Math.max(linear.length(), angular.length()) > kPadRest;
+    if (deflected || this.padDeflected) this.hand.deflect({ linear, angular });
+    this.padDeflected = deflected;
     requestAnimationFrame(() => this.pollGamepads());
   }
 }

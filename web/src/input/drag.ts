@@ -138,9 +138,10 @@ export class Drag {
     await this.session.ask("undo", {});
   }
 
-  /// The server ended the drag, or the connection did.
+  /// The server ended the drag, or the connection did: then the server is told to let go when it is back.
   drop(): void {
     this.clear();
+    if (this.session.store.state?.hand) void this.session.ask("release", {});
   }
 
   /// What was found for a set that was stuck goes when it is not.

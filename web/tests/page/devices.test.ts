@@ -4,7 +4,13 @@ import { test } from "node:test";
 import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 import { kSpaceMouse } from "../support/space_mouse.ts";
 
-useMicroscope({ view: "1", before: (page) => page.addInitScript(fakeMouse, kSpaceMouse) });
+useMicroscope({
+  view: "1",
+  before: async (page) => {
+    await page.addInitScript(fakeMouse, kSpaceMouse);
+    await page.addInitScript(fakePad);
+  },
+});
 
 /// A 3D mouse whose reports the test writes.
 function fakeMouse(collections: object): void {
@@ -27,6 +33,17 @@ function fakeMouse(collections: object): void {
       device.dispatchEvent(Object.assign(new Event("inputreport"), { reportId: 1, data }));
     },
   });
+}
+
+/// A gamepad whose left stick is as far to the right as the test says.
+function fakePad(): void {
+  const buttons = Array.from({ length: 17 }, () => ({ value: 0 }));
+  const pad = () => ({
+    mapping: "standard",
+    axes: [(window as unknown as { pushed: number }).pushed ?? 0, 0, 0, 0],
+    buttons,
+  });
+  Object.defineProperty(navigator, "getGamepads", { value: () => [pad()] });
 }
 
 const deflect = (...axes: number[]) =>
@@ -55,6 +72,24 @@ test("what is selected moves with it, stops at contact, and is one entry of undo
   const [x, , z] = await viewer.shift(kSlide);
   assert.ok(x > 10 && Math.abs(z) < 0.2, `${x} ${z}`);
   assert.equal((await viewer.state()).moves.length, 1);
+});
+
+test("a gamepad moves it, too", async () => {
+  const start = await viewer.shift(kSlide);
+  const push = (x: number) =>
+    viewer.page.evaluate((value) => {
+      Object.assign(window, { pushed: value });
+      window.dispatchEvent(new Event("gamepadconnected"));
+    }, x);
+  await push(-0.5);
+  await viewer.page.waitForFunction(
+    ([name, x]) => window.dismantle!.drawnMatrix(name as string)[12] < (x as number) - 5,
+    [kSlide, start[0]],
+  );
+  await push(0);
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await viewer.idle();
+  assert.equal((await viewer.state()).moves.length, 2);
 });
 
 test("Esc in mid-motion goes back", async () => {

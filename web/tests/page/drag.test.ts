@@ -134,7 +134,55 @@ test("Z keeps a drag to the axis, Alt turns, Shift goes deeper", async () => {
   await viewer.letGo();
 });
 
+test("Alt turns what is held", async () => {
+  await viewer.page.keyboard.down("Alt");
+  await viewer.grab(kSlide, 0, -40);
+  assert.match(await viewer.page.locator("#status .hint").innerText(), /turning/);
+  const wanted = await viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
+  assert.ok(wanted.every(Number.isFinite));
+  await viewer.page.keyboard.up("Alt");
+  await viewer.letGo();
+  const pose = (await viewer.state()).components[await viewer.index(kSlide)].pose!;
+  assert.ok(Math.abs(pose[3]) < 1 - 1e-6, `${pose}`);
+});
+
+test("blocked for a second, the hand is told what is free; the least clearance of the drag is kept", async () => {
+  await viewer.grab(kSlide, 0, 60);
+  await viewer.page.locator("[data-banner=stuck]", { hasText: /Blocked by stage plate; free: .*X/ }).waitFor();
+  assert.ok((await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length)) > 0);
+  const words = await viewer.page.locator("#clearance").innerText();
+  assert.match(words, /Now\s+contact\s+Least in this drag\s+contact/);
+  await viewer.letGo();
+  assert.equal(await viewer.page.locator("[data-banner=stuck]").count(), 0);
+});
+
+test("a screw that overlaps its hole comes out of its fit along its axis, and not through the wall", async () => {
+  const { screw, way } = await viewer.page.evaluate(async () => {
+    const { session } = window.dismantle!.app;
+    const { pairs } = (await session.ask("check", {}))!;
+    const fits = pairs.filter(({ state }) => state === "fit").flatMap(({ a, b }) => [a, b]);
+    for (const component of fits.filter((c) => session.nameOf(c).includes("screw"))) {
+      const { directions } = (await session.ask("free_directions", { components: [component] }))!;
+      const free = directions.find((way) => way.free);
+      if (free) return { screw: session.nameOf(component), way: free.direction };
+    }
+    throw new Error("no screw is free");
+  });
+  await viewer.select(screw);
+  await viewer.page.locator("#pairs .badge.fit").first().waitFor();
+  const across = way.map((value) => (Math.abs(value) < 0.5 ? 15 : 0));
+  for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(across[k]));
+  await viewer.click("#numeric-apply");
+  assert.ok(Math.hypot(...(await viewer.shift(screw))) < 1, `${await viewer.shift(screw)}`);
+  if ((await viewer.state()).undo) await viewer.press("Control+z");
+  for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(25 * way[k]));
+  await viewer.click("#numeric-apply");
+  const shift = await viewer.shift(screw);
+  assert.ok(Math.abs(shift.reduce((sum, value, k) => sum + value * way[k], 0) - 25) < 0.1, `${shift}`);
+});
+
 test("a move by numbers goes as far as the engine lets it", async () => {
+  await viewer.select(kSlide);
   await viewer.page.fill("#numeric-0", "12.5");
   await viewer.page.fill("#numeric-2", "0");
   await viewer.click("#numeric-apply");

@@ -80,6 +80,16 @@ test("files below the roots are listed and opened; those opened are recent", asy
   assert.equal(await modelName(), "box.obj");
 });
 
+test("an import that takes long says how far it is, and is cancelled", async () => {
+  await viewer.click("#open");
+  await viewer.page.click("[data-sample=lathe]");
+  await viewer.page.locator("[data-banner=job]", { hasText: "lathe.step" }).waitFor();
+  await viewer.page.click("[data-banner=job] button");
+  await viewer.page.locator("[data-banner=job]").waitFor({ state: "detached" });
+  await viewer.idle();
+  assert.equal(await modelName(), "box.obj");
+});
+
 test("the page had no errors", () => {
   assert.deepEqual(viewer.problems, []);
 });

@@ -25,6 +25,20 @@ test("a lost connection comes back with the state and the control", async () => 
   assert.ok((await viewer.shift(kSlide))[0] > there[0]);
 });
 
+test("a connection that is lost in mid-drag: what the drag reached is one entry, and the hand is empty", async () => {
+  const before = (await viewer.state()).moves.length;
+  await viewer.grab(kSlide, 20, 0);
+  const reached = await viewer.drawnShift(kSlide);
+  await loseConnection();
+  const state = await viewer.state();
+  assert.equal(state.hand, null);
+  assert.equal(state.moves.length, before + 1);
+  assert.deepEqual(await viewer.drawnShift(kSlide), reached);
+  await viewer.letGo();
+  assert.deepEqual(await viewer.shift(kSlide), reached);
+  await viewer.press("Control+z");
+});
+
 test("what is asked while the connection is lost is done once when it is back", async () => {
   await viewer.page.evaluate(() => {
     const { session } = window.dismantle!.app;

@@ -42,6 +42,20 @@ test("played backward it ends in the assembled state, to the bit", async () => {
   assert.deepEqual(await viewer.drawnShift(kSlide), there);
 });
 
+test("a playback is paused, and goes on faster", async () => {
+  await viewer.page.selectOption("#speed", "0.25");
+  await viewer.page.click("#play-reverse");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.frame?.playback);
+  await viewer.click("#play-pause");
+  const { time, playing, duration } = (await playback())!;
+  assert.ok(!playing && time > 0 && time < duration, `${time}`);
+  await viewer.page.keyboard.press("p");
+  await viewer.page.selectOption("#speed", "4");
+  await stands();
+  assert.equal((await playback())!.speed, 4);
+  assert.equal((await playback())!.time, duration);
+});
+
 test("the scrubber goes to any time", async () => {
   await viewer.page.fill("#scrub", "0");
   await viewer.idle();

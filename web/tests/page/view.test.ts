@@ -59,6 +59,38 @@ test("the middle button pans: what was under the pointer stays under it", async 
   assert.equal(await viewer.page.evaluate(({ x, y }) => window.dismantle!.at(x + 60, y + 30), place), "base");
 });
 
+test("what the pointer is on is named in the status line and stands out in the list", async () => {
+  const { x, y } = await viewer.placeOf("head");
+  await viewer.page.mouse.move(x, y);
+  await viewer.idle();
+  assert.equal(await viewer.page.locator("#status .subject").innerText(), "head");
+  assert.equal(await viewer.page.locator("#tree-panel .row.hovered .name").innerText(), "head");
+});
+
+test("two fingers pan and zoom, one on empty space orbits", async () => {
+  const touches = await viewer.page.context().newCDPSession(viewer.page);
+  const touch = (
+    type: "touchStart" | "touchMove" | "touchEnd",
+    ...touchPoints: { x: number; y: number; id: number }[]
+  ) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
+  const start = await camera();
+  const place = (x: number, id: number) => ({ x, y: 250, id });
+  await touch("touchStart", place(350, 0), place(450, 1));
+  await touch("touchMove", place(300, 0), place(500, 1));
+  await touch("touchEnd");
+  await viewer.idle();
+  const near = await camera();
+  assert.ok(near.distance < 0.7 * start.distance, `${near.distance} ${start.distance}`);
+  assert.deepEqual(near.back, start.back);
+  await viewer.press("f");
+  await touch("touchStart", { ...kEmpty, id: 0 });
+  await touch("touchMove", { x: kEmpty.x + 40, y: kEmpty.y, id: 0 });
+  await touch("touchEnd");
+  await viewer.idle();
+  assert.notDeepEqual((await camera()).back, start.back);
+  assert.equal((await viewer.state()).moves.length, 0);
+});
+
 test("the wheel zooms to the cursor", async () => {
   const start = await camera();
   const place = await viewer.placeOf("eyepiece");

@@ -21,7 +21,11 @@ export class Server {
   ) {}
 
   static start(...arguments_: string[]): Promise<Server> {
-    const home = mkdtempSync(join(tmpdir(), "dismantle-viewer-"));
+    return Server.startIn(mkdtempSync(join(tmpdir(), "dismantle-viewer-")), ...arguments_);
+  }
+
+  /// Starts one where another one was.
+  static startIn(home: string, ...arguments_: string[]): Promise<Server> {
     const environment = {
       ...process.env,
       HOME: home,
@@ -50,10 +54,15 @@ export class Server {
     return file;
   }
 
-  async stop(): Promise<void> {
+  /// Ends it; its folder stays.
+  async end(signal: "SIGTERM" | "SIGKILL"): Promise<void> {
     const ended = new Promise((resolve) => this.child.once("exit", resolve));
-    this.child.kill("SIGTERM");
+    this.child.kill(signal);
     await ended;
+  }
+
+  async stop(): Promise<void> {
+    await this.end("SIGTERM");
     rmSync(this.home, { recursive: true, force: true });
   }
 }

@@ -35,14 +35,14 @@ export function useViewer(arguments_: string[], { prepare, ...options }: SceneOp
   });
 }
 
-/// What is recorded in the page's session must pass the audit.
-export async function audit(): Promise<void> {
-  const text = await viewer.recording();
+/// What is recorded in a page's session must pass the audit.
+export async function audit(page = viewer, at = server): Promise<void> {
+  const text = await page.recording();
   const { assembly, moves } = JSON.parse(text) as { assembly: { file: string }; moves: object[] };
   if (moves.length === 0) return;
-  const path = join(server.home, "audited.path.json");
+  const path = join(at.home, "audited.path.json");
   writeFileSync(path, text);
-  execFileSync(program(), ["audit", server.fileOf(assembly.file), path]);
+  execFileSync(program(), ["audit", at.fileOf(assembly.file), path]);
 }
 
 export const useMicroscope = (options: SceneOptions = {}): void => useViewer(["--sample", "microscope"], options);
