@@ -3,14 +3,10 @@
 #include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
 
-#include "dismantle/export/moves_table.h"
-#include "dismantle/export/offline_page.h"
-#include "dismantle/export/path_animations.h"
+#include "dismantle/export/exported_file.h"
 #include "dismantle/export/step_scene.h"
 #include "dismantle/io/atomic_file.h"
-#include "dismantle/io/bill_of_materials.h"
 #include "dismantle/io/path_file.h"
-#include "dismantle/io/write_glb.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
@@ -26,8 +22,6 @@ namespace dismantle::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path };
 
 struct ExportCommand {
   CommonOptions common;
@@ -57,14 +51,6 @@ std::optional<ExportFormat> format_of(const std::string& file) {
     if (file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
       return format;
   return {};
-}
-
-bool needs_path(ExportFormat format) {
-  return format == ExportFormat::Moves || format == ExportFormat::Path;
-}
-
-bool knows_direction(ExportFormat format) {
-  return format != ExportFormat::BillCsv && format != ExportFormat::BillJson;
 }
 
 Result<ExportFormat> check(const ExportCommand& command) {
@@ -120,22 +106,6 @@ PathDirection direction(const ExportCommand& command) {
   return command.reverse ? PathDirection::Reversed : PathDirection::Forward;
 }
 
-Result<std::string> glb(const Exported& exported, const ExportCommand& command) {
-  GlbOptions options;
-  options.animations = path_animations(exported.timeline, direction(command));
-  if (command.reverse)
-    options.poses = exported.timeline.poses_at(exported.timeline.end(), exported.assembly.components.size());
-  options.progress = progress_printer(command.common);
-  return glb_from_assembly(exported.assembly, options);
-}
-
-Result<std::string> html(const Exported& exported, const ExportCommand& command) {
-  OfflinePageOptions options;
-  options.direction = direction(command);
-  options.progress = progress_printer(command.common);
-  return offline_page(exported.assembly, exported.path.value_or(Path{}), server::viewer_files(), options);
-}
-
 Result<std::string> png(const Exported& exported, const ExportCommand& command) {
   const Result<Executor> executor = make_executor(command.common);
   if (!executor) return executor.error();
@@ -156,40 +126,29 @@ Result<std::string> png(const Exported& exported, const ExportCommand& command) 
   return std::string(bytes.begin(), bytes.end());
 }
 
-Result<std::string> moves(const Exported& exported, const ExportCommand& command) {
-  MovesTableOptions options;
-  options.direction = direction(command);
-  if (command.clearance) {
-    const Result<PairStates> states = classify(exported.assembly, command.common);
-    if (!states) return states.error();
-    const Result<Executor> executor = make_executor(command.common);
-    if (!executor) return executor.error();
-    auto clearances = move_clearances(exported.assembly, *states, exported.timeline, {*executor, widest_lanes()},
-                                      progress_printer(command.common));
-    if (!clearances) return Error{ErrorKind::Failed, "the table was not written (cancelled); start it again"};
-    options.clearances = std::move(*clearances);
-  }
-  return moves_csv(exported.assembly, exported.timeline, options);
+Result<std::vector<MoveClearance>> clearances(const Exported& exported, const CommonOptions& common) {
+  const Result<PairStates> states = classify(exported.assembly, common);
+  if (!states) return states.error();
+  const Result<Executor> executor = make_executor(common);
+  if (!executor) return executor.error();
+  auto found = move_clearances(exported.assembly, *states, exported.timeline, {*executor, widest_lanes()},
+                               progress_printer(common));
+  if (!found) return Error{ErrorKind::Failed, "the table was not written (cancelled); start it again"};
+  return std::move(*found);
 }
 
 Result<std::string> content(ExportFormat format, const Exported& exported, const ExportCommand& command) {
-  switch (format) {
-    case ExportFormat::Glb:
-      return glb(exported, command);
-    case ExportFormat::Html:
-      return html(exported, command);
-    case ExportFormat::Png:
-      return png(exported, command);
-    case ExportFormat::Moves:
-      return moves(exported, command);
-    case ExportFormat::BillCsv:
-      return bill_csv(exported.assembly, bill_of_materials(exported.assembly));
-    case ExportFormat::BillJson:
-      return bill_json(exported.assembly, bill_of_materials(exported.assembly));
-    case ExportFormat::Path:
-      return path_text(command.reverse ? there_and_back(*exported.path) : *exported.path);
+  if (format == ExportFormat::Png) return png(exported, command);
+  ExportOptions options;
+  options.direction = direction(command);
+  options.viewer = server::viewer_files();
+  options.progress = progress_printer(command.common);
+  if (command.clearance) {
+    Result<std::vector<MoveClearance>> found = clearances(exported, command.common);
+    if (!found) return found.error();
+    options.clearances = std::move(*found);
   }
-  return std::string();
+  return exported_file(format, exported.assembly, exported.path.value_or(Path{}), options);
 }
 
 Result<Done> run(const ExportCommand& command) {

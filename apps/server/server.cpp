@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/server/engine_loop.h"
+#include "apps/server/export_request.h"
 #include "apps/server/file_commands.h"
 #include "apps/server/http_connection.h"
 #include "apps/server/static_files.h"
@@ -13,6 +14,7 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 
 #include <atomic>
 #include <mutex>
@@ -111,6 +113,7 @@ class Server::Body final : public Site, private EngineListener {
       return send_text(&Workbench::recording_text, "there is no recording (no assembly is open); open one first", done);
     if (target.path == "/api/guide.json")
       return send_text(&Workbench::guide_text, "there is no guide (no path file is open); open one first", done);
+    if (const std::optional<ExportRequest> wanted = parse_export(target)) return export_file(*wanted, std::move(done));
     if (target.path.substr(0, 5) == "/api/") return done(not_found(target.path));
     if (std::optional<HttpAnswer> file = pages_.find(target.path)) return done(std::move(*file));
     done(not_found(target.path));
@@ -199,6 +202,17 @@ class Server::Body final : public Site, private EngineListener {
     });
   }
 
+  /// What is exported is taken on the engine's thread and made on one of its own: neither a drag nor the network waits.
+  void export_file(const ExportRequest& wanted, Reply done) {
+    engine_.post_always([this, wanted, done = std::move(done)](Workbench& bench) {
+      auto source = std::make_shared<const Result<ExportSource>>(export_source(wanted, bench.model()));
+      asio::post(exporter_, [this, wanted, source, done] {
+        HttpAnswer answer = *source ? export_answer(wanted, **source) : error_answer(409, source->error().message);
+        asio::post(io_, [done, answer] { done(answer); });
+      });
+    });
+  }
+
   void open_guide(const fs::path& file, Reply done) {
     engine_.post_always([this, file, done = std::move(done)](Workbench& bench) {
       const Result<Done> opened = bench.open_guide(file, file.filename().string());
@@ -271,6 +285,7 @@ class Server::Body final : public Site, private EngineListener {
   EngineLoop engine_;
   FileCommands files_;
   Hub hub_;
+  asio::thread_pool exporter_{1};
   Tcp::acceptor v4_, v6_;
   asio::steady_timer tick_;
   std::thread thread_;

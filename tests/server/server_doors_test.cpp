@@ -74,6 +74,34 @@ TEST_F(ServerDoors, LetsInWhoHasAllThree) {
   EXPECT_EQ(get(door(), "/api/path.json").status, 200u);
 }
 
+TEST_F(ServerDoors, GivesExportsOfWhatIsOpenToWhoeverHasTheToken) {
+  Client client(door());
+  client.state();
+  EXPECT_EQ(request(door(), "GET", "/api/export/animation.glb").status, 401u);
+  const HttpReply glb = get(door(), "/api/export/animation.glb");
+  EXPECT_EQ(glb.status, 200u);
+  EXPECT_EQ(glb.body.substr(0, 4), "glTF");
+  const HttpReply page = get(door(), "/api/export/page.html?reverse=1");
+  EXPECT_EQ(page.status, 200u);
+  EXPECT_EQ(page.body.find("<!DOCTYPE html>"), 0u);
+  EXPECT_EQ(page.headers.at("Content-Type"), "application/octet-stream") << "it is saved, never shown from here";
+  EXPECT_NE(get(door(), "/api/export/bom.csv").body.find(",block,"), std::string::npos);
+  EXPECT_EQ(Json::parse(get(door(), "/api/export/bom.json").body)["items"].size(), 2u);
+}
+
+TEST_F(ServerDoors, SaysWhyItHasNoExport) {
+  Client client(door());
+  client.state();
+  for (const char* file : {"moves.csv", "path.json"}) {
+    const HttpReply reply = get(door(), std::string("/api/export/") + file);
+    EXPECT_EQ(reply.status, 409u) << file;
+    EXPECT_NE(reply.body.find("nothing was moved yet"), std::string::npos) << reply.body;
+  }
+  EXPECT_EQ(get(door(), "/api/export/moves.csv?source=guide").status, 409u);
+  EXPECT_EQ(get(door(), "/api/export/secrets.txt").status, 404u);
+  EXPECT_EQ(get(door(), "/api/export/").status, 404u);
+}
+
 TEST_F(ServerDoors, CountsWhatItRefused) {
   request(door(), "GET", "/api/path.json");
   Client client(door());

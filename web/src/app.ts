@@ -8,6 +8,7 @@ import { PointerInput } from "./input/pointer.ts";
 import { RateHand } from "./input/rate_hand.ts";
 import { Banner, Toasts } from "./panels/banner.ts";
 import { ExplodePanel } from "./panels/explode_panel.ts";
+import { ExportDialog } from "./panels/export_dialog.ts";
 import { GuidePanel } from "./panels/guide_panel.ts";
 import { helpDialog } from "./panels/help.ts";
 import { Inspector } from "./panels/inspector.ts";
@@ -45,6 +46,7 @@ export class App {
   private readonly measure: Measure;
   private readonly explode: ExplodePanel;
   private readonly openDialog: OpenDialog;
+  private readonly exports: ExportDialog;
   private readonly help = helpDialog();
   private readonly toasts = new Toasts();
   private readonly theme: ThemeSwitch;
@@ -71,6 +73,7 @@ export class App {
     this.measure = new Measure(this.session);
     this.explode = new ExplodePanel(this.session);
     this.openDialog = new OpenDialog(this.session);
+    this.exports = new ExportDialog(this.session);
     stage.append(
       new Banner(this.session).node,
       this.sections.node,
@@ -85,7 +88,7 @@ export class App {
       this.timeline.node,
       new StatusLine(this.session).node,
     );
-    document.body.append(this.openDialog.node, this.help);
+    document.body.append(this.openDialog.node, this.exports.node, this.help);
     this.connectParts();
     this.theme = new ThemeSwitch(this.viewport);
     this.session.connection.connect();
@@ -138,6 +141,7 @@ export class App {
     return {
       open: () => this.openDialog.open(),
       save: () => void this.save(),
+      export: () => this.exports.open(),
       undo: () => void (this.drag.active ? this.drag.undo() : this.session.ask("undo", {})),
       redo: () => void this.session.ask("redo", {}),
       reset: () => void this.session.ask("reset", {}),

@@ -46,6 +46,7 @@ const kIcons = {
   close: "M4 4l8 8M12 4l-8 8",
   out: "M8 10V2M5 5l3-3 3 3M3 9v5h10V9",
   back: "M8 2v8M5 7l3 3 3-3M3 9v5h10V9",
+  share: "M9 2h5v5M14 2 7.5 8.500M12 9.500V14H2V4h4.500",
   save: "M2.5 2.5h9l2 2v9h-11zM5 2.5v4h5v-4M5 13.5v-4h6v4",
   move: "M8 1.5v13M1.5 8h13M6 3.5l2-2 2 2M6 12.5l2 2 2-2M3.5 6l-2 2 2 2M12.5 6l2 2-2 2",
   chevron: "M6 4l4 4-4 4",

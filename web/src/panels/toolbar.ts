@@ -13,7 +13,17 @@ export class Toolbar {
   readonly node: HTMLElement;
   private readonly name = element("span", { class: "model-name" });
   private readonly buttons: Record<
-    "undo" | "redo" | "section" | "measure" | "explode" | "gizmo" | "projection" | "stereo" | "save" | "reset",
+    | "undo"
+    | "redo"
+    | "section"
+    | "measure"
+    | "explode"
+    | "gizmo"
+    | "projection"
+    | "stereo"
+    | "save"
+    | "exports"
+    | "reset",
     HTMLButtonElement
   >;
   private readonly responses: Map<Response, HTMLInputElement>;
@@ -35,17 +45,18 @@ export class Toolbar {
         press: actions.projection,
       }),
       stereo: button({ icon: "glasses", label: text("stereo"), key: "V", id: "stereo", press: actions.stereo }),
+      exports: button({ icon: "share", label: text("export"), id: "export", press: actions.export }),
       save: button({ icon: "save", label: text("save"), id: "save", press: actions.save }),
       reset: button({ icon: "reset", label: text("reset"), id: "reset", press: actions.reset }),
     };
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
-    const { undo, redo, gizmo, section, measure, explode, projection, save, reset, stereo } = this.buttons;
+    const { undo, redo, gizmo, section, measure, explode, projection, save, exports, reset, stereo } = this.buttons;
     const group = (...children: (Node | null)[]) => element("div", { class: "group" }, ...children);
     this.node = element(
       "header",
       { id: "toolbar", role: "toolbar", "aria-label": text("toolbar.label") },
       element("span", { class: "brand" }, text("title")),
-      group(button({ icon: "open", label: text("open"), id: "open", wide: true, press: actions.open }), save),
+      group(button({ icon: "open", label: text("open"), id: "open", wide: true, press: actions.open }), save, exports),
       group(undo, redo, reset),
       this.responseSwitch(),
       group(gizmo, section, measure, explode),
@@ -97,6 +108,7 @@ export class Toolbar {
     buttons.redo.disabled = busy || state?.redo == null;
     buttons.undo.title = state?.undo ? text("undo.of", { what: state.undo }) : text("undo");
     buttons.redo.title = state?.redo ? text("redo.of", { what: state.redo }) : text("redo");
+    buttons.exports.disabled = !state;
     buttons.save.disabled = !state || state.moves.length === 0;
     buttons.reset.disabled = busy || !state || state.hand != null || state.moves.length === 0;
     buttons.gizmo.setAttribute("aria-pressed", String(gizmo));

@@ -27,6 +27,7 @@ export class Viewport {
   model: ModelView | null = null;
   /// Called before each picture; returns whether another one is to follow.
   readonly beforePicture: ((now: number) => boolean)[] = [];
+  readonly afterPicture = new Set<() => void>();
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
@@ -130,11 +131,19 @@ export class Viewport {
   }
 
   /// The picture as a PNG, with the background of the theme.
-  async screenshot(): Promise<Blob> {
+  screenshot(): Promise<Blob> {
     this.draw(performance.now());
     const copy = document.createElement("canvas");
-    copy.width = this.canvas.width;
-    copy.height = this.canvas.height;
+    this.copyPicture(copy);
+    return new Promise((resolve) => {
+      copy.toBlob((blob) => resolve(blob!), "image/png");
+    });
+  }
+
+  /// Puts what was just drawn onto another canvas, with the background of the theme. Only right after it was drawn.
+  copyPicture(copy: HTMLCanvasElement): void {
+    if (copy.width !== this.canvas.width) copy.width = this.canvas.width;
+    if (copy.height !== this.canvas.height) copy.height = this.canvas.height;
     const brush = copy.getContext("2d")!;
     const shade = brush.createLinearGradient(0, 0, 0, copy.height);
     this.palette.background.forEach((color, i) => {
@@ -143,9 +152,6 @@ export class Viewport {
     brush.fillStyle = shade;
     brush.fillRect(0, 0, copy.width, copy.height);
     brush.drawImage(this.canvas, 0, 0);
-    return new Promise((resolve) => {
-      copy.toBlob((blob) => resolve(blob!), "image/png");
-    });
   }
 
   /// Cuts away what is behind the planes (n.x + d < 0).
@@ -184,6 +190,7 @@ export class Viewport {
       const { perspective, size } = this.rig;
       this.stereoPicture.draw(this.renderer, this.scene, perspective, this.rig.current.distance, this.stereoMode, size);
     }
+    for (const step of this.afterPicture) step();
     if (more) this.invalidate();
   }
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/export_request.h"
+
+#include "apps/server/viewer_files.h"
+#include "dismantle/io/path_file.h"
+
+namespace dismantle::server {
+
+namespace {
+
+constexpr std::string_view kDoor = "/api/export/";
+
+struct ExportName {
+  std::string_view name;
+  ExportFormat format;
+  std::string_view content_type;
+};
+
+constexpr ExportName kNames[] = {
+    {"animation.glb", ExportFormat::Glb, "model/gltf-binary"},
+    {"page.html", ExportFormat::Html, "application/octet-stream"},  // never shown from here
+    {"moves.csv", ExportFormat::Moves, "text/csv; charset=utf-8"},
+    {"bom.csv", ExportFormat::BillCsv, "text/csv; charset=utf-8"},
+    {"bom.json", ExportFormat::BillJson, "application/json"},
+    {"path.json", ExportFormat::Path, "application/json"}};
+
+bool has(const RequestTarget& target, const std::string& name, std::string_view value) {
+  const auto found = target.query.find(name);
+  return found != target.query.end() && found->second == value;
+}
+
+}  // namespace
+
+std::optional<ExportRequest> parse_export(const RequestTarget& target) {
+  if (target.path.compare(0, kDoor.size(), kDoor) != 0) return {};
+  for (const ExportName& known : kNames) {
+    if (target.path.compare(kDoor.size(), std::string::npos, known.name) != 0) continue;
+    const bool is_reversed = has(target, "reverse", "1") && knows_direction(known.format);
+    return ExportRequest{known.format, std::string(known.content_type),
+                         is_reversed ? PathDirection::Reversed : PathDirection::Forward,
+                         has(target, "source", "guide")};
+  }
+  return {};
+}
+
+Result<ExportSource> export_source(const ExportRequest& request, const Model* model) {
+  if (model == nullptr)
+    return Error{ErrorKind::Usage, "there is nothing to export (no assembly is open); open one first"};
+  ExportSource source{model->assembly, {}};
+  const Guide* guide = model->session->guide();
+  if (request.of_guide && guide == nullptr)
+    return Error{ErrorKind::Usage, "there is no guide to export (no path file is open); open one first"};
+  if (request.of_guide) {
+    Result<Path> path = parse_path(guide->text, guide->name);
+    if (!path) return path.error();
+    source.path = std::move(*path);
+  } else {
+    source.path = model->session->recording();
+  }
+  if (needs_path(request.format) && source.path.moves.empty())
+    return Error{ErrorKind::Usage, "there is no path to export (nothing was moved yet); move something first"};
+  return source;
+}
+
+HttpAnswer export_answer(const ExportRequest& request, const ExportSource& source) {
+  ExportOptions options;
+  options.direction = request.direction;
+  options.viewer = viewer_files();
+  Result<std::string> file = exported_file(request.format, *source.assembly, source.path, options);
+  if (!file) return error_answer(500, file.error().message);
+  return {200, request.content_type, std::make_shared<const std::string>(std::move(*file)), {}};
+}
+
+}  // namespace dismantle::server

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/export/exported_file.h"
+
+#include "dismantle/io/bill_of_materials.h"
+#include "dismantle/io/path_file.h"
+
+namespace dismantle {
+
+namespace {
+
+Result<std::string> animated_glb(const Assembly& assembly, const Timeline& timeline, const ExportOptions& options) {
+  GlbOptions glb;
+  glb.animations = path_animations(timeline, options.direction);
+  if (options.direction == PathDirection::Reversed)
+    glb.poses = timeline.poses_at(timeline.end(), assembly.components.size());
+  glb.progress = options.progress;
+  return glb_from_assembly(assembly, glb);
+}
+
+}  // namespace
+
+bool needs_path(ExportFormat format) {
+  return format == ExportFormat::Moves || format == ExportFormat::Path;
+}
+
+bool knows_direction(ExportFormat format) {
+  return format != ExportFormat::BillCsv && format != ExportFormat::BillJson;
+}
+
+Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
+                                  const ExportOptions& options) {
+  DISMANTLE_EXPECT(format != ExportFormat::Png);
+  const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
+  if (!timeline) return timeline.error();
+  switch (format) {
+    case ExportFormat::Glb:
+      return animated_glb(assembly, *timeline, options);
+    case ExportFormat::Html:
+      return offline_page(assembly, path, options.viewer, {options.direction, options.progress});
+    case ExportFormat::Moves:
+      return moves_csv(assembly, *timeline, {options.direction, options.clearances});
+    case ExportFormat::BillCsv:
+      return bill_csv(assembly, bill_of_materials(assembly));
+    case ExportFormat::BillJson:
+      return bill_json(assembly, bill_of_materials(assembly));
+    case ExportFormat::Path:
+    case ExportFormat::Png:
+      break;
+  }
+  return path_text(options.direction == PathDirection::Forward ? path : there_and_back(path));
+}
+
+}  // namespace dismantle

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/export/moves_table.h"
+#include "dismantle/export/offline_page.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dismantle {
+
+/// What an assembly and its path are written as; docs/export.md.
+enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path };
+
+/// Whether a format is about moves only, so that there has to be a path.
+bool needs_path(ExportFormat format);
+/// Whether a format tells moves apart from their reverse.
+bool knows_direction(ExportFormat format);
+
+struct ExportOptions {
+  PathDirection direction = PathDirection::Forward;
+  std::vector<MoveClearance> clearances;  ///< For Moves: as MovesTableOptions has them.
+  ViewerFiles viewer;                     ///< For Html.
+  ProgressCallback progress;
+};
+
+/// The file's bytes. Pictures are taken elsewhere (step_scene.h). Errors: Unreadable where the path does not fit the
+/// assembly, Failed where the file would be too large or was cancelled.
+/// @pre format is not Png
+Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
+                                  const ExportOptions& options = {});
+
+}  // namespace dismantle

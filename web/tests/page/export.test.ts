@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+
+useMicroscope({ view: "1" });
+
+/// Presses a button of the dialog and gives the file that the browser saves.
+async function saved(button: string): Promise<{ name: string; bytes: Buffer }> {
+  const coming = viewer.page.waitForEvent("download");
+  await viewer.page.click(button);
+  const download = await coming;
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+const open = () => viewer.page.click("#export");
+
+test("before anything was moved there are the assembly's files only", async () => {
+  await open();
+  assert.equal(await viewer.page.isDisabled("#export-moves-csv"), true);
+  assert.equal(await viewer.page.isDisabled("#export-video"), true);
+  const { name, bytes } = await saved("#export-bom-csv");
+  assert.equal(name, "microscope-bom.csv");
+  assert.match(bytes.toString(), /,foot,4,/);
+  await viewer.press("Escape");
+});
+
+test("what was done is saved as an animation, a page, tables and a path", async () => {
+  await viewer.grab(kSlide, 40, 0);
+  await viewer.letGo();
+  await open();
+  const glb = await saved("#export-animation-glb");
+  assert.equal(glb.name, "microscope.glb");
+  assert.equal(glb.bytes.toString("latin1", 0, 4), "glTF");
+  const json = JSON.parse(glb.bytes.toString("utf8", 20, 20 + glb.bytes.readUInt32LE(12)));
+  assert.equal(json.animations.length, 4);
+
+  const page = await saved("#export-page-html");
+  assert.equal(page.name, "microscope.html");
+  assert.match(page.bytes.toString(), /^<!DOCTYPE html>[\s\S]*offline-model/);
+
+  assert.match((await saved("#export-moves-csv")).bytes.toString(), /\r\n1,[^,]*,specimen slide,0,/);
+  assert.equal(JSON.parse((await saved("#export-bom-json")).bytes.toString()).format, "dismantle-bill");
+  assert.equal(JSON.parse((await saved("#export-path-json")).bytes.toString()).moves.length, 1);
+});
+
+test("reversed, the path comes back", async () => {
+  await viewer.page.check("#export-reverse");
+  assert.equal(JSON.parse((await saved("#export-path-json")).bytes.toString()).moves.length, 2);
+});
+
+test("the picture is a PNG", async () => {
+  assert.equal((await saved("#export-png")).bytes.toString("latin1", 1, 4), "PNG");
+});
+
+test("the playback becomes a video", async () => {
+  await viewer.page.uncheck("#export-reverse");
+  const { name, bytes } = await saved("#export-video");
+  assert.equal(name, "microscope.webm");
+  assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3);
+  assert.ok(bytes.length > 5000, String(bytes.length));
+  assert.equal(await viewer.page.locator("#export-dialog").isVisible(), false);
+  await viewer.click("#play-stop");
+});
+
+test("the page had no errors", () => {
+  assert.deepEqual(viewer.problems, []);
+});
