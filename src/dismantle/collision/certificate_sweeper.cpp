@@ -211,11 +211,11 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   std::vector<ActivePair> active;
   for_each_near(pose(), travel(end), 0, result, [&](ComponentId moving, ComponentId fixed) {
     CertificateFront& front = front_of(moving, fixed).front;
-    LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
+    const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
     if (effort == Effort::Quick) motion.enough_blocked = kQuickBlocked;
     const LinearSweep sweep = front.begin_sweep(motion);
-    active.push_back({moving, fixed, &front, std::move(leaves), sweep, allowed(moving, fixed)});
+    active.push_back({moving, fixed, &front, leaves, sweep, allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
