@@ -173,8 +173,8 @@ export class App {
       directions: () => void this.inspector.find(),
       takeOut: withSelection("take_out"),
       putBack: withSelection("put_back"),
-      isolate: () => this.isolate(),
-      toggleHidden: () => this.toggleHidden(),
+      isolate: () => this.session.toggleIsolated(),
+      toggleHidden: () => this.session.toggleHidden(),
       device: () => void this.devices.choose(),
       search: () => this.tree.focusSearch(),
       escape: () => this.escape(),
@@ -198,20 +198,6 @@ export class App {
     const { selection } = this.session.store;
     const { model, rig } = this.viewport;
     if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
-  }
-
-  private isolate(): void {
-    const { state, selection } = this.session.store;
-    if (state?.isolated) void this.session.ask("restore", {});
-    else if (selection.length > 0) void this.session.ask("isolate", { components: selection });
-  }
-
-  private toggleHidden(): void {
-    const { state, selection } = this.session.store;
-    const hidden = selection.filter((c) => state?.components[c]?.hidden);
-    if (selection.length === 0) return;
-    if (hidden.length > 0) void this.session.ask("show", { components: hidden });
-    else void this.session.ask("hide", { components: selection });
   }
 
   private async save(): Promise<void> {

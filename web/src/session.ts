@@ -60,6 +60,22 @@ export class Session {
     }
   }
 
+  /// Shows only what is selected, or everything again.
+  toggleIsolated(): void {
+    const { state, selection } = this.store;
+    if (state?.isolated) void this.ask("restore", {});
+    else if (selection.length > 0) void this.ask("isolate", { components: selection });
+  }
+
+  /// Hides what is selected; where some of it is hidden, shows that again.
+  toggleHidden(): void {
+    const { state, selection } = this.store;
+    if (selection.length === 0) return;
+    const hidden = selection.filter((c) => state?.components[c]?.hidden);
+    if (hidden.length > 0) void this.ask("show", { components: hidden });
+    else void this.ask("hide", { components: selection });
+  }
+
   change(apply: () => void): void {
     apply();
     this.notifier.notify();

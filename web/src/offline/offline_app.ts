@@ -84,8 +84,8 @@ export class OfflineApp implements Keyed {
       play: () => this.timeline.toggle(),
       nextStep: () => this.steps.go(1),
       previousStep: () => this.steps.go(-1),
-      isolate: () => this.isolate(),
-      toggleHidden: () => this.toggleHidden(),
+      isolate: () => this.session.toggleIsolated(),
+      toggleHidden: () => this.session.toggleHidden(),
       search: () => this.tree.focusSearch(),
       escape: () => (this.session.store.measuring ? this.measure.toggle() : this.session.select([])),
       screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.stem()}.png`)),
@@ -125,24 +125,9 @@ export class OfflineApp implements Keyed {
   }
 
   private fit(): void {
+    const { selection } = this.session.store;
     const { model, rig } = this.viewport;
-    if (!model) return;
-    const boxes = this.session.store.selection.map((c) => model.components[c].bounds());
-    rig.fit(boxes.length > 0 ? boxes.reduce((all, box) => all.union(box)) : model.bounds());
-  }
-
-  private isolate(): void {
-    const { state, selection } = this.session.store;
-    if (state?.isolated) void this.session.ask("restore", {});
-    else if (selection.length > 0) void this.session.ask("isolate", { components: selection });
-  }
-
-  private toggleHidden(): void {
-    const { state, selection } = this.session.store;
-    if (selection.length === 0) return;
-    const hidden = selection.filter((c) => state?.components[c]?.hidden);
-    if (hidden.length > 0) void this.session.ask("show", { components: hidden });
-    else void this.session.ask("hide", { components: selection });
+    if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
   }
 
   private stem(): string {
