@@ -23,6 +23,10 @@ const kFormats: Format[] = [
   { file: "bom.json", ending: "-bom.json", label: "export.billJson", of: "components" },
 ];
 
+/// How often a film asks whether the playback is over [ms], and how often before it has begun.
+const kLookEvery = 50;
+const kMostLooks = 200;
+
 /// What is open and what was done with it, as files for others; and a film of the playback.
 export class ExportDialog {
   readonly node = element("dialog", { id: "export-dialog", "aria-label": text("export") });
@@ -102,13 +106,14 @@ export class ExportDialog {
     const last = moves.at(-1);
     if (!last || this.filming) return;
     const back = this.reverse.checked;
+    const end = last.start + last.duration;
     this.filming = true;
     this.node.close();
     try {
-      await session.connection.command("seek", { time: back ? last.start + last.duration : 0, source });
+      await session.connection.command("seek", { time: back ? end : 0, source });
       const recorder = new FilmRecorder(session.viewport);
       await session.connection.command("play", { speed: back ? -1 : 1, source });
-      await this.playbackEnds();
+      await this.playbackEnds(back ? 0 : end);
       this.save(await recorder.stop(), videoFormat()!.startsWith("video/mp4") ? ".mp4" : ".webm");
     } catch (error) {
       session.onNote("warning", (error as Error).message);
@@ -117,11 +122,18 @@ export class ExportDialog {
     }
   }
 
-  private playbackEnds(): Promise<void> {
+  /// The answer to "play" may come before the state that says so: it ends once it has been seen to play, or is at `end`.
+  private playbackEnds(end: number): Promise<void> {
+    const { store } = this.session;
+    let begun = false;
+    let patience = kMostLooks;
     return new Promise((resolve) => {
       const look = (): void => {
-        if (this.session.store.state?.playback?.playing) setTimeout(look, 50);
-        else resolve();
+        const playback = store.state?.playback;
+        begun ||= playback?.playing === true;
+        const over = begun ? !playback?.playing : playback?.time === end || --patience === 0;
+        if (over) resolve();
+        else setTimeout(look, kLookEvery);
       };
       look();
     });

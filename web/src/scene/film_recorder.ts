@@ -3,6 +3,9 @@ import type { Viewport } from "./viewport.ts";
 
 const kFramesPerSecond = 30;
 const kBitsPerSecond = 8_000_000;
+/// How often the last picture is shown, and for how long each time [ms].
+const kLastPictures = 5;
+const kLastPicturesEvery = 100;
 /// In the order of how well they keep edges.
 const kFormats = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
 
@@ -30,6 +33,11 @@ export class FilmRecorder {
   }
 
   async stop(): Promise<Blob> {
+    // The last picture stays for a moment; and a browser that is slow to begin has one at all.
+    for (let k = 0; k < kLastPictures; ++k) {
+      this.take();
+      await new Promise((resolve) => setTimeout(resolve, kLastPicturesEvery));
+    }
     const stopped = new Promise((resolve) => {
       this.recorder.onstop = resolve;
     });

@@ -27,6 +27,9 @@ test("exploded, what was taken out is where the path took it, and a banner says 
   await viewer.takeOut("foot");
   assert.equal(await drawn(kSlide), false);
   await viewer.press("Escape", "e");
+  // Between the path's coming and the playback's beginning nothing is asked: idle for once is not yet there.
+  await viewer.page.waitForFunction(() => /Step 2 of 2/.test(document.querySelector("#explode-step")!.textContent!));
+  await viewer.idle();
   assert.match(await words(), /Step 2 of 2: take out foot/);
   assert.equal(await viewer.page.locator("[data-banner=exploded]").count(), 1);
   for (const name of [kSlide, "foot"]) {
