@@ -2,7 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -54,13 +54,8 @@ class Cli : public testing::Test {
            "6\n";
   }
 
-  Outcome run(const std::string& arguments) const {
-    const std::string command = std::string("cd '") + folder_.string() + "' && '" DISMANTLE_PROGRAM "' " + arguments +
-                                " >'" + in("stdout").string() + "' 2>'" + in("stderr").string() + "' </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_all(in("stdout")),
-            read_all(in("stderr"))};
-  }
+  /// Runs the program in the folder.
+  Outcome run(const std::string& arguments) const;
 
   /// One sentence on stderr, this exit code, nothing on stdout.
   void expect_error(const std::string& arguments, int exit_code, const std::string& part) const {
