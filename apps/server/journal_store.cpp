@@ -15,7 +15,14 @@ constexpr int kMostViewers = 8;
 constexpr std::size_t kHashDigits = 24;
 
 std::string stem_of(const JournalHeader& header) {
-  return header.assembly_sha256.substr(0, kHashDigits) + "-" + std::to_string(header.component_count);
+  return header.assembly_sha256.substr(0, kHashDigits) + '-' + std::to_string(header.component_count);
+}
+
+/// The file of the first viewer of an assembly, or of another beside it.
+std::string file_name(const JournalHeader& header, int viewer) {
+  std::string name = stem_of(header);
+  if (viewer > 1) name.append(1, '-').append(std::to_string(viewer));
+  return name + ".journal";
 }
 
 /// What the journal holds where it is of the session's assembly and something was done in it.
@@ -39,7 +46,7 @@ Result<bool> JournalStore::attach(Session& session) {
   Result<std::unique_ptr<Journal>> journal = Error{};
   std::optional<JournalContents> contents;
   for (int viewer = 1; viewer <= kMostViewers && !journal; ++viewer) {
-    file_ = *folder_ / (stem_of(header) + (viewer > 1 ? "-" + std::to_string(viewer) : "") + ".journal");
+    file_ = *folder_ / file_name(header, viewer);
     contents = read_journal(file_, header);
     const bool goes_on = contents && !contents->is_closed;
     if (contents && !goes_on) fs::rename(file_, *folder_ / (stem_of(header) + ".previous"), error);

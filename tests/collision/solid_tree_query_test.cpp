@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/solid_tree_query.h"
 
-#include "dismantle/collision/vertex_depth_guard.h"
 #include "dismantle/narrowphase/closest_points.h"
 #include "tests/support/random_scenes.h"
 
@@ -12,10 +11,10 @@ namespace {
 
 struct Solid {
   Assembly assembly;
-  VertexDepthGuard::SolidOf solids;
+  SolidTree tree;
   explicit Solid(TriangleMesh mesh)
-      : assembly(scenes::assembly({scenes::component("solid", std::move(mesh))})), solids(solids_of(assembly, {})) {}
-  const SolidTree& tree() const { return solids(ComponentId(0)); }
+      : assembly(scenes::assembly({scenes::component("solid", std::move(mesh))})),
+        tree(make_solid_tree(assembly.components[0], {})) {}
 };
 
 double brute_distance(const SolidTree& solid, Vec3 p) {
@@ -47,11 +46,11 @@ TEST(NearestFace, AgreesWithAllFacesWhateverItBeginsWith) {
         if (i % 3 == 0) p = mesh.vertices[random() % mesh.vertices.size()] + scenes::random_vector(random, 1e-6);
         const std::uint32_t hint =
             i % 2 == 0 ? NearestFace::kNone : static_cast<std::uint32_t>(random() % mesh.faces.size());
-        const NearestFace nearest = nearest_face(solid.tree(), p, hint);
-        ASSERT_EQ(nearest.distance, brute_distance(solid.tree(), p)) << offset;
-        const double to_bounds = distance_to_bounds(solid.tree(), p);
+        const NearestFace nearest = nearest_face(solid.tree, p, hint);
+        ASSERT_EQ(nearest.distance, brute_distance(solid.tree, p)) << offset;
+        const double to_bounds = distance_to_bounds(solid.tree, p);
         ASSERT_LE(to_bounds, nearest.distance);
-        const NearestFace near = nearest_face(solid.tree(), p, hint, 1);
+        const NearestFace near = nearest_face(solid.tree, p, hint, 1);
         ASSERT_TRUE(near.distance == nearest.distance || near.distance < 1);
       }
     }
@@ -73,8 +72,8 @@ TEST(PointInSolid, TellsInsideFromOutsideOfTurnedTubes) {
       const double r = std::hypot(p.x, p.y);
       if (std::abs(r - 3) < 0.01 || std::abs(r - 1) < 0.01 || std::abs(std::abs(p.z) - 2) < 1e-9) continue;
       const bool inside = r < 3 && r > 1 && std::abs(p.z) < 2;
-      ASSERT_EQ(point_in_solid(coarse.tree(), t * p), inside);
-      ASSERT_EQ(point_in_solid(slivers.tree(), t * p), inside);
+      ASSERT_EQ(point_in_solid(coarse.tree, t * p), inside);
+      ASSERT_EQ(point_in_solid(slivers.tree, t * p), inside);
     }
   }
 }
@@ -85,7 +84,7 @@ TEST(PointInSolid, DecidesPointsThatRaysLeaveThroughVerticesAndEdges) {
     for (int j = -2; j <= 10; ++j) {
       const Vec3 p{0.25 * i, 0.25 * j, 1};
       if (i == 0 || j == 0 || i == 8 || j == 8) continue;
-      ASSERT_EQ(point_in_solid(box.tree(), p), i > 0 && i < 8 && j > 0 && j < 8);
+      ASSERT_EQ(point_in_solid(box.tree, p), i > 0 && i < 8 && j > 0 && j < 8);
     }
 }
 

@@ -12,22 +12,13 @@ namespace dismantle {
 
 namespace {
 
-SolidTree solid_of(const Component& component, const Executor& executor) {
-  SolidTree solid;
-  solid.vertices = assembled_vertices(component);
-  solid.faces = component.mesh->faces;
-  solid.has_outside = component.faults.bounds_solid();
-  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
-  if (solid.has_outside) find_normals(solid);
-  return solid;
-}
-
 /// Effort::Quick ends after so many steps, or one that is less than this share of the tolerance [of path length].
 constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
 /// Effort::Quick ends with about so many blocked pairs of two components.
 constexpr std::size_t kQuickBlocked = 64;
+
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
   return frame == Pose{} ? pose : inverse(frame) * pose;
@@ -68,7 +59,7 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
       poses_(assembly.components.size()),
       is_held_(assembly.components.size()) {
   for (const Component& c : assembly.components) {
-    solids_.push_back(solid_of(c, options.executor));
+    solids_.push_back(make_solid_tree(c, options.executor));
     const Aabb box = assembled_bounds(c);
     centers_.push_back(box.empty() ? Vec3{} : box.center());
     double radius = 0;

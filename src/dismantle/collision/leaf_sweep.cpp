@@ -94,20 +94,6 @@ bool face_on(Vec3 normal_moving, Vec3 normal_fixed, Vec3 axis) {
 
 }  // namespace
 
-void find_normals(SolidTree& solid) {
-  solid.normals.resize(solid.faces.size());
-  solid.around_begin.assign(solid.vertices.size() + 1, 0);
-  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-    solid.normals[f] = normalized(normal_unscaled(solid.triangle(f)));
-    for (const std::uint32_t v : solid.faces[f].v) ++solid.around_begin[v + 1];
-  }
-  for (std::size_t v = 0; v < solid.vertices.size(); ++v) solid.around_begin[v + 1] += solid.around_begin[v];
-  solid.around.resize(3 * solid.faces.size());
-  std::vector<std::uint32_t> next(solid.around_begin.begin(), solid.around_begin.end() - 1);
-  for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
-    for (const std::uint32_t v : solid.faces[f].v) solid.around[next[v]++] = f;
-}
-
 /// Room for the normals around two faces. Of a corner with many faces, as the tip of a fan, an even choice is taken.
 struct LeafSweep::Around {
   static constexpr std::uint32_t kMostOfCorner = 8;

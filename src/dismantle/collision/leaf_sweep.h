@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/bvh/obb_tree.h"
+#include "dismantle/collision/solid_tree.h"
 #include "dismantle/front/certificate_front.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/narrowphase/ccd_triangle_triangle.h"
@@ -14,25 +14,6 @@ namespace dismantle {
 /// longer motions are cut. The share is taken off every allowance whatever the motion, so that a state reached by a
 /// translation is not too deep for a rotation.
 inline constexpr double kArcShare = 0.125;
-
-/// A component as the method `certificates` sees it: its triangles in the assembled state, and their tree.
-struct SolidTree {
-  std::vector<Vec3> vertices;  ///< [mm, assembled]
-  Span<const Face> faces;
-  bool has_outside = false;  ///< It encloses a volume, and its normals point out of it (MeshFaults::bounds_solid).
-  ObbTree tree;
-  std::vector<Vec3> normals;                ///< Unit, of each face; where it has an outside.
-  std::vector<std::uint32_t> around_begin;  ///< Where each vertex's faces begin in `around`, and the end of the last.
-  std::vector<std::uint32_t> around;        ///< The faces at each vertex.
-
-  Triangle triangle(std::uint32_t face) const {
-    const Face& f = faces[face];
-    return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
-  }
-};
-
-/// Fills in what SolidTree knows of the outside of a component that has one.
-void find_normals(SolidTree& solid);
 
 /// Where two triangles are stopped.
 struct LeafContact {

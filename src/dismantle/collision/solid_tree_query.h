@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/leaf_sweep.h"
+#include "dismantle/collision/solid_tree.h"
 
 #include <limits>
 

@@ -133,11 +133,12 @@ class VertexDepthGuard::Course {
   /// along a chord, and the arc is near that. At most 1; `at` where the face says nothing.
   double held_until(std::uint32_t face, const VertexSphere& s, double at) const {
     const double most = side_.limit - s.radius - side_.resolution;
+    if (face == NearestFace::kNone) return at;
     const Vec3 from = start_ * s.center;
-    if (face == NearestFace::kNone || face_distance(face, place(from, at)) > most) return at;
+    const double first = face_distance(face, place(from, at));
+    if (first > most) return at;
     const double bend = screw_chord_deviation(screw_, screw_radius(screw_, from, s.radius));
     double length = 1 - at;
-    const double first = face_distance(face, place(from, at));
     for (int tries = 0; tries < kFaceTries; ++tries, length /= 4) {
       const double until = tries == 0 ? 1 : at + length;
       if (std::max(first, face_distance(face, place(from, until))) + bend * length * length <= most) return until;
@@ -449,11 +450,7 @@ VertexDepthGuard::SolidOf solids_of(const Assembly& assembly, const Executor& ex
   return [solids, &assembly, executor](ComponentId c) -> const SolidTree& {
     std::shared_ptr<const SolidTree>& known = (*solids)[c.value];
     if (known) return *known;
-    SolidTree solid;
-    solid.vertices = assembled_vertices(assembly[c]);
-    solid.faces = assembly[c].mesh->faces;
-    solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
-    known = std::make_shared<const SolidTree>(std::move(solid));
+    known = std::make_shared<const SolidTree>(make_solid_tree(assembly[c], executor));
     return *known;
   };
 }
