@@ -61,6 +61,11 @@ class MotionEngine {
   virtual std::vector<ComponentPair> embedded_pairs() const = 0;
 };
 
+/// A collision method as the loop of a host program sees it, with responses Stop and Touch. The assembly must outlive
+/// the engine. @pre `engine` is of this assembly, all components in the assembled state; tolerance > 0 [mm]
+std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
+                                                          std::unique_ptr<CollisionEngine> engine);
+
 /// `streams` (DESIGN section 2.1) with responses Stop and Touch, all components in the assembled state. The assembly
 /// must outlive the engine.
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,

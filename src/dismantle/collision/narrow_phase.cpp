@@ -34,8 +34,11 @@ class StagedSink {
   std::size_t count_ = 0;
 };
 
-StepTriangles step_triangles(const MovingStreams& streams) {
-  return {streams.vertices_t0(), streams.vertices_t1(), streams.fixed().faces};
+/// How far into the step it is worth to look where these contacts are known.
+double horizon(Span<const TrianglePairContact> contacts) {
+  double first = 1;
+  for (const TrianglePairContact& contact : contacts) first = std::min(first, contact.toi);
+  return std::min(1.0, first + kContactWindow);
 }
 
 }  // namespace
@@ -58,7 +61,7 @@ void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     end = std::min(count, begin + std::max(kFirstRound, kRoundGrowth * begin));
     kernel.pairs = input.triangle_pairs.subspan(begin, end - begin);
-    kernel.horizon = horizon();
+    kernel.horizon = horizon(found_);
     run_round(kernel, executor);
   }
 }
@@ -84,38 +87,20 @@ void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& exe
   intersecting_.insert(intersecting_.end(), intersections_.values().begin(), intersections_.values().end());
 }
 
-double NarrowPhase::horizon() const {
-  double first = 1;
-  for (const TrianglePairContact& contact : found_) first = std::min(first, contact.toi);
-  return std::min(1.0, first + kContactWindow);
-}
-
-std::vector<TrianglePairContact> NarrowPhase::first_contacts() const {
-  const double last = horizon();
-  std::vector<TrianglePairContact> first;
-  std::copy_if(found_.begin(), found_.end(), std::back_inserter(first),
-               [&](const TrianglePairContact& contact) { return contact.toi <= last; });
-  return first;
-}
-
 void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from,
                            const Executor& executor) {
   if (pairs.empty()) return;
   const MovingStreams& streams = *input.streams;
-  const StepTriangles triangles = step_triangles(streams);
   const NodePair first = pair_of_key(pairs[0]);
   const std::vector<std::uint32_t>& component_of = streams.fixed().bvh.component_of;
   const bool a_moves = streams.motion_class()[component_of[first.a]] != 0;
   const bool b_moves = streams.motion_class()[component_of[first.b]] != 0;
   const double allowed = allowed_on_chords(input.rules.tolerance, input.path_deviation, a_moves, b_moves);
+  const PartedPairKernel kernel{pairs, step_triangles(streams), from, allowed};
   const int runs = append_with_replay(contacts_, [&](AppendView<TrianglePairContact> view) {
     executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const NodePair p = pair_of_key(pairs[i]);
-        const CcdResult ccd = ccd_triangle_triangle(part_of(triangles.motion(p.a), from, 1),
-                                                    part_of(triangles.motion(p.b), from, 1), allowed);
-        if (ccd.status == CcdStatus::Contact) view.append({pairs[i], from + (1 - from) * ccd.toi});
-      }
+      for (std::size_t i = begin; i < end; ++i)
+        if (const std::optional<TrianglePairContact> found = kernel(i)) view.append(*found);
     });
   });
   tests_ += pairs.size();
@@ -124,22 +109,32 @@ void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64
   found_.insert(found_.end(), added.begin(), added.end());
 }
 
-std::vector<std::uint64_t> NarrowPhase::intersections_of(const NarrowPhaseInput& input, ComponentId a,
-                                                         ComponentId b) const {
-  std::vector<std::uint64_t> keys = triangle_pairs_of(intersecting_, *input.streams, a, b);
-  std::sort(keys.begin(), keys.end());
-  return keys;
+StepTriangles step_triangles(const MovingStreams& streams) {
+  return {streams.vertices_t0(), streams.vertices_t1(), streams.fixed().faces};
 }
 
-std::vector<std::uint64_t> triangle_pairs_of(Span<const std::uint64_t> triangle_pairs, const MovingStreams& streams,
-                                             ComponentId a, ComponentId b) {
-  const std::vector<std::uint32_t>& component_of = streams.fixed().bvh.component_of;
-  std::vector<std::uint64_t> keys;
-  for (const std::uint64_t key : triangle_pairs) {
-    const NodePair p = pair_of_key(key);
-    if (component_of[p.a] == a.value && component_of[p.b] == b.value) keys.push_back(key);
+std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contacts) {
+  const double last = horizon(contacts);
+  std::vector<TrianglePairContact> first;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(first),
+               [&](const TrianglePairContact& contact) { return contact.toi <= last; });
+  return first;
+}
+
+std::vector<CollisionContact> collision_contacts(const TriangleStreams& streams,
+                                                 Span<const TrianglePairContact> contacts) {
+  std::vector<CollisionContact> result;
+  for (const TrianglePairContact& found : contacts) {
+    const NodePair p = pair_of_key(found.key);
+    result.push_back({ComponentId(streams.bvh.component_of[p.a]), ComponentId(streams.bvh.component_of[p.b]),
+                      streams.face_of[p.a], streams.face_of[p.b], found.toi});
   }
-  return keys;
+  std::sort(result.begin(), result.end(), [](const CollisionContact& x, const CollisionContact& y) {
+    if (x.a != y.a) return x.a < y.a;
+    if (x.b != y.b) return x.b < y.b;
+    return x.face_a != y.face_a ? x.face_a < y.face_a : x.face_b < y.face_b;
+  });
+  return result;
 }
 
 }  // namespace dismantle

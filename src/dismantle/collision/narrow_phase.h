@@ -16,6 +16,9 @@ struct NarrowPhaseInput {
   double path_deviation = 0;  ///< [mm]
 };
 
+/// Those of the contacts that are within kContactWindow of the first one.
+std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contacts);
+
 /// Runs the narrow phase over S_t and keeps what it found.
 class NarrowPhase {
  public:
@@ -30,15 +33,14 @@ class NarrowPhase {
   void run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from, const Executor& executor);
 
   /// Every contact within kContactWindow of the first one; in no particular order: sort before use.
-  std::vector<TrianglePairContact> first_contacts() const;
-  /// The triangle pairs of components a < b, in S_i, that intersect at the end of the step; ascending.
-  std::vector<std::uint64_t> intersections_of(const NarrowPhaseInput& input, ComponentId a, ComponentId b) const;
+  std::vector<TrianglePairContact> first_contacts() const { return first_of(found_); }
+  /// The triangle pairs of components in S_i that intersect at the end of the step; in no particular order.
+  Span<const std::uint64_t> intersecting() const { return intersecting_; }
   std::size_t tests() const { return tests_; }
   std::size_t replays() const { return replays_; }
 
  private:
   void run_round(const NarrowPhaseKernel& kernel, const Executor& executor);
-  double horizon() const;
 
   AppendBuffer<TrianglePairContact> contacts_;
   AppendBuffer<std::uint64_t> intersections_;
@@ -48,8 +50,11 @@ class NarrowPhase {
   std::size_t replays_ = 0;
 };
 
-/// The triangle pairs of S_t that belong to components a < b; ascending where S_t is.
-std::vector<std::uint64_t> triangle_pairs_of(Span<const std::uint64_t> triangle_pairs, const MovingStreams& streams,
-                                             ComponentId a, ComponentId b);
+/// The triangles of the step that the streams are at.
+StepTriangles step_triangles(const MovingStreams& streams);
+
+/// The contacts by components and faces, in this order.
+std::vector<CollisionContact> collision_contacts(const TriangleStreams& streams,
+                                                 Span<const TrianglePairContact> contacts);
 
 }  // namespace dismantle

@@ -10,6 +10,8 @@
 #include "dismantle/narrowphase/elementary_triangle_triangle.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
 
+#include <optional>
+
 namespace dismantle {
 
 /// A triangle pair of S_t in contact.
@@ -122,6 +124,23 @@ struct NarrowPhaseKernel {
         elementary_triangle_triangle({triangles.motion(p.a), features[p.a]}, {triangles.motion(p.b), features[p.b]});
     sink.tested(static_cast<std::size_t>(found.elementary_tests));
     if (found.ccd.status == CcdStatus::Contact) sink.contact({pairs[i], found.ccd.toi});
+  }
+};
+
+/// The triangle pairs of components that part at time `from` of the step, over the rest of it: certified, with an
+/// allowance of `allowed` [mm]. Item: a triangle pair; gives its contact, if there is one.
+struct PartedPairKernel {
+  Span<const std::uint64_t> pairs;
+  StepTriangles triangles;
+  double from = 0;
+  double allowed = 0;
+
+  DISMANTLE_HOST_DEVICE std::optional<TrianglePairContact> operator()(std::size_t i) const {
+    const NodePair p = pair_of_key(pairs[i]);
+    const CcdResult ccd = ccd_triangle_triangle(part_of(triangles.motion(p.a), from, 1),
+                                                part_of(triangles.motion(p.b), from, 1), allowed);
+    if (ccd.status == CcdStatus::Free) return {};
+    return TrianglePairContact{pairs[i], from + (1 - from) * ccd.toi};
   }
 };
 

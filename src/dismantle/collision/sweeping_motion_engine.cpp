@@ -9,14 +9,11 @@ namespace dismantle {
 
 namespace {
 
-/// The paper's method as the host loop sees it: sweeps of the whole assembly, of which one set moves.
-class StreamsMotionEngine final : public MotionEngine {
+/// Sweeps of the whole assembly, of which one set moves.
+class SweepingMotionEngine final : public MotionEngine {
  public:
-  StreamsMotionEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options)
-      : assembly_(assembly),
-        tolerance_(pairs.tolerance),
-        engine_(make_guarded_engine(make_streams_engine(assembly, pairs, options), assembly, pairs, options.executor)),
-        poses_(assembly.components.size()) {}
+  SweepingMotionEngine(const Assembly& assembly, double tolerance, std::unique_ptr<CollisionEngine> engine)
+      : assembly_(assembly), tolerance_(tolerance), engine_(std::move(engine)), poses_(assembly.components.size()) {}
 
   void hold(Span<const ComponentId> components) override {
     DISMANTLE_EXPECT(!components.empty());
@@ -58,9 +55,16 @@ class StreamsMotionEngine final : public MotionEngine {
 
 }  // namespace
 
+std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
+                                                          std::unique_ptr<CollisionEngine> engine) {
+  return std::make_unique<SweepingMotionEngine>(assembly, tolerance, std::move(engine));
+}
+
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options) {
-  return std::make_unique<StreamsMotionEngine>(assembly, pairs, options);
+  return make_sweeping_motion_engine(
+      assembly, pairs.tolerance,
+      make_guarded_engine(make_streams_engine(assembly, pairs, options), assembly, pairs, options.executor));
 }
 
 }  // namespace dismantle
