@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/baselines/front_based_engine.h"
+
+#include "bench/baselines/front_parts.h"
+#include "dismantle/collision/embedded_pairs.h"
+#include "dismantle/collision/narrow_phase.h"
+#include "dismantle/collision/stage_clock.h"
+#include "dismantle/collision/vertex_kernel.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// What one core finds in its part of the triangle pairs.
+struct PartFinds {
+  std::vector<TrianglePairContact> contacts;
+  std::vector<std::uint64_t> intersections;
+  std::size_t tests = 0;
+
+  void contact(const TrianglePairContact& found) { contacts.push_back(found); }
+  void intersection(std::uint64_t key) { intersections.push_back(key); }
+  void tested(std::size_t count) { tests += count; }
+};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& values) {
+  to.insert(to.end(), values.begin(), values.end());
+}
+
+class FrontBasedEngine final : public CollisionEngine {
+ public:
+  FrontBasedEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options)
+      : options_(options),
+        fixed_(make_triangle_streams(assembly, options.executor)),
+        start_vertices_(fixed_.vertices),
+        end_vertices_(fixed_.vertices),
+        start_(fixed_.component_count()),
+        end_(start_),
+        moves_(fixed_.component_count(), 0),
+        bounds_(bounds_at(fixed_, fixed_.vertices, 0, options.executor)),
+        front_(options.executor.thread_count()),
+        rules_(pairs),
+        embedded_(assembly, pairs) {
+    for (std::uint32_t c = 0; c < fixed_.component_count(); ++c) all_.push_back(ComponentId(c));
+  }
+
+  SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override;
+  void commit() override;
+  void jump(Span<const RigidTransform> state) override;
+  Span<const RigidTransform> state() const override { return start_; }
+  std::vector<ComponentPair> embedded_pairs() const override { return embedded_.pairs(); }
+
+ private:
+  void set_end(Span<const RigidTransform> next);
+  void refit();
+  StepTriangles triangles() const { return {start_vertices_, end_vertices_, fixed_.faces}; }
+  EmbeddedStep embedded_step(double path_deviation) const {
+    return {&fixed_, triangles(), bounds_, start_, end_, path_deviation};
+  }
+  bool moves_against(std::uint64_t key) const;
+  PartFinds test_triangle_pairs(double path_deviation);
+  void test_embedded_pairs(PartFinds& finds, double path_deviation);
+  void part(const std::vector<ComponentPair>& parted);
+
+  CollisionOptions options_;
+  TriangleStreams fixed_;
+  std::vector<ComponentId> all_;
+  std::vector<Vec3> start_vertices_, end_vertices_;
+  std::vector<RigidTransform> start_, end_;
+  std::vector<std::uint32_t> moves_;  // of each component: 0 where it stands still
+  std::vector<Kdop16> bounds_;
+  FrontParts front_;
+  PairRules rules_;
+  EmbeddedPairs embedded_;
+  std::vector<ComponentPair> parting_;  // those that part if the last sweep is committed
+  bool may_commit_ = false;
+};
+
+SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path_deviation) {
+  DISMANTLE_EXPECT(next.size() == end_.size());
+  StageClock clock;
+  SweepResult result;
+  parting_.clear();
+  set_end(next);
+  result.timings.vertices = clock.lap();
+  refit();
+  result.timings.refit = clock.lap();
+  front_.update(BvhView(fixed_.bvh), bounds_, options_.executor);
+  result.timings.front = clock.lap();
+  PartFinds finds = test_triangle_pairs(path_deviation);
+  test_embedded_pairs(finds, path_deviation);
+  result.contacts = collision_contacts(fixed_, first_of(finds.contacts));
+  result.timings.intersection = clock.lap();
+
+  for (const CollisionContact& contact : result.contacts) result.toi = std::min(result.toi, contact.toi);
+  result.free = result.contacts.empty();
+  result.sizes = {front_.size(), front_.triangle_pairs().size(), embedded_.pairs().size(), finds.tests, 0};
+  may_commit_ = result.free;
+  result.timings.overall = clock.total();
+  return result;
+}
+
+void FrontBasedEngine::set_end(Span<const RigidTransform> next) {
+  end_.assign(next.begin(), next.end());
+  for (std::size_t c = 0; c < end_.size(); ++c) moves_[c] = start_[c] == end_[c] ? 0 : 1;
+  const auto cores = static_cast<std::size_t>(options_.executor.thread_count());
+  options_.executor.for_each_heavy(cores, [&](std::size_t core) {
+    const std::size_t begin = fixed_.vertices.size() * core / cores, end = fixed_.vertices.size() * (core + 1) / cores;
+    for (std::size_t c = 0; c < end_.size(); ++c) {
+      const std::size_t first = std::max<std::size_t>(begin, fixed_.vertex_begin[c]);
+      const std::size_t last = std::min<std::size_t>(end, fixed_.vertex_begin[c + 1]);
+      const VertexUpdateKernel kernel{end_[c], fixed_.vertices, end_vertices_};
+      for (std::size_t v = first; v < last; ++v) kernel(v);
+    }
+  });
+}
+
+void FrontBasedEngine::refit() {
+  bvh_refit(fixed_.bvh, fixed_.refit_plan, {start_vertices_, end_vertices_, fixed_.faces, 0}, all_, bounds_,
+            options_.executor);
+}
+
+/// True where the pair's components move against each other: all others cannot meet.
+bool FrontBasedEngine::moves_against(std::uint64_t key) const {
+  const NodePair p = pair_of_key(key);
+  const std::uint32_t a = fixed_.bvh.component_of[p.a], b = fixed_.bvh.component_of[p.b];
+  if (moves_[a] == 0 && moves_[b] == 0) return false;
+  return !(start_[a] == start_[b] && end_[a] == end_[b]);
+}
+
+PartFinds FrontBasedEngine::test_triangle_pairs(double path_deviation) {
+  const Span<const std::uint64_t> pairs = front_.triangle_pairs();
+  const NarrowPhaseKernel kernel{pairs,  triangles(),   bounds_,       fixed_.bvh.component_of, fixed_.features,
+                                 moves_, rules_.view(), options_.test, path_deviation};
+  std::vector<PartFinds> parts(static_cast<std::size_t>(options_.executor.thread_count()));
+  options_.executor.for_each_heavy(parts.size(), [&](std::size_t p) {
+    PartFinds finds;
+    for (std::size_t i = pairs.size() * p / parts.size(); i < pairs.size() * (p + 1) / parts.size(); ++i)
+      if (moves_against(pairs[i])) kernel(i, finds);
+    parts[p] = std::move(finds);
+  });
+  PartFinds all;
+  for (const PartFinds& part : parts) {
+    append(all.contacts, part.contacts);
+    append(all.intersections, part.intersections);
+    all.tests += part.tests;
+  }
+  return all;
+}
+
+void FrontBasedEngine::test_embedded_pairs(PartFinds& finds, double path_deviation) {
+  if (embedded_.pairs().empty()) return;
+  std::vector<std::uint64_t> sorted(front_.triangle_pairs().begin(), front_.triangle_pairs().end());
+  options_.executor.sort(sorted);
+  for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, finds.intersections)) {
+    parting_.push_back(found.pair);
+    const double allowed = allowed_on_chords(rules_.tolerance(), path_deviation, moves_[found.pair.a.value] != 0,
+                                             moves_[found.pair.b.value] != 0);
+    const PartedPairKernel kernel{found.triangle_pairs, triangles(), found.from, allowed};
+    for (std::size_t i = 0; i < found.triangle_pairs.size(); ++i)
+      if (const std::optional<TrianglePairContact> contact = kernel(i)) finds.contact(*contact);
+    finds.tested(found.triangle_pairs.size());
+  }
+}
+
+void FrontBasedEngine::commit() {
+  DISMANTLE_EXPECT(may_commit_);
+  std::swap(start_vertices_, end_vertices_);
+  std::swap(start_, end_);
+  part(parting_);
+  parting_.clear();
+  may_commit_ = false;
+}
+
+void FrontBasedEngine::part(const std::vector<ComponentPair>& parted) {
+  for (const ComponentPair& pair : parted) rules_.part(pair.a, pair.b);
+  embedded_.part(parted);
+}
+
+void FrontBasedEngine::jump(Span<const RigidTransform> state) {
+  set_end(state);
+  start_ = end_;
+  start_vertices_ = end_vertices_;
+  refit();
+  may_commit_ = false;
+  parting_.clear();
+  part(embedded_.apart(embedded_step(0)));
+}
+
+}  // namespace
+
+std::unique_ptr<CollisionEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
+                                                         const CollisionOptions& options) {
+  return std::make_unique<FrontBasedEngine>(assembly, pairs, options);
+}
+
+}  // namespace dismantle
