@@ -31,20 +31,22 @@ void append(std::vector<T>& to, const std::vector<T>& values) {
 
 class FrontBasedEngine final : public CollisionEngine {
  public:
-  FrontBasedEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options)
+  FrontBasedEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options,
+                   FrontBasedWork work)
       : options_(options),
+        work_(work),
         fixed_(make_triangle_streams(assembly, options.executor)),
         start_vertices_(fixed_.vertices),
         end_vertices_(fixed_.vertices),
         start_(fixed_.component_count()),
         end_(start_),
-        moves_(fixed_.component_count(), 0),
+        fitted_start_(start_),
+        fitted_end_(start_),
+        motion_class_(fixed_.component_count(), 0),
         bounds_(bounds_at(fixed_, fixed_.vertices, 0, options.executor)),
         front_(options.executor.thread_count()),
         rules_(pairs),
-        embedded_(assembly, pairs) {
-    for (std::uint32_t c = 0; c < fixed_.component_count(); ++c) all_.push_back(ComponentId(c));
-  }
+        embedded_(assembly, pairs) {}
 
   SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override;
   void commit() override;
@@ -54,22 +56,25 @@ class FrontBasedEngine final : public CollisionEngine {
 
  private:
   void set_end(Span<const RigidTransform> next);
+  void classify_motion();
   void refit();
   StepTriangles triangles() const { return {start_vertices_, end_vertices_, fixed_.faces}; }
   EmbeddedStep embedded_step(double path_deviation) const {
     return {&fixed_, triangles(), bounds_, start_, end_, path_deviation};
   }
   bool moves_against(std::uint64_t key) const;
+  bool moves(ComponentId c) const { return motion_class_[c.value] != 0; }
   PartFinds test_triangle_pairs(double path_deviation);
   void test_embedded_pairs(PartFinds& finds, double path_deviation);
   void part(const std::vector<ComponentPair>& parted);
 
   CollisionOptions options_;
+  FrontBasedWork work_;
   TriangleStreams fixed_;
-  std::vector<ComponentId> all_;
   std::vector<Vec3> start_vertices_, end_vertices_;
   std::vector<RigidTransform> start_, end_;
-  std::vector<std::uint32_t> moves_;  // of each component: 0 where it stands still
+  std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds were made from
+  std::vector<std::uint32_t> motion_class_;  // of each component: 0 where it stands still; equal where they move as one
   std::vector<Kdop16> bounds_;
   FrontParts front_;
   PairRules rules_;
@@ -87,7 +92,9 @@ SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path
   result.timings.vertices = clock.lap();
   refit();
   result.timings.refit = clock.lap();
-  front_.update(BvhView(fixed_.bvh), bounds_, options_.executor);
+  const Span<const std::uint32_t> may_rest =
+      work_ == FrontBasedWork::WhatMoves ? motion_class_ : Span<const std::uint32_t>();
+  front_.update({BvhView(fixed_.bvh), bounds_, may_rest}, options_.executor);
   result.timings.front = clock.lap();
   PartFinds finds = test_triangle_pairs(path_deviation);
   test_embedded_pairs(finds, path_deviation);
@@ -103,12 +110,15 @@ SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path
 }
 
 void FrontBasedEngine::set_end(Span<const RigidTransform> next) {
+  std::vector<std::uint8_t> stays(end_.size());  // where the vertices are there already
+  for (std::size_t c = 0; c < end_.size(); ++c) stays[c] = work_ == FrontBasedWork::WhatMoves && end_[c] == next[c];
   end_.assign(next.begin(), next.end());
-  for (std::size_t c = 0; c < end_.size(); ++c) moves_[c] = start_[c] == end_[c] ? 0 : 1;
+  classify_motion();
   const auto cores = static_cast<std::size_t>(options_.executor.thread_count());
   options_.executor.for_each_heavy(cores, [&](std::size_t core) {
     const std::size_t begin = fixed_.vertices.size() * core / cores, end = fixed_.vertices.size() * (core + 1) / cores;
     for (std::size_t c = 0; c < end_.size(); ++c) {
+      if (stays[c] != 0) continue;
       const std::size_t first = std::max<std::size_t>(begin, fixed_.vertex_begin[c]);
       const std::size_t last = std::min<std::size_t>(end, fixed_.vertex_begin[c + 1]);
       const VertexUpdateKernel kernel{end_[c], fixed_.vertices, end_vertices_};
@@ -117,23 +127,40 @@ void FrontBasedEngine::set_end(Span<const RigidTransform> next) {
   });
 }
 
+void FrontBasedEngine::classify_motion() {
+  std::vector<std::size_t> first;  // the first component of each class
+  for (std::size_t c = 0; c < end_.size(); ++c) {
+    motion_class_[c] = 0;
+    if (start_[c] == end_[c]) continue;
+    const auto same = std::find_if(first.begin(), first.end(),
+                                   [&](std::size_t f) { return start_[f] == start_[c] && end_[f] == end_[c]; });
+    motion_class_[c] = static_cast<std::uint32_t>(same - first.begin()) + 1;
+    if (same == first.end()) first.push_back(c);
+  }
+}
+
 void FrontBasedEngine::refit() {
-  bvh_refit(fixed_.bvh, fixed_.refit_plan, {start_vertices_, end_vertices_, fixed_.faces, 0}, all_, bounds_,
+  std::vector<ComponentId> changed;
+  for (std::uint32_t c = 0; c < end_.size(); ++c)
+    if (work_ == FrontBasedWork::Everything || fitted_start_[c] != start_[c] || fitted_end_[c] != end_[c])
+      changed.push_back(ComponentId(c));
+  fitted_start_ = start_;
+  fitted_end_ = end_;
+  bvh_refit(fixed_.bvh, fixed_.refit_plan, {start_vertices_, end_vertices_, fixed_.faces, 0}, changed, bounds_,
             options_.executor);
 }
 
 /// True where the pair's components move against each other: all others cannot meet.
 bool FrontBasedEngine::moves_against(std::uint64_t key) const {
   const NodePair p = pair_of_key(key);
-  const std::uint32_t a = fixed_.bvh.component_of[p.a], b = fixed_.bvh.component_of[p.b];
-  if (moves_[a] == 0 && moves_[b] == 0) return false;
-  return !(start_[a] == start_[b] && end_[a] == end_[b]);
+  return motion_class_[fixed_.bvh.component_of[p.a]] != motion_class_[fixed_.bvh.component_of[p.b]];
 }
 
 PartFinds FrontBasedEngine::test_triangle_pairs(double path_deviation) {
   const Span<const std::uint64_t> pairs = front_.triangle_pairs();
-  const NarrowPhaseKernel kernel{pairs,  triangles(),   bounds_,       fixed_.bvh.component_of, fixed_.features,
-                                 moves_, rules_.view(), options_.test, path_deviation};
+  NarrowPhaseKernel kernel{pairs,         triangles(),   bounds_,       fixed_.bvh.component_of, fixed_.features,
+                           motion_class_, rules_.view(), options_.test, path_deviation};
+  kernel.cull = PairCull::None;
   std::vector<PartFinds> parts(static_cast<std::size_t>(options_.executor.thread_count()));
   options_.executor.for_each_heavy(parts.size(), [&](std::size_t p) {
     PartFinds finds;
@@ -156,8 +183,8 @@ void FrontBasedEngine::test_embedded_pairs(PartFinds& finds, double path_deviati
   options_.executor.sort(sorted);
   for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, finds.intersections)) {
     parting_.push_back(found.pair);
-    const double allowed = allowed_on_chords(rules_.tolerance(), path_deviation, moves_[found.pair.a.value] != 0,
-                                             moves_[found.pair.b.value] != 0);
+    const double allowed =
+        allowed_on_chords(rules_.tolerance(), path_deviation, moves(found.pair.a), moves(found.pair.b));
     const PartedPairKernel kernel{found.triangle_pairs, triangles(), found.from, allowed};
     for (std::size_t i = 0; i < found.triangle_pairs.size(); ++i)
       if (const std::optional<TrianglePairContact> contact = kernel(i)) finds.contact(*contact);
@@ -192,8 +219,8 @@ void FrontBasedEngine::jump(Span<const RigidTransform> state) {
 }  // namespace
 
 std::unique_ptr<CollisionEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
-                                                         const CollisionOptions& options) {
-  return std::make_unique<FrontBasedEngine>(assembly, pairs, options);
+                                                         const CollisionOptions& options, FrontBasedWork work) {
+  return std::make_unique<FrontBasedEngine>(assembly, pairs, options, work);
 }
 
 }  // namespace dismantle

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/narrowphase/elementary_triangle_triangle.h"
 
+#include "tests/support/random_scenes.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace dismantle {
 namespace {
@@ -70,6 +74,44 @@ TEST(ElementaryTriangleTriangle, NoticesFacesThatSlideOverEachOtherInOnePlane) {
   const ElementaryPairResult r = elementary_triangle_triangle(still, sliding);
   EXPECT_EQ(r.ccd.status, CcdStatus::Contact);
   EXPECT_NEAR(r.ccd.toi, 0.5, 1e-14);
+}
+
+TEST(ElementaryApart, HoldsForAFaceThatSlidesOverAnotherAndNotForOneThatTouchesIt) {
+  const TriangleMotion still = moving(kFloor, {}, {});
+  EXPECT_TRUE(elementary_apart(still, moving(kFloor, {-6, 0, 0.01}, {-2, 0, 0.01})));
+  EXPECT_TRUE(elementary_apart(moving(kFloor, {-6, 0, -0.01}, {-2, 0, -0.01}), still));
+  EXPECT_FALSE(elementary_apart(still, moving(kFloor, {-6, 0, 0}, {-2, 0, 0})));
+  EXPECT_FALSE(elementary_apart(still, moving(kUpright, {0, 0, 1}, {0, 0, -1})));
+}
+
+// Faces over each other at gaps from far below to far above what the elementary tests take for touching, wherever they
+// are: where the axis says apart, no feature may be reported.
+TEST(ElementaryApart, NeverHoldsWhereAnElementaryTestReportsAContact) {
+  const unsigned seed = 11;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> exponent(-14, 0), turn(-1e-3, 1e-3);
+  int apart = 0, contacts = 0;
+  for (int trial = 0; trial < 30'000; ++trial) {
+    const double far = trial % 3 == 0 ? 0 : (trial % 3 == 1 ? 1e3 : 1e7), gap = std::pow(10, exponent(random));
+    const Pose place = Pose{scenes::random_vector(random, far), {}} * scenes::random_pose(random, 1, 3);
+    const auto placed = [&](const Triangle& t, const Pose& by) {
+      const RigidTransform world = transform_from_pose(place * by);
+      return Triangle{{world * t[0], world * t[1], world * t[2]}};
+    };
+    const Vec3 slide = scenes::random_vector(random, 1);
+    const Pose over{{slide.x, slide.y, gap}, quat_about({0, 0, 1}, slide.z)};
+    const Pose after{{slide.y, slide.z, gap * (trial % 2 == 0 ? 1.0 : 3.0)}, quat_about({0, 0, 1}, turn(random))};
+    const TriangleMotion still{placed(kFloor, {}), placed(kFloor, {})};
+    const TriangleMotion sliding{placed(kFloor, over), placed(kFloor, after)};
+    const bool reported = elementary_triangle_triangle({still}, {sliding}).ccd.status == CcdStatus::Contact;
+    const bool certain = elementary_apart(still, sliding);
+    ASSERT_FALSE(reported && certain) << trial << ": " << gap;
+    apart += certain ? 1 : 0;
+    contacts += reported ? 1 : 0;
+  }
+  EXPECT_GT(apart, 10'000);
+  EXPECT_GT(contacts, 3'000);
 }
 
 }  // namespace

@@ -74,6 +74,12 @@ DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double dev
   return left > 0 ? left : 0;
 }
 
+/// What comes before the elementary tests of a triangle pair; makes no difference to what they find.
+enum class PairCull : std::uint8_t {
+  None,            ///< Only each feature pair's own non-penetration filter.
+  SeparatingAxis,  ///< One axis for all of them: elementary_apart.
+};
+
 /// S_t -> contacts and intersections (Du et al. 2015, algorithm 1, lines 6 to 14): TID for pairs of S_i, a continuous
 /// test for all others.
 /// The sink takes what is found:
@@ -91,6 +97,7 @@ struct NarrowPhaseKernel {
   ElementaryTest test = ElementaryTest::Certified;
   double path_deviation = 0;  ///< [mm]
   double horizon = 1;         ///< Certified tests look no further into the step than this time.
+  PairCull cull = PairCull::SeparatingAxis;
 
   template <class Sink>
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
@@ -120,8 +127,9 @@ struct NarrowPhaseKernel {
 
   template <class Sink>
   DISMANTLE_HOST_DEVICE void elementary(std::size_t i, NodePair p, Sink& sink) const {
-    const ElementaryPairResult found =
-        elementary_triangle_triangle({triangles.motion(p.a), features[p.a]}, {triangles.motion(p.b), features[p.b]});
+    const TriangleMotion a = triangles.motion(p.a), b = triangles.motion(p.b);
+    if (cull == PairCull::SeparatingAxis && elementary_apart(a, b)) return;
+    const ElementaryPairResult found = elementary_triangle_triangle({a, features[p.a]}, {b, features[p.b]});
     sink.tested(static_cast<std::size_t>(found.elementary_tests));
     if (found.ccd.status == CcdStatus::Contact) sink.contact({pairs[i], found.ccd.toi});
   }
