@@ -174,8 +174,8 @@ Result<std::vector<BenchScene>> make_bench_scenes(const std::string& name, const
     if (!scene) return scene.error();
     made.push_back(std::move(*scene));
   }
-  if (name == "samples") {
-    for (const char* file : {"microscope", "tooling", "lathe", "robot"}) {
+  for (const char* file : {"microscope", "tooling", "lathe", "robot"}) {
+    if (name == "samples" || name == file) {
       Result<BenchScene> scene = sample(file, samples_folder, true);
       if (!scene) return scene.error();
       made.push_back(std::move(*scene));

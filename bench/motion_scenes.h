@@ -34,8 +34,8 @@ struct BenchSize {
 /// The names that make_bench_scenes knows, in the order of the table.
 std::vector<std::string> bench_scene_names();
 
-/// The scenes of that name: one; for "samples", the four bundled assemblies with their bundled motions. Files are read
-/// from `samples_folder`. Errors: those of reading; Usage for an unknown name.
+/// The scenes of that name: one; for "samples", the four bundled assemblies with their bundled motions, which can also
+/// be had each by its name. Files are read from `samples_folder`. Errors: those of reading; Usage for an unknown name.
 Result<std::vector<BenchScene>> make_bench_scenes(const std::string& name, const BenchSize& size,
                                                   const std::string& samples_folder);
 

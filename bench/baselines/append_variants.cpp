@@ -78,7 +78,7 @@ std::string_view name_of(AppendVariant variant) {
     case AppendVariant::LocalLock:
       return "local lock";
     case AppendVariant::CountScanEmit:
-      return "count, scan, emit";
+      return "count-scan-emit";
   }
   return "";
 }

@@ -23,7 +23,7 @@ enum class AppendVariant {
 inline constexpr AppendVariant kAppendVariants[] = {AppendVariant::GlobalLock, AppendVariant::LocalLock,
                                                     AppendVariant::CountScanEmit};
 
-/// "global lock", "local lock", "count, scan, emit".
+/// "global lock", "local lock", "count-scan-emit".
 std::string_view name_of(AppendVariant variant);
 
 /// Looks at the nodes of a front as `Front` does, with every way of appending: what comes out is the same.

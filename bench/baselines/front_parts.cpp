@@ -2,7 +2,6 @@
 #include "bench/baselines/front_parts.h"
 
 #include "dismantle/bvh/bvh_traverse.h"
-#include "dismantle/front/front.h"
 
 #include <algorithm>
 
@@ -20,35 +19,26 @@ bool two_leaves(const BvhView& tree, NodePair p) {
   return tree.is_leaf(p.a) && tree.is_leaf(p.b);
 }
 
+bool rests(const FrontInput& input, NodePair p) {
+  if (input.motion_class.empty() || input.tree.is_top(p.a) || input.tree.is_top(p.b)) return false;
+  return input.motion_class[input.tree.component_of[p.a]] == input.motion_class[input.tree.component_of[p.b]];
+}
+
 }  // namespace
 
-void FrontParts::update(const BvhView& tree, Span<const Kdop16> bounds, const Executor& executor) {
+void FrontParts::update(const FrontInput& input, const Executor& executor) {
   triangle_pairs_.clear();
-  if (tree.leaf_count == 0) return;
+  if (input.tree.leaf_count == 0) return;
   const bool starts = nodes_.empty() || excess_ > kFrontRestartShare * fresh_size_;
-  if (starts) start(tree, bounds);
+  if (starts) start(input);
 
   executor.for_each_heavy(parts_.size(), [&](std::size_t p) {
-    Part& part = parts_[p];
+    Part part = std::move(parts_[p]);  // on the core's own stack: lists that lie side by side share cache lines
     part.nodes.clear();
     part.triangle_pairs.clear();
-    std::vector<NodePair> open;
-    for (std::size_t i = nodes_.size() * p / parts_.size(); i < nodes_.size() * (p + 1) / parts_.size(); ++i) {
-      open.push_back(pair_of_key(nodes_[i]));
-      while (!open.empty()) {
-        const NodePair node = open.back();
-        open.pop_back();
-        if (same_component(tree, node)) continue;
-        const bool apart = !overlaps(bounds[node.a], bounds[node.b]);
-        if (apart || two_leaves(tree, node)) {
-          part.nodes.push_back(pair_key(node.a, node.b));
-          if (!apart) part.triangle_pairs.push_back(pair_key(node.a, node.b));
-          continue;
-        }
-        const NodePairChildren next = expanded(tree, bounds, node);
-        for (int k = 0; k < next.count; ++k) open.push_back(next.pair[k]);
-      }
-    }
+    for (std::size_t i = nodes_.size() * p / parts_.size(); i < nodes_.size() * (p + 1) / parts_.size(); ++i)
+      sprout(nodes_[i], input, part);
+    parts_[p] = std::move(part);
   });
   join(executor);
   if (starts) {
@@ -58,13 +48,30 @@ void FrontParts::update(const BvhView& tree, Span<const Kdop16> bounds, const Ex
   excess_ += nodes_.size() - std::min(nodes_.size(), fresh_size_);
 }
 
-void FrontParts::start(const BvhView& tree, Span<const Kdop16> bounds) {
-  const auto root = static_cast<NodeIndex>(bounds.size() - 1);
+void FrontParts::sprout(std::uint64_t key, const FrontInput& input, Part& part) const {
+  part.open.push_back(pair_of_key(key));
+  while (!part.open.empty()) {
+    const NodePair node = part.open.back();
+    part.open.pop_back();
+    if (same_component(input.tree, node)) continue;
+    const bool ends = rests(input, node) || !overlaps(input.bounds[node.a], input.bounds[node.b]);
+    if (ends || two_leaves(input.tree, node)) {
+      part.nodes.push_back(pair_key(node.a, node.b));
+      if (!ends) part.triangle_pairs.push_back(pair_key(node.a, node.b));
+      continue;
+    }
+    const NodePairChildren next = expanded(input.tree, input.bounds, node);
+    for (int k = 0; k < next.count; ++k) part.open.push_back(next.pair[k]);
+  }
+}
+
+void FrontParts::start(const FrontInput& input) {
+  const auto root = static_cast<NodeIndex>(input.bounds.size() - 1);
   nodes_ = {pair_key(root, root)};
   for (std::size_t i = 0; i < nodes_.size() && nodes_.size() < kNodesPerPartAtStart * parts_.size(); ++i) {
     const NodePair node = pair_of_key(nodes_[i]);
-    if (two_leaves(tree, node) || same_component(tree, node)) continue;
-    const NodePairChildren next = expanded(tree, bounds, node);
+    if (two_leaves(input.tree, node) || same_component(input.tree, node)) continue;
+    const NodePairChildren next = expanded(input.tree, input.bounds, node);
     nodes_[i] = pair_key(next.pair[0].a, next.pair[0].b);
     for (int k = 1; k < next.count; ++k) nodes_.push_back(pair_key(next.pair[k].a, next.pair[k].b));
   }

@@ -46,7 +46,7 @@ class ObbDiscreteEngine final : public MotionEngine {
     for (const ComponentId c : held_) in_hand_[c.value] = true;
   }
 
-  StepResult step(const Pose& target, ResponseKind response) override;
+  StepResult step(const Pose& target, ResponseKind) override;
   bool can_respond(ResponseKind response) const override { return response == ResponseKind::Stop; }
   void jump(Span<const Pose> poses) override { poses_.assign(poses.begin(), poses.end()); }
   Span<const Pose> poses() const override { return poses_; }
@@ -64,7 +64,7 @@ class ObbDiscreteEngine final : public MotionEngine {
   std::vector<ComponentId> held_;
 };
 
-StepResult ObbDiscreteEngine::step(const Pose& target, ResponseKind response) {
+StepResult ObbDiscreteEngine::step(const Pose& target, [[maybe_unused]] ResponseKind response) {
   DISMANTLE_EXPECT(!held_.empty());
   DISMANTLE_EXPECT(can_respond(response));
   StageClock clock;

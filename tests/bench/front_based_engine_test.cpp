@@ -29,8 +29,9 @@ TEST(FrontBasedEngine, FindsTheContactsOfStreamsBitForBitWhereEveryPairIsOrdinar
     const PairStates states{kTolerance, {}};
     const auto streams = make_streams_engine(assembly, states, {ElementaryTest::Elementary, {}, 1});
     std::vector<std::unique_ptr<CollisionEngine>> engines;
-    for (const Executor& executor : all_executors())
-      engines.push_back(make_front_based_engine(assembly, states, {ElementaryTest::Elementary, executor, 1}));
+    for (const FrontBasedWork work : {FrontBasedWork::Everything, FrontBasedWork::WhatMoves})
+      for (const Executor& executor : all_executors())
+        engines.push_back(make_front_based_engine(assembly, states, {ElementaryTest::Elementary, executor, 1}, work));
     for (int step = 0; step < 40; ++step) {
       const std::vector<RigidTransform> next = shaken(random, *streams);
       const SweepResult expected = streams->sweep(next, 1e-4);
@@ -55,17 +56,22 @@ TEST(FrontBasedEngine, DecidesAsStreamsDoesAmongPairsInContactAndEmbedded) {
     const Assembly assembly = scenes::random_assembly(random, 12, 4);
     const PairStates states = scenes::states_by_brute_force(assembly, kTolerance);
     const auto streams = make_streams_engine(assembly, states, {test, {}, 64});
-    const auto engine = make_front_based_engine(assembly, states, {test, Executor(ExecutorKind::Threads, 2), 64});
+    const Executor two(ExecutorKind::Threads, 2);
+    const auto engine = make_front_based_engine(assembly, states, {test, two, 64});
+    const auto rigid = make_front_based_engine(assembly, states, {test, two, 64}, FrontBasedWork::WhatMoves);
     const std::size_t embedded = streams->embedded_pairs().size();
     std::size_t free = 0, blocked = 0;
     for (int step = 0; step < 60; ++step) {
       const std::vector<RigidTransform> next = shaken(random, *streams);
       const SweepResult expected = streams->sweep(next, 1e-4), result = engine->sweep(next, 1e-4);
       ASSERT_EQ(result.free, expected.free) << "step " << step;
+      ASSERT_EQ(rigid->sweep(next, 1e-4).free, expected.free) << "step " << step;
       ++(result.free ? free : blocked);
       if (!result.free) continue;
       streams->commit();
       engine->commit();
+      rigid->commit();
+      ASSERT_EQ(rigid->embedded_pairs(), streams->embedded_pairs());
       ASSERT_EQ(engine->embedded_pairs(), streams->embedded_pairs());
     }
     EXPECT_GT(free, 5u);

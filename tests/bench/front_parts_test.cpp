@@ -48,7 +48,7 @@ TEST(FrontParts, HoldsAllPairsOfLeavesThatOverlapAtEveryStepForAnyNumberOfParts)
     const std::vector<std::uint64_t> expected = overlapping_leaves(streams, bounds);
     pairs += expected.size();
     for (auto& [executor, front] : fronts) {
-      front.update(BvhView(streams.bvh), bounds, executor);
+      front.update({BvhView(streams.bvh), bounds, {}}, executor);
       ASSERT_EQ(sorted(front.triangle_pairs()), expected) << "step " << step;
       EXPECT_GE(front.size(), expected.size());
     }
@@ -59,7 +59,7 @@ TEST(FrontParts, HoldsAllPairsOfLeavesThatOverlapAtEveryStepForAnyNumberOfParts)
 TEST(FrontParts, TakesAnAssemblyOfNothing) {
   const TriangleStreams streams = make_triangle_streams(scenes::assembly({}), Executor());
   FrontParts front(2);
-  front.update(BvhView(streams.bvh), {}, Executor());
+  front.update({BvhView(streams.bvh), {}, {}}, Executor());
   EXPECT_TRUE(front.triangle_pairs().empty());
 }
 

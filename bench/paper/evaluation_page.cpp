@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/paper/evaluation_page.h"
+
+#include "bench/paper/paper_scenes.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+
+namespace dismantle {
+
+namespace {
+
+constexpr const char* kIntroduction = R"(# Evaluation against Du et al. 2015
+
+What the paper's table 1 and figure 9 have, measured again on our own models of its four assemblies ([samples](../samples/README.md)),
+with its baselines. Every number on this page was printed by one command, which also wrote the page, the pictures and the
+[tables](evaluation/):
+
+    cmake --preset release && cmake --build --preset release --target bench_paper
+    {command}
+
+{date}; {processor}, {cores} cores (load {load_before:.1f} before, {load_after:.1f} after: other work on the machine
+lengthens times); {compiler}. **No GPU was available: nothing here ran on one**, and nothing is said about when one would win.
+
+## What is compared
+Each method plays an assembly's bundled motion with the paper's response: a step that meets something is not made. Wall time of one step
+in ms, all its sweeps together; the first step of each move, which builds fronts, is left out.
+
+- *front-based*: multi-core continuous detection by front-based decomposition (Tang, Manocha, Tong 2010), the paper's baseline: everything
+  refit, the front cut into one part a core, elementary cubic tests with representative triangles. Its hierarchy is that of *streams*. Where the
+  original prunes, it starts its front anew by the rule of *streams*.
+- *front-based (rigid)*: the same, told which components move: what stands still is neither refit nor looked at. No published method; it shows
+  what that alone is worth.
+- *streams (elementary)*: the paper's method on the CPU, with the paper's tests. *streams (certified)*: with tests that miss nothing.
+- *certificates*: our own method, as it is by default. It also guards vertices inside solids, which the others here do not.
+- *boxes (discrete)*: trees of oriented boxes down to the triangles, at the targets alone, as earlier disassembly systems did; pairs that
+  touch when assembled are left out. It is fast because it does not look at what is on the way.
+
+Pairs that touch, fit or overlap when assembled are decided by certified and discrete tests in all methods with fronts, which the original baseline
+does not know. {equal}
+)";
+
+constexpr const char* kTable1 = R"(
+## Table 1: the paper's method, stage by stage
+*streams (elementary)* on {cores} cores; *intersection test* is the front and the tests of triangles. Beside it the paper's times of its own models,
+simplified, on a Tesla K20c: another machine and other models, so no more than a measure of scale.
+
+{ours}
+{paper}
+## All methods
+`reached`: steps that reached their targets. Methods with other tests stop at other places, and go on from there.
+
+{all}
+## Figure 9: speed-up over the front-based baseline
+Mean overall time of the baseline over that of the method, on {cores} cores. (The paper reports 6 to 8 times for its GPU over four cores.)
+
+![Speed-up over the front-based baseline](pictures/evaluation-figure9.svg)
+
+{speed_up}
+## Where it comes from
+Means of the stages, in ms:
+
+{stages}
+From *front-based* to *front-based (rigid)*: most components stand still, and most of the front is between neighbours that do. From there to *streams*: an axis is
+asked for a whole pair of triangles before its features are tested one by one, and once a contact is known certified tests of what comes later look no
+further than that contact (tests); nodes that rest are kept out of the list that is walked, and those next in it are asked for ahead (front).
+)";
+
+constexpr const char* kCurves = R"(
+## Cores
+![Time a step and cores](pictures/evaluation-cores.svg)
+
+{core_table}
+## Size
+A shaft slides and wobbles in its hole with 0.1 mm of clearance, on {cores} cores. Larger sizes: `--largest`.
+
+![Time a step and triangles](pictures/evaluation-sizes.svg)
+
+{size_table}
+## Appending to streams
+The paper appends by atomic additions to global memory and compares with buffers local to a group (Tang, Manocha, Lin, Tong 2011). The same kernel of the front
+over the shaft, on the CPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
+
+{append_table}
+## Tunnels
+Single steps: a cube through a thin plate; a shaft torn out of its housing, along the bore or through the wall. `meeting`: steps on whose way the two are deeper in each
+other than allowed, by the [audit](guarantee.md), which shares nothing with the methods. `tunnels`: those of them that a method lets through. `false stops`: steps
+that it stops though nothing is on the way.
+
+{tunnel_table}
+## What a GPU is for
+Not measured: no GPU was available. The bodies of the kernels compile as device code (`tools/check_cuda`).
+)";
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+ResultTable rows_of(const ResultTable& table, const std::string& column, const std::string& value) {
+  const auto place =
+      static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin());
+  ResultTable chosen{table.columns, {}};
+  for (const std::vector<std::string>& row : table.rows)
+    if (row[place] == value) chosen.rows.push_back(row);
+  return chosen;
+}
+
+ResultTable paper_rows() {
+  ResultTable table{{"the paper's", "triangles", "simplified", "BVH refit", "intersection test", "overall"}, {}};
+  for (const PaperRow& row : paper_table())
+    table.rows.push_back({row.assembly, std::to_string(row.triangles), std::to_string(row.simplified),
+                          fmt::format("{:g}", row.refit), fmt::format("{:g}", row.intersection),
+                          fmt::format("{:g}", row.overall)});
+  return table;
+}
+
+}  // namespace
+
+double present_load() {
+  double load = 0;
+  return getloadavg(&load, 1) == 1 ? load : 0;
+}
+
+EvaluationSetting present_setting(const std::string& command, int cores) {
+  EvaluationSetting setting;
+  setting.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+  setting.processor = processor_name();
+  setting.compiler = std::string("compiler ") + __VERSION__;
+  setting.command = command;
+  setting.cores = cores;
+  setting.load_before = present_load();
+  return setting;
+}
+
+std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
+  using fmt::arg;
+  const std::string equal =
+      e.equal_poses
+          ? "After every step of every motion *front-based*, *front-based (rigid)* and *streams (elementary)* had the "
+            "set in hand at the same pose, bit for bit."
+          : "**The methods with elementary tests did not stop at the same poses: the times cannot be compared.**";
+  std::string page =
+      fmt::format(kIntroduction, arg("command", s.command), arg("date", s.date), arg("processor", s.processor),
+                  arg("cores", s.cores), arg("load_before", s.load_before), arg("load_after", s.load_after),
+                  arg("compiler", s.compiler), arg("equal", equal));
+  const ResultTable ours = rows_of(e.steps, "method", std::string(name_of(PaperMethod::StreamsElementary)));
+  page += fmt::format(kTable1, arg("cores", s.cores),
+                      arg("ours", markdown_of(columns_of(
+                                      ours, {"assembly", "triangles", "BVH refit", "intersection test", "overall"}))),
+                      arg("paper", markdown_of(paper_rows())), arg("all", markdown_of(e.steps)),
+                      arg("speed_up", markdown_of(e.speed_up)), arg("stages", markdown_of(e.stages)));
+  page += fmt::format(kCurves, arg("cores", s.cores), arg("core_table", markdown_of(e.cores)),
+                      arg("size_table", markdown_of(e.sizes)), arg("append_table", markdown_of(e.appends)),
+                      arg("tunnel_table", markdown_of(e.tunnels)));
+  return page;
+}
+
+std::vector<EvaluationFile> evaluation_files(const Evaluation& e, const EvaluationSetting& setting) {
+  return {{"evaluation/steps.csv", csv_of(e.steps)},
+          {"evaluation/figure9.csv", csv_of(e.speed_up)},
+          {"evaluation/stages.csv", csv_of(e.stages)},
+          {"evaluation/cores.csv", csv_of(e.cores)},
+          {"evaluation/sizes.csv", csv_of(e.sizes)},
+          {"evaluation/appends.csv", csv_of(e.appends)},
+          {"evaluation/tunnels.csv", csv_of(e.tunnels)},
+          {"pictures/evaluation-figure9.svg", svg_of(e.speed_up_chart)},
+          {"pictures/evaluation-cores.svg", svg_of(e.core_chart)},
+          {"pictures/evaluation-sizes.svg", svg_of(e.size_chart)},
+          {"evaluation.md", evaluation_page(e, setting)}};
+}
+
+}  // namespace dismantle

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/paper/paper_methods.h"
+
+#include "bench/baselines/front_based_engine.h"
+#include "bench/baselines/obb_discrete_engine.h"
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/collision/stage_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+/// Plays the scene once and keeps what was least.
+void play(const BenchScene& scene, MotionEngine& engine, MethodRun& run) {
+  std::size_t place = 0;
+  for (const BenchMove& move : scene.moves) {
+    engine.hold(move.components);
+    for (std::size_t k = 0; k < move.targets.size(); ++k) {
+      StageClock clock;
+      const StepResult result = engine.step(move.targets[k], ResponseKind::Stop);
+      const double overall = clock.total();
+      if (k == 0) continue;  // it builds the front
+      const StepTimings& t = result.timings;
+      const StepCost cost{t.vertices + t.refit, t.front + t.intersection, overall};
+      if (place == run.costs.size()) {
+        run.costs.push_back(cost);
+        run.stages.push_back(t);
+        run.poses.push_back(result.pose);
+        run.reached += result.reached ? 1 : 0;
+      } else if (overall < run.costs[place].overall) {
+        run.costs[place] = cost;
+        run.stages[place] = t;
+      }
+      ++place;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(PaperMethod method) {
+  switch (method) {
+    case PaperMethod::FrontBased:
+      return "front-based";
+    case PaperMethod::FrontBasedRigid:
+      return "front-based (rigid)";
+    case PaperMethod::StreamsElementary:
+      return "streams (elementary)";
+    case PaperMethod::StreamsCertified:
+      return "streams (certified)";
+    case PaperMethod::Certificates:
+      return "certificates";
+    case PaperMethod::ObbDiscrete:
+      return "boxes (discrete)";
+  }
+  return "";
+}
+
+std::unique_ptr<MotionEngine> make_method(PaperMethod method, const BenchScene& scene, int cores) {
+  const Executor executor = cores > 1 ? Executor(ExecutorKind::Threads, cores) : Executor();
+  CollisionOptions options;
+  options.executor = executor;
+  options.test = method == PaperMethod::StreamsCertified ? ElementaryTest::Certified : ElementaryTest::Elementary;
+  const FrontBasedWork work =
+      method == PaperMethod::FrontBased ? FrontBasedWork::Everything : FrontBasedWork::WhatMoves;
+  switch (method) {
+    case PaperMethod::FrontBased:
+    case PaperMethod::FrontBasedRigid:
+      return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance,
+                                         make_front_based_engine(scene.assembly, scene.states, options, work));
+    case PaperMethod::StreamsElementary:
+    case PaperMethod::StreamsCertified:
+      return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance,
+                                         make_streams_engine(scene.assembly, scene.states, options));
+    case PaperMethod::Certificates:
+      return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
+                                                 CertificateOptions{executor, widest_lanes()});
+    case PaperMethod::ObbDiscrete:
+      break;
+  }
+  return make_obb_discrete_engine(scene.assembly, scene.states, ObbDetail::Triangles);
+}
+
+MethodRun run_method(PaperMethod method, const BenchScene& scene, int cores, int repeats) {
+  MethodRun run;
+  run.method = method;
+  run.cores = cores;
+  for (int i = 0; i < repeats; ++i) play(scene, *make_method(method, scene, cores), run);
+  return run;
+}
+
+StepCost mean_cost(const MethodRun& run) {
+  StepCost sum;
+  for (const StepCost& c : run.costs) {
+    sum.refit += c.refit;
+    sum.intersection += c.intersection;
+    sum.overall += c.overall;
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(1, run.costs.size()));
+  return {sum.refit / count, sum.intersection / count, sum.overall / count};
+}
+
+double overall_quantile(const MethodRun& run, double q) {
+  std::vector<double> ms;
+  for (const StepCost& c : run.costs) ms.push_back(c.overall);
+  if (ms.empty()) return 0;
+  std::sort(ms.begin(), ms.end());
+  return ms[static_cast<std::size_t>(std::lround(q * static_cast<double>(ms.size() - 1)))];
+}
+
+}  // namespace dismantle
