@@ -16,8 +16,8 @@ namespace {
 constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
-/// Effort::Quick ends with about so many blocked pairs of two components.
-constexpr std::size_t kQuickBlocked = 64;
+/// Effort::Some ends with about so many blocked pairs of two components.
+constexpr std::size_t kSomeBlocked = 64;
 
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
@@ -140,9 +140,23 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                    rules);
 }
 
-LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
+LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const {
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, effort)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+}
+
+CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
+  CertificateSweep result;
+  for (const BlockedPair& pair : pairs) {
+    const LeafSweep::Result found = sweep_pair(pair, end, Effort::Full);
+    ++result.leaf_tests;
+    if (found.free) continue;
+    result.blocked.push_back(pair);
+    result.blocked.back().toi = found.contact.toi;
+    result.blocked.back().axis = found.contact.axis;
+  }
+  finish(result, window);
+  return result;
 }
 
 double CertificateSweeper::sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start,
@@ -204,7 +218,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     CertificateFront& front = front_of(moving, fixed).front;
     const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
-    if (effort == Effort::Quick) motion.enough_blocked = kQuickBlocked;
+    if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
     const LinearSweep sweep = front.begin_sweep(motion);
     active.push_back({moving, fixed, &front, leaves, sweep, allowed(moving, fixed)});
   });

@@ -48,11 +48,10 @@ class LeastBlockingAxis {
     const double size = length(line);
     if (!(size > 0)) return;
     for (const Vec3 w : {line / size, line / -size}) {
-      if (!normals_.allow(w)) continue;
       const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
       double reach = gap_t0 + allowed_;  // below zero: nothing left
       if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
-      if (reach <= furthest_) continue;
+      if (reach <= furthest_ || !normals_.allow(w)) continue;
       furthest_ = reach;
       axis_ = w;
     }
