@@ -115,6 +115,10 @@ class CertificateSweeper {
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;
+  /// Works out what is round of components that lie about one axis in the assembled state, so that no step has to.
+  void prepare_round();
+  /// The front that begins with the roots of both.
+  CertificateFront roots(ComponentId a, ComponentId b) const;
   FrontEntry& front_of(ComponentId moving, ComponentId fixed);
 
   const Assembly* assembly_;

@@ -119,6 +119,7 @@ LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose
       end_(transform_from_pose(end)),
       deviation_(deviation),
       share_(kArcShare * rules.tolerance),
+      back_(screw_between(inverse(start), inverse(end))),
       allowed_(rules.allowed - std::max(share_, deviation)),
       rules_(rules) {
   DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && allowed_ > 0);
@@ -132,6 +133,9 @@ PairMotion LeafSweep::motion() const {
   motion.middle = middle_;
   motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
+  motion.kept = share_;
+  motion.back = back_;
+  motion.back.reference -= moving_->tree.origin;
   return motion;
 }
 
