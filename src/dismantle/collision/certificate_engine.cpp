@@ -60,6 +60,11 @@ std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> tar
   return dismantle::first_contacts(body_->sweeper, targets);
 }
 
+std::optional<StraightContact> CertificateEngine::straight_contact(ComponentId moving, ComponentId fixed,
+                                                                   const Vec3& way, StraightSearch search) const {
+  return dismantle::straight_contact(body_->sweeper, {moving, fixed, way}, search);
+}
+
 std::size_t CertificateEngine::front_size() const {
   return body_->sweeper.front_size();
 }

@@ -27,6 +27,19 @@ struct FirstContact {
   friend bool operator==(const FirstContact&, const FirstContact&) = default;
 };
 
+/// What is asked of a component's way straight past another.
+enum class StraightSearch {
+  Any,    ///< Whether anything blocks it: any contact will do.
+  First,  ///< The first contact.
+};
+
+/// Where a component that goes straight is blocked by another one.
+struct StraightContact {
+  double distance = 0;             ///< It is certainly free so far, with StraightSearch::First [mm].
+  FaceId face_moving, face_fixed;  ///< Of the components' own meshes.
+  Vec3 point;                      ///< Where the two faces meet then [mm, world].
+};
+
 /// Options of the method `certificates`.
 struct CertificateOptions {
   Executor executor;
@@ -59,6 +72,11 @@ class CertificateEngine final : public MotionEngine {
   /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
   /// `targets[i]`; embedded pairs are free all the way. Nothing moves. Candidates are looked at side by side.
   std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;
+  /// What blocks one component on its way straight on by `way` [mm] past one other, both in their assembled poses and
+  /// whatever was moved since; nothing where it is free, or the two are embedded. The vertices' rule of the guarantee
+  /// is left to step(). May be asked by many threads at the same time.
+  std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& way,
+                                                  StraightSearch search) const;
   /// How many pairs of nodes the fronts of the set in hand have.
   std::size_t front_size() const;
 

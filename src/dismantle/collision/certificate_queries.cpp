@@ -90,4 +90,50 @@ std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span
   return found;
 }
 
+namespace {
+
+/// A fit that is stopped goes on if a new start gets so many tolerances further: which of two overlapping faces is on
+/// which side is chosen where a sweep begins.
+constexpr double kNewStart = 8;
+constexpr int kMostStarts = 8;
+
+/// @param from how much of the way is free already
+/// @param to how much of it is asked about
+std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper, const StraightWay& asked, double from,
+                                               double to, StraightSearch search) {
+  std::optional<StraightContact> contact;
+  // Any contact shortens the way; where that is free the contact was the first.
+  while (to > from) {
+    const CertificateSweep found = sweeper.look_straight(asked.moving, asked.fixed, from * asked.way, to * asked.way);
+    if (found.free) break;
+    const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
+                                        [](const BlockedPair& a, const BlockedPair& b) { return a.toi < b.toi; });
+    to = from + (to - from) * first->toi;
+    Triangle moving = sweeper.solid(asked.moving).triangle(first->face_moving.value);
+    for (Vec3& p : moving.corner) p += to * asked.way;
+    const Triangle fixed = sweeper.solid(asked.fixed).triangle(first->face_fixed.value);
+    contact = {to * length(asked.way), first->face_moving, first->face_fixed,
+               distance_triangle_triangle(moving, fixed).point_b};
+    if (search == StraightSearch::Any) break;
+  }
+  return contact;
+}
+
+}  // namespace
+
+std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+                                                StraightSearch search) {
+  const double whole = length(asked.way);
+  if (sweeper.allowed(asked.moving, asked.fixed) <= sweeper.tolerance())
+    return contact_between(sweeper, asked, 0, 1, search);
+  double from = 0;
+  for (int starts = 1;; ++starts) {
+    const auto contact = contact_between(sweeper, asked, from, 1, StraightSearch::First);
+    if (!contact || starts == kMostStarts) return contact;
+    const double stop = contact->distance / whole, next = stop + kNewStart * sweeper.tolerance() / whole;
+    if (next >= 1 || contact_between(sweeper, asked, stop, next, StraightSearch::Any)) return contact;
+    from = next;
+  }
+}
+
 }  // namespace dismantle

@@ -3,6 +3,7 @@
 
 #include "dismantle/collision/certificate_sweeper.h"
 
+#include <optional>
 #include <vector>
 
 namespace dismantle {
@@ -15,5 +16,15 @@ Clearance least_clearance(const CertificateSweeper& sweeper);
 
 /// The batch of CertificateEngine::first_contacts.
 std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets);
+
+/// One component's way straight past another.
+struct StraightWay {
+  ComponentId moving, fixed;
+  Vec3 way;  ///< [mm]
+};
+
+/// The answer of CertificateEngine::straight_contact.
+std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+                                                StraightSearch search);
 
 }  // namespace dismantle

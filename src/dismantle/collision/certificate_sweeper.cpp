@@ -16,8 +16,8 @@ namespace {
 constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
-/// Effort::Some ends with about so many blocked pairs of two components.
-constexpr std::size_t kSomeBlocked = 64;
+/// Effort::Quick ends with about so many blocked pairs of two components.
+constexpr std::size_t kQuickBlocked = 64;
 
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
@@ -38,8 +38,16 @@ struct CertificateSweeper::ActivePair {
   ComponentId moving, fixed;
   CertificateFront* front;
   LeafSweep leaves;
-  PreparedSweep sweep;
+  LinearSweep sweep;
   double allowed;
+};
+
+/// A pair to be looked at with its fronts left as they are.
+struct CertificateSweeper::Look {
+  ComponentId moving, fixed;
+  const LeafSweep& leaves;
+  const PairMotion& motion;
+  double window;
 };
 
 /// One part of one front, and what its sweep found.
@@ -66,21 +74,6 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
     for (const Vec3& p : solids_.back().vertices) radius = std::max(radius, length(p - centers_.back()));
     radii_.push_back(radius);
   }
-  prepare_round();
-}
-
-void CertificateSweeper::prepare_round() {
-  std::vector<std::pair<ComponentId, ComponentId>> near;
-  for (std::uint32_t a = 0; a < solids_.size(); ++a)
-    for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
-      if (solids_[a].round && solids_[b].round && sphere_gap(ComponentId(a), ComponentId(b), {}, 0) <= 0)
-        near.emplace_back(a, b);
-  options_.executor.for_each_heavy(near.size(), [&](std::size_t i) {
-    const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
-    PairMotion still;
-    still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
-    RoundSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
-  });
 }
 
 void CertificateSweeper::hold(Span<const ComponentId> components) {
@@ -118,7 +111,12 @@ double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
 CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving, ComponentId fixed) {
   const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
   auto found = fronts_.find({a, b});
-  if (found == fronts_.end()) found = fronts_.emplace(std::pair{a, b}, FrontEntry{roots(a, b), false, {}}).first;
+  if (found == fronts_.end())
+    found =
+        fronts_
+            .emplace(std::pair{a, b},
+                     FrontEntry{CertificateFront(solids_[a.value].tree, solids_[b.value].tree, sides(a, b)), false, {}})
+            .first;
   FrontEntry& entry = found->second;
   if (entry.b_moves != (moving == b)) {
     const Mat3 of_moving = mat3_from_quat(poses_[moving.value].rotation);
@@ -131,10 +129,6 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
   }
   entry.fixed_pose = poses_[fixed.value];
   return entry;
-}
-
-CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b) const {
-  return {solid(a).tree, solid(b).tree, sides(a, b), solid(a).round.get(), solid(b).round.get()};
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
@@ -154,45 +148,34 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                    rules);
 }
 
-LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, effort)
+LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
-CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
-  CertificateSweep result;
-  for (const BlockedPair& pair : pairs) {
-    const LeafSweep::Result found = sweep_pair(pair, end, Effort::Full);
-    ++result.leaf_tests;
-    if (found.free) continue;
-    result.blocked.push_back(pair);
-    result.blocked.back().toi = found.contact.toi;
-    result.blocked.back().axis = found.contact.axis;
-  }
-  finish(result, window);
-  return result;
-}
-
 double CertificateSweeper::sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start,
-                                      double travel) const {
+                                      const RigidTransform& end, double deviation) const {
   const Pose& pose_fixed = poses_[fixed.value];
-  const Vec3 center = start * centers_[moving.value];
+  const Vec3 from = start * centers_[moving.value], way = end * centers_[moving.value] - from;
   const Vec3 other =
       pose_fixed == Pose{} ? centers_[fixed.value] : transform_from_pose(pose_fixed) * centers_[fixed.value];
-  const double margin = 1e-9 * (max_abs(center) + max_abs(other));
-  return length(center - other) - radii_[moving.value] - radii_[fixed.value] - travel - margin;
+  const double length2 = length_squared(way);
+  const double nearest = length2 > 0 ? std::clamp(dot(other - from, way) / length2, 0.0, 1.0) : 0;
+  const double margin = 1e-9 * (max_abs(from) + max_abs(way) + max_abs(other));
+  return length(from + nearest * way - other) - radii_[moving.value] - radii_[fixed.value] - deviation - margin;
 }
 
 template <class Visit>
-void CertificateSweeper::for_each_near(const Pose& start, double travel, double reach, CertificateSweep& result,
+void CertificateSweeper::for_each_near(const Pose& start, const Pose& end, double reach, CertificateSweep& result,
                                        Visit visit) const {
-  const RigidTransform transform = transform_from_pose(start);
+  const RigidTransform from = transform_from_pose(start), to = transform_from_pose(end);
+  const double bend = deviation(start, end);
   for (const ComponentId moving : held_) {
     if (solid(moving).tree.empty()) continue;
     for (std::uint32_t k = 0; k < poses_.size(); ++k) {
       const ComponentId fixed(k);
       if (is_held_[k] || solid(fixed).tree.empty()) continue;
-      const double gap = sphere_gap(moving, fixed, transform, travel);
+      const double gap = sphere_gap(moving, fixed, from, to, bend);
       if (gap > reach) {
         result.clearance = std::min(result.clearance, gap);
       } else if (allowed(moving, fixed) >= 0) {
@@ -228,12 +211,13 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   std::vector<ActivePair> active;
-  for_each_near(pose(), travel(end), 0, result, [&](ComponentId moving, ComponentId fixed) {
+  for_each_near(pose(), end, 0, result, [&](ComponentId moving, ComponentId fixed) {
     CertificateFront& front = front_of(moving, fixed).front;
     const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
-    if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
-    active.push_back({moving, fixed, &front, leaves, front.begin_sweep(motion), allowed(moving, fixed)});
+    if (effort == Effort::Quick) motion.enough_blocked = kQuickBlocked;
+    const LinearSweep sweep = front.begin_sweep(motion);
+    active.push_back({moving, fixed, &front, leaves, sweep, allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
@@ -270,33 +254,54 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
 CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
-  for_each_near(start, travel(start, end), 0, result, [&](ComponentId moving, ComponentId fixed) {
+  for_each_near(start, end, 0, result, [&](ComponentId moving, ComponentId fixed) {
     const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
     const auto known = fronts_.find({a, b});
     const bool usable = known != fronts_.end() && known->second.b_moves == (moving == b) &&
                         known->second.fixed_pose == poses_[fixed.value];
-    const CertificateFront anew = roots(moving, fixed);
-    const CertificateFront& front = usable ? known->second.front : anew;
+    const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
+    const CertificateFront& front = usable ? known->second.front : roots;
     const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
-    const ActivePair pair{moving, fixed, nullptr, leaves, front.begin_look(leaves.motion()), allowed(moving, fixed)};
-    PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}};
-    const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, window));
-    for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
-    result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-    result.clearance = std::min<double>(result.clearance, found.least_gap - pair.sweep.error);
-    result.leaf_tests += found.leaf_tests;
-    result.front += front.size();
+    const PairMotion motion = leaves.motion();
+    look_at(front, {moving, fixed, leaves, motion, window}, result);
   });
   finish(result, window);
   return result;
 }
 
+CertificateSweep CertificateSweeper::look_straight(ComponentId moving, ComponentId fixed, const Vec3& from,
+                                                   const Vec3& to) const {
+  CertificateSweep result;
+  const double allowance = allowed(moving, fixed);
+  if (allowance < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
+  const LeafSweep leaves(solid(moving), solid(fixed), Pose{from, {}}, Pose{to, {}}, 0,
+                         {allowance, tolerance(), sides(moving, fixed), {}, false});
+  PairMotion motion = leaves.motion();
+  motion.enough_blocked = 1;
+  const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
+  look_at(roots, {moving, fixed, leaves, motion, 0}, result);
+  finish(result, 0);
+  return result;
+}
+
+void CertificateSweeper::look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const {
+  const ActivePair pair{
+      look.moving, look.fixed, nullptr, look.leaves, front.begin_look(look.motion), allowed(look.moving, look.fixed)};
+  PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}};
+  const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, look.window));
+  for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
+  result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
+  result.clearance = std::min<double>(result.clearance, found.least_gap - pair.sweep.error);
+  result.complete &= found.complete;
+  result.leaf_tests += found.leaf_tests;
+  result.front += front.size();
+}
+
 std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   std::vector<BlockedPair> pairs;
   CertificateSweep unused;
-  for_each_near(pose(), 0, reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free, solid(moving).round.get(),
-                                 solid(fixed).round.get());
+  for_each_near(pose(), pose(), reach, unused, [&](ComponentId moving, ComponentId fixed) {
+    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free);
     PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
     const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {

@@ -40,8 +40,7 @@ struct CertificateSweep {
 /// How hard a sweep tries. Less is never unsafe, and faster: a motion along contacts is cut up anyway.
 enum class Effort {
   Full,   ///< Each triangle pair until nothing is gained any more; all that are blocked.
-  Some,   ///< The same for some that are blocked, from all over.
-  Quick,  ///< Some, each in a few steps, none smaller than what matters.
+  Quick,  ///< Each in a few steps, none smaller than what matters; some that are blocked, from all over.
 };
 
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2
@@ -63,13 +62,15 @@ class CertificateSweeper {
   CertificateSweep sweep(const Pose& end, double window, Effort effort = Effort::Full);
   /// As sweep() for a motion from `start`, leaving the fronts as they are: any number may be looked at side by side.
   CertificateSweep look(const Pose& start, const Pose& end, double window) const;
+  /// One component's way past one other that stands in its assembled pose, straight on from `from` to `to`, as seen
+  /// from its own [mm]: whether it is free, and else some contacts, not the first of all. Nothing of what is in hand or
+  /// was moved matters. Free while the two are embedded.
+  CertificateSweep look_straight(ComponentId moving, ComponentId fixed, const Vec3& from, const Vec3& to) const;
   /// The triangle pairs that are nearer than `reach` [mm] where the set in hand is, and perhaps some more.
   std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
-  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const;
-  /// The same motion of these pairs alone.
-  CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const;
+  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
   double deviation(const Pose& end) const { return deviation(pose(), end); }
   /// An upper bound of how far any point of the set goes [mm].
@@ -102,23 +103,24 @@ class CertificateSweeper {
     Pose fixed_pose;  ///< Of what stood still in the last sweep.
   };
   struct ActivePair;
+  struct Look;
   struct PartTask;
 
   SideRule sides(ComponentId a, ComponentId b) const;
   LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end, Effort effort) const;
-  /// How far apart the spheres of the two certainly stay [mm]; below 0 where they may meet.
-  double sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start, double travel) const;
+  /// How far apart the spheres of the two certainly stay while the moving one goes from `start` to `end`, its arcs
+  /// within `deviation` of their chords [mm]; below 0 where they may meet.
+  double sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start, const RigidTransform& end,
+                    double deviation) const;
   /// Calls visit(moving, fixed) for the pairs that may come nearer to each other than `reach` during a motion.
   template <class Visit>
-  void for_each_near(const Pose& start, double travel, double reach, CertificateSweep& result, Visit visit) const;
+  void for_each_near(const Pose& start, const Pose& end, double reach, CertificateSweep& result, Visit visit) const;
+  /// Adds what looking at a pair finds, from a front of theirs.
+  void look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const;
   static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window);
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;
-  /// Works out what is round of components that lie about one axis in the assembled state, so that no step has to.
-  void prepare_round();
-  /// The front that begins with the roots of both.
-  CertificateFront roots(ComponentId a, ComponentId b) const;
   FrontEntry& front_of(ComponentId moving, ComponentId fixed);
 
   const Assembly* assembly_;

@@ -48,10 +48,11 @@ class LeastBlockingAxis {
     const double size = length(line);
     if (!(size > 0)) return;
     for (const Vec3 w : {line / size, line / -size}) {
+      if (!normals_.allow(w)) continue;
       const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
       double reach = gap_t0 + allowed_;  // below zero: nothing left
       if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
-      if (reach <= furthest_ || !normals_.allow(w)) continue;
+      if (reach <= furthest_) continue;
       furthest_ = reach;
       axis_ = w;
     }
@@ -119,7 +120,6 @@ LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose
       end_(transform_from_pose(end)),
       deviation_(deviation),
       share_(kArcShare * rules.tolerance),
-      back_(screw_between(inverse(start), inverse(end))),
       allowed_(rules.allowed - std::max(share_, deviation)),
       rules_(rules) {
   DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && allowed_ > 0);
@@ -133,9 +133,6 @@ PairMotion LeafSweep::motion() const {
   motion.middle = middle_;
   motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
-  motion.kept = share_;
-  motion.back = back_;
-  motion.back.reference -= moving_->tree.origin;
   return motion;
 }
 
@@ -178,7 +175,8 @@ LeafSweep::Result LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_
   result.contact.axis = unit_or_zero(result.contact.axis);
   result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
   result.harmless = result.gap > 0;
-  if (result.harmless || !result.free || rules_.sides != SideRule::Normals || horizon < 1) return result;
+  const bool asks = rules_.tells_harmless && rules_.sides == SideRule::Normals && horizon == 1;
+  if (result.harmless || !result.free || !asks) return result;
   Vec3 axis = result.contact.axis;
   if (face_on(middle_ * moving_->normals[face_moving], fixed_->normals[face_fixed], axis)) {
     result.harmless = true;

@@ -28,6 +28,7 @@ struct LeafRules {
   double tolerance = 0;  ///< [mm]
   SideRule sides = SideRule::Memory;
   AdvancementLimits limits;
+  bool tells_harmless = true;  ///< Whether it is worth the time to find what Result::harmless tells.
 };
 
 /// The sweep of one moving component past one fixed component along a screw, seen from the fixed one: tests pairs of
@@ -79,9 +80,7 @@ class LeafSweep {
   const SolidTree* fixed_;
   RigidTransform start_, end_;
   Mat3 middle_;
-  double deviation_, share_;
-  Screw back_;  ///< Of the fixed component as the moving one sees it.
-  double allowed_;
+  double deviation_, share_, allowed_;
   LeafRules rules_;
 };
 
