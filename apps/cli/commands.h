@@ -13,6 +13,8 @@ void add_audit_command(CLI::App& app, ExitCode& exit_code);
 void add_simplify_command(CLI::App& app, ExitCode& exit_code);
 void add_render_command(CLI::App& app, ExitCode& exit_code);
 void add_move_command(CLI::App& app, ExitCode& exit_code);
+void add_plan_command(CLI::App& app, ExitCode& exit_code);
+void add_why_command(CLI::App& app, ExitCode& exit_code);
 void add_export_command(CLI::App& app, ExitCode& exit_code);
 void add_sample_command(CLI::App& app, ExitCode& exit_code);
 void add_view_command(CLI::App& app, ExitCode& exit_code);

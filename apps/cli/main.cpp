@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
   add_simplify_command(app, exit_code);
   add_render_command(app, exit_code);
   add_move_command(app, exit_code);
+  add_plan_command(app, exit_code);
+  add_why_command(app, exit_code);
   add_export_command(app, exit_code);
   add_sample_command(app, exit_code);
   add_view_command(app, exit_code);

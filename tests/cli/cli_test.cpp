@@ -18,7 +18,8 @@ using Json = nlohmann::json;
 TEST_F(Cli, ListsItsCommandsInTheHelp) {
   const Outcome o = run("--help");
   EXPECT_EQ(o.exit_code, 0);
-  for (const char* command : {"info", "check", "move", "audit", "convert", "simplify", "render", "export", "sample"})
+  for (const char* command :
+       {"info", "check", "move", "audit", "convert", "simplify", "render", "plan", "why", "export", "sample"})
     EXPECT_NE(o.out.find(command), std::string::npos) << command;
 }
 

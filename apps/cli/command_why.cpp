@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/commands.h"
+#include "apps/cli/plan_text.h"
+#include "dismantle/planner/plan_disassembly.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WhyCommand {
+  CommonOptions common;
+  std::string component;
+};
+
+Result<ExitCode> run(const WhyCommand& command) {
+  const Result<Assembly> assembly = load(command.common);
+  if (!assembly) return assembly.error();
+  const Result<ComponentId> component = find_component(*assembly, command.component);
+  if (!component) return component.error();
+  const Result<PairStates> states = classify(*assembly, command.common);
+  if (!states) return states.error();
+  const Result<Executor> executor = make_executor(command.common);
+  if (!executor) return executor.error();
+
+  const Explanation why = why_blocked(*assembly, *states, *component, {*executor, widest_lanes()});
+  if (command.common.json) {
+    Json report{{"format", "dismantle-why"}, {"version", 1}};
+    report.update(explanation_json(*assembly, why));
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("{}\n", explanation_text(*assembly, why));
+  }
+  return why.blockers.empty() ? ExitCode::Done : ExitCode::No;
+}
+
+}  // namespace
+
+void add_why_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand("why", "What keeps a component from coming straight out");
+  auto options = std::make_shared<WhyCommand>();
+  add_assembly_argument(*command, options->common);
+  command->add_option("COMPONENT", options->component, "Its name, as 'dismantle info' lists it")->required();
+  add_common_options(*command, options->common);
+  command->footer("Exit code 0: nothing, it comes out; 1: what is printed.");
+  command->callback([options, &exit_code] {
+    const Result<ExitCode> result = run(*options);
+    exit_code = result ? *result : report(result.error());
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/blocking_table.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// Directions nearer than this [rad] are one.
+constexpr double kSameDirection = 1e-6;
+/// Ways go this share of a component's radius further than they have to.
+constexpr double kMargin = 0.05;
+
+}  // namespace
+
+BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features)
+    : engine_(engine), features_(features), rows_(features.size()), others_(features.size()) {
+  for (std::uint32_t c = 0; c < features.size(); ++c) {
+    std::vector<ComponentId>& others = others_[c];
+    for (std::uint32_t k = 0; k < features.size(); ++k)
+      if (k != c) others.emplace_back(k);
+    const auto gap = [&](ComponentId k) {
+      return length(features[k.value].center - features[c].center) - features[k.value].radius;
+    };
+    std::stable_sort(others.begin(), others.end(), [&](ComponentId a, ComponentId b) { return gap(a) < gap(b); });
+  }
+}
+
+DirectionId BlockingTable::add_direction(const Vec3& unit) {
+  for (std::uint32_t d = 0; d < directions_.size(); ++d)
+    if (length(directions_[d] - unit) < kSameDirection) return DirectionId(d);
+  directions_.push_back(unit);
+  return DirectionId(static_cast<std::uint32_t>(directions_.size() - 1));
+}
+
+BlockingTable::Row& BlockingTable::row(ComponentId moving, DirectionId d) {
+  Row& row = rows_[moving.value][d];
+  if (row.known.empty()) row.known.resize(features_.size());
+  return row;
+}
+
+double BlockingTable::way_past(ComponentId moving, DirectionId d, ComponentId fixed) const {
+  const ShapeFeatures& m = features_[moving.value];
+  const ShapeFeatures& f = features_[fixed.value];
+  const Vec3 apart = f.center - m.center;
+  const double along = dot(apart, direction(d)), reach = m.radius + f.radius;
+  const double aside = length(apart - along * direction(d));
+  return aside > reach ? 0 : std::max(0.0, along + reach);
+}
+
+double BlockingTable::way_out(ComponentId moving, DirectionId d) const {
+  double way = 0;
+  for (std::uint32_t c = 0; c < features_.size(); ++c)
+    if (c != moving.value) way = std::max(way, way_past(moving, d, ComponentId(c)));
+  return way + kMargin * features_[moving.value].radius;
+}
+
+bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
+  Known& known = row(moving, d).known[fixed.value];
+  if (known == Known::Nothing) {
+    const double way = way_past(moving, d, fixed);
+    const bool met =
+        way > 0 && engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value();
+    known = met ? Known::Blocks : Known::Free;
+  }
+  return known == Known::Blocks;
+}
+
+std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
+  Row& known = row(moving, d);
+  if (known.witness.valid() && present.has(known.witness)) return known.witness;
+  std::vector<ComponentId>& others = others_[moving.value];
+  for (auto other = others.begin(); other != others.end(); ++other) {
+    if (!present.has(*other) || !blocks(moving, d, *other)) continue;
+    known.witness = *other;
+    std::rotate(others.begin(), other, other + 1);  // it may well block in other directions, too
+    return known.witness;
+  }
+  return std::nullopt;
+}
+
+std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId d, const ComponentSet& present) {
+  std::vector<ComponentId> found;
+  for (const ComponentId other : others_[moving.value])
+    if (present.has(other) && blocks(moving, d, other)) found.push_back(other);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d,
+                                                        const ComponentSet& present) {
+  return moving_together(moving, d, present, ComponentSet(features_.size()), features_.size());
+}
+
+std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
+                                                        const ComponentSet& never, std::size_t most) {
+  ComponentSet together(features_.size(), {&moving, 1});
+  std::vector<ComponentId> waiting{moving};
+  while (!waiting.empty()) {
+    const ComponentId next = waiting.back();
+    waiting.pop_back();
+    for (const ComponentId other : others_[next.value]) {
+      if (!present.has(other) || together.has(other) || !blocks(next, d, other)) continue;
+      together.insert(other);
+      if (never.has(other) || together.size() > most) return {};
+      waiting.push_back(other);
+    }
+  }
+  return together.members();
+}
+
+void BlockingTable::add_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {
+  row(moving, d).known[fixed.value] = Known::Blocks;
+}
+
+std::optional<StraightContact> BlockingTable::contact(ComponentId moving, DirectionId d, ComponentId fixed) const {
+  const double way = way_past(moving, d, fixed);
+  if (!(way > 0)) return std::nullopt;
+  return engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::First);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/planner/component_set.h"
+#include "dismantle/planner/shape_features.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a BlockingTable.
+
+/// Which component blocks which on its way straight to infinity, from the assembled state: facts that are found when
+/// they are first asked for and hold for good, whatever else is taken away (Wilson, Latombe 1994: directional blocking
+/// graphs). Certified: what does not block is free by the true motion.
+class BlockingTable {
+ public:
+  /// @param engine, features of every component must outlive the table
+  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features);
+
+  /// @param unit Directions within 1e-6 of each other are one.
+  DirectionId add_direction(const Vec3& unit);
+  const Vec3& direction(DirectionId d) const { return directions_[d.value]; }
+  /// The direction the other way.
+  DirectionId opposite(DirectionId d) { return add_direction(-directions_[d.value]); }
+  /// A way along `d` after which `moving` is past all that is where it was assembled [mm].
+  double way_out(ComponentId moving, DirectionId d) const;
+
+  bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
+  /// One of `present` that blocks, if there is one; the same again while it is present.
+  std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// All of `present` that block.
+  std::vector<ComponentId> blockers(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// The fewest of `present` that can go along `d` together with `moving`: it, what blocks it, what blocks that, ...
+  std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// The same, given up (nothing) once it would hold one of `never`, or more than `most`.
+  std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
+                                           const ComponentSet& never, std::size_t most);
+  /// Makes it known that `fixed` blocks by a rule that one sweep does not see.
+  void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
+  /// The first contact with one that blocks.
+  std::optional<StraightContact> contact(ComponentId moving, DirectionId d, ComponentId fixed) const;
+
+ private:
+  enum class Known : std::uint8_t { Nothing, Free, Blocks };
+  struct Row {
+    std::vector<Known> known;  // of every component
+    ComponentId witness;       // the last one found to block
+  };
+  Row& row(ComponentId moving, DirectionId d);
+  /// How far `moving` has to go along `d` to be past `fixed`; nothing where it never comes near it [mm].
+  double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
+
+  const CertificateEngine& engine_;
+  Span<const ShapeFeatures> features_;
+  std::vector<Vec3> directions_;
+  std::vector<std::map<DirectionId, Row>>
+      rows_;  // of every component: rows of different ones may be asked side by side
+  std::vector<std::vector<ComponentId>> others_;  // of every component: the last blockers first, then the nearest
+};
+
+}  // namespace dismantle

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/id.h"
+#include "dismantle/core/span.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace dismantle {
+
+/// Some of an assembly's components.
+class ComponentSet {
+ public:
+  /// None of `count`.
+  explicit ComponentSet(std::size_t count) : has_(count) {}
+  ComponentSet(std::size_t count, Span<const ComponentId> members) : has_(count) {
+    for (const ComponentId c : members) insert(c);
+  }
+  /// All of `count`.
+  static ComponentSet all(std::size_t count) {
+    ComponentSet set(count);
+    for (std::uint32_t c = 0; c < count; ++c) set.insert(ComponentId(c));
+    return set;
+  }
+
+  bool has(ComponentId c) const { return has_[c.value] != 0; }
+  bool has_any(Span<const ComponentId> components) const {
+    for (const ComponentId c : components)
+      if (has(c)) return true;
+    return false;
+  }
+  bool has_all(Span<const ComponentId> components) const {
+    for (const ComponentId c : components)
+      if (!has(c)) return false;
+    return true;
+  }
+  void insert(ComponentId c) {
+    size_ += has_[c.value] == 0;
+    has_[c.value] = 1;
+  }
+  void erase(ComponentId c) {
+    size_ -= has_[c.value];
+    has_[c.value] = 0;
+  }
+  void erase(Span<const ComponentId> components) {
+    for (const ComponentId c : components) erase(c);
+  }
+  /// How many it has.
+  std::size_t size() const { return size_; }
+  /// Of how many it is a part.
+  std::size_t universe() const { return has_.size(); }
+  /// In the order of their ids.
+  std::vector<ComponentId> members() const {
+    std::vector<ComponentId> members;
+    for (std::uint32_t c = 0; c < has_.size(); ++c)
+      if (has_[c] != 0) members.emplace_back(c);
+    return members;
+  }
+  friend bool operator==(const ComponentSet&, const ComponentSet&) = default;
+
+ private:
+  std::vector<std::uint8_t> has_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace dismantle

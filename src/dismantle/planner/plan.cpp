@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/plan.h"
+
+namespace dismantle {
+
+std::string_view name_of(PlanTier tier) {
+  switch (tier) {
+    case PlanTier::Straight:
+      return "straight";
+    case PlanTier::StraightTogether:
+      return "straight together";
+  }
+  return "";
+}
+
+}  // namespace dismantle

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/plan_disassembly.h"
+
+#include "dismantle/core/contract.h"
+#include "dismantle/planner/candidate_directions.h"
+#include "dismantle/planner/explanation.h"
+#include "dismantle/planner/removal_search.h"
+#include "dismantle/planner/step_maker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// So many of the directions that most components share are tried with all of them.
+constexpr std::size_t kShared = 8;
+/// How much less each next one of a component's directions counts for that.
+constexpr double kRankWeight = 0.9;
+/// What was taken away stands so many diameters of the assembly off.
+constexpr double kFarAway = 100;
+
+std::vector<ShapeFeatures> features_of(const Assembly& assembly, const Executor& executor) {
+  std::vector<ShapeFeatures> features(assembly.components.size());
+  executor.for_each_heavy(features.size(),
+                          [&](std::size_t c) { features[c] = shape_features(assembled_mesh(assembly.components[c])); });
+  return features;
+}
+
+/// What is known of an assembly while its plan is made.
+class Planner {
+ public:
+  Planner(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options)
+      : assembly_(assembly),
+        options_(options),
+        count_(assembly.components.size()),
+        features_(features_of(assembly, options.engine.executor)),
+        maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly))),
+        table_(maker_.engine(), features_),
+        directions_(count_) {
+    find_directions(pairs.tolerance);
+  }
+
+  Plan run() {
+    const ComponentSet all = ComponentSet::all(count_);
+    if (options_.targets.empty()) {
+      take_apart(all, PlanStep::kWhole);
+    } else {
+      take_out(all, options_.targets, PlanStep::kWhole);
+    }
+    plan_.out_of_time = stopped_;
+    plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    return std::move(plan_);
+  }
+
+  Explanation explain_assembled(ComponentId component) {
+    return explain(table_, component, directions_[component.value], ComponentSet::all(count_));
+  }
+
+ private:
+  /// False once the user or the clock says so.
+  bool go_on() {
+    const double done = static_cast<double>(taken_out_) / static_cast<double>(std::max<std::size_t>(1, count_));
+    if (!stopped_ && !report_progress(options_.progress, "planning", done)) stopped_ = true;
+    return in_time();
+  }
+  /// The same, by the clock only: for any thread.
+  bool in_time() {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (options_.time_limit > 0 && elapsed > options_.time_limit) stopped_ = true;
+    return !stopped_;
+  }
+
+  /// The components of a body that stay where they are while it is taken apart: the fixed ones, or the largest.
+  ComponentSet staying_of(const ComponentSet& body) const {
+    ComponentSet staying(count_);
+    for (const ComponentId c : options_.fixed)
+      if (body.has(c)) staying.insert(c);
+    if (staying.size() > 0) return staying;
+    const std::vector<ComponentId> members = body.members();
+    staying.insert(*std::max_element(members.begin(), members.end(), [this](ComponentId a, ComponentId b) {
+      return features_[a.value].radius < features_[b.value].radius;
+    }));
+    return staying;
+  }
+
+  /// Takes everything out of a body that can be, and apart what comes out as one.
+  void take_apart(const ComponentSet& body, std::uint32_t part_of) {
+    const ComponentSet left = take_away(body, staying_of(body), part_of);
+    explain_left(left, staying_of(left));
+  }
+
+  /// Takes the targets out of a body with as few others as possible.
+  void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
+    const ComponentSet never(count_, options_.fixed);
+    const GoOn ask = [this] { return go_on(); };
+    for (;;) {
+      const auto needed = fewest_removals(table_, directions_, body, never, targets, ask);
+      ComponentSet staying = body;
+      if (needed) staying.erase(needed->members());
+      if (!needed) break;
+      const std::size_t steps = plan_.steps.size();
+      const ComponentSet left = take_away(body, staying, part_of);
+      if (!left.has_any(targets) || stopped_) return;
+      // The engine refused a step: what it said is known now.
+      plan_.steps.resize(steps);
+    }
+    for (const ComponentId target : targets)
+      if (go_on()) plan_.staying.push_back(explain(table_, target, directions_[target.value], body));
+  }
+
+  /// Takes what it can out of `body` but for `staying`. @return what is left
+  ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of) {
+    while (body.size() > staying.size() && go_on()) {
+      maker_.stand(body);
+      const std::optional<PlanStep> step = next_step(body, staying);
+      if (!step) break;
+      body.erase(step->components);
+      const auto index = static_cast<std::uint32_t>(plan_.steps.size());
+      plan_.steps.push_back(*step);
+      plan_.steps.back().part_of = part_of;
+      taken_out_ += step->components.size() == 1 ? 1 : 0;
+      if (step->components.size() > 1) go_into(*step, index);
+    }
+    return body;
+  }
+
+  /// Goes on with what a step took away as one body: as far as it was asked for.
+  void go_into(const PlanStep& step, std::uint32_t index) {
+    const ComponentSet body(count_, step.components);
+    std::vector<ComponentId> targets = options_.targets;
+    std::erase_if(targets, [&](ComponentId c) { return !body.has(c); });
+    if (options_.targets.empty() || targets.size() == body.size()) {
+      take_apart(body, index);
+    } else if (!targets.empty()) {
+      take_out(body, targets, index);
+    }
+  }
+
+  std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying) {
+    std::vector<StraightRemoval> single =
+        free_components(table_, directions_, body, staying, options_.engine.executor, [this] { return in_time(); });
+    std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
+      const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
+      if (a_goes_on != b_goes_on) return a_goes_on;
+      return features_[a.components[0].value].radius < features_[b.components[0].value].radius;
+    });
+    for (const StraightRemoval& removal : single)
+      if (auto step = try_removal(removal, body)) return step;
+    if (!single.empty()) return go_on() ? next_step(body, staying) : std::nullopt;
+    const auto ask = [this] { return go_on(); };
+    while (const auto removal = smallest_body(table_, directions_, body, staying, ask))
+      if (auto step = try_removal(*removal, body)) return step;
+    return std::nullopt;
+  }
+
+  /// Tries it with the engine, and learns from it where that refuses.
+  std::optional<PlanStep> try_removal(const StraightRemoval& removal, const ComponentSet& body) {
+    const Vec3 direction = table_.direction(removal.direction);
+    double way = 0;
+    for (const ComponentId c : removal.components) way = std::max(way, table_.way_out(c, removal.direction));
+    const StepMaker::Trial trial = maker_.try_straight(removal.components, direction, way);
+    if (trial.free) {
+      last_direction_ = removal.direction;
+      const PlanTier tier = removal.components.size() == 1 ? PlanTier::Straight : PlanTier::StraightTogether;
+      return PlanStep{removal.components, tier, PlanStep::kWhole, {}, direction};
+    }
+    for (const auto& [moving, fixed] : trial.against) table_.add_blocker(moving, removal.direction, fixed);
+    if (!trial.against.empty()) return std::nullopt;
+    // No pair of components is known to be against it; whatever it is, this way is closed.
+    for (const ComponentId c : removal.components)
+      for (const ComponentId other : body.members())
+        if (std::find(removal.components.begin(), removal.components.end(), other) == removal.components.end())
+          table_.add_blocker(c, removal.direction, other);
+    return std::nullopt;
+  }
+
+  /// Gives every component its directions: those that open what it touches, those that many components share (fewer
+  /// turns of the assembly), and the rest of its own.
+  void find_directions(double tolerance) {
+    DirectionClusters popular(Sense::Directed);
+    std::vector<std::vector<CandidateDirection>> own(count_);
+    for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
+      const ComponentId id(c);
+      own[c] = candidate_directions(assembly_, maker_.hold(id), id, features_, tolerance);
+      double weight = 1;
+      for (const CandidateDirection& d : own[c]) popular.add(d.direction, weight *= kRankWeight);
+    }
+    std::vector<DirectionId> shared;
+    for (const WeightedDirection& d : popular.heaviest(kShared)) shared.push_back(table_.add_direction(d.direction));
+    for (std::size_t c = 0; c < count_; ++c) {
+      std::vector<DirectionId> list, rest;
+      for (const CandidateDirection& d : own[c]) (d.opens ? list : rest).push_back(table_.add_direction(d.direction));
+      rest.insert(rest.begin(), shared.begin(), shared.end());
+      for (const DirectionId d : rest)
+        if (std::find(list.begin(), list.end(), d) == list.end()) list.push_back(d);
+      directions_[c] = std::move(list);
+    }
+  }
+
+  void explain_left(const ComponentSet& left, const ComponentSet& staying) {
+    for (const ComponentId c : left.members())
+      if (!staying.has(c) && go_on()) plan_.staying.push_back(explain(table_, c, directions_[c.value], left));
+  }
+
+  const Assembly& assembly_;
+  const PlanOptions& options_;
+  std::size_t count_;
+  Clock::time_point start_ = Clock::now();
+  std::atomic<bool> stopped_ = false;
+  std::size_t taken_out_ = 0;
+  std::vector<ShapeFeatures> features_;
+  StepMaker maker_;
+  BlockingTable table_;
+  DirectionLists directions_;
+  DirectionId last_direction_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options) {
+  return Planner(assembly, pairs, options).run();
+}
+
+Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
+                        const CertificateOptions& options) {
+  DISMANTLE_EXPECT(component.value < assembly.components.size());
+  PlanOptions plan;
+  plan.engine = options;
+  return Planner(assembly, pairs, plan).explain_assembled(component);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/core/progress.h"
+#include "dismantle/planner/plan.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// What is asked of a planner.
+struct PlanOptions {
+  std::vector<ComponentId> targets;  ///< These shall come out, with as few others as possible; none: everything.
+  std::vector<ComponentId> fixed;    ///< These never move. Without any, the largest component of each body stays.
+  double time_limit = 0;             ///< [s]; 0: none.
+  CertificateOptions engine;
+  ProgressCallback progress;
+};
+
+/// How the assembly comes apart. Every step's motion was tried with the engine: it holds the guarantee. Ends with what
+/// was found so far where time is up or `progress` cancels.
+Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options);
+
+/// Why a component does not come straight out of the assembled state; no blockers where it does.
+Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
+                        const CertificateOptions& options);
+
+}  // namespace dismantle

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/path.h"
+#include "dismantle/planner/plan.h"
+
+namespace dismantle {
+
+/// The plan as a path: one move a step, what is taken out put aside where it is in nobody's way. It passes the audit.
+Path plan_path(const Assembly& assembly, const PairStates& pairs, const Plan& plan);
+
+}  // namespace dismantle

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/put_aside.h"
+
+#include "dismantle/math/screw.h"
+#include "dismantle/planner/component_set.h"
+#include "dismantle/session/session_path.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+/// What is put aside keeps this share of the assembly's diagonal from everything.
+constexpr double kRoom = 0.02;
+
+/// All that a box passes on its way.
+struct SweptBox {
+  Aabb box;
+  Vec3 way;  ///< [mm]
+};
+
+Aabb shifted(const Aabb& box, const Vec3& by) {
+  return {box.lower + by, box.upper + by};
+}
+
+Aabb all_of(const SweptBox& swept) {
+  Aabb box = swept.box;
+  box.extend(shifted(swept.box, swept.way).lower);
+  box.extend(shifted(swept.box, swept.way).upper);
+  return box;
+}
+
+Aabb grown(Aabb box, double by) {
+  box.lower = box.lower - Vec3{by, by, by};
+  box.upper = box.upper + Vec3{by, by, by};
+  return box;
+}
+
+struct Interval {
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  bool empty() const { return from > to; }
+};
+
+Interval projected(const Aabb& box, const Vec3& axis) {
+  const Vec3 half = 0.5 * (box.upper - box.lower);
+  const double center = dot(box.center(), axis);
+  const double reach = std::abs(half.x * axis.x) + std::abs(half.y * axis.y) + std::abs(half.z * axis.z);
+  return {center - reach, center + reach};
+}
+
+/// Along one axis: the distances at which a box that goes along `exit` overlaps what is swept.
+Interval overlap_along(const Aabb& box, const Vec3& exit, const SweptBox& swept, const Vec3& axis) {
+  const Interval own = projected(box, axis);
+  Interval other = projected(swept.box, axis);
+  const double way = dot(swept.way, axis), speed = dot(exit, axis);
+  other.from += std::min(0.0, way);
+  other.to += std::max(0.0, way);
+  if (speed == 0) return own.from <= other.to && own.to >= other.from ? Interval{} : Interval{1, 0};
+  const double first = (other.from - own.to) / speed, last = (other.to - own.from) / speed;
+  return {std::min(first, last), std::max(first, last)};
+}
+
+/// The distances along `exit` at which a box is in what is swept: both are convex, and these axes tell.
+Interval overlap(const Aabb& box, const Vec3& exit, const SweptBox& swept) {
+  Interval all;
+  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    for (const Vec3& n : {axis, cross(axis, swept.way)}) {
+      if (!(length(n) > 0)) continue;
+      const Interval one = overlap_along(box, exit, swept, n);
+      all = {std::max(all.from, one.from), std::min(all.to, one.to)};
+    }
+  }
+  return all;
+}
+
+/// The least distance that is in no interval.
+double first_outside(std::vector<Interval> taken) {
+  std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  double distance = 0;
+  for (const Interval& t : taken)
+    if (!t.empty() && t.from <= distance) distance = std::max(distance, t.to);
+  return distance;
+}
+
+class Aside {
+ public:
+  Aside(const Assembly& assembly, const Plan& plan)
+      : assembly_(assembly),
+        plan_(plan),
+        room_(kRoom * diagonal(assembled_bounds(assembly))),
+        distances_(plan.steps.size()) {}
+
+  std::vector<double> find() {
+    const std::size_t count = assembly_.components.size();
+    arrange(PlanStep::kWhole, Pose{}, ComponentSet::all(count).members(), {{assembled_bounds(assembly_), {}}});
+    return std::move(distances_);
+  }
+
+ private:
+  /// Puts aside what is taken out of a body that stands at `base`, from the last step to the first: each out of the way
+  /// of all that comes after it. @return what all of that passes
+  std::vector<SweptBox> arrange(std::uint32_t body, const Pose& base, const std::vector<ComponentId>& members,
+                                std::vector<SweptBox> passed) {
+    ComponentSet staying(assembly_.components.size(), members);
+    for (const PlanStep& step : plan_.steps)
+      if (step.part_of == body) staying.erase(step.components);
+    for (const ComponentId c : staying.members()) passed.push_back({bounds_at(assembly_[c], base), {}});
+    for (auto k = static_cast<std::uint32_t>(plan_.steps.size()); k-- > 0;)
+      if (plan_.steps[k].part_of == body) put_step(k, base, passed);
+    return passed;
+  }
+
+  void put_step(std::uint32_t k, const Pose& base, std::vector<SweptBox>& passed) {
+    const PlanStep& step = plan_.steps[k];
+    const Pose last = step.way.empty() ? base : base * step.way.back();
+    const Vec3 exit = mat3_from_quat(base.rotation) * step.exit;
+    const Aabb leaving = bounds(step, last);
+    std::vector<SweptBox> inner;
+    if (step.components.size() > 1) inner = arrange(k, last, step.components, {});
+
+    std::vector<Aabb> room{leaving};
+    for (const SweptBox& swept : inner) room.push_back(all_of(swept));
+    const Aabb start = way_box(step, base);
+    passed.push_back({start, {}});
+    std::vector<Interval> taken;
+    for (const Aabb& box : room)
+      for (const SweptBox& other : passed) taken.push_back(overlap(grown(box, room_), exit, other));
+    const double distance = distances_[k] = first_outside(std::move(taken));
+    passed.push_back({leaving, distance * exit});
+    for (SweptBox& swept : inner) {
+      swept.box = shifted(swept.box, distance * exit);
+      passed.push_back(swept);
+    }
+  }
+
+  Aabb bounds(const PlanStep& step, const Pose& pose) const {
+    Aabb box;
+    for (const ComponentId c : step.components) {
+      const Aabb own = bounds_at(assembly_[c], pose);
+      box.extend(own.lower);
+      box.extend(own.upper);
+    }
+    return box;
+  }
+
+  /// A box around the step's way before it goes straight on.
+  Aabb way_box(const PlanStep& step, const Pose& base) const {
+    Aabb box = bounds(step, base);
+    Pose from = base;
+    for (const Pose& pose : step.way) {
+      const Pose to = base * pose;
+      const Screw screw = screw_between(from, to);
+      const Aabb end = bounds(step, to);
+      box.extend(end.lower);
+      box.extend(end.upper);
+      if (screw.angle > 0)
+        box = grown(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), 0.5 * diagonal(box))));
+      from = to;
+    }
+    return box;
+  }
+
+  const Assembly& assembly_;
+  const Plan& plan_;
+  double room_;
+  std::vector<double> distances_;
+};
+
+}  // namespace
+
+std::vector<double> put_aside(const Assembly& assembly, const Plan& plan) {
+  return Aside(assembly, plan).find();
+}
+
+}  // namespace dismantle

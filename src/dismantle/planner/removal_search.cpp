@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/removal_search.h"
+
+#include <algorithm>
+#include <queue>
+#include <set>
+
+namespace dismantle {
+
+namespace {
+
+/// Candidate sets by size, the smallest first; of equal ones the one found first.
+struct Waiting {
+  ComponentSet needed;
+  std::size_t order;
+  friend bool operator<(const Waiting& a, const Waiting& b) {
+    if (a.needed.size() != b.needed.size()) return a.needed.size() > b.needed.size();
+    return a.order > b.order;
+  }
+};
+
+ComponentSet all_but(const ComponentSet& inside) {
+  ComponentSet rest = ComponentSet::all(inside.universe());
+  rest.erase(inside.members());
+  return rest;
+}
+
+/// The best-first search of fewest_removals.
+class RemovalSearch {
+ public:
+  RemovalSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
+                const ComponentSet& never, const GoOn& go_on)
+      : table_(table), directions_(directions), present_(present), never_(never), go_on_(go_on) {}
+
+  std::optional<ComponentSet> find(Span<const ComponentId> targets) {
+    push(ComponentSet(present_.universe(), targets));
+    while (!waiting_.empty() && go_on_()) {
+      const ComponentSet needed = waiting_.top().needed;
+      waiting_.pop();
+      const ComponentSet left = left_over(needed);
+      ComponentSet stuck(needed.universe());
+      for (const ComponentId c : needed.members())
+        if (left.has(c)) stuck.insert(c);
+      if (stuck.size() == 0) return needed;
+      widen(needed, left, stuck);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void push(ComponentSet needed) {
+    if (known_.insert(needed.members()).second) waiting_.push({std::move(needed), known_.size()});
+  }
+
+  /// What of `present_` is left where only members of `needed` are taken out, as long as any can be.
+  ComponentSet left_over(const ComponentSet& needed) {
+    ComponentSet left = present_;
+    const ComponentSet others = all_but(needed);
+    while (go_on_()) {
+      const std::vector<StraightRemoval> single =
+          free_components(table_, directions_, left, others, Executor(), go_on_);
+      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      if (!single.empty()) continue;
+      const auto body = smallest_body(table_, directions_, left, others, go_on_);
+      if (!body) break;
+      left.erase(body->components);
+    }
+    return left;
+  }
+
+  /// Every set that holds `needed` and can be taken out takes one of the stuck components first, along some direction:
+  /// with what blocks it out before, or together with it.
+  void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
+    for (const ComponentId c : stuck.members()) {
+      for (const DirectionId d : directions_[c.value]) {
+        const std::vector<ComponentId> blockers = table_.blockers(c, d, left);
+        if (never_.has_any(blockers)) continue;
+        if (!stuck.has_any(blockers)) push(with(needed, blockers));
+        const std::vector<ComponentId> together = table_.moving_together(c, d, left, never_, left.size());
+        if (!together.empty() && together.size() < left.size()) push(with(needed, together));
+      }
+    }
+  }
+
+  static ComponentSet with(ComponentSet set, const std::vector<ComponentId>& more) {
+    for (const ComponentId c : more) set.insert(c);
+    return set;
+  }
+
+  BlockingTable& table_;
+  const DirectionLists& directions_;
+  const ComponentSet& present_;
+  const ComponentSet& never_;
+  const GoOn& go_on_;
+  std::priority_queue<Waiting> waiting_;
+  std::set<std::vector<ComponentId>> known_;
+};
+
+}  // namespace
+
+std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const Executor& executor, const GoOn& go_on) {
+  std::vector<ComponentId> asked = present.members();
+  std::erase_if(asked, [&](ComponentId c) { return never.has(c); });
+  std::vector<DirectionId> free(asked.size());
+  executor.for_each_heavy(asked.size(), [&](std::size_t i) {
+    for (const DirectionId d : directions[asked[i].value]) {
+      if (!go_on()) break;
+      if (table.any_blocker(asked[i], d, present)) continue;
+      free[i] = d;
+      break;
+    }
+  });
+  std::vector<StraightRemoval> found;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (free[i].valid()) found.push_back({{asked[i]}, free[i]});
+  return found;
+}
+
+std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const GoOn& go_on) {
+  std::optional<StraightRemoval> best;
+  std::size_t most = present.size() - 1;
+  for (const ComponentId c : present.members()) {
+    if (never.has(c)) continue;
+    if (!go_on()) return std::nullopt;
+    for (const DirectionId d : directions[c.value]) {
+      std::vector<ComponentId> together = table.moving_together(c, d, present, never, most);
+      if (together.empty()) continue;
+      most = together.size() - 1;
+      best = StraightRemoval{std::move(together), d};
+    }
+  }
+  return best;
+}
+
+std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,
+                                            const ComponentSet& present, const ComponentSet& never,
+                                            Span<const ComponentId> targets, const GoOn& go_on) {
+  return RemovalSearch(table, directions, present, never, go_on).find(targets);
+}
+
+}  // namespace dismantle

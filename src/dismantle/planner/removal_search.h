@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/planner/blocking_table.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+/// The directions that are considered for each component.
+using DirectionLists = std::vector<std::vector<DirectionId>>;
+
+/// A set that can go straight out of what is present.
+struct StraightRemoval {
+  std::vector<ComponentId> components;
+  DirectionId direction;
+};
+
+/// Whether to go on searching: asked now and then, by any thread.
+using GoOn = std::function<bool()>;
+
+/// The single components outside `never` that come out of `present`, each along the first direction that is free; some
+/// of them where `go_on` ends the search.
+std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const Executor& executor, const GoOn& go_on);
+
+/// The smallest set without any of `never` that blocks itself only, so that it comes out of `present` as one body.
+std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never, const GoOn& go_on);
+
+/// The fewest components that must be taken out of `present` so that all `targets` come out, them included: optimal
+/// for straight motions along the directions considered, of single components or of sets that go together. Nothing
+/// where no such set was found.
+/// @param never these must stay
+std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,
+                                            const ComponentSet& present, const ComponentSet& never,
+                                            Span<const ComponentId> targets, const GoOn& go_on);
+
+}  // namespace dismantle

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/planner/component_set.h"
+
+#include <utility>
+#include <vector>
+
+namespace dismantle {
+
+/// Tries the steps of a plan with the engine, which knows all rules of the guarantee.
+class StepMaker {
+ public:
+  /// @param far Distance [mm] at which what was taken away is out of everyone's way.
+  StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far);
+
+  /// `present` stand in their assembled poses, all others are taken away.
+  void stand(const ComponentSet& present);
+  /// What came of a try.
+  struct Trial {
+    bool free = false;
+    std::vector<std::pair<ComponentId, ComponentId>> against;  ///< Of the set, and what is in its way.
+  };
+  /// Whether the set comes out along a unit direction by `way` [mm]. All stands as before.
+  Trial try_straight(Span<const ComponentId> set, const Vec3& direction, double way);
+  /// What touches a component where it was assembled: the engine with it in hand.
+  const CertificateEngine& hold(ComponentId component);
+  const CertificateEngine& engine() const { return engine_; }
+
+ private:
+  StepResult go_straight(const Vec3& direction, double way);
+
+  const Assembly& assembly_;
+  const PairStates& pairs_;
+  CertificateOptions options_;
+  double far_;
+  CertificateEngine engine_;
+  std::vector<Pose> poses_;
+  ComponentId held_;  ///< One of the set in hand.
+};
+
+}  // namespace dismantle

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/cli_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace dismantle {
+namespace {
+
+using Json = nlohmann::json;
+
+/// With a drawer of two boxes, one behind the other, that opens along +X: five walls around it.
+class CliPlan : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    fs::remove(in("parts/block.obj"));
+    fs::remove(in("parts/wall.obj"));
+    write_box("back", 0, 0, 0, 10, 10, 10);
+    write_box("front", 10, 0, 0, 20, 10, 10);
+    write_box("floor", -5, -5, -5, 20, 15, 0);
+    write_box("roof", -5, -5, 10, 20, 15, 15);
+    write_box("left", -5, -5, 0, 20, 0, 10);
+    write_box("right", -5, 10, 0, 20, 15, 10);
+    write_box("end", -5, 0, 0, 0, 10, 10);
+  }
+};
+
+TEST_F(CliPlan, TakesEverythingApartAndItsPathPassesTheAudit) {
+  const Outcome o = run("plan parts -o all.path.json --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json plan = Json::parse(o.out);
+  EXPECT_EQ(plan["complete"], true);
+  EXPECT_EQ(plan["steps"].size(), 6u);
+  EXPECT_EQ(plan["tiers"]["straight"], 6);
+  EXPECT_EQ(plan["removed"].size(), 6u);
+  EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+}
+
+TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
+  const std::string walls = " --fixed floor roof left right end";
+  const Outcome o = run("plan parts -o one.path.json --json --target back" + walls);
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json plan = Json::parse(o.out);
+  ASSERT_EQ(plan["steps"].size(), 2u);
+  EXPECT_EQ(plan["steps"][0]["components"], Json::array({"front"}));
+  EXPECT_EQ(plan["steps"][1]["components"], Json::array({"back"}));
+  EXPECT_EQ(run("audit parts one.path.json").exit_code, 0);
+}
+
+TEST_F(CliPlan, AnswersOneAndSaysWhyWhereNotAllComesOut) {
+  const Outcome o = run("plan parts -o none.path.json --target back --fixed floor roof left right end front");
+  EXPECT_EQ(o.exit_code, 1);
+  EXPECT_NE(o.out.find("back is blocked by"), std::string::npos) << o.out;
+  EXPECT_EQ(run("audit parts none.path.json").exit_code, 0);
+}
+
+TEST_F(CliPlan, TellsWhatBlocksAComponent) {
+  const Outcome blocked = run("why parts back --json");
+  EXPECT_EQ(blocked.exit_code, 1);
+  const Json why = Json::parse(blocked.out);
+  ASSERT_EQ(why["blocked_by"].size(), 1u);
+  fs::remove(in("parts/" + why["blocked_by"][0]["component"].get<std::string>() + ".obj"));
+  const Outcome free = run("why parts back");
+  EXPECT_EQ(free.exit_code, 0) << "its only blocker is gone";
+  EXPECT_NE(free.out.find("back comes out along"), std::string::npos);
+}
+
+TEST_F(CliPlan, RefusesWhatMakesNoSense) {
+  expect_error("plan parts -o x.path.json --target lid", 2, "'lid' is unknown");
+  expect_error("plan parts -o x.path.json --target back --fixed back", 2, "it is a target, and fixed");
+  expect_error("why parts lid", 2, "'lid' is unknown");
+  expect_error("plan missing.step -o x.path.json", 3, "missing.step");
+  EXPECT_EQ(run("plan parts").exit_code, 2);
+  EXPECT_EQ(run("plan parts -o x.path.json --time-limit 0").exit_code, 2);
+  EXPECT_FALSE(fs::exists(in("x.path.json")));
+}
+
+TEST_F(CliPlan, WritesWhatItHasWhereTimeIsUp) {
+  const Outcome o = run("plan parts -o early.path.json --json --time-limit 1e-6");
+  EXPECT_EQ(o.exit_code, 1) << o.err;
+  EXPECT_EQ(Json::parse(o.out)["out_of_time"], true);
+  EXPECT_EQ(run("audit parts early.path.json").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace dismantle

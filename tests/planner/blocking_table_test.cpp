@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/blocking_table.h"
+
+#include "tests/planner/plan_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+constexpr ComponentId kTube(0), kLow(1), kMiddle(2), kHigh(3);
+
+/// Three boxes in a tube that is open at both ends.
+class BlockingTableTest : public testing::Test {
+ protected:
+  DirectionId up() { return table_.add_direction({0, 0, 1}); }
+  DirectionId aside() { return table_.add_direction({1, 0, 0}); }
+
+  scenes::PlanScene scene_ = scenes::plan_scene(scenes::stack_in_tube(3));
+  CertificateEngine engine_{scene_.assembly, scene_.pairs};
+  std::vector<ShapeFeatures> features_ = [this] {
+    std::vector<ShapeFeatures> features;
+    for (const Component& c : scene_.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
+    return features;
+  }();
+  BlockingTable table_{engine_, features_};
+  ComponentSet all_ = ComponentSet::all(4);
+};
+
+TEST_F(BlockingTableTest, KnowsWhoIsInWhoseWay) {
+  EXPECT_TRUE(table_.blocks(kLow, up(), kMiddle));
+  EXPECT_TRUE(table_.blocks(kLow, up(), kHigh));
+  EXPECT_FALSE(table_.blocks(kLow, up(), kTube)) << "it slides along the tube's walls";
+  EXPECT_FALSE(table_.blocks(kHigh, up(), kLow));
+  EXPECT_TRUE(table_.blocks(kLow, table_.opposite(aside()), kTube));
+}
+
+TEST_F(BlockingTableTest, IsSymmetricBetweenADirectionAndItsOpposite) {
+  for (const DirectionId d : {up(), aside()})
+    for (std::uint32_t a = 0; a < 4; ++a)
+      for (std::uint32_t b = 0; b < 4; ++b) {
+        if (a == b) continue;
+        EXPECT_EQ(table_.blocks(ComponentId(a), d, ComponentId(b)),
+                  table_.blocks(ComponentId(b), table_.opposite(d), ComponentId(a)));
+      }
+}
+
+TEST_F(BlockingTableTest, FindsABlockerAsLongAsThereIsOne) {
+  EXPECT_EQ(table_.blockers(kLow, up(), all_), (std::vector{kMiddle, kHigh}));
+  ComponentSet left = all_;
+  left.erase(*table_.any_blocker(kLow, up(), left));
+  left.erase(*table_.any_blocker(kLow, up(), left));
+  EXPECT_FALSE(table_.any_blocker(kLow, up(), left));
+}
+
+TEST_F(BlockingTableTest, FindsWhatGoesTogether) {
+  EXPECT_EQ(table_.moving_together(kMiddle, up(), all_), (std::vector{kMiddle, kHigh}));
+  EXPECT_EQ(table_.moving_together(kMiddle, aside(), all_), (std::vector{kTube, kLow, kMiddle, kHigh}));
+  EXPECT_TRUE(table_.moving_together(kMiddle, up(), all_, ComponentSet(4, {&kHigh, 1}), 4).empty());
+  EXPECT_TRUE(table_.moving_together(kLow, up(), all_, ComponentSet(4), 2).empty());
+}
+
+TEST_F(BlockingTableTest, GivesTheFirstContact) {
+  const auto contact = table_.contact(kLow, up(), kHigh);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->distance, 4, scene_.pairs.tolerance);
+  EXPECT_NEAR(contact->point.z, 8, scene_.pairs.tolerance);
+}
+
+TEST_F(BlockingTableTest, LearnsWhatASweepCannotSee) {
+  EXPECT_FALSE(table_.any_blocker(kHigh, up(), all_));
+  table_.add_blocker(kHigh, up(), kTube);
+  EXPECT_EQ(table_.any_blocker(kHigh, up(), all_), kTube);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/explanation.h"
+
+#include "tests/planner/plan_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+Explanation why(const Assembly& assembly, const std::string& name) {
+  const scenes::PlanScene scene = scenes::plan_scene(assembly);
+  return why_blocked(scene.assembly, scene.pairs, *scene.assembly.find(name), {});
+}
+
+TEST(Explanation, NamesTheBlockerTheDirectionAndTheContact) {
+  const Assembly pot = scenes::covered_pot();
+  const Explanation e = why(pot, "block");
+  ASSERT_EQ(e.blockers.size(), 1u);
+  // The block is a cube of 10 about (0, 0, 5) that touches all that is around it.
+  EXPECT_NEAR(dot(e.blockers[0].contact.point - Vec3{0, 0, 5}, e.direction), 5, 0.02);
+  const std::string text = explanation_text(pot, e), blocker = pot[e.blockers[0].component].name;
+  EXPECT_EQ(text.find("block is blocked by " + blocker + " (contact at ("), 0u) << text;
+  EXPECT_NE(text.find(") along " + direction_text(e.direction)), std::string::npos) << text;
+}
+
+TEST(Explanation, HoldsTrueWhereTheBlockersAreTakenAway) {
+  for (const Assembly& assembly : {scenes::covered_pot(), scenes::stack_in_tube(4), scenes::closed_shell(),
+                                   scenes::assembly(scenes::chain_links())})
+    for (const Component& c : assembly.components) {
+      const Explanation e = why(assembly, c.name);
+      std::vector<ComponentId> blockers;
+      for (const Blocker& b : e.blockers) blockers.push_back(b.component);
+      const Assembly left = scenes::without(assembly, blockers);
+      EXPECT_TRUE(why(left, c.name).blockers.empty()) << explanation_text(assembly, e);
+      if (blockers.empty()) continue;
+      blockers.pop_back();
+      const Assembly rest = scenes::without(assembly, blockers);
+      EXPECT_FALSE(why(rest, c.name).blockers.empty()) << explanation_text(assembly, e);
+    }
+}
+
+TEST(Explanation, TellsWhatLocksEachOther) {
+  const Assembly chain = scenes::assembly(scenes::chain_links());
+  const Explanation e = why(chain, "link");
+  EXPECT_EQ(e.locked.size(), 2u);
+  EXPECT_NE(explanation_text(chain, e).find("locked with {next link}"), std::string::npos);
+}
+
+TEST(Explanation, SaysSoWhereNothingBlocks) {
+  const Assembly pot = scenes::covered_pot();
+  EXPECT_EQ(explanation_text(pot, why(pot, "lid")), "lid comes out along +Z");
+}
+
+TEST(DirectionText, NamesTheAxes) {
+  EXPECT_EQ(direction_text({0, 0, 1}), "+Z");
+  EXPECT_EQ(direction_text({-1, 1e-9, 0}), "-X");
+  EXPECT_EQ(direction_text({0.6, 0, -0.8}), "(0.600, 0.000, -0.800)");
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/plan_disassembly.h"
+
+#include "tests/planner/plan_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace dismantle {
+namespace {
+
+using scenes::plan_scene;
+using scenes::PlanScene;
+
+Plan plan_of(const Assembly& assembly, PlanOptions options = {}) {
+  const PlanScene scene = plan_scene(assembly);
+  return plan_disassembly(scene.assembly, scene.pairs, options);
+}
+
+/// The components that some step takes out by themselves.
+std::set<std::uint32_t> taken_out(const Plan& plan) {
+  std::set<std::uint32_t> found;
+  for (const PlanStep& step : plan.steps)
+    if (step.components.size() == 1) found.insert(step.components[0].value);
+  return found;
+}
+
+TEST(PlanDisassembly, TakesOutWhatGoesStraight) {
+  for (const Assembly& assembly : {scenes::peg_in_hole(24, 0).assembly, scenes::peg_in_hole(64, 0.05).assembly,
+                                   scenes::press_fit_pin(24, 0.02).assembly, scenes::key_in_slot(0, {0, 1, 0}).assembly,
+                                   scenes::plate_in_slot(0.01).assembly, scenes::dovetail(0.01).assembly,
+                                   scenes::part_in_corner().assembly, scenes::stack_in_tube(5)}) {
+    const Plan plan = plan_of(assembly);
+    EXPECT_TRUE(plan.complete()) << assembly.components[1].name;
+    EXPECT_EQ(plan.steps.size(), assembly.components.size() - 1);
+  }
+}
+
+TEST(PlanDisassembly, IsTheSameInAnyOrientation) {
+  std::mt19937_64 random(3);
+  std::vector<Component> chain = scenes::chain_links();
+  chain.push_back(scenes::component("cube", scenes::box({20, 20, -8}, {24, 24, -4})));
+  for (const Assembly& assembly : {scenes::peg_in_hole(24, 0.01).assembly, scenes::dovetail(0.01).assembly,
+                                   scenes::stack_in_tube(4), scenes::closed_shell(), scenes::assembly(chain)}) {
+    const Plan plan = plan_of(assembly);
+    for (int round = 0; round < 4; ++round) {
+      const Pose pose = scenes::random_pose(random, 50, 3);
+      const Plan turned = plan_of(scenes::placed(assembly, pose));
+      EXPECT_EQ(taken_out(plan), taken_out(turned)) << assembly.components[0].name << ' ' << round;
+      EXPECT_EQ(plan.complete(), turned.complete());
+    }
+  }
+}
+
+TEST(PlanDisassembly, TakesNothingOutOfWhatIsLocked) {
+  const Plan shell = plan_of(scenes::closed_shell());
+  EXPECT_TRUE(shell.steps.empty());
+  ASSERT_EQ(shell.staying.size(), 1u);
+  EXPECT_EQ(shell.staying[0].blockers.size(), 1u);
+  EXPECT_FALSE(shell.complete());
+  const Plan chain = plan_of(scenes::assembly(scenes::chain_links()));
+  EXPECT_TRUE(chain.steps.empty());
+  EXPECT_FALSE(chain.complete());
+}
+
+TEST(PlanDisassembly, TakesOutTogetherWhatIsLocked) {
+  std::vector<Component> components = scenes::chain_links();
+  components.push_back(scenes::component("plate", scenes::box({-40, -40, -20}, {40, 40, -8})));
+  const Plan plan = plan_of(scenes::assembly(std::move(components)));
+  ASSERT_EQ(plan.steps.size(), 1u);
+  EXPECT_EQ(plan.steps[0].tier, PlanTier::StraightTogether);
+  EXPECT_EQ(plan.steps[0].components, (std::vector{ComponentId(0), ComponentId(1)}));
+  ASSERT_EQ(plan.staying.size(), 1u) << "one of the links stays in the other";
+}
+
+TEST(PlanDisassembly, TakesApartWhatCameOutAsOne) {
+  const Plan plan = plan_of(scenes::framed_dovetail());
+  EXPECT_TRUE(plan.complete());
+  ASSERT_EQ(plan.steps.size(), 2u);
+  EXPECT_EQ(plan.steps[0].tier, PlanTier::StraightTogether);
+  EXPECT_NEAR(std::abs(plan.steps[0].exit.y), 1, 1e-9);
+  EXPECT_EQ(plan.steps[1].part_of, 0u);
+  EXPECT_NEAR(std::abs(plan.steps[1].exit.z), 1, 1e-9);
+}
+
+TEST(PlanDisassembly, TakesTheFewestOutForATarget) {
+  const int count = 7;
+  const Assembly stack = scenes::stack_in_tube(count);
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
+    PlanOptions options;
+    options.targets = {ComponentId(1 + k)};
+    options.fixed = {ComponentId(0)};
+    const Plan plan = plan_of(stack, options);
+    EXPECT_TRUE(plan.complete());
+    const std::size_t optimum = 1 + std::min<std::size_t>(k, count - 1 - k);
+    EXPECT_EQ(plan.steps.size(), optimum) << k;
+    EXPECT_TRUE(taken_out(plan).count(1 + k) == 1);
+  }
+}
+
+TEST(PlanDisassembly, LeavesTheFixedWhereTheyAre) {
+  PlanOptions options;
+  options.fixed = {ComponentId(1)};
+  const Plan plan = plan_of(scenes::peg_in_hole(24, 0.01).assembly, options);
+  ASSERT_EQ(plan.steps.size(), 1u);
+  EXPECT_EQ(plan.steps[0].components[0], ComponentId(0));
+}
+
+TEST(PlanDisassembly, EndsWithWhatItHasWhereItIsCancelled) {
+  PlanOptions options;
+  options.progress = [](std::string_view, double done) { return done < 0.4; };
+  const Plan plan = plan_of(scenes::stack_in_tube(8), options);
+  EXPECT_TRUE(plan.out_of_time);
+  EXPECT_FALSE(plan.complete());
+  EXPECT_GE(plan.steps.size(), 3u);
+  EXPECT_LT(plan.steps.size(), 8u);
+}
+
+TEST(PlanDisassembly, GivesTheSameForAnyNumberOfThreads) {
+  const PlanScene scene = plan_scene(scenes::stack_in_tube(6));
+  PlanOptions serial, threads;
+  threads.engine.executor = Executor(ExecutorKind::Threads, 2);
+  const Plan a = plan_disassembly(scene.assembly, scene.pairs, serial);
+  const Plan b = plan_disassembly(scene.assembly, scene.pairs, threads);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t k = 0; k < a.steps.size(); ++k) {
+    EXPECT_EQ(a.steps[k].components, b.steps[k].components);
+    EXPECT_EQ(a.steps[k].exit, b.steps[k].exit);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

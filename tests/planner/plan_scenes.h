@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/planner/plan_disassembly.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/slide_scenes.h"
+
+#include <string>
+#include <vector>
+
+/// Small assemblies of which it is known what comes out, and how.
+namespace dismantle::scenes {
+
+/// An assembly with its pairs.
+struct PlanScene {
+  Assembly assembly;
+  PairStates pairs;
+};
+
+inline PlanScene plan_scene(Assembly assembly, double tolerance = 0.01) {
+  PlanScene scene{std::move(assembly), {}};
+  ClassifyOptions classify;
+  classify.tolerance = tolerance;
+  scene.pairs = *classify_pairs(scene.assembly, classify);
+  return scene;
+}
+
+/// The assembly turned and moved as a whole.
+inline Assembly placed(Assembly assembly, const Pose& pose) {
+  for (Component& c : assembly.components)
+    c.mesh = std::make_shared<const TriangleMesh>(moved(assembled_mesh(c), pose));
+  return assembly;
+}
+
+/// The assembly less the named components.
+inline Assembly without(const Assembly& assembly, const std::vector<ComponentId>& components) {
+  std::vector<Component> left;
+  for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
+    if (std::find(components.begin(), components.end(), ComponentId(c)) == components.end())
+      left.push_back(assembly.components[c]);
+  return scenes::assembly(std::move(left));
+}
+
+/// A frame along z around a square hole of the half width `half`.
+inline TriangleMesh frame(double half, double wall, double z0, double z1) {
+  return extruded_band(square_around(half + wall, 8), square_around(half, 8), true, z0, z1);
+}
+
+/// A box in a shell without an opening.
+inline Assembly closed_shell() {
+  TriangleMesh shell = box({-10, -10, -10}, {10, 10, 10});
+  TriangleMesh hollow = box({-8, -8, -8}, {8, 8, 8});
+  const auto first = static_cast<std::uint32_t>(shell.vertices.size());
+  shell.vertices.insert(shell.vertices.end(), hollow.vertices.begin(), hollow.vertices.end());
+  for (const Face& f : hollow.faces) shell.faces.push_back({{f.v[0] + first, f.v[2] + first, f.v[1] + first}});
+  return assembly({component("shell", shell), component("core", box({-5, -5, -8}, {5, 5, 2}))});
+}
+
+/// Two links of a chain, one turned about x and through the other.
+inline std::vector<Component> chain_links() {
+  const TriangleMesh link = frame(5, 2, -1, 1);
+  const Pose through{{7, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)};
+  return {component("link", link), component("next link", moved(link, through))};
+}
+
+/// A tube with square hole along z, and boxes in it from bottom to top, their faces touching: "box 0", "box 1", ...
+inline Assembly stack_in_tube(int count) {
+  std::vector<Component> components{component("tube", frame(5, 2, 0, 4.0 * count))};
+  for (int k = 0; k < count; ++k)
+    components.push_back(component("box " + std::to_string(k), box({-5, -5, 4.0 * k}, {5, 5, 4.0 * (k + 1)})));
+  return assembly(std::move(components));
+}
+
+/// A block that fills a pot, between the floor and the lid.
+inline Assembly covered_pot() {
+  return assembly({component("pot", frame(5, 3, 0, 10)), component("floor", box({-8, -8, -2}, {8, 8, 0})),
+                   component("block", box({-5, -5, 0}, {5, 5, 10})), component("lid", box({-8, -8, 10}, {8, 8, 12}))});
+}
+
+/// A dovetail whose halves slide apart along z, in a frame around it that is open along y: they come out of it
+/// together, and only then apart.
+inline Assembly framed_dovetail() {
+  const Profile outer = {{-25, -10}, {25, -10}, {25, 40}, {-25, 40}}, inner = {{-15, 0}, {15, 0}, {15, 30}, {-15, 30}};
+  const Pose upright{{}, quat_about({1, 0, 0}, kTurn / 4)};
+  std::vector<Component> components = dovetail(0).assembly.components;
+  components.push_back(component("frame", moved(extruded_band(outer, inner, true, -10, 5), upright)));
+  return assembly(std::move(components));
+}
+
+}  // namespace dismantle::scenes
