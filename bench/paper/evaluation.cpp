@@ -69,6 +69,7 @@ void add_speed_ups(Evaluation& e, const BenchScene& scene, const Runs& runs) {
     const double ratio = base / mean_cost(runs.at(kContinuous[s + 1])).overall;
     row.push_back(number(ratio));
     e.speed_up_chart.series[s].y.push_back(ratio);
+    if (kContinuous[s + 1] == PaperMethod::StreamsElementary) e.least_speed_up = std::min(e.least_speed_up, ratio);
   }
   e.speed_up.rows.push_back(std::move(row));
 }
@@ -132,9 +133,15 @@ Result<Done> measure_sizes(Evaluation& e, const EvaluationOptions& options) {
     if (!made) return made.error();
     const BenchScene& scene = made->front();
     const std::size_t count = triangle_count(scene.assembly);
+    MethodRun base;
     for (std::size_t s = 0; s < std::size(kContinuous); ++s) {
       const MethodRun run = run_method(kContinuous[s], scene, options.cores, options.repeats);
       const double ms = mean_cost(run).overall;
+      if (run.method == PaperMethod::FrontBased) base = run;
+      if (run.method == PaperMethod::StreamsElementary) {
+        e.least_speed_up_of_shafts = std::min(e.least_speed_up_of_shafts, mean_cost(base).overall / ms);
+        e.equal_poses = e.equal_poses && run.poses == base.poses;
+      }
       e.size_chart.series[s].x.push_back(static_cast<double>(count));
       e.size_chart.series[s].y.push_back(ms);
       add_row(e.sizes, {std::to_string(count), e.size_chart.series[s].name, std::to_string(run.costs.size()),

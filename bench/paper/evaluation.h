@@ -28,6 +28,8 @@ struct Evaluation {
   ResultTable sizes;     ///< A shaft in its hole, of more and more triangles.
   ResultTable appends;   ///< Ways of appending to streams.
   ResultTable tunnels;   ///< What discrete steps let through.
+  /// The least that *streams (elementary)* is faster than the baseline by: of the assemblies, and of the shafts.
+  double least_speed_up = 1e300, least_speed_up_of_shafts = 1e300;
   BarChart speed_up_chart;
   LineChart core_chart, size_chart;
   /// After every step of every motion the methods with elementary tests had the set in hand at the same pose.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace dismantle {
 
@@ -142,7 +143,9 @@ std::string svg_of(const BarChart& chart) {
                          left + bar_width * static_cast<double>(s), std::min(base, value), bar_width - 1,
                          std::abs(value - base), kColors[s]);
     }
-    svg += text_at(left + 0.4 * group_width, y_at(0) + 18, "middle", chart.groups[g]);
+    std::istringstream words(chart.groups[g]);
+    double y = y_at(0) + 18;
+    for (std::string word; words >> word; y += 15) svg += text_at(left + 0.4 * group_width, y, "middle", word);
   }
   svg += line(kLeft, base, kLeft + kPlotWidth, base, "#000000");
   return svg + legend(chart.series) + "</svg>\n";

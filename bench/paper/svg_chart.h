@@ -22,7 +22,7 @@ struct LineChart {
 /// Groups of bars side by side, from 1 upwards or downwards on a logarithmic axis.
 struct BarChart {
   std::string title, y_label;
-  std::vector<std::string> groups;
+  std::vector<std::string> groups;  ///< Their names; a line for each word.
   std::vector<ChartSeries> series;  ///< At most kChartColors; a value > 0 a group.
 };
 
