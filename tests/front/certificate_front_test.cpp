@@ -38,7 +38,7 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
   motion.t1 = between(end);
   motion.middle = motion.t0.rotation;
   motion.allowed = kAllowed;
-  const LinearSweep sweep = front.begin_sweep(motion);
+  const PreparedSweep sweep = front.begin_sweep(motion);
   FacePairs found;
   const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f) {
     found.insert({face_a, face_b});
@@ -153,7 +153,7 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
   const FrontKernels kernels = front_kernels(widest_lanes());
   const auto sweep = [&](CertificateFront& front) {
     FrontSweep all;
-    const LinearSweep linear = front.begin_sweep(motion);
+    const PreparedSweep linear = front.begin_sweep(motion);
     for (std::size_t part = 0; part < front.part_count(); ++part) {
       const FrontSweep found = front.sweep_part(part, linear, kernels, blocks);
       all.blocked += found.blocked;

@@ -81,7 +81,6 @@ CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effo
   result.sizes.elementary_tests += found.leaf_tests;
   result.sizes.triangle_pairs += found.leaf_tests;
   result.sizes.front = found.front;
-  if (!found.free) report(found, result);
   for (const auto& [moving, fixed] : found.touching) guard_.consider(moving, fixed, sweeper_.allowed(moving, fixed));
   touching_ = found.touching;
   return found;
@@ -159,21 +158,43 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
     const double part = touch ? std::min(1.0 / cuts, reach_ / travel) : 1.0 / cuts;
     const double next = at + part > 1 - 1e-9 ? 1 : at + part;
     const Pose end = pose_between(start, target, next);
-    const double piece = sweeper_.travel(end);
-    const CertificateSweep found = sweep(end, kContactWindow, Effort::Full, result);
-    result.clearance = found.clearance;
-    double free_part = 1;
-    if (!found.free) free_part = touch ? found.toi - kBackoffShare * tolerance / piece : 0;
-    const bool made = advance(end, free_part, result) >= 1;
-    reach_ = made ? reach_ * kTryGrowth : std::max(kLeastTry * tolerance, 2 * found.toi * piece);
+    const double piece = sweeper_.travel(end), free = free_part(end, touch, result);
+    const bool made = advance(end, free, result) >= 1;
+    reach_ = made ? reach_ * kTryGrowth : std::max(kLeastTry * tolerance, 2 * free * piece);
     if (!made) {
-      if (found.free) result.contacts = guarded_;
+      if (free == 1) result.contacts = guarded_;
       break;
     }
     at = next;
   }
   // All of it is on one screw.
   if (!result.way.empty()) result.way = {sweeper_.pose()};
+}
+
+double CertificateResponse::free_part(const Pose& end, bool touch, StepResult& result) {
+  const double kept = kBackoffShare * sweeper_.tolerance() / sweeper_.travel(end);
+  double part = 1;
+  const auto stop_at = [&](const CertificateSweep& found) {
+    stopping_ = found.blocked;
+    if (found.free) return;
+    report(found, result);
+    part = touch ? std::max(0.0, part * found.toi - kept) : 0;
+  };
+  stop_at(sweeper_.sweep_pairs(stopping_, end, kContactWindow));
+  // Some of what blocks shorten the motion well enough for all the rest to be looked at.
+  for (const Effort effort : {Effort::Some, Effort::Full}) {
+    if (part == 0) break;
+    const Pose stop = part < 1 ? pose_between(sweeper_.pose(), end, part) : end;
+    const CertificateSweep found = sweep(stop, kContactWindow, effort, result);
+    if (found.free) {
+      if (part == 1) result.clearance = found.clearance;
+      break;
+    }
+    result.clearance = 0;
+    stop_at(found);
+    if (found.complete) break;
+  }
+  return part;
 }
 
 void CertificateResponse::slide(const Pose& target, StepResult& result) {
@@ -195,6 +216,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const CertificateSweep found =
         sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), Effort::Quick, result);
     result.clearance = found.clearance;
+    if (!found.free) report(found, result);
     tries += !found.free || twist.bounded;
     if (found.free) {
       const bool made = advance(end, 1, result) > 0;
@@ -276,6 +298,7 @@ Pose CertificateResponse::twisted(const SlideContacts::Twist& twist) const {
 
 void CertificateResponse::begin() {
   contacts_.clear();
+  stopping_.clear();
   reach_ = std::numeric_limits<double>::infinity();
 }
 

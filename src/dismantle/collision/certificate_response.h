@@ -32,6 +32,9 @@ class CertificateResponse {
   void report(const CertificateSweep& sweep, StepResult& result) const;
 
   void go(const Pose& target, bool touch, StepResult& result);
+  /// How much of the motion to `end` the certificates allow: up to the first contact less what is kept before it; all
+  /// or nothing where not `touch`.
+  double free_part(const Pose& end, bool touch, StepResult& result);
   void slide(const Pose& target, StepResult& result);
   SlideContacts::Twist slide_twist(const SlideContacts::Twist& wanted, double lever) const;
   Pose within_arcs(const Pose& target) const;
@@ -48,6 +51,7 @@ class CertificateResponse {
   std::vector<std::pair<ComponentId, ComponentId>> touching_;  ///< Of the last sweep.
   std::vector<CollisionContact> guarded_;                      ///< What the guard found in the last advance.
   SlideContacts contacts_;                                     ///< Of the last step of response Slide.
+  std::vector<BlockedPair> stopping_;                          ///< What stopped the last motion of Stop or Touch.
   double reach_;  ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.
 };
 

@@ -16,8 +16,8 @@ namespace {
 constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
-/// Effort::Quick ends with about so many blocked pairs of two components.
-constexpr std::size_t kQuickBlocked = 64;
+/// Effort::Some ends with about so many blocked pairs of two components.
+constexpr std::size_t kSomeBlocked = 64;
 
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
@@ -38,7 +38,7 @@ struct CertificateSweeper::ActivePair {
   ComponentId moving, fixed;
   CertificateFront* front;
   LeafSweep leaves;
-  LinearSweep sweep;
+  PreparedSweep sweep;
   double allowed;
 };
 
@@ -74,6 +74,21 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
     for (const Vec3& p : solids_.back().vertices) radius = std::max(radius, length(p - centers_.back()));
     radii_.push_back(radius);
   }
+  prepare_round();
+}
+
+void CertificateSweeper::prepare_round() {
+  std::vector<std::pair<ComponentId, ComponentId>> near;
+  for (std::uint32_t a = 0; a < solids_.size(); ++a)
+    for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
+      if (solids_[a].round && solids_[b].round && sphere_gap(ComponentId(a), ComponentId(b), {}, {}, 0) <= 0)
+        near.emplace_back(a, b);
+  options_.executor.for_each_heavy(near.size(), [&](std::size_t i) {
+    const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
+    PairMotion still;
+    still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
+    RoundSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
+  });
 }
 
 void CertificateSweeper::hold(Span<const ComponentId> components) {
@@ -111,12 +126,7 @@ double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
 CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving, ComponentId fixed) {
   const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
   auto found = fronts_.find({a, b});
-  if (found == fronts_.end())
-    found =
-        fronts_
-            .emplace(std::pair{a, b},
-                     FrontEntry{CertificateFront(solids_[a.value].tree, solids_[b.value].tree, sides(a, b)), false, {}})
-            .first;
+  if (found == fronts_.end()) found = fronts_.emplace(std::pair{a, b}, FrontEntry{roots(a, b), false, {}}).first;
   FrontEntry& entry = found->second;
   if (entry.b_moves != (moving == b)) {
     const Mat3 of_moving = mat3_from_quat(poses_[moving.value].rotation);
@@ -129,6 +139,10 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
   }
   entry.fixed_pose = poses_[fixed.value];
   return entry;
+}
+
+CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b) const {
+  return {solid(a).tree, solid(b).tree, sides(a, b), solid(a).round.get(), solid(b).round.get()};
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
@@ -148,9 +162,23 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                    rules);
 }
 
-LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
+LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const {
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, effort)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+}
+
+CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
+  CertificateSweep result;
+  for (const BlockedPair& pair : pairs) {
+    const LeafSweep::Result found = sweep_pair(pair, end, Effort::Full);
+    ++result.leaf_tests;
+    if (found.free) continue;
+    result.blocked.push_back(pair);
+    result.blocked.back().toi = found.contact.toi;
+    result.blocked.back().axis = found.contact.axis;
+  }
+  finish(result, window);
+  return result;
 }
 
 double CertificateSweeper::sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start,
@@ -215,9 +243,8 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     CertificateFront& front = front_of(moving, fixed).front;
     const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
-    if (effort == Effort::Quick) motion.enough_blocked = kQuickBlocked;
-    const LinearSweep sweep = front.begin_sweep(motion);
-    active.push_back({moving, fixed, &front, leaves, sweep, allowed(moving, fixed)});
+    if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
+    active.push_back({moving, fixed, &front, leaves, front.begin_sweep(motion), allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
@@ -259,8 +286,8 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
     const auto known = fronts_.find({a, b});
     const bool usable = known != fronts_.end() && known->second.b_moves == (moving == b) &&
                         known->second.fixed_pose == poses_[fixed.value];
-    const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
-    const CertificateFront& front = usable ? known->second.front : roots;
+    const CertificateFront anew = roots(moving, fixed);
+    const CertificateFront& front = usable ? known->second.front : anew;
     const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
     const PairMotion motion = leaves.motion();
     look_at(front, {moving, fixed, leaves, motion, window}, result);
@@ -278,8 +305,7 @@ CertificateSweep CertificateSweeper::look_straight(ComponentId moving, Component
                          {allowance, tolerance(), sides(moving, fixed), {}, false});
   PairMotion motion = leaves.motion();
   motion.enough_blocked = 1;
-  const CertificateFront roots(solid(moving).tree, solid(fixed).tree, sides(moving, fixed));
-  look_at(roots, {moving, fixed, leaves, motion, 0}, result);
+  look_at(roots(moving, fixed), {moving, fixed, leaves, motion, 0}, result);
   finish(result, 0);
   return result;
 }
@@ -301,7 +327,8 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   std::vector<BlockedPair> pairs;
   CertificateSweep unused;
   for_each_near(pose(), pose(), reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free);
+    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free, solid(moving).round.get(),
+                                 solid(fixed).round.get());
     PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
     const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {

@@ -40,7 +40,8 @@ struct CertificateSweep {
 /// How hard a sweep tries. Less is never unsafe, and faster: a motion along contacts is cut up anyway.
 enum class Effort {
   Full,   ///< Each triangle pair until nothing is gained any more; all that are blocked.
-  Quick,  ///< Each in a few steps, none smaller than what matters; some that are blocked, from all over.
+  Some,   ///< The same for some that are blocked, from all over.
+  Quick,  ///< Some, each in a few steps, none smaller than what matters.
 };
 
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2
@@ -70,7 +71,9 @@ class CertificateSweeper {
   std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
-  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
+  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const;
+  /// The same motion of these pairs alone.
+  CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
   double deviation(const Pose& end) const { return deviation(pose(), end); }
   /// An upper bound of how far any point of the set goes [mm].
@@ -121,6 +124,10 @@ class CertificateSweeper {
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;
+  /// Works out what is round of components that lie about one axis in the assembled state, so that no step has to.
+  void prepare_round();
+  /// The front that begins with the roots of both.
+  CertificateFront roots(ComponentId a, ComponentId b) const;
   FrontEntry& front_of(ComponentId moving, ComponentId fixed);
 
   const Assembly* assembly_;

@@ -48,11 +48,10 @@ class LeastBlockingAxis {
     const double size = length(line);
     if (!(size > 0)) return;
     for (const Vec3 w : {line / size, line / -size}) {
-      if (!normals_.allow(w)) continue;
       const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
       double reach = gap_t0 + allowed_;  // below zero: nothing left
       if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
-      if (reach <= furthest_) continue;
+      if (reach <= furthest_ || !normals_.allow(w)) continue;
       furthest_ = reach;
       axis_ = w;
     }
@@ -120,6 +119,7 @@ LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose
       end_(transform_from_pose(end)),
       deviation_(deviation),
       share_(kArcShare * rules.tolerance),
+      back_(screw_between(inverse(start), inverse(end))),
       allowed_(rules.allowed - std::max(share_, deviation)),
       rules_(rules) {
   DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && allowed_ > 0);
@@ -133,6 +133,9 @@ PairMotion LeafSweep::motion() const {
   motion.middle = middle_;
   motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
+  motion.kept = share_;
+  motion.back = back_;
+  motion.back.reference -= moving_->tree.origin;
   return motion;
 }
 

@@ -36,7 +36,7 @@ bool SlideContacts::add(const BlockedPair& pair) {
 
 void SlideContacts::choose_axes(const Pose& end) {
   std::erase_if(pairs_, [&](BlockedPair& pair) {
-    const LeafSweep::Result found = sweeper_.sweep_pair(pair, end);
+    const LeafSweep::Result found = sweeper_.sweep_pair(pair, end, Effort::Quick);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
     return false;

@@ -55,6 +55,6 @@ class SlideContacts {
 
 /// Response Slide keeps this share of the tolerance from every allowance: room for what a twist leaves out to first
 /// order.
-inline constexpr double kSlideReserve = 0.5;
+inline constexpr double kSlideReserve = 0.65;
 
 }  // namespace dismantle

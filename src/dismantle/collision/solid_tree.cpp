@@ -28,6 +28,7 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   solid.faces = component.mesh->faces;
   solid.has_outside = component.faults.bounds_solid();
   solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
+  if (!solid.tree.empty()) solid.round = std::make_unique<RoundShape>(solid.vertices, solid.faces, solid.tree.nodes);
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

@@ -58,6 +58,12 @@ float gap_at(const Certificate& c, const RigidTransformF& t) {
   return c.offset - dot(c.axis, t.translation) - dot(w, h.center) - reach;
 }
 
+Certificate nothing() {
+  Certificate certificate;
+  certificate.offset = kNoCertificate;
+  return certificate;
+}
+
 float reach(const ObbTree& tree) {
   const ObbNode& root = tree.nodes[0];
   return root.radius + length(root.box.center);
@@ -85,12 +91,11 @@ struct CertificateFront::Work {
   }
 };
 
-CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides)
-    : a_(&a), b_(&b), parts_(1), sides_(sides) {
+CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a,
+                                   const RoundShape* round_b)
+    : a_(&a), b_(&b), round_a_(round_a), round_b_(round_b), parts_(1), sides_(sides) {
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
-  Certificate nothing;
-  nothing.offset = kNoCertificate;
-  parts_[0].append({0, 0}, nothing);
+  parts_[0].append({0, 0}, nothing());
 }
 
 std::size_t CertificateFront::size() const {
@@ -103,7 +108,7 @@ bool CertificateFront::judges(const Mat3& rotation) const {
   return sides_ != SideRule::Normals || turn_between(judged_, rotation) <= kMostTurn;
 }
 
-LinearSweep CertificateFront::begin_sweep(const PairMotion& motion) {
+PreparedSweep CertificateFront::begin_sweep(const PairMotion& motion) {
   if (!judges(motion.middle)) {
     forget();
     judged_ = motion.middle;
@@ -111,8 +116,8 @@ LinearSweep CertificateFront::begin_sweep(const PairMotion& motion) {
   return begin_look(motion);
 }
 
-LinearSweep CertificateFront::begin_look(const PairMotion& motion) const {
-  LinearSweep sweep;
+PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
+  PreparedSweep sweep;
   sweep.t0 = to_float(motion.t0);
   sweep.t1 = to_float(motion.t1);
   for (int i = 0; i < 3; ++i) sweep.middle[i] = to_float(motion.middle.row[i]);
@@ -126,10 +131,14 @@ LinearSweep CertificateFront::begin_look(const PairMotion& motion) const {
   sweep.limit = static_cast<float>(-motion.allowed + motion.deviation + error);
   sweep.meeting = static_cast<float>(motion.deviation + error);
   sweep.apart = static_cast<float>(motion.allowed + motion.deviation + error);
+  // Sides are remembered by axes only.
+  if (round_a_ && round_b_ && sides_ != SideRule::Memory)
+    sweep.rounds = b_moves_ ? std::make_unique<RoundSweeps>(*round_b_, b_->origin, *round_a_, a_->origin, motion)
+                            : std::make_unique<RoundSweeps>(*round_a_, a_->origin, *round_b_, b_->origin, motion);
   return sweep;
 }
 
-FrontSweep CertificateFront::sweep_part(std::size_t index, const LinearSweep& sweep, const FrontKernels& kernels,
+FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
                                         const LeafTest& test) {
   CertificatePart& part = parts_[index];
   FrontSweep result;
@@ -146,8 +155,8 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const LinearSweep& sw
   return result;
 }
 
-void CertificateFront::find_failing(const CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels,
-                                    Work& work, FrontSweep& result) const {
+void CertificateFront::find_failing(const CertificatePart& part, const PreparedSweep& sweep,
+                                    const FrontKernels& kernels, Work& work, FrontSweep& result) const {
   work.failing.resize(part.size());
   CertificateCheck check;
   if (sweep.judged) {
@@ -172,7 +181,7 @@ void CertificateFront::find_failing(const CertificatePart& part, const LinearSwe
   }
 }
 
-FrontSweep CertificateFront::look(const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
+FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
   FrontSweep result;
   for (const CertificatePart& part : parts_) {
     Work work;
@@ -191,8 +200,8 @@ float CertificateFront::limit(Vec3f guard, const LinearSweep& sweep) const {
   return sides_ == SideRule::Memory && length_squared(guard) == 0 ? sweep.meeting : sweep.limit;
 }
 
-void CertificateFront::resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
-                               FrontSweep& result) const {
+void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
+                               const LeafTest& test, FrontSweep& result) const {
   const std::size_t failing = work.items.size();
   const bool some = sweep.enough_blocked < LinearSweep().enough_blocked;
   work.blocked.assign(failing, 0);
@@ -215,7 +224,7 @@ void CertificateFront::resolve(Work& work, const LinearSweep& sweep, const Front
   }
 }
 
-void CertificateFront::separate_boxes(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const {
+void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const {
   work.queries.clear();
   work.asked.clear();
   for (const std::uint32_t i : work.batch) {
@@ -232,7 +241,7 @@ void CertificateFront::separate_boxes(Work& work, const LinearSweep& sweep, cons
     kernels.separate_boxes(work.queries.data(), work.queries.size(), sweep, work.separations.data());
 }
 
-void CertificateFront::separate_triangles(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const {
+void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const {
   work.triangle_queries.clear();
   for (const std::uint32_t i : work.triangles_asked) {
     const Item& item = work.items[i];
@@ -259,8 +268,24 @@ bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separa
   return true;
 }
 
-void CertificateFront::resolve_batch(Work& work, const LinearSweep& sweep, const FrontKernels& kernels,
+bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep,
+                                   FrontSweep& result) const {
+  if (!sweep.rounds) return false;
+  for (const RoundSweep& round : sweep.rounds->get()) {
+    const RoundSweep::Gap found = b_moves_ ? round.gap(b, a) : round.gap(a, b);
+    const double limit = sides_ == SideRule::Free || found.faces ? sweep.limit : sweep.meeting;
+    if (found.gap < limit) continue;
+    result.least_gap = std::min(result.least_gap, -rounded_up(-found.gap));
+    result.touching |= sides_ != SideRule::Normals && found.gap < sweep.meeting;
+    return true;
+  }
+  return false;
+}
+
+void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
                                      const LeafTest& test, FrontSweep& result) const {
+  std::erase_if(work.batch,
+                [&](std::uint32_t i) { return parts_round(work.items[i].a, work.items[i].b, sweep, result); });
   separate_boxes(work, sweep, kernels);
   work.triangles_asked.clear();
   for (const std::uint32_t i : work.batch)
@@ -369,7 +394,7 @@ class SiblingTable {
 
 }  // namespace
 
-std::size_t CertificateFront::merge(CertificatePart& part, const LinearSweep& sweep,
+std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& sweep,
                                     const FrontKernels& kernels) const {
   struct Siblings {
     FrontPair parent;
@@ -401,12 +426,15 @@ std::size_t CertificateFront::merge(CertificatePart& part, const LinearSweep& sw
   std::vector<NodeSeparation> separations(queries.size());
   kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
 
+  FrontSweep unused;
   std::vector<bool> merged(part.size());
   std::vector<std::uint32_t> gone;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Siblings& s = found[k];
-    if (separations[k].gap < limit(queries[k].guard, sweep) || merged[s.first] || merged[s.second]) continue;
-    part.set(s.first, s.parent, separations[k].certificate);
+    if (merged[s.first] || merged[s.second]) continue;
+    const bool by_boxes = separations[k].gap >= limit(queries[k].guard, sweep);
+    if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
+    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : nothing());
     merged[s.first] = merged[s.second] = true;
     gone.push_back(s.second);
   }

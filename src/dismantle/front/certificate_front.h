@@ -2,9 +2,11 @@
 #pragma once
 
 #include "dismantle/front/certificate_part.h"
+#include "dismantle/front/round_separation.h"
 #include "dismantle/math/rigid_transform.h"
 
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -24,14 +26,9 @@ struct LeafVerdict {
 /// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none).
 using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint)>;
 
-/// The motion of the moving component in the fixed one's frame, in double: between trees' frames as LinearSweep has it.
-struct PairMotion {
-  RigidTransform t0, t1;
-  Mat3 middle;           ///< The rotation half way.
-  double deviation = 0;  ///< The largest distance of an arc from its chord [mm].
-  double allowed = 0;    ///< How deep triangles may be in each other on the true paths [mm].
-  /// So many blocked pairs are enough, or two of each part of the front; the rest may be left unlooked at.
-  std::size_t enough_blocked = static_cast<std::size_t>(-1);
+/// A motion as a front takes it.
+struct PreparedSweep : LinearSweep {
+  std::unique_ptr<const RoundSweeps> rounds;  ///< Null where there are none.
 };
 
 /// What sweeping a part of a front found.
@@ -67,7 +64,9 @@ class CertificateFront {
  public:
   /// The pair of the roots; A moves. The trees must outlive the front. @pre neither is empty
   /// @param sides of the two components
-  CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides);
+  /// @param round_a, round_b what is round of them, if it is known
+  CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a = nullptr,
+                   const RoundShape* round_b = nullptr);
 
   /// How many node pairs it has.
   std::size_t size() const;
@@ -75,12 +74,13 @@ class CertificateFront {
   std::size_t part_count() const { return parts_.size(); }
 
   /// Begins a sweep.
-  LinearSweep begin_sweep(const PairMotion& motion);
+  PreparedSweep begin_sweep(const PairMotion& motion);
   /// The same for look(), which leaves the front as it is.
-  LinearSweep begin_look(const PairMotion& motion) const;
-  FrontSweep sweep_part(std::size_t part, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test);
+  PreparedSweep begin_look(const PairMotion& motion) const;
+  FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
+                        const LeafTest& test);
   /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
-  FrontSweep look(const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
+  FrontSweep look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
   void end_sweep();
 
@@ -138,22 +138,25 @@ class CertificateFront {
   /// Whether certificates that face along the normals still do with A turned like this.
   bool judges(const Mat3& rotation) const;
   /// The pairs of a part that do not hold, as items to be resolved.
-  void find_failing(const CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels, Work& work,
+  void find_failing(const CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
   /// The axis of pair i where it binds the pair to its side; zero otherwise.
   Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
   /// The least gap that certifies a pair. One that remembers no side gets it from an axis that needs no allowance.
   float limit(Vec3f guard, const LinearSweep& sweep) const;
   /// Replaces siblings by their parents where these can be separated; gives how many pairs went.
-  std::size_t merge(CertificatePart& part, const LinearSweep& sweep, const FrontKernels& kernels) const;
-  void resolve(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+  std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels) const;
+  void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
   /// Which of two nodes that cannot be separated is split: the one that takes more room.
   bool splits_a(const Item& item) const;
-  void resolve_batch(Work& work, const LinearSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+  void resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                      FrontSweep& result) const;
-  void separate_boxes(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const;
-  void separate_triangles(Work& work, const LinearSweep& sweep, const FrontKernels& kernels) const;
+  void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
+  void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
+  /// Whether the two are apart as surfaces that turn about one axis. They are left without a certificate: what proves
+  /// it costs next to nothing, and holds for large nodes.
+  bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
   /// Keeps what certifies the item; false where it does not.
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
             FrontSweep& result) const;
@@ -165,6 +168,8 @@ class CertificateFront {
 
   const ObbTree* a_;
   const ObbTree* b_;
+  const RoundShape* round_a_;
+  const RoundShape* round_b_;
   std::vector<CertificatePart> parts_;
   Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.
   std::size_t sweeps_ = 0;

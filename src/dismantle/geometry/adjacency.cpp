@@ -14,12 +14,12 @@ struct HalfEdge {
   bool forward;       // runs from low to high
 };
 
-std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
+std::vector<HalfEdge> sorted_half_edges(Span<const Face> faces) {
   std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.faces.size());
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+  edges.reserve(3 * faces.size());
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
     for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.faces[f].v[k], b = mesh.faces[f].v[(k + 1) % 3];
+      const std::uint32_t a = faces[f].v[k], b = faces[f].v[(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), f, k, a < b});
     }
   }
@@ -84,7 +84,7 @@ std::size_t count_open(std::vector<Rim> rims, double width) {
 EdgeFaults edge_faults(const TriangleMesh& mesh) {
   EdgeFaults faults;
   std::vector<Rim> rims;
-  for_each_edge(sorted_half_edges(mesh), [&](const HalfEdge* first, const HalfEdge* last) {
+  for_each_edge(sorted_half_edges(mesh.faces), [&](const HalfEdge* first, const HalfEdge* last) {
     const auto count = last - first;
     if (count == 1) ++faults.boundary;
     if (count > 2) ++faults.nonmanifold;
@@ -99,6 +99,14 @@ EdgeFaults edge_faults(const TriangleMesh& mesh) {
   return faults;
 }
 
+std::vector<NeighbouringFaces> neighbouring_faces(Span<const Face> faces) {
+  std::vector<NeighbouringFaces> neighbours;
+  for_each_edge(sorted_half_edges(faces), [&](const HalfEdge* first, const HalfEdge* last) {
+    if (last - first == 2) neighbours.push_back({{first[0].face, first[1].face}, {first->low, first->high}});
+  });
+  return neighbours;
+}
+
 std::vector<std::uint8_t> representative_features(const TriangleMesh& mesh) {
   std::vector<std::uint8_t> features(mesh.faces.size(), 0);
   std::vector<bool> vertex_taken(mesh.vertices.size(), false);
@@ -110,7 +118,7 @@ std::vector<std::uint8_t> representative_features(const TriangleMesh& mesh) {
       features[f] |= static_cast<std::uint8_t>(1u << k);
     }
   }
-  for_each_edge(sorted_half_edges(mesh), [&](const HalfEdge* first, const HalfEdge*) {
+  for_each_edge(sorted_half_edges(mesh.faces), [&](const HalfEdge* first, const HalfEdge*) {
     features[first->face] |= static_cast<std::uint8_t>(8u << first->side);
   });
   return features;

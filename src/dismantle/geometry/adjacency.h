@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/core/id.h"
+#include "dismantle/core/span.h"
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <cstdint>
@@ -21,6 +22,15 @@ struct EdgeFaults {
 };
 
 EdgeFaults edge_faults(const TriangleMesh& mesh);
+
+/// Two faces and the edge that they alone share.
+struct NeighbouringFaces {
+  std::uint32_t face[2];
+  std::uint32_t edge[2];  ///< Its vertices.
+};
+
+/// Every edge of exactly two faces.
+std::vector<NeighbouringFaces> neighbouring_faces(Span<const Face> faces);
 
 /// Which of its features a triangle stands for, so that every vertex and edge is tested once though several triangles
 /// share it (representative triangles, Curtis, Tamstorf, Manocha 2008). Bit k (0-2): its corner k; bit 3+k: its edge

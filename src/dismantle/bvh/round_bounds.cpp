@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/bvh/round_bounds.h"
+
+#include "dismantle/math/vec3f.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+/// What a distance from the axis may be off by, relative to the coordinates.
+constexpr double kRounding = 1e-13;
+/// The cosine of 45 degrees.
+constexpr double kFacing = 0.70710678;
+
+/// A corner about an axis.
+struct Corner {
+  Vec3 across;       // from the axis
+  double along = 0;  // from the axis' point
+};
+
+double distance_of_segment(Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double square = length_squared(along);
+  const double t = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
+  return length(a + t * along);
+}
+
+/// The least distance of the triangle, seen along the axis, from it.
+double least_distance(const Corner (&c)[3], Vec3 axis) {
+  double sides[3], least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 p = c[i].across, q = c[(i + 1) % 3].across;
+    sides[i] = dot(axis, cross(p, q));
+    least = std::min(least, distance_of_segment(p, q));
+  }
+  const bool around =
+      (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) || (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);
+  return around ? 0 : least;
+}
+
+constexpr double kHalfTurn = 3.14159265358979;
+/// What the angles of a sector may be off by [rad].
+constexpr double kAngleRounding = 1e-6;
+
+/// Directions around an axis: those within `half` of `center` [rad].
+struct Sector {
+  double center = 0, half = kHalfTurn;
+};
+
+Sector both(const Sector& x, const Sector& y) {
+  const double from_x = std::remainder(y.center - x.center, 2 * kHalfTurn);
+  const double least = std::min(-x.half, from_x - y.half), most = std::max(x.half, from_x + y.half);
+  return {x.center + (least + most) / 2, std::min(kHalfTurn, (most - least) / 2)};
+}
+
+/// Two unit vectors across an axis, as long as nothing says which.
+struct Across {
+  Vec3 first, second;
+  explicit Across(Vec3 axis) {
+    const Vec3 least = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    first = normalized(cross(axis, least));
+    second = cross(axis, first);
+  }
+  double angle(Vec3 v) const { return std::atan2(dot(v, second), dot(v, first)); }
+  Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second; }
+};
+
+void set_sector(RoundNode& node, const Sector& sector, const Across& across) {
+  node.toward = to_float(across.at(sector.center));
+  const double half = sector.half + kAngleRounding;
+  node.cosine = half < kHalfTurn ? static_cast<float>(std::cos(half)) : -1;
+  node.sine = half < kHalfTurn ? static_cast<float>(std::sin(half)) : 0;
+}
+
+/// Of a triangle that does not have the axis in it.
+Sector sector_of(const Corner (&corners)[3], const Across& across) {
+  Sector sector{across.angle(corners[0].across), 0};
+  for (int i = 1; i < 3; ++i) sector = both(sector, {across.angle(corners[i].across), 0});
+  return sector;
+}
+
+RoundNode about_axis(const RoundAxis& axis, const Triangle& triangle, const Across& across, Sector& sector) {
+  Corner corners[3];
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 from = triangle[i] - axis.point;
+    corners[i].along = dot(from, axis.direction);
+    corners[i].across = from - corners[i].along * axis.direction;
+    size = std::max({size, max_abs(triangle[i]), max_abs(axis.point)});
+  }
+  const Vec3 normal = normal_unscaled(triangle);
+  const double rounding = kRounding * size;
+  double most = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
+  RoundNode node;
+  node.faces_out = node.faces_in = true;
+  for (const Corner& c : corners) {
+    const double distance = length(c.across);
+    most = std::max(most, distance);
+    begin = std::min(begin, c.along);
+    end = std::max(end, c.along);
+    const double enough = kFacing * distance * length(normal), facing = dot(normal, c.across);
+    node.faces_out &= facing > enough;
+    node.faces_in &= facing < -enough;
+  }
+  const double least = least_distance(corners, axis.direction);
+  sector = least > rounding ? sector_of(corners, across) : Sector{};
+  node.least = -rounded_up(rounding - least);
+  node.most = rounded_up(most + rounding);
+  node.begin = -rounded_up(rounding - begin);
+  node.end = rounded_up(end + rounding);
+  return node;
+}
+
+RoundNode both(const RoundNode& x, const RoundNode& y) {
+  return {std::min(x.least, y.least),
+          std::max(x.most, y.most),
+          std::min(x.begin, y.begin),
+          std::max(x.end, y.end),
+          {},
+          -1,
+          0,
+          x.faces_out && y.faces_out,
+          x.faces_in && y.faces_in};
+}
+
+}  // namespace
+
+RoundShape::RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes)
+    : vertices_(vertices),
+      faces_(faces),
+      nodes_(nodes),
+      axes_(round_axes(vertices, faces)),
+      about_(std::make_unique<About[]>(axes_.size())) {
+  if (axes_.empty()) return;
+  order_.reserve(nodes_.size());
+  order_.push_back(0);
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const ObbNode& node = nodes_[order_[k]];
+    if (!node.leaf()) order_.insert(order_.end(), {node.child, node.child + 1});
+  }
+  std::vector<std::uint32_t> counts(nodes_.size(), 1);
+  for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
+    const ObbNode& node = nodes_[*i];
+    if (!node.leaf()) counts[*i] = counts[node.child] + counts[node.child + 1];
+  }
+  places_.assign(nodes_.size(), 0);
+  for (const std::uint32_t i : order_)
+    if (counts[i] >= kLargeNode) places_[i] = ++large_count_;
+}
+
+double RoundShape::size() const {
+  const Vec3f half = nodes_[0].box.half;
+  return 2 * static_cast<double>(std::max({half.x, half.y, half.z}));
+}
+
+const RoundNodes& RoundShape::about(std::size_t axis) const {
+  About& known = about_[axis];
+  std::call_once(known.once, [&] {
+    const Across across(axes_[axis].direction);
+    RoundNode unknown;
+    unknown.most = std::numeric_limits<float>::infinity();
+    known.nodes.places_ = &places_;
+    known.nodes.nodes_.assign(1 + large_count_, unknown);
+    std::vector<RoundNode> nodes(nodes_.size());
+    std::vector<Sector> sectors(nodes_.size());
+    for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
+      const ObbNode& node = nodes_[*i];
+      if (node.leaf()) {
+        const Face& f = faces_[node.child];
+        const Triangle triangle{{vertices_[f.v[0]], vertices_[f.v[1]], vertices_[f.v[2]]}};
+        nodes[*i] = about_axis(axes_[axis], triangle, across, sectors[*i]);
+        continue;
+      }
+      nodes[*i] = both(nodes[node.child], nodes[node.child + 1]);
+      sectors[*i] = both(sectors[node.child], sectors[node.child + 1]);
+      if (places_[*i] == 0) continue;
+      set_sector(nodes[*i], sectors[*i], across);
+      known.nodes.nodes_[places_[*i]] = nodes[*i];
+    }
+  });
+  return known.nodes;
+}
+
+}  // namespace dismantle

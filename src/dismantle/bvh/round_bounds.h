@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/bvh/obb_tree.h"
+#include "dismantle/geometry/round_axes.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace dismantle {
+
+/// Where the triangles of a tree's node are about an axis; certain, despite float32.
+struct RoundNode {
+  float least = 0, most = 0;  ///< Every point's distance from the axis is between these [mm].
+  float begin = 0, end = 0;   ///< And its place along the axis, from the axis' point [mm].
+  /// Seen from the axis all of it is within an angle of the unit vector `toward`: its cosine and sine; -1 and 0 for all
+  /// around.
+  Vec3f toward;
+  float cosine = -1, sine = 0;
+  bool faces_out = false;  ///< All outward normals are within 45 degrees of pointing away from the axis,
+  bool faces_in = false;   ///< or to it.
+};
+
+/// The nodes of a tree about one axis. Of small nodes nothing is known: their distances are from 0 to without end.
+class RoundNodes {
+ public:
+  const RoundNode& operator[](std::uint32_t node) const { return nodes_[(*places_)[node]]; }
+  std::size_t size() const { return places_->size(); }
+
+ private:
+  friend class RoundShape;
+  const std::vector<std::uint32_t>* places_ = nullptr;  ///< Of each node among the large ones; 0 for a small one.
+  std::vector<RoundNode> nodes_;                        ///< The first stands for the small ones.
+};
+
+/// A component's axes, and its tree's nodes about each, which are worked out when first asked for. May be asked by
+/// several threads at the same time. What the spans look at must outlive it.
+class RoundShape {
+ public:
+  /// Nodes of at least so many faces are large: what parts two surfaces of revolution is for them.
+  static constexpr std::uint32_t kLargeNode = 4;
+
+  /// @param nodes of the faces' tree; not empty
+  RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes);
+
+  Span<const RoundAxis> axes() const { return axes_; }
+  /// The largest extent of the tree's root box [mm].
+  double size() const;
+  /// The nodes of the tree about one axis.
+  const RoundNodes& about(std::size_t axis) const;
+
+ private:
+  struct About {
+    std::once_flag once;
+    RoundNodes nodes;
+  };
+
+  Span<const Vec3> vertices_;
+  Span<const Face> faces_;
+  Span<const ObbNode> nodes_;
+  std::vector<RoundAxis> axes_;
+  std::vector<std::uint32_t> order_;   ///< The tree's nodes, parents before their children.
+  std::vector<std::uint32_t> places_;  ///< As RoundNodes has it.
+  std::uint32_t large_count_ = 0;
+  std::unique_ptr<About[]> about_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/bvh/round_bounds.h"
+#include "dismantle/math/rigid_transform.h"
+#include "dismantle/math/screw.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// The motion of the moving component in the fixed one's frame, in double: between trees' frames as LinearSweep has it.
+struct PairMotion {
+  RigidTransform t0, t1;
+  Mat3 middle;  ///< The rotation half way.
+  Screw back;   ///< The motion of the fixed component in the frame of the moving one's tree.
+  /// The largest distance of an arc of the moving component from its chord, beyond what `allowed` leaves out for it
+  /// [mm].
+  double deviation = 0;
+  double kept = 0;     ///< What `allowed` leaves out for arcs [mm].
+  double allowed = 0;  ///< How deep triangles may be in each other on the true paths [mm].
+  /// So many blocked pairs are enough, or two of each part of the front; the rest may be left unlooked at.
+  std::size_t enough_blocked = static_cast<std::size_t>(-1);
+};
+
+/// A certificate of surfaces that turn about nearly the same axis: what is within some distance of the one axis is
+/// apart from what is beyond it of the other, less how far the axes are off each other. Unlike one plane it parts a
+/// whole shaft from its bore, and still does when one turns in the other or slides along it.
+///
+/// Proof: a triangle beyond distance r of a line lies beyond a plane that is r off the line and along it, and whose
+/// normal leads from the line to the triangle's nearest point. Everything within distance s of another line, between
+/// two places of it, is at most s + off in front of that plane's parallel through the first line, off being how far
+/// those places are off the line along the normal. Both are so at the start and at the end of a linear motion, with the
+/// plane at rest: so they are in between.
+class RoundSweep {
+ public:
+  /// What is proved of two nodes: their gap along planes that touch the outer one's cylinder is never less than that
+  /// [mm].
+  struct Gap {
+    double gap = 0;
+    bool faces = false;  ///< The outward normals of both lead well towards the other along those planes' normals.
+  };
+  Gap gap(std::uint32_t moving, std::uint32_t fixed) const {
+    const RoundNode &m = (*moving_)[moving], &f = (*fixed_)[fixed];
+    const double moving_inside = static_cast<double>(f.least) - static_cast<double>(m.most);
+    const double fixed_inside = static_cast<double>(m.least) - static_cast<double>(f.most) - fixed_bend_;
+    if (moving_inside >= fixed_inside) return {moving_inside - moving_off_.most(m, f), m.faces_out && f.faces_in};
+    return {fixed_inside - fixed_off_.most(f, m), m.faces_in && f.faces_out};
+  }
+
+ private:
+  friend class RoundSweeps;
+  /// How far the points of one axis are off the other, at both ends of the motion.
+  struct Off {
+    Vec3 at[2];     ///< At its own point, across the other [mm].
+    Vec3 along[2];  ///< The change a mm along it.
+    /// How far the axis of the inner node is off that of the outer one, towards the outer node, at most [mm]; negative
+    /// where it is off the other way.
+    double most(const RoundNode& inner, const RoundNode& outer) const;
+  };
+
+  const RoundNodes* moving_ = nullptr;
+  const RoundNodes* fixed_ = nullptr;
+  Off moving_off_, fixed_off_;
+  double fixed_bend_ = 0;  ///< What arcs of the fixed component, as the moving one sees it, may take more [mm].
+};
+
+/// The sweeps of the axes of two components that are nearest to each other as a motion begins, a few at most; worked
+/// out when first asked for. May be asked by several threads at the same time.
+class RoundSweeps {
+ public:
+  /// @param moving_origin, fixed_origin of the trees [mm, assembled]. The shapes must outlive it.
+  RoundSweeps(const RoundShape& moving, Vec3 moving_origin, const RoundShape& fixed, Vec3 fixed_origin,
+              const PairMotion& motion)
+      : moving_(&moving), fixed_(&fixed), moving_origin_(moving_origin), fixed_origin_(fixed_origin), motion_(motion) {}
+
+  Span<const RoundSweep> get() const;
+
+ private:
+  struct AxisPair {
+    std::size_t moving, fixed;
+    double off;
+  };
+  std::vector<AxisPair> nearest_pairs() const;
+  RoundSweep sweep(const AxisPair& pair) const;
+
+  const RoundShape* moving_;
+  const RoundShape* fixed_;
+  Vec3 moving_origin_, fixed_origin_;
+  PairMotion motion_;
+  mutable std::once_flag once_;
+  mutable std::vector<RoundSweep> sweeps_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/bvh/round_bounds.h"
+
+#include "dismantle/math/vec3f.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+/// The faces under each node.
+void faces_under(const ObbTree& tree, std::uint32_t node, std::vector<std::uint32_t>& faces) {
+  if (tree.nodes[node].leaf()) {
+    faces.push_back(tree.nodes[node].child);
+    return;
+  }
+  faces_under(tree, tree.nodes[node].child, faces);
+  faces_under(tree, tree.nodes[node].child + 1, faces);
+}
+
+TEST(RoundShape, BoundsEveryPointOfEveryNode) {
+  std::mt19937_64 random(5);
+  for (const double offset : {0.0, 1e3}) {
+    const Pose pose = scenes::random_pose(random, offset, 3);
+    const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, 20, 4), pose);
+    const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
+    const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes);
+    ASSERT_EQ(shape.axes().size(), 1u);
+    const RoundAxis axis = shape.axes()[0];
+    const RoundNodes& nodes = shape.about(0);
+    ASSERT_EQ(nodes.size(), tree.nodes.size());
+    const double rounding = 1e-9 * (1 + offset);
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      std::vector<std::uint32_t> faces;
+      faces_under(tree, n, faces);
+      const RoundNode& node = nodes[n];
+      if (faces.size() < RoundShape::kLargeNode) {
+        ASSERT_GT(node.most, 1e9);
+        continue;
+      }
+      for (const std::uint32_t f : faces) {
+        const Triangle t = mesh.triangle(f);
+        for (int i = 0; i < 12; ++i) {
+          double u = std::abs(scenes::random_vector(random, 1).x), v = std::abs(scenes::random_vector(random, 1).y);
+          if (u + v > 1) u = 1 - u, v = 1 - v;
+          if (i < 3) u = i == 1, v = i == 2;
+          const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - axis.point;
+          const double along = dot(p, axis.direction);
+          const Vec3 across = p - along * axis.direction;
+          ASSERT_GE(length(across), node.least - rounding);
+          ASSERT_LE(length(across), node.most + rounding);
+          ASSERT_GE(along, node.begin - rounding);
+          ASSERT_LE(along, node.end + rounding);
+          ASSERT_GE(dot(across, to_double(node.toward)), (node.cosine - 1e-5) * length(across) - rounding);
+          const double facing = dot(normal_unscaled(t), across);
+          ASSERT_TRUE(!node.faces_out || facing > 0);
+          ASSERT_TRUE(!node.faces_in || facing < 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(RoundShape, KnowsWhichWayFacesLook) {
+  const TriangleMesh mesh = scenes::tube(10, 6, -20, 20, 20, 4);
+  const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
+  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes);
+  double outermost = 0, innermost = 1e9;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const RoundNode& node = shape.about(0)[n];
+    ASSERT_FALSE(node.faces_out && node.faces_in);
+    if (node.faces_out) innermost = std::min<double>(innermost, node.least);
+    if (node.faces_in) outermost = std::max<double>(outermost, node.most);
+  }
+  EXPECT_GT(innermost, 9.8);
+  EXPECT_LT(innermost, 9.9) << "the middle of a facet";
+  EXPECT_NEAR(outermost, 6, 1e-5);
+}
+
+}  // namespace
+}  // namespace dismantle
