@@ -6,6 +6,7 @@
 #include "dismantle/math/screw.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/slide_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -270,6 +271,35 @@ TEST(CertificateEngine, DoesNotCareHowTheAssemblyIsTurned) {
     const Pose by_b = b.engine.step(turn * target * inverse(turn), ResponseKind::Slide).pose;
     const Pose back = inverse(turn) * by_b * turn;
     EXPECT_NEAR(length(back.position - by_a.position), 0, 0.05) << "step " << step;
+  }
+}
+
+TEST(CertificateEngine, TellsWhatOneComponentMeetsStraightOnWhateverWasMoved) {
+  const Assembly assembly = scenes::assembly(
+      {component("block", box({0, 0, 1}, {10, 10, 11})), component("near", box({4, 4, 20}, {6, 6, 22})),
+       component("far", box({0, 0, 31}, {10, 10, 32})), component("aside", box({20, 0, 0}, {30, 10, 40}))});
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 1);
+  h.engine.step({{100, 0, 0}, {}}, ResponseKind::Stop);
+  const ComponentId block(0), near(1), far(2), aside(3);
+  const auto first = h.engine.straight_contact(block, near, {0, 0, 500}, StraightSearch::First);
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->distance, 9, kTolerance);
+  EXPECT_NEAR(first->point.z, 20, kTolerance);
+  const auto any = h.engine.straight_contact(block, far, {0, 0, 500}, StraightSearch::Any);
+  ASSERT_TRUE(any);
+  EXPECT_GE(any->distance, 20 - kTolerance);
+  EXPECT_FALSE(h.engine.straight_contact(block, aside, {0, 0, 500}, StraightSearch::First));
+  EXPECT_FALSE(h.engine.straight_contact(block, near, {0, 0, 8}, StraightSearch::Any)) << "it does not go that far";
+}
+
+TEST(CertificateEngine, LetsFitsGoStraightAllTheWayOut) {
+  for (const double interference : {0.005, 0.02, 0.04}) {
+    const scenes::SlideScene scene = scenes::press_fit_pin(36, interference);
+    const PairStates states = states_of(scene.assembly);
+    const CertificateEngine engine(scene.assembly, states);
+    EXPECT_FALSE(engine.straight_contact(ComponentId(1), ComponentId(0), {0, 0, 200}, StraightSearch::First));
+    EXPECT_TRUE(engine.straight_contact(ComponentId(1), ComponentId(0), {200, 0, 0}, StraightSearch::First));
   }
 }
 
