@@ -92,8 +92,8 @@ std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span
 
 namespace {
 
-/// A fit that is stopped goes on if a new start gets so many tolerances further: which of two overlapping faces is on
-/// which side is chosen where a sweep begins.
+/// What touches from the start and is stopped goes on if a new start gets so many tolerances further: which of two
+/// overlapping faces is on which side is chosen where a sweep begins.
 constexpr double kNewStart = 8;
 constexpr int kMostStarts = 8;
 
@@ -123,16 +123,15 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
 
 std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
                                                 StraightSearch search) {
+  if (!sweeper.touched(asked.moving, asked.fixed)) return contact_between(sweeper, asked, 0, 1, search);
   const double whole = length(asked.way);
-  if (sweeper.allowed(asked.moving, asked.fixed) <= sweeper.tolerance())
-    return contact_between(sweeper, asked, 0, 1, search);
   double from = 0;
   for (int starts = 1;; ++starts) {
-    const auto contact = contact_between(sweeper, asked, from, 1, StraightSearch::First);
+    const double next = std::min(1.0, from + kNewStart * sweeper.tolerance() / whole);
+    if (const auto contact = contact_between(sweeper, asked, from, next, search)) return contact;
+    const auto contact = contact_between(sweeper, asked, next, 1, StraightSearch::First);
     if (!contact || starts == kMostStarts) return contact;
-    const double stop = contact->distance / whole, next = stop + kNewStart * sweeper.tolerance() / whole;
-    if (next >= 1 || contact_between(sweeper, asked, stop, next, StraightSearch::Any)) return contact;
-    from = next;
+    from = contact->distance / whole;
   }
 }
 

@@ -123,6 +123,10 @@ double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
   return rule.test == PairTest::Discrete ? -1 : rule.allowed_penetration;
 }
 
+bool CertificateSweeper::touched(ComponentId a, ComponentId b) const {
+  return rules_.view().find(std::min(a, b).value, std::max(a, b).value).test != PairTest::Ordinary;
+}
+
 CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving, ComponentId fixed) {
   const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
   auto found = fronts_.find({a, b});

@@ -87,6 +87,8 @@ class CertificateSweeper {
   double tolerance() const { return rules_.tolerance(); }
   /// How deep triangles of the two may be in each other; negative where they are embedded.
   double allowed(ComponentId a, ComponentId b) const;
+  /// They touched or overlapped in the assembled state.
+  bool touched(ComponentId a, ComponentId b) const;
   /// The pair is not embedded any more.
   void part(ComponentId a, ComponentId b) { rules_.part(std::min(a, b), std::max(a, b)); }
 

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace dismantle {
 
 namespace {
 
 constexpr double kAxisCosine = 1 - 5e-7;
+/// Of two directions with as many blockers the later one is better only if the component gets so many times as far.
+constexpr double kClearlyFurther = 2;
 
 std::string point_text(const Vec3& p, const char* format) {
   char text[128];
@@ -26,6 +29,15 @@ std::string names_text(const Assembly& assembly, const std::vector<ComponentId>&
   return text;
 }
 
+/// How far the component gets before the first of its blockers [mm].
+double way_to_first(const BlockingTable& table, ComponentId component, DirectionId d,
+                    const std::vector<ComponentId>& blockers) {
+  double way = std::numeric_limits<double>::infinity();
+  for (const ComponentId blocker : blockers)
+    way = std::min(way, table.contact(component, d, blocker).value_or(StraightContact{}).distance);
+  return way;
+}
+
 }  // namespace
 
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
@@ -33,11 +45,15 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
   DISMANTLE_EXPECT(!directions.empty());
   DirectionId best;
   std::vector<ComponentId> fewest;
+  double furthest = 0;
   for (const DirectionId d : directions) {
     std::vector<ComponentId> blockers = table.blockers(component, d, present);
-    if (best.valid() && blockers.size() >= fewest.size()) continue;
+    if (best.valid() && blockers.size() > fewest.size()) continue;
+    const double free_way = way_to_first(table, component, d, blockers);
+    if (best.valid() && blockers.size() == fewest.size() && free_way <= kClearlyFurther * furthest) continue;
     best = d;
     fewest = std::move(blockers);
+    furthest = free_way;
   }
 
   Explanation found{component, table.direction(best), {}, table.moving_together(component, best, present), {}};

@@ -8,7 +8,8 @@
 
 namespace dismantle {
 
-/// Why a component does not come straight out of `present`: along the one of `directions` with the fewest blockers.
+/// Why a component does not come straight out of `present`: along the one of `directions` with the fewest blockers,
+/// and of these the first that it gets clearly further along.
 /// No blockers: it does come out.
 /// @pre directions is not empty
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
