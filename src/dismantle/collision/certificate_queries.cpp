@@ -96,19 +96,24 @@ namespace {
 /// overlapping faces is on which side is chosen where a sweep begins.
 constexpr double kNewStart = 8;
 constexpr int kMostStarts = 8;
+/// Each look for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
+/// contacts that are ever so little nearer would go on for ever.
+constexpr double kShorter = 0.05;
 
 /// @param from how much of the way is free already
 /// @param to how much of it is asked about
 std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper, const StraightWay& asked, double from,
                                                double to, StraightSearch search) {
   std::optional<StraightContact> contact;
+  double shorter = kShorter * sweeper.tolerance() / length(asked.way);
   // Any contact shortens the way; where that is free the contact was the first.
   while (to > from) {
     const CertificateSweep found = sweeper.look_straight(asked.moving, asked.fixed, from * asked.way, to * asked.way);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const BlockedPair& a, const BlockedPair& b) { return a.toi < b.toi; });
-    to = from + (to - from) * first->toi;
+    to = std::max(from, std::min(from + (to - from) * first->toi, to - shorter));
+    shorter *= 2;
     Triangle moving = sweeper.solid(asked.moving).triangle(first->face_moving.value);
     for (Vec3& p : moving.corner) p += to * asked.way;
     const Triangle fixed = sweeper.solid(asked.fixed).triangle(first->face_fixed.value);
