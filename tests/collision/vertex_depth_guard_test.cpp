@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/vertex_depth_guard.h"
 
+#include "dismantle/collision/certificate_engine.h"
+
 #include "dismantle/collision/classify_pairs.h"
 #include "tests/support/random_scenes.h"
 
@@ -35,6 +37,20 @@ std::vector<RigidTransform> pin_at(Vec3 position) {
   return {{{}, position}, {}};
 }
 
+TEST(VertexDepthGuard, LetsAPinSlideOutThatIsPushedAgainstItsBore) {
+  const Assembly assembly = fine_press_fit();
+  CertificateEngine engine(assembly, states_of(assembly), {});
+  const ComponentId pin(0);
+  engine.hold({&pin, 1});
+  double furthest_aside = 0;
+  for (int k = 1; k <= 10; ++k) {
+    const StepResult step = engine.step({{2, 0, 0.5 * k}, {}}, ResponseKind::Slide);
+    furthest_aside = std::max(furthest_aside, step.pose.position.x);
+  }
+  EXPECT_GT(engine.poses()[0].position.z, 3) << "of 5 mm";
+  EXPECT_LT(furthest_aside, 0.6) << "twice what may overlap";
+}
+
 TEST(VertexDepthGuard, LetsAFinePressedPinOutAlongItsAxis) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
@@ -51,7 +67,7 @@ TEST(VertexDepthGuard, HoldsItBackFromTheWall) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   VertexDepthGuard guard(assembly, states, solids_of(assembly, Executor()), Executor());
-  const std::vector<CollisionContact> contacts = guard.sweep(pin_at({0, 0, 0}), pin_at({2, 0, 0}));
+  const std::vector<VertexContact> contacts = guard.sweep(pin_at({0, 0, 0}), pin_at({2, 0, 0}));
   ASSERT_FALSE(contacts.empty());
   // 0.2 mm deep at the start; twice the allowance is what the deepest vertex may have.
   const double limit = 2 * states.pairs[0].allowed_penetration;

@@ -24,7 +24,7 @@ constexpr double kRestShare = 2e-3;
 constexpr int kMostTries = 20;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or with it where
 /// it is the step's first: the next goes on.
-constexpr double kCreepShare = 0.02;
+constexpr double kCreepShare = 0.1;
 /// How far a twist's second-order part may take a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
 /// Contacts are taken up while their gap is at most so many tolerances.
@@ -86,9 +86,9 @@ CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effo
   return found;
 }
 
-double CertificateResponse::advance(const Pose& end, double part, StepResult& result) {
+double CertificateResponse::advance(const Pose& end, double part, StepResult& result, Guarded guarded) {
   const Pose start = sweeper_.pose();
-  const double made = part > 0 ? follow(end, part) : 0;
+  const double made = part > 0 ? follow(end, part, guarded) : 0;
   if (!(made > 0)) return 0;
   sweeper_.move_to(pose_between(start, end, made));
   adopt_parted();
@@ -96,9 +96,9 @@ double CertificateResponse::advance(const Pose& end, double part, StepResult& re
   return made;
 }
 
-double CertificateResponse::follow(const Pose& end, double part) {
+double CertificateResponse::follow(const Pose& end, double part, Guarded guarded) {
   guarded_.clear();
-  part = guarded_part(end, part);
+  part = guarded_part(end, part, guarded);
   if (part <= 0) return 0;
   if (!embedded_.empty()) {
     for (std::size_t c = 0; c < held_.size(); ++c)
@@ -109,26 +109,27 @@ double CertificateResponse::follow(const Pose& end, double part) {
         embedded_.follow(held_, sweeper_.poses(), start, stop, cut_count(sweeper_.deviation(stop), most), most);
     if (made < 1) {
       part *= made;
-      part = part > 0 ? guarded_part(end, part) : 0;
+      part = part > 0 ? guarded_part(end, part, guarded) : 0;
     }
   }
   if (part > 0 && !guard_.watches_nothing()) guard_.commit();
   return part;
 }
 
-double CertificateResponse::guarded_part(const Pose& end, double part) {
+double CertificateResponse::guarded_part(const Pose& end, double part, Guarded guarded) {
   if (guard_.watches_nothing()) return part;
   const Pose start = sweeper_.pose();
   for (std::size_t c = 0; c < from_.size(); ++c) from_[c] = to_[c] = transform_from_pose(sweeper_.poses()[c]);
   for (int tries = 0; tries < kGuardTries; ++tries) {
     const RigidTransform next = transform_from_pose(pose_between(start, end, part));
     for (const ComponentId c : sweeper_.held()) to_[c.value] = next;
-    std::vector<CollisionContact> found = guard_.sweep(from_, to_, touching_);
+    std::vector<VertexContact> found = guard_.sweep(from_, to_, touching_);
     if (found.empty()) return part;
     double toi = 1;
     for (const CollisionContact& c : found) toi = std::min(toi, c.toi);
     part *= toi * (1 - kBackoffShare);
     guarded_ = std::move(found);
+    if (guarded == Guarded::Whole) break;
   }
   return 0;
 }
@@ -159,10 +160,10 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
     const double next = at + part > 1 - 1e-9 ? 1 : at + part;
     const Pose end = pose_between(start, target, next);
     const double piece = sweeper_.travel(end), free = free_part(end, touch, result);
-    const bool made = advance(end, free, result) >= 1;
+    const bool made = advance(end, free, result, Guarded::Part) >= 1;
     reach_ = made ? reach_ * kTryGrowth : std::max(kLeastTry * tolerance, 2 * free * piece);
     if (!made) {
-      if (free == 1) result.contacts = guarded_;
+      if (free == 1) result.contacts.assign(guarded_.begin(), guarded_.end());
       break;
     }
     at = next;
@@ -200,6 +201,7 @@ double CertificateResponse::free_part(const Pose& end, bool touch, StepResult& r
 void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
   const double lever = std::max(sweeper_.radius() / 2, tolerance);
+  contacts_.drop_vertices();
   bool fresh = contacts_.empty();  // the contacts' axes are those of the motion that is wanted from here
   bool on_course = false;          // the last motion was on the screw to the target
   for (int tries = 0; tries < kMostTries;) {
@@ -207,9 +209,9 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const SlideContacts::Twist tried = shortened(wanted, reach_);
     const bool whole = travel_of(tried) >= travel_of(wanted);
     if (!std::exchange(fresh, true)) contacts_.choose_axes(within_arcs(whole ? target : twisted(tried)));
-    const SlideContacts::Twist twist = slide_twist(tried, lever);
+    const SlideContacts::Twist allowed = contacts_.nearest(tried, lever), twist = bent_little(allowed);
     const double travel = travel_of(twist);
-    const bool creeping = twist.bounded && travel < kCreepShare * travel_of(wanted);
+    const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
     if (travel < rest || (creeping && !result.way.empty())) break;
 
     const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
@@ -219,7 +221,12 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (!found.free) report(found, result);
     tries += !found.free || twist.bounded;
     if (found.free) {
-      const bool made = advance(end, 1, result) > 0;
+      bool made = advance(end, 1, result, Guarded::Whole) > 0;
+      if (take_guarded(result)) {
+        ++tries;
+        continue;
+      }
+      if (!made) made = advance(end, 1, result, Guarded::Part) > 0;
       const bool was_on_course = std::exchange(on_course, !twist.bounded);
       // What goes on along one screw is one motion.
       if (made && was_on_course && on_course) result.way.erase(result.way.end() - 2);
@@ -242,22 +249,41 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       continue;
     }
     reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
-    if (advance(end, part, result) == 0) break;
+    const bool made = advance(end, part, result, Guarded::Part) > 0;
+    if (!take_guarded(result) && !made) break;
     fresh = on_course = false;
   }
   contacts_.drop_beyond(kContactReach * tolerance);
   result.touching = contacts_.points(tolerance);
 }
 
-SlideContacts::Twist CertificateResponse::slide_twist(const SlideContacts::Twist& wanted, double lever) const {
-  SlideContacts::Twist twist = contacts_.nearest(wanted, lever);
+bool CertificateResponse::take_guarded(StepResult& result) {
+  if (guarded_.empty()) return false;
+  result.contacts.assign(guarded_.begin(), guarded_.end());
+  bool news = false;
+  for (const VertexContact& c : guarded_) {
+    const bool a_moves = sweeper_.holds(c.a);
+    BlockedPair pair{
+        a_moves ? c.a : c.b, a_moves ? c.b : c.a, a_moves ? c.face_a : c.face_b, a_moves ? c.face_b : c.face_a, 0, {}};
+    // Out of the face that the vertex is behind.
+    const bool moving_is_outer = c.a_is_outer == a_moves;
+    const ComponentId outer = moving_is_outer ? pair.moving : pair.fixed;
+    const FaceId face = moving_is_outer ? pair.face_moving : pair.face_fixed;
+    const Vec3 out = normalized(normal_unscaled(sweeper_.solid(outer).triangle(face.value)));
+    const Mat3 seen = mat3_from_quat((inverse(sweeper_.poses()[pair.fixed.value]) * sweeper_.pose()).rotation);
+    pair.axis = moving_is_outer ? seen * out : -out;
+    news |= contacts_.add_vertex(pair);
+  }
+  guarded_.clear();
+  return news;
+}
+
+SlideContacts::Twist CertificateResponse::bent_little(SlideContacts::Twist twist) const {
   const double bend = sweeper_.radius() * length_squared(twist.rotation) / 2;
   const double most = kBendShare * sweeper_.tolerance();
   if (!twist.bounded || bend <= most) return twist;
   const double scale = std::sqrt(most / bend);
-  twist.velocity *= scale;
-  twist.rotation *= scale;
-  return twist;
+  return {scale * twist.velocity, scale * twist.rotation, true};
 }
 
 Pose CertificateResponse::within_arcs(const Pose& target) const {

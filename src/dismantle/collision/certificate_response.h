@@ -21,13 +21,15 @@ class CertificateResponse {
   std::vector<ComponentPair> embedded_pairs() const { return embedded_.pairs(); }
 
  private:
+  /// Whether a motion is made in part where vertices would get too deep further on, or not at all.
+  enum class Guarded { Part, Whole };
   CertificateSweep sweep(const Pose& end, double window, Effort effort, StepResult& result);
   /// Goes `part` of the motion to `end`, which the certificates allow, or as far as the other two rules let it.
   /// @return the part made
-  double advance(const Pose& end, double part, StepResult& result);
+  double advance(const Pose& end, double part, StepResult& result, Guarded guarded);
   /// How far of a motion that the certificates allow up to `part` the other two rules let through; the watches follow.
-  double follow(const Pose& end, double part);
-  double guarded_part(const Pose& end, double part);
+  double follow(const Pose& end, double part, Guarded guarded);
+  double guarded_part(const Pose& end, double part, Guarded guarded);
   void adopt_parted();
   void report(const CertificateSweep& sweep, StepResult& result) const;
 
@@ -36,7 +38,10 @@ class CertificateResponse {
   /// or nothing where not `touch`.
   double free_part(const Pose& end, bool touch, StepResult& result);
   void slide(const Pose& target, StepResult& result);
-  SlideContacts::Twist slide_twist(const SlideContacts::Twist& wanted, double lever) const;
+  /// Takes up what the guard stopped the last motion for; true where that bounds the twist in a new way.
+  bool take_guarded(StepResult& result);
+  /// The twist, shortened where contacts bound it and its second-order part would take points too far.
+  SlideContacts::Twist bent_little(SlideContacts::Twist twist) const;
   Pose within_arcs(const Pose& target) const;
   Pose twisted(const SlideContacts::Twist& twist) const;
   SlideContacts::Twist twist_to(const Pose& target) const;
@@ -49,7 +54,7 @@ class CertificateResponse {
   std::vector<RigidTransform> from_, to_;                      ///< For the guard.
   std::vector<bool> held_;                                     ///< For the watch.
   std::vector<std::pair<ComponentId, ComponentId>> touching_;  ///< Of the last sweep.
-  std::vector<CollisionContact> guarded_;                      ///< What the guard found in the last advance.
+  std::vector<VertexContact> guarded_;                         ///< What the guard found in the last advance.
   SlideContacts contacts_;                                     ///< Of the last step of response Slide.
   std::vector<BlockedPair> stopping_;                          ///< What stopped the last motion of Stop or Touch.
   double reach_;  ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.

@@ -34,6 +34,17 @@ bool SlideContacts::add(const BlockedPair& pair) {
   return stand(pair).patch.count > 0;
 }
 
+bool SlideContacts::add_vertex(const BlockedPair& pair) {
+  for (const BlockedPair& known : vertices_)
+    if (same_faces(known, pair)) return false;
+  vertices_.push_back(pair);
+  return stand(pair).patch.count > 0;
+}
+
+void SlideContacts::drop_vertices() {
+  vertices_.clear();
+}
+
 void SlideContacts::choose_axes(const Pose& end) {
   std::erase_if(pairs_, [&](BlockedPair& pair) {
     const LeafSweep::Result found = sweeper_.sweep_pair(pair, end, Effort::Quick);
@@ -77,23 +88,26 @@ void SlideContacts::drop_beyond(double reach) {
   std::erase_if(pairs_, [&](const BlockedPair& pair) { return stand(pair).gap > reach; });
 }
 
-SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) const {
+void SlideContacts::bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
-  const double reserve = kSlideReserve * sweeper_.tolerance();
-  std::vector<HalfSpace> bounds;
-  for (const BlockedPair& pair : pairs_) {
-    const Stand s = stand(pair);
-    const double deepest = sweeper_.allowed(pair.moving, pair.fixed) - reserve;
-    if (s.patch.count == 0) continue;
-    // What the certificates measure: it can be deeper than where the two lie over each other.
-    const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
-    for (int i = 0; i < s.patch.count; ++i) {
-      const ContactPatch::Point& p = s.patch.points[i];
-      const Vec3 turn = (1 / lever) * cross(p.on_upper - center, s.normal);
-      bounds.push_back(
-          {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
-    }
+  const Stand s = stand(pair);
+  const double deepest = allowed - kSlideReserve * sweeper_.tolerance();
+  if (s.patch.count == 0) return;
+  // What the certificates measure: it can be deeper than where the two lie over each other.
+  const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
+  for (int i = 0; i < s.patch.count; ++i) {
+    const ContactPatch::Point& p = s.patch.points[i];
+    const Vec3 turn = (1 / lever) * cross(p.on_upper - center, s.normal);
+    bounds.push_back(
+        {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
   }
+}
+
+SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) const {
+  std::vector<HalfSpace> bounds;
+  for (const BlockedPair& pair : pairs_) bound(pair, sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  for (const BlockedPair& pair : vertices_)
+    bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
   const Vec3 turned = lever * wanted.rotation;
   const NearestTwist found =
       nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds);

@@ -4,6 +4,7 @@
 #include "dismantle/collision/certificate_sweeper.h"
 #include "dismantle/collision/contact_patch.h"
 #include "dismantle/collision/nearest_twist.h"
+#include "dismantle/collision/vertex_depth_guard.h"
 
 #include <vector>
 
@@ -15,10 +16,17 @@ class SlideContacts {
  public:
   explicit SlideContacts(const CertificateSweeper& sweeper) : sweeper_(sweeper) {}
 
-  void clear() { pairs_.clear(); }
+  void clear() {
+    pairs_.clear();
+    vertices_.clear();
+  }
   bool empty() const { return pairs_.empty(); }
   /// Takes up the pair, or gives it its new axis. True where it bounds the twist in a way that it did not before.
   bool add(const BlockedPair& pair);
+  /// The same for a vertex that would get too deep behind a face, which the pair of a face of its own and that face
+  /// stands for until the step ends: no test of triangles knows of it.
+  bool add_vertex(const BlockedPair& pair);
+  void drop_vertices();
   /// Gives every pair the axis that lets a motion to `end` go furthest, and lets go of pairs that do not block it.
   void choose_axes(const Pose& end);
   /// Lets go of pairs whose gap is more than `reach` [mm].
@@ -48,9 +56,13 @@ class SlideContacts {
     double gap = 0;      ///< Along the normal [mm].
   };
   Stand stand(const BlockedPair& pair) const;
+  /// What the pair forbids the twist; rows of nearest_twist.
+  /// @param allowed how deep it may be [mm]
+  void bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const;
 
   const CertificateSweeper& sweeper_;
   std::vector<BlockedPair> pairs_;
+  std::vector<BlockedPair> vertices_;
 };
 
 /// Response Slide keeps this share of the tolerance from every allowance: room for what a twist leaves out to first

@@ -26,6 +26,8 @@ constexpr double kNearShare = 0.25;
 constexpr double kJoinedClear = 2;
 /// Spheres that have to be looked at, a task.
 constexpr std::size_t kTaskSpheres = 16;
+/// A face holds what keeps this share of the resolution.
+constexpr double kHeldShare = 0.1;
 /// How often, in quarters, a way is shortened for one face to hold it.
 constexpr int kFaceTries = 4;
 
@@ -132,11 +134,12 @@ class VertexDepthGuard::Course {
   /// As far as one face is near enough to the sphere for all its vertices, wherever they are: its distance is convex
   /// along a chord, and the arc is near that. At most 1; `at` where the face says nothing.
   double held_until(std::uint32_t face, const VertexSphere& s, double at) const {
-    const double most = side_.limit - s.radius - side_.resolution;
     if (face == NearestFace::kNone) return at;
     const Vec3 from = start_ * s.center;
-    const double first = face_distance(face, place(from, at));
-    if (first > most) return at;
+    const double limit = side_.limit - s.radius, first = face_distance(face, place(from, at));
+    if (first > limit) return at;
+    // What is as deep as may be may still go on no deeper, or come back.
+    const double most = std::max(limit - kHeldShare * side_.resolution, first);
     const double bend = screw_chord_deviation(screw_, screw_radius(screw_, from, s.radius));
     double length = 1 - at;
     for (int tries = 0; tries < kFaceTries; ++tries, length /= 4) {
@@ -224,7 +227,8 @@ VertexDepthGuard::VertexDepthGuard(const Assembly& assembly, const PairStates& p
 void VertexDepthGuard::prepare() {
   executor_.for_each_heavy(thinnest_.size(),
                            [&](std::size_t c) { thinnest(ComponentId(static_cast<std::uint32_t>(c))); });
-  if (std::all_of(thinnest_.begin(), thinnest_.end(), [&](double t) { return t >= 2 * largest_allowance_; })) return;
+  if (std::all_of(thinnest_.begin(), thinnest_.end(), [&](double t) { return t >= kLimit * largest_allowance_; }))
+    return;
   for (std::size_t c = 0; c < trees_.size(); ++c) tree_of(ComponentId(static_cast<std::uint32_t>(c)));
 }
 
@@ -242,7 +246,7 @@ const VertexTree& VertexDepthGuard::tree_of(ComponentId component) {
 
 void VertexDepthGuard::consider(ComponentId a, ComponentId b, double allowed) {
   if (!known_.insert({std::min(a, b), std::max(a, b)}).second) return;
-  if (std::min(thinnest(a), thinnest(b)) >= 2 * allowed) return;
+  if (std::min(thinnest(a), thinnest(b)) >= kLimit * allowed) return;
   watch(a, b, allowed);
   watch(b, a, allowed);
 }
@@ -255,7 +259,7 @@ void VertexDepthGuard::watch(ComponentId inner, ComponentId outer, double allowe
   side.solid_inner = &solid_of_(inner);
   side.solid_outer = &solid_of_(outer);
   side.tree = &tree_of(inner);
-  side.limit = 2 * allowed;
+  side.limit = kLimit * allowed;
   side.resolution = kResolutionShare * tolerance_;
   begin_anew(side);
   sides_.push_back(std::move(side));
@@ -324,21 +328,21 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const Course&
   return first;
 }
 
-CollisionContact VertexDepthGuard::contact_of(const Side& side, const Finding& finding) const {
+VertexContact VertexDepthGuard::contact_of(const Side& side, const Finding& finding) const {
   const Span<const Face> faces = side.solid_inner->faces;
   const auto has_vertex = [&](const Face& f) { return std::count(f.v, f.v + 3, finding.vertex) > 0; };
   const auto at = std::find_if(faces.begin(), faces.end(), has_vertex) - faces.begin();
   const FaceId inner_face(static_cast<std::uint32_t>(at)), outer_face(finding.face);
-  if (side.inner < side.outer) return {side.inner, side.outer, inner_face, outer_face, finding.toi};
-  return {side.outer, side.inner, outer_face, inner_face, finding.toi};
+  if (side.inner < side.outer) return {{side.inner, side.outer, inner_face, outer_face, finding.toi}, false};
+  return {{side.outer, side.inner, outer_face, inner_face, finding.toi}, true};
 }
 
-std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to) {
+std::vector<VertexContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to) {
   return sweep_sides(from, to, [](const Side&) { return true; });
 }
 
-std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
-                                                      Span<const std::pair<ComponentId, ComponentId>> touching) {
+std::vector<VertexContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                                   Span<const std::pair<ComponentId, ComponentId>> touching) {
   return sweep_sides(from, to, [&](const Side& side) {
     return std::any_of(touching.begin(), touching.end(), [&](const std::pair<ComponentId, ComponentId>& pair) {
       return pair == std::pair{side.inner, side.outer} || pair == std::pair{side.outer, side.inner};
@@ -346,9 +350,9 @@ std::vector<CollisionContact> VertexDepthGuard::sweep(Span<const RigidTransform>
   });
 }
 
-std::vector<CollisionContact> VertexDepthGuard::sweep_sides(Span<const RigidTransform> from,
-                                                            Span<const RigidTransform> to, const MayMeet& may_meet) {
-  std::vector<CollisionContact> contacts;
+std::vector<VertexContact> VertexDepthGuard::sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                                         const MayMeet& may_meet) {
+  std::vector<VertexContact> contacts;
   for (Side& side : sides_) {
     const RigidTransform start = inverse(from[side.outer.value]) * from[side.inner.value];
     const RigidTransform end = inverse(to[side.outer.value]) * to[side.inner.value];
@@ -419,7 +423,8 @@ class GuardedEngine final : public CollisionEngine {
     SweepResult result = engine_->sweep(next, path_deviation);
     if (!result.free) return result;
     const auto start = std::chrono::steady_clock::now();
-    result.contacts = guard_.sweep(engine_->state(), next);
+    const std::vector<VertexContact> found = guard_.sweep(engine_->state(), next);
+    result.contacts.assign(found.begin(), found.end());
     for (const CollisionContact& c : result.contacts) result.toi = std::min(result.toi, c.toi);
     result.free = result.contacts.empty();
     const double spent = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -14,6 +14,11 @@
 
 namespace dismantle {
 
+/// A vertex that gets too deep in a component: a face that it is a corner of, and the one that is nearest to it.
+struct VertexContact : CollisionContact {
+  bool a_is_outer = false;  ///< The vertex is b's.
+};
+
 /// Keeps the second rule of the guarantee (docs/guarantee.md) where triangle pairs cannot: no vertex of a component
 /// gets deeper than twice the pair's allowance inside another closed component.
 ///
@@ -24,6 +29,9 @@ namespace dismantle {
 /// (and cut in halves, near the surface) only when its slack may be used up.
 class VertexDepthGuard {
  public:
+  /// So many times as deep as triangles may be in each other vertices may be.
+  static constexpr double kLimit = 2;
+
   /// The component as a tree of its faces. What it gives must outlive the guard.
   using SolidOf = std::function<const SolidTree&(ComponentId)>;
 
@@ -41,10 +49,10 @@ class VertexDepthGuard {
 
   /// The vertices that get too deep on the way from state `from` to `to`: one contact a pair of components at most,
   /// with the toi up to which all its vertices are certainly allowed. Relative motions are screws.
-  std::vector<CollisionContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
+  std::vector<VertexContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
   /// The same where only the pairs in `touching` can have met on the way: all others are known to be apart.
-  std::vector<CollisionContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
-                                      Span<const std::pair<ComponentId, ComponentId>> touching);
+  std::vector<VertexContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                   Span<const std::pair<ComponentId, ComponentId>> touching);
   /// Makes the end of the last sweep the state that the kept slacks are for. @pre that sweep found nothing
   void commit();
   /// Forgets all slacks: the state was changed without a sweep.
@@ -85,10 +93,10 @@ class VertexDepthGuard {
   double thinnest(ComponentId component);
   const VertexTree& tree_of(ComponentId component);
   using MayMeet = std::function<bool(const Side&)>;
-  std::vector<CollisionContact> sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
-                                            const MayMeet& may_meet);
+  std::vector<VertexContact> sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
+                                         const MayMeet& may_meet);
   Finding sweep_side(Side& side, const Course& course) const;
-  CollisionContact contact_of(const Side& side, const Finding& finding) const;
+  VertexContact contact_of(const Side& side, const Finding& finding) const;
   static void begin_anew(Side& side);
   static void merge(Side& side);
 
