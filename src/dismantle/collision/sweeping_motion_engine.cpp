@@ -18,7 +18,8 @@ class SweepingMotionEngine final : public MotionEngine {
   void hold(Span<const ComponentId> components) override {
     DISMANTLE_EXPECT(!components.empty());
     set_ = make_rigid_set(assembly_, {components.begin(), components.end()});
-    for (const ComponentId c : components) DISMANTLE_EXPECT(poses_[c.value] == poses_[components[0].value]);
+    DISMANTLE_EXPECT(std::all_of(components.begin(), components.end(),
+                                 [&](ComponentId c) { return poses_[c.value] == poses_[components[0].value]; }));
   }
 
   StepResult step(const Pose& target, ResponseKind response) override {
