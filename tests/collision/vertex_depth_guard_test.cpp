@@ -2,7 +2,6 @@
 #include "dismantle/collision/vertex_depth_guard.h"
 
 #include "dismantle/collision/certificate_engine.h"
-
 #include "dismantle/collision/classify_pairs.h"
 #include "tests/support/random_scenes.h"
 

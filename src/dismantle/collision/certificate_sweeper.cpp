@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dismantle {
 
@@ -130,7 +131,8 @@ bool CertificateSweeper::touched(ComponentId a, ComponentId b) const {
 CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving, ComponentId fixed) {
   const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
   auto found = fronts_.find({a, b});
-  if (found == fronts_.end()) found = fronts_.emplace(std::pair{a, b}, FrontEntry{roots(a, b), false, {}}).first;
+  if (found == fronts_.end())
+    found = fronts_.emplace(std::pair{a, b}, FrontEntry{roots(a, b, sides(a, b)), false, {}}).first;
   FrontEntry& entry = found->second;
   if (entry.b_moves != (moving == b)) {
     const Mat3 of_moving = mat3_from_quat(poses_[moving.value].rotation);
@@ -145,8 +147,8 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
   return entry;
 }
 
-CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b) const {
-  return {solid(a).tree, solid(b).tree, sides(a, b), solid(a).round.get(), solid(b).round.get()};
+CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b, SideRule sides) const {
+  return {solid(a).tree, solid(b).tree, sides, solid(a).round.get(), solid(b).round.get()};
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
@@ -166,15 +168,20 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                    rules);
 }
 
-LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, effort)
+LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
+  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
 CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
   CertificateSweep result;
+  std::optional<LeafSweep> leaves;
+  const BlockedPair* last = nullptr;
   for (const BlockedPair& pair : pairs) {
-    const LeafSweep::Result found = sweep_pair(pair, end, Effort::Full);
+    if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
+      leaves.emplace(leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
+    last = &pair;
+    const LeafSweep::Result found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
     ++result.leaf_tests;
     if (found.free) continue;
     result.blocked.push_back(pair);
@@ -290,7 +297,7 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
     const auto known = fronts_.find({a, b});
     const bool usable = known != fronts_.end() && known->second.b_moves == (moving == b) &&
                         known->second.fixed_pose == poses_[fixed.value];
-    const CertificateFront anew = roots(moving, fixed);
+    const CertificateFront anew = roots(moving, fixed, sides(moving, fixed));
     const CertificateFront& front = usable ? known->second.front : anew;
     const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
     const PairMotion motion = leaves.motion();
@@ -309,7 +316,7 @@ CertificateSweep CertificateSweeper::look_straight(ComponentId moving, Component
                          {allowance, tolerance(), sides(moving, fixed), {}, false});
   PairMotion motion = leaves.motion();
   motion.enough_blocked = 1;
-  look_at(roots(moving, fixed), {moving, fixed, leaves, motion, 0}, result);
+  look_at(roots(moving, fixed, sides(moving, fixed)), {moving, fixed, leaves, motion, 0}, result);
   finish(result, 0);
   return result;
 }
@@ -331,8 +338,7 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   std::vector<BlockedPair> pairs;
   CertificateSweep unused;
   for_each_near(pose(), pose(), reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    const CertificateFront front(solid(moving).tree, solid(fixed).tree, SideRule::Free, solid(moving).round.get(),
-                                 solid(fixed).round.get());
+    const CertificateFront front = roots(moving, fixed, SideRule::Free);
     PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
     const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {

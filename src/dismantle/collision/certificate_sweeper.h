@@ -69,10 +69,10 @@ class CertificateSweeper {
   CertificateSweep look_straight(ComponentId moving, ComponentId fixed, const Vec3& from, const Vec3& to) const;
   /// The triangle pairs that are nearer than `reach` [mm] where the set in hand is, and perhaps some more.
   std::vector<BlockedPair> near_pairs(double reach) const;
-  /// The same motion of one pair of triangles: whether it is blocked, and by which axis.
+  /// The same motion of one pair of triangles, with Effort::Quick: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
-  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end, Effort effort) const;
-  /// The same motion of these pairs alone.
+  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
+  /// The same motion of these pairs alone, with Effort::Full; those of the same components one after the other.
   CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
   double deviation(const Pose& end) const { return deviation(pose(), end); }
@@ -129,7 +129,7 @@ class CertificateSweeper {
   /// Works out what is round of components that lie about one axis in the assembled state, so that no step has to.
   void prepare_round();
   /// The front that begins with the roots of both.
-  CertificateFront roots(ComponentId a, ComponentId b) const;
+  CertificateFront roots(ComponentId a, ComponentId b, SideRule sides) const;
   FrontEntry& front_of(ComponentId moving, ComponentId fixed);
 
   const Assembly* assembly_;

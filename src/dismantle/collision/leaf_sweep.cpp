@@ -117,9 +117,10 @@ LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose
       fixed_(&fixed),
       start_(transform_from_pose(start)),
       end_(transform_from_pose(end)),
+      start_pose_(start),
+      end_pose_(end),
       deviation_(deviation),
       share_(kArcShare * rules.tolerance),
-      back_(screw_between(inverse(start), inverse(end))),
       allowed_(rules.allowed - std::max(share_, deviation)),
       rules_(rules) {
   DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && allowed_ > 0);
@@ -134,7 +135,7 @@ PairMotion LeafSweep::motion() const {
   motion.allowed = rules_.allowed - share_;
   motion.deviation = std::max(0.0, deviation_ - share_);
   motion.kept = share_;
-  motion.back = back_;
+  motion.back = screw_between(inverse(start_pose_), inverse(end_pose_));
   motion.back.reference -= moving_->tree.origin;
   return motion;
 }

@@ -80,9 +80,8 @@ class LeafSweep {
   const SolidTree* fixed_;
   RigidTransform start_, end_;
   Mat3 middle_;
-  double deviation_, share_;
-  Screw back_;  ///< Of the fixed component as the moving one sees it.
-  double allowed_;
+  Pose start_pose_, end_pose_;
+  double deviation_, share_, allowed_;
   LeafRules rules_;
 };
 

@@ -27,14 +27,7 @@ Aabb shifted(const Aabb& box, const Vec3& by) {
 
 Aabb all_of(const SweptBox& swept) {
   Aabb box = swept.box;
-  box.extend(shifted(swept.box, swept.way).lower);
-  box.extend(shifted(swept.box, swept.way).upper);
-  return box;
-}
-
-Aabb grown(Aabb box, double by) {
-  box.lower = box.lower - Vec3{by, by, by};
-  box.upper = box.upper + Vec3{by, by, by};
+  box.extend(shifted(swept.box, swept.way));
   return box;
 }
 
@@ -126,7 +119,7 @@ class Aside {
     passed.push_back({start, {}});
     std::vector<Interval> taken;
     for (const Aabb& box : room)
-      for (const SweptBox& other : passed) taken.push_back(overlap(grown(box, room_), exit, other));
+      for (const SweptBox& other : passed) taken.push_back(overlap(inflated(box, room_), exit, other));
     const double distance = distances_[k] = first_outside(std::move(taken));
     passed.push_back({leaving, distance * exit});
     for (SweptBox& swept : inner) {
@@ -137,11 +130,7 @@ class Aside {
 
   Aabb bounds(const PlanStep& step, const Pose& pose) const {
     Aabb box;
-    for (const ComponentId c : step.components) {
-      const Aabb own = bounds_at(assembly_[c], pose);
-      box.extend(own.lower);
-      box.extend(own.upper);
-    }
+    for (const ComponentId c : step.components) box.extend(bounds_at(assembly_[c], pose));
     return box;
   }
 
@@ -152,11 +141,9 @@ class Aside {
     for (const Pose& pose : step.way) {
       const Pose to = base * pose;
       const Screw screw = screw_between(from, to);
-      const Aabb end = bounds(step, to);
-      box.extend(end.lower);
-      box.extend(end.upper);
+      box.extend(bounds(step, to));
       if (screw.angle > 0)
-        box = grown(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), 0.5 * diagonal(box))));
+        box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), 0.5 * diagonal(box))));
       from = to;
     }
     return box;
