@@ -9,11 +9,24 @@ constexpr std::size_t kMostTasks = 1000;
 
 }  // namespace
 
-EngineLoop::EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals)
-    : listener_(listener), bench_(std::move(roots), std::move(journals)), thread_([this] { run(); }) {}
+EngineLoop::EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals, Jobs& jobs)
+    : listener_(listener),
+      bench_(std::move(roots), std::move(journals),
+             [this, &jobs](const Search& wanted) { return search(jobs, wanted); }),
+      thread_([this] { run(); }) {}
 
 EngineLoop::~EngineLoop() {
   stop();
+}
+
+Result<std::uint32_t> EngineLoop::search(Jobs& jobs, const Search& wanted) {
+  return jobs.start(search_name(wanted), [this, wanted](const ProgressCallback& progress) -> Result<Jobs::Finish> {
+    Result<Finding> found = run_search(wanted, progress);
+    if (!found) return found.error();
+    return Jobs::Finish([this, finding = std::move(*found)] {
+      post_always([finding](Workbench& bench) { bench.take_finding(finding); });
+    });
+  });
 }
 
 bool EngineLoop::post(Task task) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "apps/server/jobs.h"
 #include "apps/server/workbench.h"
 
 #include <condition_variable>
@@ -35,8 +36,9 @@ class EngineLoop {
  public:
   using Task = std::function<void(Workbench&)>;
 
-  /// Starts the thread. `listener` must outlive the loop. The others: as of Workbench.
-  EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals);
+  /// Starts the thread. `listener` and `jobs`, which searches are done by, must outlive the loop. The others: as of
+  /// Workbench.
+  EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals, Jobs& jobs);
   ~EngineLoop();
   EngineLoop(const EngineLoop&) = delete;
   EngineLoop& operator=(const EngineLoop&) = delete;
@@ -61,6 +63,7 @@ class EngineLoop {
     Clock::time_point arrived;
   };
 
+  Result<std::uint32_t> search(Jobs& jobs, const Search& wanted);
   void run();
   /// Waits for something to do and takes it; false where the loop shall end.
   bool take_work(std::deque<Task>& tasks, std::optional<Wanted>& wanted);

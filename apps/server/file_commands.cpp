@@ -125,19 +125,26 @@ Result<Json> FileCommands::cancel(const Json& command) {
   return Json::object();
 }
 
+Result<Jobs::Finish> FileCommands::load(const fs::path& file, const ProgressCallback& progress) const {
+  Result<Model> model = load_model(file, options_, progress);
+  if (!model) return model.error();
+  // std::function wants what it holds to be copyable.
+  return Jobs::Finish([this, shared = std::make_shared<Model>(std::move(*model))] { on_model_(std::move(*shared)); });
+}
+
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
   return jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
-    Result<Model> model = load_model(file, options_, progress);
-    if (model) recent_.add(file);
-    return model;
+    Result<Jobs::Finish> loaded = load(file, progress);
+    if (loaded) recent_.add(file);
+    return loaded;
   });
 }
 
 Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {
   Result<std::uint32_t> job = jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
-    Result<Model> model = load_model(file, options_, progress);
+    Result<Jobs::Finish> loaded = load(file, progress);
     remove_with_folder(file);
-    return model;
+    return loaded;
   });
   if (!job) remove_with_folder(file);
   return job;

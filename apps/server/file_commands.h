@@ -8,17 +8,20 @@
 #include "apps/server/roots.h"
 
 #include <filesystem>
+#include <functional>
 
 namespace dismantle::server {
 
 /// The commands of docs/wire.md that are about files: samples, files, recent, open, cancel.
 class FileCommands final : public ServerCommands {
  public:
-  FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs::Listener listener)
+  /// @param jobs must outlive this; `on_model` is called on a job's thread
+  FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs& jobs, std::function<void(Model)> on_model)
       : roots_(std::move(roots)),
         options_(std::move(options)),
         recent_(std::move(recent)),
-        jobs_(std::move(listener)) {}
+        jobs_(jobs),
+        on_model_(std::move(on_model)) {}
 
   bool knows(std::string_view command) const override;
   bool is_question(std::string_view command) const override;
@@ -39,11 +42,13 @@ class FileCommands final : public ServerCommands {
   std::vector<std::filesystem::path> recent_in_roots() const;
   Result<Json> open(const Json& command);
   Result<Json> cancel(const Json& command);
+  Result<Jobs::Finish> load(const std::filesystem::path& file, const ProgressCallback& progress) const;
 
   Roots roots_;
   ModelOptions options_;
   RecentFiles recent_;
-  Jobs jobs_;
+  Jobs& jobs_;
+  std::function<void(Model)> on_model_;
 };
 
 /// Removes an upload and the folder that was made for it.

@@ -4,17 +4,16 @@
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
 
-#include "apps/server/model.h"
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
 
 namespace dismantle::server {
 
-/// How an import goes on: the event `job` of docs/wire.md.
+/// How long work goes on: the event `job` of docs/wire.md.
 struct JobNews {
   enum class Status { Running, Done, Failed, Cancelled };
   std::uint32_t job = 0;
@@ -25,32 +24,36 @@ struct JobNews {
   std::string error;
 };
 
-/// Loads assemblies on a thread of its own, one at a time.
+/// Long work on a thread of its own, one at a time: imports and searches.
 class Jobs {
  public:
-  using Load = std::function<Result<Model>(const ProgressCallback&)>;
-  /// Both are called on the job's thread.
-  struct Listener {
-    std::function<void(const JobNews&)> on_news;
-    std::function<void(Model)> on_model;
-  };
+  /// What makes known what a work has found.
+  using Finish = std::function<void()>;
+  using Work = std::function<Result<Finish>(const ProgressCallback&)>;
+  /// Called on the job's thread.
+  using Listener = std::function<void(const JobNews&)>;
 
-  explicit Jobs(Listener listener) : listener_(std::move(listener)) {}
-  ~Jobs();
+  explicit Jobs(Listener on_news) : on_news_(std::move(on_news)) {}
+  ~Jobs() { stop(); }
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Starts one. @return its number. Errors: Usage where one is running.
-  Result<std::uint32_t> start(std::string name, Load load);
-  /// Cancels the one that runs; of others nothing. Errors: Usage where it does not run.
+  /// Starts one. Its Finish is called on the job's thread, when another may be started and before the last news.
+  /// For any thread. @return its number. Errors: Usage where one is running.
+  Result<std::uint32_t> start(std::string name, Work work);
+  /// Cancels the one that runs; of others nothing. For any thread. Errors: Usage where it does not run.
   Result<Done> cancel(std::uint32_t job);
+  /// Cancels what runs, waits for it, and starts no more.
+  void stop();
 
  private:
-  void run(const std::string& name, const Load& load);
+  void run(const std::string& name, const Work& work);
 
-  Listener listener_;
+  Listener on_news_;
+  std::mutex mutex_;  ///< Of starting and stopping.
   std::thread thread_;
-  std::uint32_t last_ = 0;
+  bool stopped_ = false;
+  std::atomic<std::uint32_t> last_ = 0;
   std::atomic<bool> running_ = false, cancelled_ = false;
 };
 

@@ -57,8 +57,10 @@ class Server::Body final : public Site, private EngineListener {
  public:
   Body(ServerOptions options, Roots roots)
       : pages_(options.web_folder),
-        engine_(*this, roots, journal_folder(options)),
-        files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), job_listener()),
+        jobs_([this](const JobNews& news) { tell_of(news); }),
+        engine_(*this, roots, journal_folder(options), jobs_),
+        files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), jobs_,
+               [this](Model model) { adopt(std::move(model)); }),
         hub_(engine_, files_, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
         v4_(io_),
         v6_(io_),
@@ -68,6 +70,7 @@ class Server::Body final : public Site, private EngineListener {
     asio::post(io_, [this] { begin_stop(); });
     if (thread_.joinable()) thread_.join();
     engine_.stop();
+    jobs_.stop();
   }
 
   Result<Done> listen(std::uint16_t port) {
@@ -228,14 +231,12 @@ class Server::Body final : public Site, private EngineListener {
     return *options.state_folder / "sessions";
   }
 
-  Jobs::Listener job_listener() {
-    return {[this](const JobNews& news) {  // on the job's thread
-              const bool running = news.status == JobNews::Status::Running;
-              asio::post(io_, [this, job = news.job, text = text_of(job_event(news)), running] {
-                hub_.broadcast_job(job, text, running);
-              });
-            },
-            [this](Model model) { adopt(std::move(model)); }};
+  /// On the job's thread.
+  void tell_of(const JobNews& news) {
+    const bool running = news.status == JobNews::Status::Running;
+    asio::post(io_, [this, job = news.job, text = text_of(job_event(news)), running] {
+      hub_.broadcast_job(job, text, running);
+    });
   }
 
   /// On the job's thread.
@@ -282,6 +283,7 @@ class Server::Body final : public Site, private EngineListener {
   fs::path first_guide_;  ///< Empty, or of the model that is still to come; of the job's thread then.
   SharedText glb_;
   std::uint32_t model_number_ = 0;
+  Jobs jobs_;
   EngineLoop engine_;
   FileCommands files_;
   Hub hub_;

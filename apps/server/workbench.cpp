@@ -42,6 +42,7 @@ Workbench::~Workbench() {
 void Workbench::adopt(Model model) {
   if (model_) journals_.detach(session());
   model_ = std::move(model);
+  finding_.reset();
   drop_targets();
   const Result<bool> attached = journals_.attach(session());
   is_resumed_ = attached && *attached;
@@ -65,6 +66,59 @@ Result<Done> Workbench::open_guide(const std::filesystem::path& file, const std:
 std::optional<std::string> Workbench::guide_text() const {
   if (!model_ || session().guide() == nullptr) return {};
   return session().guide()->text;
+}
+
+Result<Json> Workbench::search(SearchKind kind, std::vector<ComponentId> targets, std::vector<ComponentId> fixed) {
+  for (const ComponentId c : targets) {
+    const std::string& name = session().assembly()[c].name;
+    if (kind != SearchKind::Plan && session().is_removed(c))
+      return Error{ErrorKind::Usage,
+                   "nothing can be searched for '" + name + "' (it was taken out); put it back first"};
+    if (std::find(fixed.begin(), fixed.end(), c) != fixed.end())
+      return Error{ErrorKind::Usage,
+                   "'" + name + "' cannot come out (it is a target, and fixed); leave out one of the two"};
+  }
+  if (kind == SearchKind::TakeOut) {
+    if (session().playback() != nullptr)
+      return Error{ErrorKind::Usage, "no way out can be gone now (a playback is open); stop it first"};
+    session().release();
+    drop_targets();
+  }
+  auto seen = std::make_shared<const Standing>(kind == SearchKind::Plan ? assembled(session()) : standing(session()));
+  const Result<std::uint32_t> job =
+      begin_search_({kind, std::move(seen), std::move(targets), std::move(fixed), session().options()});
+  if (!job) return job.error();
+  return Json{{"job", *job}};
+}
+
+void Workbench::take_finding(const Finding& finding) {
+  if (!model_ || finding.standing->assembly.source_sha256 != model_->assembly->source_sha256) return;
+  changed_ = true;
+  finding_ = finding;
+  if (finding.kind == SearchKind::Plan && finding.steps > 0) {
+    const Result<Done> guided = session().set_guide("plan.path.json", path_text(finding.path), finding.path);
+    if (!guided) warning_ = guided.error().message;
+  }
+  if (finding.kind == SearchKind::TakeOut && finding.complete) go_out(finding);
+}
+
+void Workbench::go_out(const Finding& finding) {
+  finding_.reset();
+  Result<Done> gone = Error{ErrorKind::Usage,
+                            "the way out was found, and is not gone (something was moved since); "
+                            "search again"};
+  if (session().activity() == SessionActivity::Idle && still_stands(*finding.standing, session()))
+    gone = session().take_out_along(finding.removals);
+  if (!gone) warning_ = gone.error().message;
+  drop_targets();
+  stepped_at_ = Clock::now();
+}
+
+void Workbench::forget_old_finding() {
+  if (!finding_) return;
+  const bool holds = finding_->kind == SearchKind::Plan ? session().guide() != nullptr || finding_->steps == 0
+                                                        : still_stands(*finding_->standing, session());
+  if (!holds) finding_.reset();
 }
 
 void Workbench::drop_targets() {
@@ -217,10 +271,12 @@ std::string Workbench::recording_name() const {
 std::optional<std::string> Workbench::take_state() {
   if (!model_ || !changed_) return {};
   changed_ = false;
+  forget_old_finding();
   Json json{{"event", "state"}, {"number", ++state_number_}, {"model", model_->number}};
   json["hand"] = nullptr;
   if (is_dragging()) json["hand"] = {{"grip", grip_}, {"components", to_json(session().moving())}};
   json.update(state_json(session()));
+  json["search"] = finding_ ? search_json(*finding_) : Json(nullptr);
   json["resumed"] = is_resumed_;
   json["resumable"] = is_resumable_ && session().done().empty();
   return text_of(json);

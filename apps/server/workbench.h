@@ -4,12 +4,14 @@
 #include "apps/server/journal_store.h"
 #include "apps/server/model.h"
 #include "apps/server/roots.h"
+#include "apps/server/search.h"
 #include "apps/server/session_json.h"
 #include "apps/server/step_statistics.h"
 #include "apps/server/wire.h"
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,10 +25,13 @@ class Workbench {
  public:
   using Clock = std::chrono::steady_clock;
 
+  /// Begins a search whose finding is given to take_finding() later. @return the job's number
+  using BeginSearch = std::function<Result<std::uint32_t>(const Search&)>;
+
   /// @param roots where recordings are saved and paths are read
   /// @param journals the folder of the sessions' journals; none: they are not kept
-  Workbench(Roots roots, std::optional<std::filesystem::path> journals)
-      : roots_(std::move(roots)), journals_(std::move(journals)) {}
+  Workbench(Roots roots, std::optional<std::filesystem::path> journals, BeginSearch begin_search)
+      : roots_(std::move(roots)), journals_(std::move(journals)), begin_search_(std::move(begin_search)) {}
   ~Workbench();
   Workbench(const Workbench&) = delete;
   Workbench& operator=(const Workbench&) = delete;
@@ -43,6 +48,8 @@ class Workbench {
   bool is_dragging() const { return model_ && session().activity() == SessionActivity::Drag; }
   /// Lets go of what is in hand, and ends what moves by itself: its client is gone.
   void let_go();
+  /// Does what a search was for: the plan becomes the guide, the components go their way, the reason is told.
+  void take_finding(const Finding& finding);
   /// Opens a path file as the guide. Errors: of read_path and Session::set_guide; Usage where nothing is open.
   Result<Done> open_guide(const std::filesystem::path& file, const std::string& name);
 
@@ -73,6 +80,9 @@ class Workbench {
  private:
   friend class WorkbenchCommands;
 
+  Result<Json> search(SearchKind kind, std::vector<ComponentId> targets, std::vector<ComponentId> fixed);
+  void go_out(const Finding& finding);
+  void forget_old_finding();
   Result<Json> hold(const std::vector<ComponentId>& components);
   void drop_targets();
   Pose wanted_pose(Clock::time_point now);
@@ -87,7 +97,9 @@ class Workbench {
 
   Roots roots_;
   JournalStore journals_;
+  BeginSearch begin_search_;
   std::optional<Model> model_;
+  std::optional<Finding> finding_;  ///< Of the last search, while it is true.
   bool is_resumed_ = false, is_resumable_ = false;
   bool journal_failed_ = false;
   std::optional<std::string> warning_;

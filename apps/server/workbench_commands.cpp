@@ -21,14 +21,22 @@ class Arguments {
  public:
   Arguments(const Json& command, std::size_t component_count) : command_(command), component_count_(component_count) {}
 
+  /// One at least.
   Result<std::vector<ComponentId>> components() const {
-    const auto found = command_.find("components");
-    if (found == command_.end() || !found->is_array() || found->empty())
-      return wrong("components", "a list of indices");
+    Result<std::vector<ComponentId>> ids = list("components");
+    if (ids && ids->empty()) return wrong("components", "a list of indices");
+    return ids;
+  }
+
+  /// Indices of components; absent: none.
+  Result<std::vector<ComponentId>> list(const char* name) const {
     std::vector<ComponentId> ids;
+    const auto found = command_.find(name);
+    if (found == command_.end()) return ids;
+    if (!found->is_array()) return wrong(name, "a list of indices");
     for (const Json& one : *found) {
       if (!one.is_number_unsigned() || one.get<std::uint64_t>() >= component_count_)
-        return wrong("components", "indices of components of the assembly");
+        return wrong(name, "indices of components of the assembly");
       ids.emplace_back(one.get<std::uint32_t>());
     }
     return ids;
@@ -170,6 +178,24 @@ class WorkbenchCommands {
                       {"blocked_by", d.free ? Json(nullptr) : Json(d.blocked_by.value)}});
     return Json{{"directions", std::move(list)}};
   }
+  Result<Json> plan() {
+    const auto targets = in_.list("targets");
+    if (!targets) return targets.error();
+    const auto fixed = in_.list("fixed");
+    if (!fixed) return fixed.error();
+    return bench_.search(SearchKind::Plan, *targets, *fixed);
+  }
+  Result<Json> find_path() {
+    const auto components = in_.components();
+    return components ? bench_.search(SearchKind::TakeOut, *components, {}) : components.error();
+  }
+  Result<Json> why() {
+    const auto components = in_.components();
+    if (!components) return components.error();
+    if (components->size() > 1)
+      return usage("this cannot be told", "several components are named", "ask about one at a time");
+    return bench_.search(SearchKind::Why, *components, {});
+  }
   Result<Json> play() {
     const auto source = in_.source();
     if (!source) return source.error();
@@ -295,6 +321,9 @@ constexpr std::array kCommands = {
     CommandEntry{"put_back", false, &WorkbenchCommands::put_back},
     CommandEntry{"halt", false, &WorkbenchCommands::halt},
     CommandEntry{"free_directions", true, &WorkbenchCommands::free_directions},
+    CommandEntry{"plan", false, &WorkbenchCommands::plan},
+    CommandEntry{"find_path", false, &WorkbenchCommands::find_path},
+    CommandEntry{"why", false, &WorkbenchCommands::why},
     CommandEntry{"play", false, &WorkbenchCommands::play},
     CommandEntry{"pause", false, &WorkbenchCommands::pause},
     CommandEntry{"seek", false, &WorkbenchCommands::seek},

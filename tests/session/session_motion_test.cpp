@@ -79,6 +79,57 @@ TEST(SessionTakeOut, StopsWhereItIsWhenHalted) {
   EXPECT_EQ(table.session().done().size(), 1u);
 }
 
+/// Straight up by `height`, and on from there where `exit` says so.
+Removal up_by(std::vector<ComponentId> set, double height, const Vec3& exit) {
+  return {std::move(set), {}, {{0, {}}, {0.5, {{0, 0, height}, {}}}}, exit};
+}
+
+TEST(SessionTakeOutAlong, TakesSetsOutOneAfterAnother) {
+  Table table(pinned_plates());
+  ASSERT_TRUE(table.session().take_out_along({up_by(kFirst, 40, kUp), up_by(kSecond, 20, kUp)}).ok());
+  table.let_run();
+  EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
+  EXPECT_TRUE(table.session().is_removed(ComponentId(1)));
+  EXPECT_GT(table.pose(0).position.z - 1, table.pose(1).position.z + 20) << "each has a place of its own";
+  EXPECT_EQ(table.session().done().size(), 2u);
+  EXPECT_TRUE(table.session().undo().ok());
+  EXPECT_FALSE(table.session().is_removed(ComponentId(1)));
+}
+
+TEST(SessionTakeOutAlong, TakesABodyOutAndItsPartsFromWhereItHasGone) {
+  Table table(pinned_plates());
+  ASSERT_TRUE(table.session().take_out_along({up_by(kBoth, 40, kUp), up_by(kFirst, 30, {})}).ok());
+  table.let_run();
+  EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
+  EXPECT_FALSE(table.session().is_removed(ComponentId(1))) << "the body was not gone when its part moved";
+  EXPECT_NEAR(table.pose(0).position.z, table.pose(1).position.z + 30, 1e-9);
+}
+
+TEST(SessionTakeOutAlong, BeginsNoMoreWhereOneIsBlocked) {
+  Table table(pinned_plates());
+  const Removal down{kSecond, {}, {{0, {}}, {0.5, {{0, 0, -40}, {}}}}, {}};
+  ASSERT_TRUE(table.session().take_out_along({down, up_by(kFirst, 40, kUp)}).ok());
+  table.let_run();
+  EXPECT_FALSE(table.session().is_removed(ComponentId(0)));
+  EXPECT_EQ(table.pose(0), Pose{});
+}
+
+TEST(SessionTakeOutAlong, EndsAltogetherWhenHalted) {
+  Table table(pinned_plates());
+  ASSERT_TRUE(table.session().take_out_along({up_by(kFirst, 40, kUp), up_by(kSecond, 40, kUp)}).ok());
+  table.session().advance(0.1);
+  table.session().halt();
+  EXPECT_EQ(table.session().activity(), SessionActivity::Idle);
+  EXPECT_EQ(table.session().done().size(), 1u);
+}
+
+TEST(SessionTakeOutAlong, RefusesASetThatWasMovedSince) {
+  Table table(pinned_plates());
+  table.move(kFirst, {0, 0, 1}, 2);
+  EXPECT_FALSE(table.session().take_out_along({up_by(kFirst, 40, kUp)}).ok());
+  EXPECT_EQ(table.session().activity(), SessionActivity::Idle);
+}
+
 TEST(SessionPutBack, GoesHomeTheWayItCame) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());

@@ -14,6 +14,7 @@ import { helpDialog } from "./panels/help.ts";
 import { Inspector } from "./panels/inspector.ts";
 import { Measure } from "./panels/measure.ts";
 import { OpenDialog } from "./panels/open_dialog.ts";
+import { PlanPanel } from "./panels/plan_panel.ts";
 import { SectionPanel } from "./panels/section_panel.ts";
 import { StatusLine } from "./panels/status.ts";
 import { TimelinePanel } from "./panels/timeline.ts";
@@ -27,6 +28,9 @@ import { Session } from "./session.ts";
 import { text } from "./strings.ts";
 import { ThemeSwitch } from "./theme.ts";
 import type { Triple } from "./wire/messages.ts";
+
+/// [px]
+const kReasonArrow = 64;
 
 /// The page: its parts, and what its buttons and keys do.
 export class App {
@@ -45,6 +49,7 @@ export class App {
   private readonly sections: SectionPanel;
   private readonly measure: Measure;
   private readonly explode: ExplodePanel;
+  readonly plan: PlanPanel;
   private readonly openDialog: OpenDialog;
   private readonly exports: ExportDialog;
   private readonly help = helpDialog();
@@ -72,12 +77,14 @@ export class App {
     this.sections = new SectionPanel(this.session);
     this.measure = new Measure(this.session);
     this.explode = new ExplodePanel(this.session);
+    this.plan = new PlanPanel(this.session);
     this.openDialog = new OpenDialog(this.session);
     this.exports = new ExportDialog(this.session);
     stage.append(
       new Banner(this.session).node,
       this.sections.node,
       this.explode.node,
+      this.plan.node,
       this.measure.node,
       this.toasts.node,
     );
@@ -130,7 +137,25 @@ export class App {
     const free = mine ? store.directions!.directions.filter((way) => way.free) : [];
     const idle = store.state?.automatic == null && store.state?.playback == null;
     this.viewport.directions.arrows = idle && box ? free.map(({ direction }) => arrowOutOf(box, direction)) : [];
+    this.viewport.blocked.arrows = this.arrowsOfReason();
     return false;
+  }
+
+  /// Into what is in the way, where it is met.
+  private arrowsOfReason(): Arrow[] {
+    const { reason } = this.session;
+    if (!reason) return [];
+    const direction = new Vector3(...reason.direction);
+    return reason.blockers.map(({ point: met }) => {
+      const point = new Vector3(...met);
+      const back = -kReasonArrow * this.viewport.rig.pixelSize(point);
+      return { point: point.addScaledVector(direction, back), direction, length: kReasonArrow };
+    });
+  }
+
+  private async findPath(): Promise<void> {
+    if (this.drag.active) await this.drag.end();
+    await this.session.findPath();
   }
 
   private makeActions() {
@@ -152,6 +177,9 @@ export class App {
       section: () => this.sections.toggle(),
       measure: () => this.measure.toggle(),
       explode: () => this.explode.toggle(),
+      plan: () => this.plan.toggle(),
+      findPath: () => void this.findPath(),
+      why: () => void this.session.askWhy(),
       projection: () =>
         this.session.change(() => {
           this.viewport.rig.orthographic = !this.viewport.rig.orthographic;

@@ -5,7 +5,7 @@ import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
 import { Connection, type Wire } from "./wire/connection.ts";
-import type { Commands, JobEvent, ModelEvent, Move, Source, StateEvent } from "./wire/messages.ts";
+import type { Commands, JobEvent, ModelEvent, Move, Reason, Source, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
 
 /// The server's session as this page knows it, and the model that shows it: components are only ever drawn where the
@@ -60,6 +60,24 @@ export class Session {
     }
   }
 
+  /// Has the planner find a way out for what is selected, and take it out.
+  async findPath(): Promise<void> {
+    const { selection } = this.store;
+    if (selection.length > 0) await this.ask("find_path", { components: selection });
+  }
+
+  /// Has the planner say why what is selected stays.
+  async askWhy(): Promise<void> {
+    const { selection } = this.store;
+    if (selection.length === 1) await this.ask("why", { components: selection });
+  }
+
+  /// Why the selection stays, where the planner has said so.
+  get reason(): Reason | null {
+    const { state, selection } = this.store;
+    return state?.search?.reasons.find(({ component }) => selection.includes(component)) ?? null;
+  }
+
   /// Shows only what is selected, or everything again.
   toggleIsolated(): void {
     const { state, selection } = this.store;
@@ -85,6 +103,15 @@ export class Session {
     return component === null ? "" : (this.store.model?.components[component]?.name ?? "");
   }
 
+  /// The first few names, and how many more there are.
+  namesOf(components: number[], most = 3): string {
+    const names = components
+      .slice(0, most)
+      .map((c) => this.nameOf(c))
+      .join(", ");
+    return components.length > most ? text("names.more", { names, count: components.length - most }) : names;
+  }
+
   /// Whether everything received is shown and everything asked is answered.
   get settled(): boolean {
     return this.loading === null && this.connection.settled && ![...this.store.jobs.values()].some(isRunning);
@@ -103,6 +130,7 @@ export class Session {
     this.change(() => {
       this.store.selection = components;
       this.store.directions = null;
+      this.store.stuck = null;
     });
     this.showLooks();
   }
@@ -159,12 +187,13 @@ export class Session {
 
   showLooks(): void {
     const { selection, hovered, xray, blocking } = this.store;
+    const explained = this.reason?.blockers ?? [];
     for (const view of this.viewport.model?.components ?? [])
       view.setLook({
         selected: selection.includes(view.index),
         hovered: hovered === view.index,
         xray: xray.has(view.index),
-        blocking: blocking.has(view.index),
+        blocking: blocking.has(view.index) || explained.some(({ component }) => component === view.index),
       });
     this.viewport.invalidate();
   }
@@ -183,7 +212,14 @@ export class Session {
     });
     if (known && this.viewport.model) return;
     Object.assign(this.store, { selection: [], hovered: null, xray: new Set(), blocking: new Set() });
-    Object.assign(this.store, { pairs: null, directions: null, planes: [], exploding: false, frame: null });
+    Object.assign(this.store, {
+      pairs: null,
+      directions: null,
+      stuck: null,
+      planes: [],
+      exploding: false,
+      frame: null,
+    });
     const loading = this.load(model).finally(() => {
       if (this.loading === loading) this.loading = null;
     });
@@ -206,12 +242,14 @@ export class Session {
   }
 
   private takeState(state: StateEvent): void {
+    const explains = state.search !== null || this.store.state?.search != null;
     this.change(() => {
       this.store.state = state;
       // A state says where everything is; the frames of an earlier one are old.
       this.store.frame = null;
     });
     this.showState(state);
+    if (explains) this.showLooks();
   }
 
   private showState(state: StateEvent): void {

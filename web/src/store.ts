@@ -31,6 +31,8 @@ export interface Store {
   xray: Set<number>;
   blocking: Set<number>;
   directions: { components: number[]; directions: FreeDirection[] } | null;
+  /// What was let go of while it was blocked, and by what.
+  stuck: { components: number[]; blocking: number[] } | null;
   planes: SectionPlane[];
   exploding: boolean;
   gizmo: boolean;
@@ -56,6 +58,7 @@ export function emptyStore(): Store {
     xray: new Set(),
     blocking: new Set(),
     directions: null,
+    stuck: null,
     planes: [],
     exploding: false,
     gizmo: false,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All English text of the page. Members in braces are filled in by `text`.
+import type { Triple } from "./wire/messages.ts";
 
 const kEnglish = {
   title: "dismantle",
@@ -96,6 +97,26 @@ const kEnglish = {
   "place.assembled": "assembled",
   "place.moved": "moved {distance}",
   "place.removed": "taken out",
+  wayOut: "Way out",
+  findPath: "Find a path",
+  why: "Why does it stay?",
+  "reason.by": "Blocked along {direction} by",
+  "reason.free": "Nothing keeps it from coming out along {direction}.",
+  "reason.after": "after {distance}",
+  "reason.locked": "Locked together with {names}",
+  "reason.line": "{name}: blocked along {direction} by {names}",
+  "names.more": "{names} and {count} more",
+  plan: "Plan",
+  "plan.all": "Take everything apart",
+  "plan.selection": "Only the selection",
+  "plan.fixed": "Fixed: {names}",
+  "plan.fixed.largest": "Fixed: the largest component",
+  "plan.fix": "Fix the selection",
+  "plan.unfix": "Fix the largest",
+  "plan.find": "Find the order",
+  "plan.complete": "{steps} steps, found in {seconds} s. The guide has them.",
+  "plan.partly": "{steps} steps, found in {seconds} s. What stays:",
+  "plan.ended": "{steps} steps after {seconds} s. It was not searched to the end.",
   takeOut: "Take out",
   putBack: "Put back",
   isolate: "Isolate",
@@ -160,12 +181,14 @@ const kEnglish = {
   "banner.resume.do": "Go on with it",
   stuck: "Blocked by {name}",
   "stuck.free": "Blocked by {name}; free: {directions}",
+  "stuck.path": "N: find a path",
+  "stuck.was": "{name} was blocked by {by}.",
   "drag.locked": "along {axis}",
   "drag.depth": "in depth",
   "drag.turn": "turning",
   "job.running": "{name}: {stage}",
   "job.cancel": "Cancel",
-  "job.failed": "{name} could not be opened: {error}",
+  "job.failed": "{name}: {error}",
   saved: "Recording saved",
   "section.axis": "Section across {axis}",
   "section.flip": "Other side",
@@ -219,6 +242,8 @@ export const kHelp: Help = [
       ["Del", "Take out"],
       ["B", "Put back"],
       ["D", "Show the free directions"],
+      ["N", "Have a path found and gone, also in mid-drag"],
+      ["Q", "Why does it stay?"],
       ["Space", "Hide or show"],
       ["I", "Isolate; again: show all"],
     ],
@@ -229,6 +254,7 @@ export const kHelp: Help = [
       ["P", "Play the recording, or pause"],
       ["S", "Section"],
       ["M", "Measure"],
+      ["L", "Plan: the order in which everything comes apart"],
       ["E", "Explode: the steps of the path, with trails"],
       ["T", "Dark or light"],
       ["/", "Search the components"],
@@ -272,4 +298,11 @@ export function lengthText(millimetres: number): string {
   const sign = millimetres < 0 ? "−" : "";
   if (size < 0.1) return `${sign}${(size * 1000).toFixed(size < 0.01 ? 1 : 0)} µm`;
   return `${sign}${size.toFixed(size < 10 ? 2 : size < 100 ? 1 : 0)} mm`;
+}
+
+/// A direction in words: +Z where it is an axis, else its three parts.
+export function directionText(direction: Triple): string {
+  const main = direction.findIndex((value) => Math.abs(value) > 0.9999);
+  if (main >= 0) return `${direction[main] > 0 ? "+" : "−"}${"XYZ"[main]}`;
+  return `(${direction.map((value) => value.toFixed(2).replace("-", "−")).join(", ")})`;
 }

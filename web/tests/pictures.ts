@@ -72,6 +72,22 @@ async function tools(viewer: Viewer): Promise<void> {
   await viewer.press("s", "t");
 }
 
+/// The plan of the whole, and why one component stays.
+async function plan(viewer: Viewer): Promise<void> {
+  const searched = (kind: string) =>
+    viewer.page.waitForFunction((k) => window.dismantle!.app.session.store.state!.search?.kind === k, kind);
+  await lookAt(viewer, "stage plate", 60);
+  await viewer.press("l");
+  await viewer.page.click("#plan-find");
+  await searched("plan");
+  await viewer.select("stage plate");
+  await viewer.press("q");
+  await searched("why");
+  await shoot(viewer, "plan");
+  await viewer.press("l", "Escape");
+  await viewer.click("#guide-close");
+}
+
 async function guide(viewer: Viewer): Promise<void> {
   await viewer.click("#follow");
   await viewer.page.locator("#guide-panel").waitFor();
@@ -115,6 +131,7 @@ await viewer.page.mouse.move(300, 600);
 await shoot(viewer, "model");
 await contact(viewer);
 await tools(viewer);
+await plan(viewer);
 await guide(viewer);
 await closeBrowser();
 await server.stop();

@@ -254,6 +254,7 @@ void Session::reset() {
   done_count_ = 0;
   removed_.assign(removed_.size(), false);
   visibility_ = Visibility(removed_.size());
+  removals_.clear();
   be_idle();
   if (journal_) journal_->reset();
 }

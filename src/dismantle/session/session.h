@@ -27,6 +27,16 @@ enum class SessionActivity {
 /// What a set does by itself.
 enum class AutomaticKind { TakeOut, PutBack };
 
+/// How a set leaves where it stands, found beforehand.
+struct Removal {
+  std::vector<ComponentId> components;
+  Pose from;  ///< Of the set, when the way was found.
+  /// The motions that the set has made by then, world frame; the first is none. Where the set has gone elsewhere since
+  /// as part of a body that was taken out before, they are relative to that body.
+  std::vector<Frame> way;
+  Vec3 exit;  ///< Unit: after the way it goes on like this to a place of its own; zero: it stays at the way's end.
+};
+
 /// A path file that a session is to follow.
 struct Guide {
   std::string name;
@@ -48,6 +58,7 @@ class Session {
   Span<const Pose> poses() const { return engine_->poses(); }
   /// The engine, for questions about the set that it has in hand; it moves nothing.
   const CertificateEngine& engine() const { return *engine_; }
+  const CertificateOptions& options() const { return options_; }
   SessionActivity activity() const { return activity_; }
   /// The set that moves; empty where nothing does.
   Span<const ComponentId> moving() const { return playback_ ? playback_->moving() : Span<const ComponentId>(moving_); }
@@ -101,6 +112,10 @@ class Session {
   /// the assembly's box and out of the way of those that follow; then it is taken away. Errors: Usage as of hold(), and
   /// where something is in the way, by name.
   Result<Done> take_out(Span<const ComponentId> components, const std::optional<Vec3>& direction);
+  /// Begins to take sets out, one after another along ways that were found beforehand, as far as each is free; each is
+  /// an entry, and those of its components that move no more afterwards are taken away. Where one does not get out,
+  /// those after it do not begin. Errors: Usage as of hold(), and where a set is not where its way begins.
+  Result<Done> take_out_along(std::vector<Removal> removals);
   /// Begins to move a set home along the way that it came, reversed, as far as it is free now; it is not taken away any
   /// more. Errors: Usage where the set is empty or torn, or where it is at home.
   Result<Done> put_back(Span<const ComponentId> components);
@@ -156,6 +171,8 @@ class Session {
   StepResult advance_automatic(double dt);
   StepResult follow(const Frame& target);
   void finish_automatic(bool reached_end);
+  void begin_next_removal();
+  bool moves_again(ComponentId component) const;
   std::vector<Frame> way_back(ComponentId component) const;
   double parking_distance(const Vec3& direction) const;
   Result<Done> open_playback(PlaybackSource source);
@@ -175,6 +192,7 @@ class Session {
   std::vector<bool> removed_;
   Visibility visibility_;
   std::optional<Automatic> automatic_;
+  std::vector<Removal> removals_;  ///< Still to come, the next one last.
   std::optional<Playback> playback_;
   std::vector<bool> played_removed_;
   std::vector<Pose> live_poses_;  ///< Before the playback.

@@ -39,6 +39,21 @@ void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
   }
 }
 
+/// The poses of a set that goes a way from `start`, screw by screw, at the targets' rate.
+std::vector<Frame> targets_along(const Removal& removal, const Pose& start) {
+  const Pose body = start * inverse(removal.from);  // what the body that it is part of has moved since
+  std::vector<Frame> targets{{0, start}};
+  for (std::size_t k = 1; k < removal.way.size(); ++k) {
+    const Frame &a = removal.way[k - 1], &b = removal.way[k];
+    const int count = std::max(1, static_cast<int>(std::lround((b.time - a.time) * kTargetRate)));
+    for (int i = 1; i <= count; ++i) {
+      const double s = static_cast<double>(i) / count;
+      targets.push_back({a.time + s * (b.time - a.time), body * pose_between(a.pose, b.pose, s) * removal.from});
+    }
+  }
+  return targets;
+}
+
 /// How much there is to do from one pose to the next: turns count as if at `lever` [mm].
 double effort(const Pose& a, const Pose& b, double lever) {
   const Screw screw = screw_between(a, b);
@@ -99,6 +114,37 @@ Result<Done> Session::take_out(Span<const ComponentId> components, const std::op
   append_line(targets, parking_distance(way->direction) * way->direction, kParkTime);
   begin_automatic(AutomaticKind::TakeOut, std::move(targets));
   return Done{};
+}
+
+Result<Done> Session::take_out_along(std::vector<Removal> removals) {
+  release();
+  for (Removal& removal : removals) {
+    removal.components = sorted_set(removal.components);
+    if (Result<Done> sane = check_set(removal.components); !sane) return sane;
+    DISMANTLE_EXPECT(!removal.way.empty());
+    if (!(poses()[removal.components[0].value] == removal.from))
+      return Error{ErrorKind::Usage, "'" + names_of(*assembly_, removal.components) +
+                                         "' cannot go the way that was found (it was moved since); search again"};
+  }
+  removals_.assign(std::make_move_iterator(removals.rbegin()), std::make_move_iterator(removals.rend()));
+  begin_next_removal();
+  return Done{};
+}
+
+void Session::begin_next_removal() {
+  if (removals_.empty()) return;
+  const Removal next = std::move(removals_.back());
+  removals_.pop_back();
+  begin(SessionActivity::Automatic, "take out", next.components);
+  std::vector<Frame> targets = targets_along(next, open_->frames[0].pose);
+  if (length(next.exit) > 0) append_line(targets, parking_distance(next.exit) * next.exit, kParkTime);
+  begin_automatic(AutomaticKind::TakeOut, std::move(targets));
+}
+
+bool Session::moves_again(ComponentId component) const {
+  return std::any_of(removals_.begin(), removals_.end(), [component](const Removal& r) {
+    return std::binary_search(r.components.begin(), r.components.end(), component);
+  });
 }
 
 std::vector<Frame> Session::way_back(ComponentId component) const {
@@ -174,15 +220,20 @@ StepResult Session::advance_automatic(double dt) {
 
 void Session::finish_automatic(bool reached_end) {
   const bool takes_out = automatic_->kind == AutomaticKind::TakeOut;
-  if (takes_out && (reached_end || WayOut(*assembly_, *engine_, moving_).is_outside())) {
+  const bool is_out = takes_out && (reached_end || WayOut(*assembly_, *engine_, moving_).is_outside());
+  const bool is_done = std::none_of(moving_.begin(), moving_.end(), [this](ComponentId c) { return moves_again(c); });
+  if (is_out && is_done) {
     open_->removed_after = true;
     for (const ComponentId c : moving_) removed_[c.value] = true;
   }
   finish_entry();
   be_idle();
+  if (!is_out) removals_.clear();
+  begin_next_removal();
 }
 
 void Session::halt() {
+  removals_.clear();
   if (activity_ == SessionActivity::Automatic) finish_automatic(false);
 }
 

@@ -78,6 +78,7 @@ export class Drag {
     [this.grip, this.number, this.answered, this.unsent, this.ending] = [null, 0, 0, false, false];
     [this.stuckSince, this.stuckAsked] = [0, false];
     store.leastClearance = Number.NaN;
+    store.stuck = null;
     viewport.ghost.show(views);
 
     const answer = await this.session.ask("hold", { components });
@@ -121,6 +122,9 @@ export class Drag {
       await new Promise((resolve) => setTimeout(resolve, 4));
     if (!this.motion) return;
     await this.session.ask("release", {});
+    const { store } = this.session;
+    const blocking = [...store.blocking];
+    store.stuck = this.stuckAsked && blocking.length > 0 ? { components: this.components, blocking } : null;
     this.clear();
   }
 

@@ -21,6 +21,9 @@ type Action =
   | "help"
   | "play"
   | "directions"
+  | "plan"
+  | "findPath"
+  | "why"
   | "explode"
   | "isolate"
   | "putBack"
@@ -92,6 +95,9 @@ function plain(app: Keyed, event: KeyboardEvent): Act | undefined {
     ".": actions.nextStep,
     ",": actions.previousStep,
     d: actions.directions,
+    l: actions.plan,
+    n: actions.findPath,
+    q: actions.why,
     i: actions.isolate,
     b: actions.putBack,
     delete: actions.takeOut,

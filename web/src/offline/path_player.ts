@@ -195,6 +195,7 @@ export class PathPlayer implements Wire {
         blocked: null,
       },
       guide: null,
+      search: null,
       resumed: false,
       resumable: false,
     };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element } from "../dom.ts";
 import type { Session } from "../session.ts";
-import { text } from "../strings.ts";
-import { directionText } from "./inspector.ts";
+import { directionText, text } from "../strings.ts";
 
 export interface Notice {
   key: string;
@@ -85,6 +84,7 @@ export class Banner {
     else this.addHidden(notices);
     if (store.planes.length > 0) notices.push({ key: "section", words: text("banner.section") });
     this.addStuck(notices);
+    this.addWasStuck(notices);
     return notices;
   }
 
@@ -113,7 +113,20 @@ export class Banner {
               .join(" "),
           })
         : text("stuck", { name });
-    notices.push({ key: "stuck", words });
+    const found = directions?.components.join() === state.hand.components.join();
+    notices.push({ key: "stuck", words: found ? `${words}. ${text("stuck.path")}` : words });
+  }
+
+  /// Let go of while it was blocked: now there is a hand free for a button.
+  private addWasStuck(notices: Notice[]): void {
+    const { stuck, state, jobs } = this.session.store;
+    if (!stuck || !state || state.hand || state.automatic || state.playback || state.search || jobs.size > 0) return;
+    const names = { name: this.session.nameOf(stuck.components[0]), by: this.session.nameOf(stuck.blocking[0]) };
+    notices.push({
+      key: "was-stuck",
+      words: text("stuck.was", names),
+      action: { label: text("findPath"), press: () => void this.session.findPath() },
+    });
   }
 }
 

@@ -3,9 +3,9 @@ import { Vector3 } from "three";
 import { button, element, setText } from "../dom.ts";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
-import { lengthText, text } from "../strings.ts";
-import type { Triple } from "../wire/messages.ts";
+import { directionText, lengthText, text } from "../strings.ts";
 import { clearanceText } from "./status.ts";
+import { WayOutPart } from "./way_out_part.ts";
 
 /// The right side: what is selected, what can be done with it, what it touches and where it can go.
 export class Inspector {
@@ -19,6 +19,7 @@ export class Inspector {
   private readonly pairs = element("ul", { class: "rows", id: "pairs" });
   private readonly ways = element("ul", { class: "rows", id: "directions" });
   private readonly findWays: HTMLButtonElement;
+  private readonly wayOut: WayOutPart;
   private readonly numbers: HTMLInputElement[];
   private readonly body: HTMLElement;
   private asked = false;
@@ -81,6 +82,7 @@ export class Inspector {
       id: "find-directions",
       press: () => void this.find(),
     });
+    this.wayOut = new WayOutPart(session);
     this.numbers = [0, 1, 2, 3, 4, 5].map((i) => numberField(i));
     this.body = this.makeBody();
     this.node = element(
@@ -125,6 +127,7 @@ export class Inspector {
       { class: "body" },
       this.facts,
       element("div", { class: "actions" }, takeOut, putBack, isolate, hide, xray, halt),
+      this.wayOut.node,
       part(text("clearance"), this.clearance),
       part(text("contacts"), this.touches),
       part(text("directions"), this.ways, this.findWays),
@@ -175,6 +178,7 @@ export class Inspector {
     this.actions.hide.disabled = !control || states.every((s) => s?.hidden || s?.removed);
     this.actions.xray.setAttribute("aria-pressed", String(selection.length > 0 && selection.every((c) => xray.has(c))));
     this.actions.halt.hidden = state?.automatic == null;
+    this.wayOut.update(busy);
     this.findWays.disabled = state?.hand != null || state?.automatic != null || state?.playback != null;
   }
 
@@ -285,13 +289,6 @@ export class Inspector {
         this.asked = false;
       });
   }
-}
-
-/// A direction in words: +Z where it is an axis, else its three parts.
-export function directionText(direction: Triple): string {
-  const main = direction.findIndex((value) => Math.abs(value) > 0.9999);
-  if (main >= 0) return `${direction[main] > 0 ? "+" : "−"}${"XYZ"[main]}`;
-  return `(${direction.map((value) => value.toFixed(2).replace("-", "−")).join(", ")})`;
 }
 
 function numberField(index: number): HTMLInputElement {

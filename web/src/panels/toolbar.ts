@@ -18,6 +18,7 @@ export class Toolbar {
     | "section"
     | "measure"
     | "explode"
+    | "plan"
     | "gizmo"
     | "projection"
     | "stereo"
@@ -37,6 +38,7 @@ export class Toolbar {
       section: button({ icon: "section", label: text("section"), key: "S", id: "section", press: actions.section }),
       measure: button({ icon: "measure", label: text("measure"), key: "M", id: "measure", press: actions.measure }),
       explode: button({ icon: "explode", label: text("explode"), key: "E", id: "explode", press: actions.explode }),
+      plan: button({ icon: "route", label: text("plan"), key: "L", id: "plan", press: actions.plan }),
       projection: button({
         icon: "parallel",
         label: text("projection"),
@@ -50,7 +52,8 @@ export class Toolbar {
       reset: button({ icon: "reset", label: text("reset"), id: "reset", press: actions.reset }),
     };
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
-    const { undo, redo, gizmo, section, measure, explode, projection, save, exports, reset, stereo } = this.buttons;
+    const { undo, redo, gizmo, section, measure, explode, plan, projection, save, exports, reset, stereo } =
+      this.buttons;
     const group = (...children: (Node | null)[]) => element("div", { class: "group" }, ...children);
     this.node = element(
       "header",
@@ -59,7 +62,7 @@ export class Toolbar {
       group(button({ icon: "open", label: text("open"), id: "open", wide: true, press: actions.open }), save, exports),
       group(undo, redo, reset),
       this.responseSwitch(),
-      group(gizmo, section, measure, explode),
+      group(gizmo, section, measure, explode, plan),
       group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection, stereo),
       this.name,
       group(
@@ -115,6 +118,8 @@ export class Toolbar {
     buttons.section.setAttribute("aria-pressed", String(planes.length > 0));
     buttons.measure.setAttribute("aria-pressed", String(measuring));
     buttons.explode.setAttribute("aria-pressed", String(exploding));
+    buttons.plan.disabled = !state;
+    buttons.plan.setAttribute("aria-pressed", String(this.app.plan.opened));
     buttons.projection.setAttribute("aria-pressed", String(this.app.viewport.rig.orthographic));
     const { stereo } = this.app.viewport;
     buttons.stereo.setAttribute("aria-pressed", String(stereo !== "off"));

@@ -21,6 +21,7 @@ export class Viewport {
   readonly cube = new ViewCube();
   readonly contacts: ArrowField;
   readonly directions: ArrowField;
+  readonly blocked: ArrowField;
   readonly ghost: Ghost;
   readonly scene = new Scene();
   palette: Palette = kPalettes.light;
@@ -52,8 +53,9 @@ export class Viewport {
     this.rig.onChange = () => this.invalidate();
     this.contacts = new ArrowField(this.palette.contact, 64);
     this.directions = new ArrowField(this.palette.free, 32);
+    this.blocked = new ArrowField(this.palette.blocking, 32);
     this.ghost = new Ghost(this.palette.ghost);
-    this.scene.add(this.contacts.object, this.directions.object, this.ghost.object);
+    this.scene.add(this.contacts.object, this.directions.object, this.blocked.object, this.ghost.object);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
   }
@@ -113,6 +115,7 @@ export class Viewport {
     shared.uGround.value.set(palette.ground);
     this.contacts.color = palette.contact;
     this.directions.color = palette.free;
+    this.blocked.color = palette.blocking;
     this.ghost.color = palette.ghost;
     const dark = new Color(palette.background[1]).getHSL({ h: 0, s: 0, l: 0 }).l < 0.5;
     if (dark) this.cube.setColors("#39424d", "#e8edf2", "#6d7885", palette.accent);
@@ -182,6 +185,7 @@ export class Viewport {
     for (const step of this.beforePicture) more = step(now) || more;
     this.contacts.update(this.rig);
     this.directions.update(this.rig);
+    this.blocked.update(this.rig);
     this.renderer.clear();
     if (this.stereoMode === "off") {
       this.renderer.render(this.scene, this.rig.camera);

@@ -49,6 +49,25 @@ export interface Playback {
   blocked: { time: number; by: number | null } | null;
 }
 
+/// Why a component does not come straight out.
+export interface Reason {
+  component: number;
+  direction: Triple;
+  blockers: { component: number; distance: number | null; point: Triple }[];
+  together: number[];
+  locked: number[];
+}
+
+/// What the planner found last.
+export interface Search {
+  kind: "plan" | "find_path" | "why";
+  complete: boolean;
+  out_of_time: boolean;
+  seconds: number;
+  steps: number;
+  reasons: Reason[];
+}
+
 export interface StateEvent {
   number: number;
   model: number;
@@ -63,6 +82,7 @@ export interface StateEvent {
   moves: Move[];
   playback: Playback | null;
   guide: { name: string; moves: Move[] } | null;
+  search: Search | null;
   resumed: boolean;
   resumable: boolean;
 }
@@ -139,6 +159,9 @@ export interface Commands {
   isolate: [Components, object];
   restore: [object, object];
   reset: [object, object];
+  plan: [{ targets?: number[]; fixed?: number[] }, { job: number }];
+  find_path: [Components, { job: number }];
+  why: [Components, { job: number }];
   play: [{ speed: number; source?: Source }, object];
   pause: [object, object];
   seek: [{ time: number; source?: Source }, object];

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the planner finds for a page, over a real socket.
+#include "tests/planner/plan_scenes.h"
+#include "tests/server/server_scene.h"
+
+namespace dismantle::server {
+namespace {
+
+using testing_client::Client;
+
+/// Of a stack of three in a tube: the tube is 0.
+constexpr std::uint32_t kTube = 0, kLow = 1, kMiddle = 2, kHigh = 3;
+
+class ServerSearch : public ServerScene {
+ protected:
+  void start_with(const Assembly& assembly) {
+    std::filesystem::create_directories(root());
+    ASSERT_TRUE(write_assembly(root() / "block.obj", assembly).ok());
+    start();
+    ASSERT_TRUE(server_->open_file(root() / "block.obj").ok());
+  }
+  /// Gives a command that begins a search and waits for the search's end. @return its last event
+  static Json search(Client& client, const std::string& name, const Json& arguments) {
+    const Json answer = client.command(name, arguments);
+    EXPECT_TRUE(answer["ok"]) << answer;
+    return client.event_where("job",
+                              [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
+  }
+  static Json state_where(Client& client, const char* member) {
+    return client.event_where("state", [member](const Json& s) { return !s[member].is_null(); });
+  }
+  /// The state when what goes by itself has ended, after it has begun.
+  static Json after_motion(Client& client) {
+    state_where(client, "automatic");
+    return client.event_where("state", [](const Json& s) { return s["automatic"].is_null(); });
+  }
+};
+
+TEST_F(ServerSearch, MakesThePlanTheGuide) {
+  start_with(scenes::stack_in_tube(3));
+  Client client(door());
+  client.state();
+  EXPECT_EQ(search(client, "plan", {})["status"], "done");
+  const Json state = state_where(client, "search");
+  EXPECT_EQ(state["search"]["kind"], "plan");
+  EXPECT_TRUE(state["search"]["complete"]);
+  EXPECT_EQ(state["search"]["steps"], 3);
+  EXPECT_EQ(state["guide"]["name"], "plan.path.json");
+  EXPECT_EQ(state["guide"]["moves"].size(), 3u);
+  EXPECT_EQ(state["components"][kHigh], Json::object());  // a plan moves nothing
+  ASSERT_TRUE(client.command("play", {{"speed", 20}, {"source", "guide"}})["ok"]);
+  const Json played =
+      client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; });
+  EXPECT_TRUE(played["playback"]["blocked"].is_null()) << played["playback"];
+  ASSERT_TRUE(client.command("close_guide")["ok"]);
+  EXPECT_TRUE(client.state()["search"].is_null());
+}
+
+TEST_F(ServerSearch, PlansForATargetWithWhatIsFixed) {
+  start_with(scenes::stack_in_tube(3));
+  Client client(door());
+  client.state();
+  search(client, "plan", {{"targets", {kMiddle}}});
+  EXPECT_EQ(state_where(client, "search")["guide"]["moves"].size(), 2u);
+  for (const auto& [fixed, first] : {std::pair(kLow, kHigh), std::pair(kHigh, kLow)}) {
+    search(client, "plan", {{"targets", {kMiddle}}, {"fixed", {kTube, fixed}}});
+    const Json wanted = {first};
+    const Json state = client.event_where("state", [&](const Json& s) {
+      return !s["guide"].is_null() && s["guide"]["moves"][0]["components"] == wanted;
+    });
+    EXPECT_EQ(state["guide"]["moves"][1]["components"], Json{kMiddle});
+  }
+  EXPECT_FALSE(client.command("plan", {{"targets", {kLow}}, {"fixed", {kLow}}})["ok"]);
+  EXPECT_FALSE(client.command("plan", {{"targets", {9}}})["ok"]);
+}
+
+TEST_F(ServerSearch, TakesOutWhatIsInTheWayAndThenWhatIsWanted) {
+  start_with(scenes::stack_in_tube(3));
+  Client client(door());
+  client.state();
+  search(client, "find_path", {{"components", {kMiddle}}});
+  const Json state = after_motion(client);
+  ASSERT_EQ(state["moves"].size(), 2u);
+  EXPECT_EQ(state["moves"][1]["label"], "take out box 1");
+  EXPECT_TRUE(state["components"][kMiddle].contains("removed"));
+  EXPECT_EQ(audited_recording().removed.size(), 2u);
+  // The next search is of what is left.
+  search(client, "find_path", {{"components", {kLow}}});
+  EXPECT_TRUE(after_motion(client)["components"][kLow].contains("removed"));
+  audited_recording();
+  EXPECT_FALSE(client.command("find_path", {{"components", {kMiddle}}})["ok"]);  // it is out
+  ASSERT_TRUE(client.command("undo")["ok"]);
+  ASSERT_TRUE(client.command("undo")["ok"]);
+  EXPECT_EQ(client.state()["components"][kMiddle], Json::object());
+}
+
+TEST_F(ServerSearch, TakesABodyOutAndThenApart) {
+  start_with(scenes::framed_dovetail());
+  Client client(door());
+  client.state();
+  search(client, "find_path", {{"components", {0, 1}}});
+  const Json state = after_motion(client);
+  ASSERT_GE(state["moves"].size(), 2u);
+  EXPECT_EQ(state["moves"][0]["components"], (Json{0, 1}));
+  EXPECT_TRUE(state["components"][0].contains("pose") && state["components"][1].contains("pose"));
+  audited_recording();
+}
+
+TEST_F(ServerSearch, SaysWhyAComponentStaysUntilItMoves) {
+  start_with(scenes::closed_shell());
+  Client client(door());
+  client.state();
+  EXPECT_EQ(search(client, "why", {{"components", {1}}})["status"], "done");
+  const Json state = state_where(client, "search");
+  EXPECT_EQ(state["search"]["kind"], "why");
+  const Json reason = state["search"]["reasons"][0];
+  EXPECT_EQ(reason["component"], 1);
+  ASSERT_EQ(reason["blockers"].size(), 1u);
+  EXPECT_EQ(reason["blockers"][0]["component"], 0);
+  EXPECT_TRUE(state["moves"].empty());
+  const std::uint32_t grip = hold(client, 1);
+  drag(client, grip, {}, {0, 0, 3}, 3);
+  client.command("release");
+  EXPECT_TRUE(client.state()["search"].is_null());
+  EXPECT_FALSE(client.command("why", {{"components", {0, 1}}})["ok"]);
+}
+
+TEST_F(ServerSearch, SaysWhyNothingComesOutWhereThatIsSo) {
+  start_with(scenes::closed_shell());
+  Client client(door());
+  client.state();
+  search(client, "find_path", {{"components", {1}}});
+  const Json state = state_where(client, "search");
+  EXPECT_FALSE(state["search"]["complete"]);
+  EXPECT_EQ(state["search"]["reasons"][0]["blockers"][0]["component"], 0);
+  EXPECT_TRUE(state["moves"].empty());
+  EXPECT_TRUE(state["automatic"].is_null());
+}
+
+TEST_F(ServerSearch, LetsTheHandMoveOnAndBeCancelled) {
+  start_with(scenes::stack_in_tube(60));
+  Client client(door());
+  client.state();
+  const Json answer = client.command("plan");
+  ASSERT_TRUE(answer["ok"]);
+  EXPECT_FALSE(client.command("plan")["ok"]);  // one at a time
+  const std::uint32_t grip = hold(client, 60);
+  EXPECT_NEAR(drag(client, grip, {}, {0, 0, 30}, 30).pose.position.z, 30, 1e-9);
+  ASSERT_TRUE(client.command("cancel", {{"job", answer["job"]}})["ok"]);
+  const Json last =
+      client.event_where("job", [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
+  EXPECT_EQ(last["status"], "cancelled");
+  client.command("release");
+  EXPECT_TRUE(client.state()["guide"].is_null());
+}
+
+TEST_F(ServerSearch, GoesNoWayThatWasFoundBeforeSomethingMoved) {
+  start_with(scenes::stack_in_tube(40));
+  Client client(door());
+  client.state();
+  const Json answer = client.command("find_path", {{"components", {39}}});
+  ASSERT_TRUE(answer["ok"]);
+  const std::uint32_t grip = hold(client, 40);
+  drag(client, grip, {}, {0, 0, 2}, 2);
+  client.command("release");
+  const Json warning = client.event("log");
+  EXPECT_NE(warning["text"].get<std::string>().find("something was moved since"), std::string::npos) << warning;
+  EXPECT_EQ(client.state()["moves"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace dismantle::server
