@@ -23,7 +23,7 @@ class BlockingTableTest : public testing::Test {
     for (const Component& c : scene_.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
     return features;
   }();
-  BlockingTable table_{engine_, features_};
+  BlockingTable table_{engine_, features_, [] { return true; }};
   ComponentSet all_ = ComponentSet::all(4);
 };
 
@@ -71,6 +71,29 @@ TEST_F(BlockingTableTest, LearnsWhatASweepCannotSee) {
   EXPECT_FALSE(table_.any_blocker(kHigh, up(), all_));
   table_.add_blocker(kHigh, up(), kTube);
   EXPECT_EQ(table_.any_blocker(kHigh, up(), all_), kTube);
+}
+
+TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
+  EXPECT_FALSE(table_.expects_blocker(kLow, up(), all_));
+  table_.expect_blocker(kLow, up(), kTube);
+  table_.expect_blocker(kLow, up(), kHigh);
+  EXPECT_TRUE(table_.expects_blocker(kLow, up(), all_));
+  EXPECT_EQ(table_.any_blocker(kLow, up(), all_), kHigh) << "what is expected is asked first";
+  ComponentSet left = all_;
+  left.erase(kHigh);
+  EXPECT_FALSE(table_.expects_blocker(kLow, up(), left)) << "the tube turned out not to block";
+}
+
+TEST_F(BlockingTableTest, LooksAtNothingOnceItIsToldToStop) {
+  bool go_on = true;
+  BlockingTable table(engine_, features_, [&] { return go_on; });
+  const DirectionId d = table.add_direction({0, 0, 1});
+  EXPECT_FALSE(table.blocks(kHigh, d, kLow));
+  go_on = false;
+  EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "it is known";
+  EXPECT_TRUE(table.blocks(kHigh, d, kMiddle));
+  go_on = true;
+  EXPECT_FALSE(table.blocks(kHigh, d, kMiddle)) << "what counted as blocked was not noted down";
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class RemovalSearchTest : public testing::Test {
         scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Embedded, 0, 1, 1, 1});
     engine_.emplace(scene_.assembly, scene_.pairs);
     features_.assign(count, shape_features(*scene_.assembly.components[0].mesh));
-    table_.emplace(*engine_, features_);
+    table_.emplace(*engine_, features_, kAlways);
     directions_.assign(count, {});
     for (std::size_t k = 0; k < relations.size(); ++k) {
       const DirectionId d = table_->add_direction(normalized(Vec3{1, 0.1 * static_cast<double>(k), 0}));

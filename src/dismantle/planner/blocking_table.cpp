@@ -2,6 +2,7 @@
 #include "dismantle/planner/blocking_table.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle {
 
@@ -14,8 +15,8 @@ constexpr double kMargin = 0.05;
 
 }  // namespace
 
-BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features)
-    : engine_(engine), features_(features), rows_(features.size()), others_(features.size()) {
+BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, GoOn go_on)
+    : engine_(engine), features_(features), go_on_(std::move(go_on)), rows_(features.size()), others_(features.size()) {
   for (std::uint32_t c = 0; c < features.size(); ++c) {
     std::vector<ComponentId>& others = others_[c];
     for (std::uint32_t k = 0; k < features.size(); ++k)
@@ -59,6 +60,7 @@ double BlockingTable::way_out(ComponentId moving, DirectionId d) const {
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
   Known& known = row(moving, d).known[fixed.value];
   if (known == Known::Nothing) {
+    if (!go_on_()) return true;
     const double way = way_past(moving, d, fixed);
     const bool met =
         way > 0 && engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value();
@@ -70,6 +72,8 @@ bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed)
 std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
   Row& known = row(moving, d);
   if (known.witness.valid() && present.has(known.witness)) return known.witness;
+  for (const ComponentId other : known.expected)
+    if (present.has(other) && blocks(moving, d, other)) return known.witness = other;
   std::vector<ComponentId>& others = others_[moving.value];
   for (auto other = others.begin(); other != others.end(); ++other) {
     if (!present.has(*other) || !blocks(moving, d, *other)) continue;
@@ -78,6 +82,13 @@ std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, Direct
     return known.witness;
   }
   return std::nullopt;
+}
+
+bool BlockingTable::expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
+  const Row& known = row(moving, d);
+  if (known.witness.valid() && present.has(known.witness)) return true;
+  return std::any_of(known.expected.begin(), known.expected.end(),
+                     [&](ComponentId other) { return present.has(other) && known.known[other.value] != Known::Free; });
 }
 
 std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId d, const ComponentSet& present) {

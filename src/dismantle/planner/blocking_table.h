@@ -3,6 +3,7 @@
 
 #include "dismantle/collision/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
+#include "dismantle/planner/go_on.h"
 #include "dismantle/planner/shape_features.h"
 
 #include <map>
@@ -19,7 +20,9 @@ using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a
 class BlockingTable {
  public:
   /// @param engine, features of every component must outlive the table
-  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features);
+  /// @param go_on once it says no, nothing is looked at any more: what is not known then counts as blocked, for that
+  /// time
+  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, GoOn go_on);
 
   /// @param unit Directions within 1e-6 of each other are one.
   DirectionId add_direction(const Vec3& unit);
@@ -28,6 +31,9 @@ class BlockingTable {
   DirectionId opposite(DirectionId d) { return add_direction(-directions_[d.value]); }
   /// A way along `d` after which `moving` is past all that is where it was assembled [mm].
   double way_out(ComponentId moving, DirectionId d) const;
+
+  /// Of the sphere around a component [mm].
+  double radius(ComponentId c) const { return features_[c.value].radius; }
 
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
   /// One of `present` that blocks, if there is one; the same again while it is present.
@@ -39,6 +45,12 @@ class BlockingTable {
   /// The same, given up (nothing) once it would hold one of `never`, or more than `most`.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                            const ComponentSet& never, std::size_t most);
+  /// Says that `fixed` may well block: it is asked first.
+  void expect_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {
+    row(moving, d).expected.push_back(fixed);
+  }
+  /// Whether one of `present` is expected to block, or known to.
+  bool expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
   /// Makes it known that `fixed` blocks by a rule that one sweep does not see.
   void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
   /// The first contact with one that blocks.
@@ -49,6 +61,7 @@ class BlockingTable {
   struct Row {
     std::vector<Known> known;  // of every component
     ComponentId witness;       // the last one found to block
+    std::vector<ComponentId> expected;
   };
   Row& row(ComponentId moving, DirectionId d);
   /// How far `moving` has to go along `d` to be past `fixed`; nothing where it never comes near it [mm].
@@ -56,6 +69,7 @@ class BlockingTable {
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
+  GoOn go_on_;
   std::vector<Vec3> directions_;
   std::vector<std::map<DirectionId, Row>>
       rows_;  // of every component: rows of different ones may be asked side by side

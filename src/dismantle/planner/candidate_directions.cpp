@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace dismantle {
 
@@ -35,19 +34,13 @@ constexpr double kSnap = 2e-3;
 /// Of directions nearer than this [rad] the one that was found first is enough: plane faces tell best.
 constexpr double kSame = 1e-3;
 
-/// The faces that bound a component's motion.
-struct ContactNormals {
-  std::vector<WeightedDirection> facing;  ///< From faces that look at each other, towards the component.
-  std::vector<WeightedDirection> other;   ///< From edges and corners.
-  std::set<ComponentId> neighbours;
-};
-
 Vec3 assembled_area(const Component& component, FaceId face) {
   return component.assembly_from_mesh.rotation * (0.5 * normal_unscaled(component.mesh->triangle(face.value)));
 }
 
 ContactNormals gather(const Assembly& assembly, const std::vector<ContactPoint>& contacts) {
   DirectionClusters facing(Sense::Directed), other(Sense::Directed);
+  std::map<ComponentId, DirectionClusters> facing_of;
   ContactNormals result;
   for (const ContactPoint& c : contacts) {
     const Vec3 moving = assembled_area(assembly[c.moving], c.face_moving);
@@ -57,26 +50,17 @@ ContactNormals gather(const Assembly& assembly, const std::vector<ContactPoint>&
     if (!(weight > 0)) continue;
     result.neighbours.insert(c.fixed);
     if (dot(moving, fixed) < kFacing * area_moving * area_fixed) {
-      facing.add(area_moving > area_fixed ? -moving : fixed, weight);
+      const Vec3 normal = area_moving > area_fixed ? -moving : fixed;
+      facing.add(normal, weight);
+      facing_of.try_emplace(c.fixed, Sense::Directed).first->second.add(normal, weight);
     } else if (length(c.normal) > 0) {
       other.add(c.normal, kEdgeWeight * weight);
     }
   }
   result.facing = facing.heaviest(4 * kMostPaired);
   result.other = other.heaviest(kMostPaired);
+  for (const auto& [neighbour, normals] : facing_of) result.facing_of[neighbour] = normals.heaviest(kMostPaired);
   return result;
-}
-
-/// @param radius of the component in hand [mm]
-ContactNormals find_contacts(const Assembly& assembly, const CertificateEngine& engine, double radius,
-                             double tolerance) {
-  const double most = kLargestReach * radius;
-  std::vector<ContactPoint> contacts;
-  for (double reach = kFirstReach * tolerance; contacts.size() < kEnoughContacts; reach *= kReachGrowth) {
-    contacts = engine.contacts(reach);
-    if (reach > most) break;
-  }
-  return gather(assembly, contacts);
 }
 
 /// Collects directions without repeats.
@@ -178,10 +162,28 @@ Vec3 snapped(const Vec3& axis, const ShapeFeatures& features) {
 
 }  // namespace
 
-std::vector<CandidateDirection> candidate_directions(const Assembly& assembly, const CertificateEngine& engine,
-                                                     ComponentId component, Span<const ShapeFeatures> features,
-                                                     double tolerance) {
-  const ContactNormals contacts = find_contacts(assembly, engine, features[component.value].radius, tolerance);
+ContactNormals contact_normals(const Assembly& assembly, const CertificateEngine& engine, double radius,
+                               double tolerance) {
+  const double most = kLargestReach * radius;
+  std::vector<ContactPoint> contacts;
+  for (double reach = kFirstReach * tolerance; contacts.size() < kEnoughContacts; reach *= kReachGrowth) {
+    contacts = engine.contacts(reach);
+    if (reach > most) break;
+  }
+  return gather(assembly, contacts);
+}
+
+std::vector<ComponentId> neighbours_against(const ContactNormals& contacts, const Vec3& direction) {
+  std::vector<ComponentId> against;
+  for (const auto& [neighbour, normals] : contacts.facing_of)
+    if (std::any_of(normals.begin(), normals.end(),
+                    [&](const WeightedDirection& n) { return dot(n.direction, direction) < -kAlmostAlong; }))
+      against.push_back(neighbour);
+  return against;
+}
+
+std::vector<CandidateDirection> candidate_directions(ComponentId component, const ContactNormals& contacts,
+                                                     Span<const ShapeFeatures> features) {
   Candidates candidates(contacts);
   const ShapeFeatures& own = features[component.value];
   for (const WeightedDirection& axis : own.axes) candidates.add_axis(snapped(axis.direction, own));

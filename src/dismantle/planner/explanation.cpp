@@ -71,7 +71,9 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
 std::string direction_text(const Vec3& unit) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(unit[k]) > kAxisCosine) return std::string(unit[k] > 0 ? "+" : "-") + "XYZ"[k];
-  return point_text(unit, "(%.3f, %.3f, %.3f)");
+  // No "-0.000".
+  const auto rounded = [](double x) { return std::abs(x) < 5e-4 ? 0 : x; };
+  return point_text({rounded(unit.x), rounded(unit.y), rounded(unit.z)}, "(%.3f, %.3f, %.3f)");
 }
 
 std::string explanation_text(const Assembly& assembly, const Explanation& e) {

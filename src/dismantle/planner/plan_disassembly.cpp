@@ -40,8 +40,9 @@ class Planner {
         options_(options),
         count_(assembly.components.size()),
         features_(features_of(assembly, options.engine.executor)),
-        maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly))),
-        table_(maker_.engine(), features_),
+        maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
+               [this] { return in_time(); }),
+        table_(maker_.engine(), features_, [this] { return in_time(); }),
         directions_(count_) {
     find_directions(pairs.tolerance);
   }
@@ -183,24 +184,74 @@ class Planner {
   /// Gives every component its directions: those that open what it touches, those that many components share (fewer
   /// turns of the assembly), and the rest of its own.
   void find_directions(double tolerance) {
-    DirectionClusters popular(Sense::Directed);
+    std::vector<double> popularity;  // of every direction
+    std::vector<ContactNormals> contacts(count_);
     std::vector<std::vector<CandidateDirection>> own(count_);
     for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
       const ComponentId id(c);
-      own[c] = candidate_directions(assembly_, maker_.hold(id), id, features_, tolerance);
+      contacts[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
+      own[c] = candidate_directions(id, contacts[c], features_);
       double weight = 1;
-      for (const CandidateDirection& d : own[c]) popular.add(d.direction, weight *= kRankWeight);
+      const auto vote = [&](const Vec3& direction) {
+        const std::size_t index = table_.add_direction(direction).value;
+        if (popularity.size() <= index) popularity.resize(index + 1);
+        popularity[index] += weight;
+      };
+      for (const CandidateDirection& d : own[c]) {
+        vote(d.direction);
+        weight *= kRankWeight;
+      }
+      // What is against its contacts now is not once its neighbours are gone: the faces of a product that is built up
+      // in layers say where these go.
+      weight = 1;
+      for (const WeightedDirection& normal : features_[c].normals) {
+        vote(normal.direction);
+        vote(-normal.direction);
+        weight *= kRankWeight;
+      }
     }
-    std::vector<DirectionId> shared;
-    for (const WeightedDirection& d : popular.heaviest(kShared)) shared.push_back(table_.add_direction(d.direction));
-    for (std::size_t c = 0; c < count_; ++c) {
-      std::vector<DirectionId> list, rest;
-      for (const CandidateDirection& d : own[c]) (d.opens ? list : rest).push_back(table_.add_direction(d.direction));
-      rest.insert(rest.begin(), shared.begin(), shared.end());
-      for (const DirectionId d : rest)
-        if (std::find(list.begin(), list.end(), d) == list.end()) list.push_back(d);
-      directions_[c] = std::move(list);
+    const std::vector<DirectionId> shared = most_popular(popularity);
+    for (std::uint32_t c = 0; c < count_; ++c) {
+      directions_[c] = in_order(own[c], shared);
+      for (const DirectionId d : directions_[c])
+        for (const ComponentId against : neighbours_against(contacts[c], table_.direction(d)))
+          table_.expect_blocker(ComponentId(c), d, against);
     }
+  }
+
+  /// A component's own directions and the shared ones, all but the same ones once: what it has of its own is exact.
+  std::vector<DirectionId> in_order(const std::vector<CandidateDirection>& own,
+                                    const std::vector<DirectionId>& shared) {
+    std::vector<DirectionId> list, rest;
+    for (const CandidateDirection& d : own) (d.opens ? list : rest).push_back(table_.add_direction(d.direction));
+    const auto add = [&](DirectionId d) {
+      if (!one_along(list, d).valid()) list.push_back(d);
+    };
+    for (const DirectionId d : shared) {
+      const DirectionId exact = one_along(rest, d);
+      add(exact.valid() ? exact : d);
+    }
+    for (const DirectionId d : rest) add(d);
+    return list;
+  }
+
+  /// The one of `list` that is all but the same as `d`; invalid where there is none.
+  DirectionId one_along(const std::vector<DirectionId>& list, DirectionId d) const {
+    const auto found = std::find_if(list.begin(), list.end(), [&](DirectionId known) {
+      return length(table_.direction(known) - table_.direction(d)) < kSameDirectionAngle;
+    });
+    return found == list.end() ? DirectionId() : *found;
+  }
+
+  /// The directions that count most; of those that are all but the same, one.
+  std::vector<DirectionId> most_popular(const std::vector<double>& popularity) const {
+    std::vector<DirectionId> order, shared;
+    for (std::uint32_t d = 0; d < popularity.size(); ++d) order.emplace_back(d);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](DirectionId a, DirectionId b) { return popularity[a.value] > popularity[b.value]; });
+    for (const DirectionId d : order)
+      if (shared.size() < kShared && !one_along(shared, d).valid()) shared.push_back(d);
+    return shared;
   }
 
   void explain_left(const ComponentSet& left, const ComponentSet& staying) {

@@ -9,6 +9,11 @@ namespace dismantle {
 
 namespace {
 
+/// Which directions are asked: those of which nothing bad is expected, or all.
+enum class Hope { Good, Little };
+/// So many components are asked side by side, the smallest first.
+constexpr std::size_t kFewComponents = 8;
+
 /// Candidate sets by size, the smallest first; of equal ones the one found first.
 struct Waiting {
   ComponentSet needed;
@@ -73,6 +78,7 @@ class RemovalSearch {
   void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
     for (const ComponentId c : stuck.members()) {
       for (const DirectionId d : directions_[c.value]) {
+        if (!go_on_()) return;
         const std::vector<ComponentId> blockers = table_.blockers(c, d, left);
         if (never_.has_any(blockers)) continue;
         if (!stuck.has_any(blockers)) push(with(needed, blockers));
@@ -103,18 +109,27 @@ std::vector<StraightRemoval> free_components(BlockingTable& table, const Directi
                                              const Executor& executor, const GoOn& go_on) {
   std::vector<ComponentId> asked = present.members();
   std::erase_if(asked, [&](ComponentId c) { return never.has(c); });
-  std::vector<DirectionId> free(asked.size());
-  executor.for_each_heavy(asked.size(), [&](std::size_t i) {
-    for (const DirectionId d : directions[asked[i].value]) {
+  std::stable_sort(asked.begin(), asked.end(),
+                   [&](ComponentId a, ComponentId b) { return table.radius(a) < table.radius(b); });
+  const auto first_free = [&](ComponentId c, Hope hope) {
+    for (const DirectionId d : directions[c.value]) {
       if (!go_on()) break;
-      if (table.any_blocker(asked[i], d, present)) continue;
-      free[i] = d;
-      break;
+      if (hope == Hope::Good && table.expects_blocker(c, d, present)) continue;
+      if (!table.any_blocker(c, d, present)) return d;
     }
-  });
+    return DirectionId();
+  };
+
   std::vector<StraightRemoval> found;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (free[i].valid()) found.push_back({{asked[i]}, free[i]});
+  for (const Hope hope : {Hope::Good, Hope::Little}) {
+    for (std::size_t first = 0; first < asked.size() && found.empty(); first += kFewComponents) {
+      const std::size_t count = std::min(kFewComponents, asked.size() - first);
+      std::vector<DirectionId> free(count);
+      executor.for_each_heavy(count, [&](std::size_t i) { free[i] = first_free(asked[first + i], hope); });
+      for (std::size_t i = 0; i < count; ++i)
+        if (free[i].valid()) found.push_back({{asked[first + i]}, free[i]});
+    }
+  }
   return found;
 }
 
@@ -125,8 +140,8 @@ std::optional<StraightRemoval> smallest_body(BlockingTable& table, const Directi
   std::size_t most = present.size() - 1;
   for (const ComponentId c : present.members()) {
     if (never.has(c)) continue;
-    if (!go_on()) return std::nullopt;
     for (const DirectionId d : directions[c.value]) {
+      if (!go_on()) return std::nullopt;
       std::vector<ComponentId> together = table.moving_together(c, d, present, never, most);
       if (together.empty()) continue;
       most = together.size() - 1;

@@ -3,7 +3,6 @@
 
 #include "dismantle/planner/blocking_table.h"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,11 +17,9 @@ struct StraightRemoval {
   DirectionId direction;
 };
 
-/// Whether to go on searching: asked now and then, by any thread.
-using GoOn = std::function<bool()>;
-
-/// The single components outside `never` that come out of `present`, each along the first direction that is free; some
-/// of them where `go_on` ends the search.
+/// Some single components outside `never` that come out of `present`, each along the first direction that is free; none
+/// only where none does, or `go_on` ends the search. Small ones are asked first, and all along the directions that no
+/// blocker is expected in before any is along others.
 std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
                                              const Executor& executor, const GoOn& go_on);

@@ -2,24 +2,27 @@
 #include "dismantle/planner/step_maker.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle {
 
 namespace {
 
 /// A long way is made in parts, short ones while things are close to each other.
-constexpr double kParts[] = {0.004, 0.02, 0.1, 0.4, 1};
+constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1};
 /// A way that was stopped goes on if a new start makes at least this share of the tolerance.
 constexpr double kNewStartShare = 0.1;
 constexpr int kMostStarts = 8;
 
 }  // namespace
 
-StepMaker::StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far)
+StepMaker::StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
+                     GoOn go_on)
     : assembly_(assembly),
       pairs_(pairs),
       options_(options),
       far_(far),
+      go_on_(std::move(go_on)),
       engine_(assembly, pairs, options),
       poses_(assembly.components.size()) {}
 
@@ -35,7 +38,7 @@ StepMaker::Trial StepMaker::try_straight(Span<const ComponentId> set, const Vec3
   const std::vector<ComponentPair> embedded = engine_.embedded_pairs();
   StepResult made;
   for (const double part : kParts) {
-    made = go_straight(direction, part * way);
+    made = go_on_() ? go_straight(direction, part * way) : StepResult();
     if (!made.reached) break;
   }
   Trial trial{made.reached, {}};
@@ -64,7 +67,7 @@ StepResult StepMaker::go_straight(const Vec3& direction, double way) {
     StepResult made = engine_.step(target, ResponseKind::Touch);
     // Where one start stops, a new one may go on: see straight_contact.
     const double progress = dot(made.pose.position, direction) - before;
-    if (made.reached || starts == kMostStarts || progress < kNewStartShare * pairs_.tolerance) return made;
+    if (made.reached || starts == kMostStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
   }
 }
 

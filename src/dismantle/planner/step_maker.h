@@ -3,6 +3,7 @@
 
 #include "dismantle/collision/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
+#include "dismantle/planner/go_on.h"
 
 #include <utility>
 #include <vector>
@@ -13,7 +14,9 @@ namespace dismantle {
 class StepMaker {
  public:
   /// @param far Distance [mm] at which what was taken away is out of everyone's way.
-  StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far);
+  /// @param go_on once it says no, tries end as if blocked
+  StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
+            GoOn go_on);
 
   /// `present` stand in their assembled poses, all others are taken away.
   void stand(const ComponentSet& present);
@@ -35,6 +38,7 @@ class StepMaker {
   const PairStates& pairs_;
   CertificateOptions options_;
   double far_;
+  GoOn go_on_;
   CertificateEngine engine_;
   std::vector<Pose> poses_;
   ComponentId held_;  ///< One of the set in hand.
