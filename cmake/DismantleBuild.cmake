@@ -14,12 +14,15 @@ endif()
 add_library(dismantle_build_settings INTERFACE)
 target_compile_features(dismantle_build_settings INTERFACE cxx_std_20)
 # Warnings are ours to mend, not for those who use an installed dismantle.
-target_compile_options(dismantle_build_settings INTERFACE -ffp-contract=off
-  $<BUILD_INTERFACE:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>)
+target_compile_options(dismantle_build_settings INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
+  $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false$<SEMICOLON>-Xcompiler=-ffp-contract=off>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>>)
 target_compile_definitions(dismantle_build_settings INTERFACE
   $<$<BOOL:${DISMANTLE_CONTRACTS}>:DISMANTLE_CONTRACTS=1>)
 if(DISMANTLE_WERROR)
-  target_compile_options(dismantle_build_settings INTERFACE $<BUILD_INTERFACE:-Werror>)
+  target_compile_options(dismantle_build_settings INTERFACE
+    $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Werror>$<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings>>)
 endif()
 if(DISMANTLE_SANITIZE)
   add_compile_options(-fsanitize=${DISMANTLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -26,6 +26,8 @@ void interrupt(int) {
 
 void add_common_options(CLI::App& command, CommonOptions& o) {
   static const std::map<std::string, ClassifyRule> kRules{{"auto", ClassifyRule::Auto}, {"paper", ClassifyRule::Paper}};
+  static const std::map<std::string, DeviceChoice> kDevices{
+      {"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}, {"auto", DeviceChoice::Auto}};
   const std::string group = "Common options";
   command.add_option("--units", o.import.units, "Unit of the input's coordinates (mm, cm, m, um, in, ft)")
       ->check(CLI::IsMember({"mm", "cm", "m", "um", "in", "ft"}))
@@ -57,8 +59,10 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command.add_option("--device", o.device, "Where to compute: cpu, cuda or auto")
-      ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+  command
+      .add_option("--device", o.device, "Where to compute: cpu, cuda, or auto (cuda where it is there and worth it)")
+      ->transform(CLI::CheckedTransformer(kDevices))
+      ->type_name("cpu|cuda|auto")
       ->group(group);
   command.add_option("--threads", o.threads, "Threads (default: all)")
       ->type_name("N")
@@ -105,23 +109,24 @@ ProgressCallback progress_printer(const CommonOptions& options) {
   };
 }
 
-Result<Executor> make_executor(const CommonOptions& options) {
-  if (options.device == "cuda")
-    return Error{ErrorKind::Usage,
-                 "no CUDA device can be used (this build has no CUDA backend); use --device cpu or auto"};
+Executor make_executor(const CommonOptions& options) {
   return Executor(options.threads == 1 ? ExecutorKind::Serial : ExecutorKind::Threads, options.threads);
 }
 
+void note_cpu(const CommonOptions& options, const std::string& why) {
+  if (options.device == DeviceChoice::Cuda)
+    std::fprintf(stderr, "dismantle: note: computing on the CPU (%s)\n", why.c_str());
+}
+
 Result<Assembly> load(const CommonOptions& options) {
+  if (!options.uses_device) note_cpu(options, "only move with --method streams uses a CUDA device");
   ImportOptions import = options.import;
   import.progress = progress_printer(options);
   Result<Assembly> assembly = load_assembly(options.assembly_file, import);
   if (!assembly || options.simplify == 0) return assembly;
 
-  const Result<Executor> executor = make_executor(options);
-  if (!executor) return executor.error();
   SimplifyOptions simplify;
-  simplify.executor = *executor;
+  simplify.executor = make_executor(options);
   simplify.progress = import.progress;
   Result<SimplifiedAssembly> simplified = simplify_assembly(*assembly, options.simplify, simplify);
   if (!simplified) return simplified.error();
@@ -129,14 +134,12 @@ Result<Assembly> load(const CommonOptions& options) {
 }
 
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance) {
-  Result<Executor> executor = make_executor(options);
-  if (!executor) return executor.error();
   ClassifyOptions classify;
   classify.tolerance = options.tolerance;
   classify.fit = options.fit;
   classify.clearance = clearance;
   classify.rule = options.pairs;
-  classify.executor = *executor;
+  classify.executor = make_executor(options);
   classify.progress = progress_printer(options);
   return classify_pairs(assembly, classify);
 }

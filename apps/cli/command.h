@@ -4,6 +4,7 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/assembly/path.h"
+#include "dismantle/collision/choose_streams_backend.h"
 #include "dismantle/collision/classify_pairs.h"
 #include "dismantle/core/result.h"
 #include "dismantle/exec/executor.h"
@@ -29,7 +30,8 @@ struct CommonOptions {
   double fit = 0;
   ClassifyRule pairs = ClassifyRule::Auto;
   std::size_t simplify = 0;
-  std::string device = "auto";
+  DeviceChoice device = DeviceChoice::Auto;
+  bool uses_device = false;  ///< The command does what `device` says; else it is computed on the CPU.
   int threads = 0;
   bool json = false;
   bool quiet = false;
@@ -51,8 +53,11 @@ void note_other_version(const Path& path, const Assembly& assembly);
 /// Prints progress on one line of stderr where that is a terminal, and cancels on Ctrl+C.
 ProgressCallback progress_printer(const CommonOptions& options);
 
-/// The threads that the user asked for. Usage error where the device is not there.
-Result<Executor> make_executor(const CommonOptions& options);
+/// Says on stderr that it is the CPU, where a CUDA device was asked for.
+void note_cpu(const CommonOptions& options, const std::string& why);
+
+/// The threads that the user asked for.
+Executor make_executor(const CommonOptions& options);
 
 /// Loads and, where asked for, simplifies the assembly.
 Result<Assembly> load(const CommonOptions& options);

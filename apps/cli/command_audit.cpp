@@ -83,15 +83,14 @@ void print_text(const AuditReport& report, const Assembly& a, const Path& path, 
 }
 
 ExitCode run_audit(const AuditCommand& command) {
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return report(executor.error());
+  const Executor executor = make_executor(command.common);
   const Result<Path> path = read_path(command.path_file);
   if (!path) return report(path.error());
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return report(assembly.error());
   note_other_version(*path, *assembly);
 
-  const AuditReport audit = audit_path(*assembly, *path, {*executor, progress_printer(command.common)});
+  const AuditReport audit = audit_path(*assembly, *path, {executor, progress_printer(command.common)});
   if (!audit.complete) return report({ErrorKind::Failed, "the audit was cancelled; start it again"});
   if (command.common.json) {
     fmt::print("{}\n", to_json(audit, *assembly, *path).dump(2, ' ', false, Json::error_handler_t::replace));

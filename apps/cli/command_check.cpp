@@ -20,11 +20,10 @@ struct CheckCommand {
 };
 
 Result<Done> write_html(const Assembly& assembly, const PairStates& states, const CheckCommand& command) {
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
   HtmlCheckOptions options;
   options.pictures = command.pictures;
-  options.executor = *executor;
+  options.executor = executor;
   options.progress = progress_printer(command.common);
   const Result<std::string> html = html_check_report(assembly, states, options);
   if (!html) return html.error();

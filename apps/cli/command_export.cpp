@@ -107,8 +107,7 @@ PathDirection direction(const ExportCommand& command) {
 }
 
 Result<std::string> png(const Exported& exported, const ExportCommand& command) {
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
   const std::size_t count = exported.timeline.moves().size();
   if (command.step > count)
     return Error{ErrorKind::Usage,
@@ -120,7 +119,7 @@ Result<std::string> png(const Exported& exported, const ExportCommand& command) 
                           ? step_scene(exported.assembly, exported.timeline, command.step - 1, direction(command))
                           : make_scene(exported.assembly, options);
   const Result<Image> picture =
-      take_picture(std::move(scene), assembled_bounds(exported.assembly), command.picture, *executor);
+      take_picture(std::move(scene), assembled_bounds(exported.assembly), command.picture, executor);
   if (!picture) return picture.error();
   const std::vector<std::uint8_t> bytes = encode_png(*picture);
   return std::string(bytes.begin(), bytes.end());
@@ -129,9 +128,8 @@ Result<std::string> png(const Exported& exported, const ExportCommand& command) 
 Result<std::vector<MoveClearance>> clearances(const Exported& exported, const CommonOptions& common) {
   const Result<PairStates> states = classify(exported.assembly, common);
   if (!states) return states.error();
-  const Result<Executor> executor = make_executor(common);
-  if (!executor) return executor.error();
-  auto found = move_clearances(exported.assembly, *states, exported.timeline, {*executor, widest_lanes()},
+  const Executor executor = make_executor(common);
+  auto found = move_clearances(exported.assembly, *states, exported.timeline, {executor, widest_lanes()},
                                progress_printer(common));
   if (!found) return Error{ErrorKind::Failed, "the table was not written (cancelled); start it again"};
   return std::move(*found);

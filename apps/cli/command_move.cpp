@@ -93,8 +93,14 @@ std::string blockers_text(const MoveSummary& m) {
   return text.empty() ? "nothing" : text;
 }
 
-Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves,
-             const std::vector<double>& overall) {
+/// What the whole motion took.
+struct MoveCost {
+  std::string device;
+  std::vector<double> overall;  ///< Of each step [ms].
+};
+
+Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves, const MoveCost& cost) {
+  const std::vector<double>& overall = cost.overall;
   Json list = Json::array();
   for (std::size_t m = 0; m < moves.size(); ++m) {
     Json blocked = Json::object();
@@ -110,6 +116,7 @@ Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSumma
           {"version", 1},
           {"path", o.output},
           {"method", o.method},
+          {"device", cost.device},
           {"tolerance_mm", path.tolerance},
           {"steps", overall.size()},
           {"step_ms",
@@ -118,8 +125,7 @@ Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSumma
           {"removed", path.removed}};
 }
 
-void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves,
-                const std::vector<double>& overall) {
+void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSummary>& moves, const MoveCost& cost) {
   std::size_t width = 4;
   for (const Move& m : path.moves) width = std::max(width, m.label.size());
   fmt::print("{:<{}}  {:>6}  {:>7}  {:>10}  {:>10}  stopped by (steps)\n", "move", width, "steps", "reached",
@@ -127,8 +133,9 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
   for (std::size_t m = 0; m < moves.size(); ++m)
     fmt::print("{:<{}}  {:>6}  {:>7}  {:>10.3f}  {:>10.3f}  {}\n", path.moves[m].label, width, moves[m].steps,
                moves[m].reached, moves[m].asked, moves[m].got, blockers_text(moves[m]));
-  fmt::print("\n{} steps, {:.3f} ms a step (median), {:.3f} ms (p99); tolerance {:.4g} mm\n", overall.size(),
-             quantile(overall, 0.5), quantile(overall, 0.99), path.tolerance);
+  fmt::print("\n{} steps, {:.3f} ms a step (median), {:.3f} ms (p99), on {}; tolerance {:.4g} mm\n",
+             cost.overall.size(), quantile(cost.overall, 0.5), quantile(cost.overall, 0.99), cost.device,
+             path.tolerance);
   if (!path.removed.empty()) {
     std::string names;
     for (const std::string& n : path.removed) names += (names.empty() ? "" : ", ") + n;
@@ -137,14 +144,22 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
   fmt::print("wrote {}\n", o.output);
 }
 
-std::unique_ptr<MotionEngine> make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states,
-                                          const Executor& executor) {
+/// The method that was asked for, and what it is computed on.
+struct MoveEngine {
+  std::unique_ptr<MotionEngine> engine;
+  std::string device = "cpu";
+};
+
+MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states) {
+  const Executor executor = make_executor(o.common);
   if (o.method == "certificates")
-    return std::make_unique<CertificateEngine>(assembly, states, CertificateOptions{executor, widest_lanes()});
+    return {std::make_unique<CertificateEngine>(assembly, states, CertificateOptions{executor, widest_lanes()})};
   CollisionOptions collision;
   collision.test = o.test.value_or(ElementaryTest::Certified);
   collision.executor = executor;
-  return make_streams_motion_engine(assembly, states, collision);
+  ChosenStreamsBackend chosen = choose_streams_backend(assembly, collision, o.common.device);
+  if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
+  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device};
 }
 
 Result<ExitCode> run(const MoveOptions& o) {
@@ -167,11 +182,10 @@ Result<ExitCode> run(const MoveOptions& o) {
   if (!assembly) return assembly.error();
   const Result<PairStates> states = classify(*assembly, o.common);
   if (!states) return states.error();
-  const Result<Executor> executor = make_executor(o.common);
-  if (!executor) return executor.error();
 
-  const std::unique_ptr<MotionEngine> engine = make_engine(o, *assembly, *states, *executor);
-  const Result<PlayedMotion> played = play_motion(*assembly, *states, motion, *engine, progress_printer(o.common));
+  const MoveEngine moving = make_engine(o, *assembly, *states);
+  const Result<PlayedMotion> played =
+      play_motion(*assembly, *states, motion, *moving.engine, progress_printer(o.common));
   if (!played) return played.error();
   if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; what was moved until then is in the path\n");
 
@@ -182,13 +196,13 @@ Result<ExitCode> run(const MoveOptions& o) {
     if (!timing) return timing.error();
   }
 
-  std::vector<double> overall;
-  for (const PlayedStep& s : played->steps) overall.push_back(s.result.timings.overall);
+  MoveCost cost{moving.device, {}};
+  for (const PlayedStep& s : played->steps) cost.overall.push_back(s.result.timings.overall);
   const std::vector<MoveSummary> moves = summarize(*assembly, motion, *played);
   if (o.common.json) {
-    fmt::print("{}\n", to_json(o, played->path, moves, overall).dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", to_json(o, played->path, moves, cost).dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    print_text(o, played->path, moves, overall);
+    print_text(o, played->path, moves, cost);
   }
   return played->cancelled ? ExitCode::Failed : ExitCode::Done;
 }
@@ -223,6 +237,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("CSV");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
+    options->common.uses_device = options->method == "streams";
     const Result<ExitCode> result = run(*options);
     exit_code = result ? *result : report(result.error());
   });

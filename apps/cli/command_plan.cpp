@@ -83,8 +83,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   if (!assembly) return assembly.error();
   const Result<PairStates> states = classify(*assembly, command.common);
   if (!states) return states.error();
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
   const Result<std::vector<ComponentId>> targets = find_all(*assembly, command.targets);
   if (!targets) return targets.error();
   const Result<std::vector<ComponentId>> fixed = find_all(*assembly, command.fixed);
@@ -96,7 +95,7 @@ Result<ExitCode> run(const PlanCommand& command) {
 
   const Plan plan = plan_disassembly(
       *assembly, *states,
-      {*targets, *fixed, command.time_limit, {*executor, widest_lanes()}, progress_printer(command.common)});
+      {*targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)});
   const Path path = plan_path(*assembly, *states, plan);
   const Result<Done> written = write_path(command.output, path);
   if (!written) return written.error();

@@ -37,14 +37,12 @@ Result<RenderScene> compose_scene(const Assembly& assembly, const RenderCommand&
 }
 
 Result<Done> run(const RenderCommand& command) {
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   Result<RenderScene> scene = compose_scene(*assembly, command);
   if (!scene) return scene.error();
-  const Result<Image> picture =
-      take_picture(std::move(*scene), assembled_bounds(*assembly), command.picture, *executor);
+  const Result<Image> picture = take_picture(std::move(*scene), assembled_bounds(*assembly), command.picture, executor);
   if (!picture) return picture.error();
   return write_png(*picture, command.output);
 }

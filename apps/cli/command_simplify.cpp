@@ -22,12 +22,11 @@ struct SimplifyCommand {
 };
 
 Result<SimplifiedAssembly> run(const SimplifyCommand& command) {
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   SimplifyOptions options;
-  options.executor = *executor;
+  options.executor = executor;
   options.progress = progress_printer(command.common);
   Result<SimplifiedAssembly> simplified = simplify_assembly(*assembly, command.triangles, options);
   if (!simplified) return simplified;

@@ -84,8 +84,7 @@ std::optional<fs::path> state_folder() {
 }
 
 Result<server::ServerOptions> server_options(const ViewOptions& o) {
-  const Result<Executor> executor = make_executor(o.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(o.common);
   server::ServerOptions options;
   options.port = static_cast<std::uint16_t>(o.port);
   options.roots.assign(o.roots.begin(), o.roots.end());
@@ -97,9 +96,9 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   options.model.classify.tolerance = o.common.tolerance;
   options.model.classify.fit = o.common.fit;
   options.model.classify.rule = o.common.pairs;
-  options.model.classify.executor = *executor;
+  options.model.classify.executor = executor;
   options.model.simplify = o.common.simplify;
-  options.model.executor = *executor;
+  options.model.executor = executor;
   return options;
 }
 

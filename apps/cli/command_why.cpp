@@ -26,10 +26,9 @@ Result<ExitCode> run(const WhyCommand& command) {
   if (!component) return component.error();
   const Result<PairStates> states = classify(*assembly, command.common);
   if (!states) return states.error();
-  const Result<Executor> executor = make_executor(command.common);
-  if (!executor) return executor.error();
+  const Executor executor = make_executor(command.common);
 
-  const Explanation why = why_blocked(*assembly, *states, *component, {*executor, widest_lanes()});
+  const Explanation why = why_blocked(*assembly, *states, *component, {executor, widest_lanes()});
   if (command.common.json) {
     Json report{{"format", "dismantle-why"}, {"version", 1}};
     report.update(explanation_json(*assembly, why));

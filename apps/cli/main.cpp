@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/exec/cuda_device.h"
 
 #include <exception>
 #include <new>
@@ -34,6 +35,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return static_cast<int>(report({dismantle::ErrorKind::Failed,
                                     "out of memory (the assembly is too large for this machine); try --simplify N"}));
+  } catch (const dismantle::CudaError& error) {
+    return static_cast<int>(report({dismantle::ErrorKind::Failed,
+                                    std::string("the CUDA device failed (") + error.what() + "); try --device cpu"}));
   } catch (const std::exception& error) {
     return static_cast<int>(report({dismantle::ErrorKind::Failed, std::string("internal failure (") + error.what() +
                                                                       "); please report it with the command line"}));

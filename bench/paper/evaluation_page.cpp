@@ -95,8 +95,8 @@ that it stops though nothing is on the way.
 
 {tunnel_table}
 ## What a GPU is for
-Not measured: no GPU was available, and no method runs on one. The bodies of the kernels compile as device code (`tools/check_cuda`); `tools/gpu_check` is
-there to compare those of *streams* with the CPU bit by bit on a GPU, and has not been run.
+Not measured: no GPU was available. *streams* is there for CUDA devices ([docs/gpu.md](gpu.md)) and has been compiled, not run; `tools/gpu_check` is to compare
+it with the CPU bit by bit on a GPU.
 )";
 
 std::string processor_name() {

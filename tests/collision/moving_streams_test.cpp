@@ -57,20 +57,5 @@ TEST(MovingStreams, HoldWhatComputingThemAfreshGivesAfterAnySteps) {
   }
 }
 
-TEST(MovingStreams, KnowWhichComponentsMoveAsOne) {
-  std::mt19937_64 random(9);
-  const Executor serial;
-  MovingStreams streams(scenes::random_assembly(random, 5, 4), serial);
-  const RigidTransform one = transform_from_pose({{1, 0, 0}, {}}), other = transform_from_pose({{0, 1, 0}, {}});
-  streams.set_next(std::vector<RigidTransform>{{}, one, other, one, {}}, serial);
-  const Span<const std::uint32_t> c = streams.motion_class();
-  EXPECT_EQ(c[0], 0u);
-  EXPECT_EQ(c[4], 0u);
-  EXPECT_EQ(c[1], c[3]);
-  EXPECT_NE(c[1], 0u);
-  EXPECT_NE(c[2], c[1]);
-  EXPECT_NE(c[2], 0u);
-}
-
 }  // namespace
 }  // namespace dismantle

@@ -20,8 +20,7 @@ double longest_way(const Aabb& box, const RigidTransform& start, const RigidTran
 }
 
 /// True where the two do not move against each other.
-bool move_as_one(const EmbeddedStep& step, ComponentId a, ComponentId b) {
-  const Span<const RigidTransform> start = step.start, end = step.end;
+bool move_as_one(Span<const RigidTransform> start, Span<const RigidTransform> end, ComponentId a, ComponentId b) {
   const bool both_still = start[a.value] == end[a.value] && start[b.value] == end[b.value];
   return both_still || (start[a.value] == start[b.value] && end[a.value] == end[b.value]);
 }
@@ -35,6 +34,11 @@ EmbeddedPairs::EmbeddedPairs(const Assembly& assembly, const PairStates& states)
   }
   for (const ComponentPair& pair : states.pairs)
     if (pair.state == PairState::Embedded) pairs_.push_back(pair);
+}
+
+bool EmbeddedPairs::any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const {
+  return std::any_of(pairs_.begin(), pairs_.end(),
+                     [&](const ComponentPair& pair) { return !move_as_one(start, end, pair.a, pair.b); });
 }
 
 EmbeddedMotion EmbeddedPairs::motion(const ComponentPair& pair, const EmbeddedStep& step) const {
@@ -58,7 +62,7 @@ std::vector<PartingPair> EmbeddedPairs::parting(const EmbeddedStep& step, Span<c
   const Span<const std::uint32_t> component_of = step.streams->bvh.component_of;
   std::vector<PartingPair> found;
   for (const ComponentPair& pair : pairs_) {
-    if (move_as_one(step, pair.a, pair.b)) continue;
+    if (move_as_one(step.start, step.end, pair.a, pair.b)) continue;
     EmbeddedMotion moving = motion(pair, step);
     std::vector<std::uint64_t> at_end = triangle_pairs_of(intersecting, component_of, pair.a, pair.b);
     std::sort(at_end.begin(), at_end.end());

@@ -33,6 +33,8 @@ class EmbeddedPairs {
   EmbeddedPairs(const Assembly& assembly, const PairStates& states);
 
   const std::vector<ComponentPair>& pairs() const { return pairs_; }
+  /// Whether any of them move against each other on the way from `start` to `end`, one transform a component.
+  bool any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const;
   /// The pairs that part within the step. They stay in the stream: the step may not be made.
   /// @param triangle_pairs S_t, ascending
   /// @param intersecting those of its embedded pairs that intersect at the end of the step (TID)

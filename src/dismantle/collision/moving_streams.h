@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/collision/matrix_stream.h"
 #include "dismantle/collision/triangle_streams.h"
 
 namespace dismantle {
@@ -15,6 +16,8 @@ class MovingStreams {
 
   /// S_tm -> S_v(n+1), and which components move how. @param next shape [component_count]
   void set_next(Span<const RigidTransform> next, const Executor& executor);
+  /// As set_next, from another current state.
+  void set_motion(Span<const RigidTransform> state, Span<const RigidTransform> next, const Executor& executor);
   /// S_v(n), S_v(n+1) -> S_bv, S_bvh.
   void refit(const Executor& executor);
   /// The candidate becomes the current state.
@@ -23,28 +26,21 @@ class MovingStreams {
   void jump(Span<const RigidTransform> state, const Executor& executor);
 
   const TriangleStreams& fixed() const { return fixed_; }
-  Span<const RigidTransform> state() const { return start_.transforms; }
-  Span<const Vec3> vertices_t0() const { return start_.vertices; }
-  Span<const Vec3> vertices_t1() const { return end_.vertices; }
+  Span<const RigidTransform> state() const { return matrices_.start(); }
+  Span<const Vec3> vertices_t0() const { return vertices_t0_; }
+  Span<const Vec3> vertices_t1() const { return vertices_t1_; }
   Span<const Kdop16> bounds() const { return bounds_; }
-  /// Of each component: 0 where it stands still, else a number that components share which move as one: from equal
-  /// states to equal states.
-  Span<const std::uint32_t> motion_class() const { return motion_class_; }
+  /// As MatrixStream has it.
+  Span<const std::uint32_t> motion_class() const { return matrices_.motion_class(); }
 
  private:
-  /// A vertex stream and the transforms that made it.
-  struct VertexStream {
-    std::vector<Vec3> vertices;
-    std::vector<RigidTransform> transforms;
-  };
-  void bring(VertexStream& stream, Span<const RigidTransform> transforms, const Executor& executor) const;
-  void classify_motion();
+  void bring(std::vector<Vec3>& vertices, Span<const RigidTransform> transforms,
+             const std::vector<ComponentId>& components, const Executor& executor) const;
 
   TriangleStreams fixed_;
-  VertexStream start_, end_;
-  std::vector<std::uint32_t> motion_class_;
+  MatrixStream matrices_;
+  std::vector<Vec3> vertices_t0_, vertices_t1_;
   std::vector<Kdop16> bounds_;
-  std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds were made from
 };
 
 }  // namespace dismantle

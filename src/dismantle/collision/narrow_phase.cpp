@@ -9,8 +9,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kFirstRound = 512;
-constexpr std::size_t kRoundGrowth = 4;
 constexpr std::size_t kPairsPerRange = 64;  // a pair costs 0.05-1 us
 
 /// Where the kernel's finds go, staged.
@@ -38,7 +36,7 @@ class StagedSink {
 double horizon(Span<const TrianglePairContact> contacts) {
   double first = 1;
   for (const TrianglePairContact& contact : contacts) first = std::min(first, contact.toi);
-  return std::min(1.0, first + kContactWindow);
+  return horizon_after(first);
 }
 
 }  // namespace
@@ -59,7 +57,7 @@ void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
   tests_ = replays_ = 0;
   const std::size_t count = input.triangle_pairs.size();
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    end = std::min(count, begin + std::max(kFirstRound, kRoundGrowth * begin));
+    end = std::min(count, narrow_phase_round_end(begin));
     kernel.pairs = input.triangle_pairs.subspan(begin, end - begin);
     kernel.horizon = horizon(found_);
     run_round(kernel, executor);
@@ -87,9 +85,9 @@ void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& exe
   intersecting_.insert(intersecting_.end(), intersections_.values().begin(), intersections_.values().end());
 }
 
-void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from,
-                           const Executor& executor) {
-  if (pairs.empty()) return;
+std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
+                                                 double from, const Executor& executor) {
+  if (pairs.empty()) return {};
   const MovingStreams& streams = *input.streams;
   const NodePair first = pair_of_key(pairs[0]);
   const std::vector<std::uint32_t>& component_of = streams.fixed().bvh.component_of;
@@ -97,16 +95,13 @@ void NarrowPhase::run_part(const NarrowPhaseInput& input, Span<const std::uint64
   const bool b_moves = streams.motion_class()[component_of[first.b]] != 0;
   const double allowed = allowed_on_chords(input.rules.tolerance, input.path_deviation, a_moves, b_moves);
   const PartedPairKernel kernel{pairs, step_triangles(streams), from, allowed};
-  const int runs = append_with_replay(contacts_, [&](AppendView<TrianglePairContact> view) {
-    executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (const std::optional<TrianglePairContact> found = kernel(i)) view.append(*found);
-    });
+  AppendBuffer<TrianglePairContact> contacts(pairs.size());  // at most one a pair
+  const AppendView<TrianglePairContact> view = contacts.start();
+  executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (const std::optional<TrianglePairContact> found = kernel(i)) view.append(*found);
   });
-  tests_ += pairs.size();
-  replays_ += static_cast<std::size_t>(runs - 1);
-  const Span<const TrianglePairContact> added = contacts_.values();
-  found_.insert(found_.end(), added.begin(), added.end());
+  return {contacts.values().begin(), contacts.values().end()};
 }
 
 StepTriangles step_triangles(const MovingStreams& streams) {

@@ -28,9 +28,6 @@ class NarrowPhase {
   /// certified tests of later rounds look no further than kContactWindow beyond the first of them. The rounds depend on
   /// S_t alone, so results do, too.
   void run(const NarrowPhaseInput& input, const Executor& executor);
-  /// Tests `pairs`, which belong to a component pair that parts at time `from`, over the rest of the step: certified,
-  /// with the tolerance as allowance. Adds to the contacts.
-  void run_part(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs, double from, const Executor& executor);
 
   /// Every contact within kContactWindow of the first one; in no particular order: sort before use.
   std::vector<TrianglePairContact> first_contacts() const { return first_of(found_); }
@@ -49,6 +46,11 @@ class NarrowPhase {
   std::size_t tests_ = 0;
   std::size_t replays_ = 0;
 };
+
+/// The contacts of `pairs`, which belong to a component pair that parts at time `from`, over the rest of the step:
+/// certified, with the tolerance as allowance. In no particular order.
+std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
+                                                 double from, const Executor& executor);
 
 /// The triangles of the step that the streams are at.
 StepTriangles step_triangles(const MovingStreams& streams);

@@ -74,6 +74,19 @@ DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double dev
   return left > 0 ? left : 0;
 }
 
+/// S_t is tested in rounds, so that what comes after the first contacts need not be looked at: where the round ends
+/// that begins at triangle pair `begin`.
+DISMANTLE_HOST_DEVICE inline std::size_t narrow_phase_round_end(std::size_t begin) {
+  constexpr std::size_t kFirstRound = 512, kRoundGrowth = 4;
+  return begin + (kRoundGrowth * begin > kFirstRound ? kRoundGrowth * begin : kFirstRound);
+}
+
+/// How far into the step it is worth to look where the first contact known is at time `first`.
+DISMANTLE_HOST_DEVICE inline double horizon_after(double first) {
+  const double last = first + kContactWindow;
+  return last < 1 ? last : 1;
+}
+
 /// What comes before the elementary tests of a triangle pair; makes no difference to what they find.
 enum class PairCull : std::uint8_t {
   None,            ///< Only each feature pair's own non-penetration filter.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/collision/motion_engine.h"
 #include "dismantle/collision/response.h"
+#include "dismantle/collision/streams_backend.h"
 #include "dismantle/collision/vertex_depth_guard.h"
 
 #include <algorithm>
@@ -62,10 +62,17 @@ std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assemb
 }
 
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
-                                                         const CollisionOptions& options) {
+                                                         const CollisionOptions& options,
+                                                         std::unique_ptr<StreamsBackend> backend) {
   return make_sweeping_motion_engine(
       assembly, pairs.tolerance,
-      make_guarded_engine(make_streams_engine(assembly, pairs, options), assembly, pairs, options.executor));
+      make_guarded_engine(make_streams_engine(assembly, pairs, options, std::move(backend)), assembly, pairs,
+                          options.executor));
+}
+
+std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
+                                                         const CollisionOptions& options) {
+  return make_streams_motion_engine(assembly, pairs, options, make_host_streams_backend(assembly, options));
 }
 
 }  // namespace dismantle

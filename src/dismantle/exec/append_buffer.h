@@ -2,36 +2,39 @@
 #pragma once
 
 #include "dismantle/core/span.h"
+#include "dismantle/exec/shared_atomics.h"
 
-#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace dismantle {
 
 /// What a kernel appends to: writes past the capacity are counted but not stored, so that nothing is lost unnoticed.
-/// The position is taken by one atomic addition (the paper's global lock, section 4.3).
+/// The position is taken by one atomic addition (the paper's global lock, section 4.3). The same on CPU threads and
+/// CUDA.
 template <class T>
 class AppendView {
  public:
   AppendView() = default;
-  AppendView(Span<T> storage, std::atomic<std::size_t>* needed) : storage_(storage), needed_(needed) {}
+  /// @param needed counts what is appended, kept or not
+  DISMANTLE_HOST_DEVICE AppendView(Span<T> storage, std::uint64_t* needed) : storage_(storage), needed_(needed) {}
 
-  void append(const T& value) const {
-    const std::size_t place = needed_->fetch_add(1, std::memory_order_relaxed);
+  DISMANTLE_HOST_DEVICE void append(const T& value) const {
+    const std::size_t place = atomic_add(needed_, 1);
     if (place < storage_.size()) storage_[place] = value;
   }
 
   /// Appends all the values with one addition.
   void append(Span<const T> values) const {
     if (values.empty()) return;
-    const std::size_t place = needed_->fetch_add(values.size(), std::memory_order_relaxed);
+    const std::size_t place = atomic_add(needed_, values.size());
     for (std::size_t i = 0; i < values.size() && place + i < storage_.size(); ++i) storage_[place + i] = values[i];
   }
 
  private:
   Span<T> storage_;
-  std::atomic<std::size_t>* needed_ = nullptr;
+  std::uint64_t* needed_ = nullptr;
 };
 
 /// Collects up to `kCount` values of one thread before it appends them with one addition: on CPU threads the counter's
@@ -68,13 +71,13 @@ class AppendBuffer {
 
   /// Empties the buffer and gives the view for a kernel to append to.
   AppendView<T> start() {
-    needed_.store(0, std::memory_order_relaxed);
+    needed_ = 0;
     return AppendView<T>(Span<T>(storage_), &needed_);
   }
   /// True where values did not fit: they were counted, but not kept.
   bool overflowed() const { return needed() > storage_.size(); }
   /// How many values were appended, kept or not.
-  std::size_t needed() const { return needed_.load(std::memory_order_relaxed); }
+  std::size_t needed() const { return needed_; }
   std::size_t capacity() const { return storage_.size(); }
   /// Makes room for what was needed, and half as much again.
   void grow() { storage_.resize(needed() + needed() / 2); }
@@ -90,7 +93,7 @@ class AppendBuffer {
 
  private:
   std::vector<T> storage_;
-  std::atomic<std::size_t> needed_{0};
+  std::uint64_t needed_ = 0;
 };
 
 /// Runs `kernel(view)` and, as long as it appended more than there was room for, grows the buffer and runs it again.

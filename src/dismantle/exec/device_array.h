@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace dismantle {
+
+/// Memory that a queue gave, freed with its owner.
+using DeviceMemory = std::unique_ptr<void, void (*)(void*)>;
+
+/// Values in memory that a queue gave (HostQueue, CudaQueue): on a device they can be read there only.
+template <class T>
+class DeviceArray {
+  static_assert(std::is_trivially_copyable_v<T>, "what goes to a device is copied byte by byte");
+
+ public:
+  DeviceArray() = default;
+  /// `size` values that are not set yet. @param queue gives the memory
+  template <class Queue>
+  DeviceArray(const Queue& queue, std::size_t size) : memory_(queue.allocate(size * sizeof(T))), size_(size) {}
+  /// A copy of values of the host, which is made at once.
+  template <class Queue>
+  DeviceArray(Queue& queue, Span<const T> values) : DeviceArray(std::as_const(queue), values.size()) {
+    queue.copy_up(memory_.get(), values.data(), values.size() * sizeof(T));
+    queue.wait();
+  }
+
+  Span<T> view() { return {static_cast<T*>(memory_.get()), size_}; }
+  Span<const T> view() const { return {static_cast<const T*>(memory_.get()), size_}; }
+  std::size_t size() const { return size_; }
+
+ private:
+  DeviceMemory memory_{nullptr, [](void*) {}};
+  std::size_t size_ = 0;
+};
+
+/// Values that the host writes and a device reads, or the other way round, each in memory of its own.
+template <class T>
+class MirroredArray {
+  static_assert(std::is_trivially_copyable_v<T>, "what goes to a device is copied byte by byte");
+
+ public:
+  template <class Queue>
+  MirroredArray(const Queue& queue, std::size_t size)
+      : host_(queue.allocate_staging(size * sizeof(T))), device_(queue, size) {}
+
+  Span<T> on_host() { return {static_cast<T*>(host_.get()), device_.size()}; }
+  Span<const T> on_host() const { return {static_cast<const T*>(host_.get()), device_.size()}; }
+  Span<T> on_device() { return device_.view(); }
+  Span<const T> on_device() const { return device_.view(); }
+
+  /// Enqueues the copy.
+  template <class Queue>
+  void copy_up(Queue& queue) {
+    queue.copy_up(on_device().data(), host_.get(), device_.size() * sizeof(T));
+  }
+  template <class Queue>
+  void copy_down(Queue& queue) {
+    queue.copy_down(host_.get(), on_device().data(), device_.size() * sizeof(T));
+  }
+
+ private:
+  DeviceMemory host_;
+  DeviceArray<T> device_;
+};
+
+/// The first `count` values on the host, when all that was enqueued before is done.
+template <class T, class Queue>
+std::vector<T> brought_down(Queue& queue, const DeviceArray<T>& array, std::size_t count) {
+  DISMANTLE_EXPECT(count <= array.size());
+  std::vector<T> values(count);
+  queue.copy_down(values.data(), array.view().data(), count * sizeof(T));
+  queue.wait();
+  return values;
+}
+
+}  // namespace dismantle
