@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <sstream>
 
 namespace dismantle {
@@ -99,6 +100,38 @@ TEST(MovesTable, TellsTheLeastClearanceAndOfWhat) {
   EXPECT_EQ(forward[0].at("nearest"), "post");
   const auto back = parse(moves_csv(a, timeline, {PathDirection::Reversed, *clearances}));
   EXPECT_EQ(back[0].at("least_clearance_s"), "1");
+}
+
+TEST(MovesTable, MissesNoFrameThatIsNearerThanThoseThatItMeasures) {
+  const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({-20, -2, 0}, {20, 2, 4})),
+                                       scenes::component("post", scenes::box({21, -3, 0}, {25, 3, 4})),
+                                       scenes::component("stop", scenes::box({-8, 9, 0}, {8, 30, 4}))});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> step(-0.4, 0.4);
+  Path path;
+  path.components = {"bar", "post", "stop"};
+  path.moves = {{"about", {"bar"}, {{0, {}}}}};
+  Pose pose;
+  for (int k = 1; k <= 200; ++k) {
+    pose = Pose{{step(random), step(random) - 0.1, step(random)}, quat_about({0, 0, 1}, 0.02 * step(random))} * pose;
+    path.moves[0].frames.push_back({0.1 * k, pose});
+  }
+  const Timeline timeline = scenes::timeline_of(a, path);
+  const PairStates states = *classify_pairs(a, {});
+  const auto found = move_clearances(a, states, timeline);
+
+  MoveClearance least{1e30, 0, {}};
+  CertificateEngine engine(a, states);
+  for (const Frame& frame : path.moves[0].frames) {
+    engine.jump(std::vector<Pose>{frame.pose, {}, {}});
+    engine.hold(std::vector<ComponentId>{ComponentId(0)});
+    const Clearance now = engine.clearance();
+    if (now.distance < least.distance) least = {now.distance, frame.time, now.fixed};
+  }
+  EXPECT_GT(least.time, 0) << "else the test shows nothing";
+  EXPECT_EQ(found->front().distance, least.distance);
+  EXPECT_EQ(found->front().time, least.time);
+  EXPECT_EQ(found->front().neighbour, least.neighbour);
 }
 
 TEST(MovesTable, SaysNothingOfAClearanceWhereThereIsNothingElse) {
