@@ -28,6 +28,7 @@ import { Session } from "./session.ts";
 import { text } from "./strings.ts";
 import { ThemeSwitch } from "./theme.ts";
 import type { Triple } from "./wire/messages.ts";
+import { Headset } from "./xr/headset.ts";
 
 /// [px]
 const kReasonArrow = 64;
@@ -55,6 +56,7 @@ export class App {
   private readonly help = helpDialog();
   private readonly toasts = new Toasts();
   private readonly theme: ThemeSwitch;
+  readonly headset: Headset;
 
   constructor(options: ViewportOptions) {
     const canvas = element("canvas", {
@@ -98,6 +100,7 @@ export class App {
     document.body.append(this.openDialog.node, this.exports.node, this.help);
     this.connectParts();
     this.theme = new ThemeSwitch(this.viewport);
+    this.headset = new Headset(this.session, this.drag, this.actions);
     this.session.connection.connect();
   }
 
@@ -204,6 +207,7 @@ export class App {
       isolate: () => this.session.toggleIsolated(),
       toggleHidden: () => this.session.toggleHidden(),
       device: () => void this.devices.choose(),
+      headset: () => void this.headset.enter(),
       search: () => this.tree.focusSearch(),
       escape: () => this.escape(),
     };

@@ -108,6 +108,13 @@ export class Drag {
     this.session.viewport.invalidate();
   }
 
+  /// The wish as a rigid motion of the world since the grab.
+  follow(motion: Matrix4): void {
+    if (!this.motion || this.ending) return;
+    if (this.motion.follow(motion)) this.unsent = true;
+    this.session.viewport.invalidate();
+  }
+
   /// Lets go, once the engine has answered the last target.
   async end(): Promise<void> {
     if (!this.motion || this.ending) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Quaternion, type Ray, Vector3 } from "three";
+import { type Matrix4, Quaternion, type Ray, Vector3 } from "three";
 import type { WirePose } from "../wire/structs.ts";
 
 /// What the hand may do: follow the pointer in the plane of the screen, go deeper, turn, or keep to an axis.
@@ -44,6 +44,15 @@ export class DragMotion {
     else if (mode.axis !== null) this.moveAlong(step, kAxes[mode.axis]);
     else if (mode.kind === "depth") this.offset.addScaledVector(step.back, step.dy * step.pixel);
     else this.moveInPlane(step);
+  }
+
+  /// The wish is what a rigid motion of the world makes of the pose at the grab. Gives whether that is another one.
+  follow(motion: Matrix4): boolean {
+    const [offset, turn] = [this.offset.clone(), this.turn.clone()];
+    motion.decompose(this.offset, this.turn, new Vector3());
+    this.turn.normalize();
+    this.offset.add(this.center.clone().applyQuaternion(this.turn)).sub(this.center);
+    return !offset.equals(this.offset) || !turn.equals(this.turn);
   }
 
   /// The grabbed point where the hand wants it.

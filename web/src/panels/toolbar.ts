@@ -5,6 +5,7 @@ import { button, element, setText } from "../dom.ts";
 import { hasHid } from "../input/devices.ts";
 import { text } from "../strings.ts";
 import type { Response } from "../wire/messages.ts";
+import { hasHeadset } from "../xr/headset.ts";
 
 const kResponses: Response[] = ["slide", "touch", "stop"];
 
@@ -28,6 +29,7 @@ export class Toolbar {
     HTMLButtonElement
   >;
   private readonly responses: Map<Response, HTMLInputElement>;
+  private readonly headset: HTMLButtonElement;
 
   constructor(private readonly app: App) {
     const { actions } = app;
@@ -51,6 +53,11 @@ export class Toolbar {
       save: button({ icon: "save", label: text("save"), id: "save", press: actions.save }),
       reset: button({ icon: "reset", label: text("reset"), id: "reset", press: actions.reset }),
     };
+    this.headset = button({ icon: "headset", label: text("headset"), id: "headset", press: actions.headset });
+    this.headset.hidden = true;
+    void hasHeadset().then((there) => {
+      this.headset.hidden = !there;
+    });
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
     const { undo, redo, gizmo, section, measure, explode, plan, projection, save, exports, reset, stereo } =
       this.buttons;
@@ -66,6 +73,7 @@ export class Toolbar {
       group(button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }), projection, stereo),
       this.name,
       group(
+        this.headset,
         hasHid() ? button({ icon: "puck", label: text("device"), id: "device", press: actions.device }) : null,
         button({ icon: "camera", label: text("screenshot"), id: "screenshot", press: actions.screenshot }),
         button({ icon: "theme", label: text("theme"), key: "T", id: "theme", press: actions.theme }),
@@ -118,6 +126,8 @@ export class Toolbar {
     buttons.section.setAttribute("aria-pressed", String(planes.length > 0));
     buttons.measure.setAttribute("aria-pressed", String(measuring));
     buttons.explode.setAttribute("aria-pressed", String(exploding));
+    this.headset.disabled = !state;
+    this.headset.setAttribute("aria-pressed", String(this.app.headset.active));
     buttons.plan.disabled = !state;
     buttons.plan.setAttribute("aria-pressed", String(this.app.plan.opened));
     buttons.projection.setAttribute("aria-pressed", String(this.app.viewport.rig.orthographic));

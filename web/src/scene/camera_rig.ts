@@ -22,6 +22,8 @@ export interface View {
 const kFieldOfView = MathUtils.degToRad(30);
 const kOrbitSpeed = 0.0075;
 const kFlight = 220;
+/// What counts as a pixel in a headset [rad].
+const kEyePixel = 0.0012;
 const kUp = new Vector3(0, 0, 1);
 
 /// The camera and its turntable, z up. All places on screen are in CSS pixels from the canvas's upper left corner.
@@ -31,6 +33,8 @@ export class CameraRig {
   /// Flights between views are skipped.
   instant = false;
   readonly size = new Vector2(1, 1);
+  /// The eye of a headset in the world, instead of the camera's; null: none.
+  eye: Vector3 | null = null;
 
   private view: View = { focus: new Vector3(), orientation: orientationFrom(new Vector3(1, -1.6, 0.9)), distance: 500 };
   readonly perspective = new PerspectiveCamera(MathUtils.radToDeg(kFieldOfView));
@@ -166,6 +170,7 @@ export class CameraRig {
 
   /// How long a pixel is at a point [mm].
   pixelSize(point: Vector3): number {
+    if (this.eye) return Math.max(1e-6, this.eye.distanceTo(point)) * kEyePixel;
     const depth = this.isParallel ? this.view.distance : this.axis("back").dot(this.camera.position.clone().sub(point));
     return (2 * Math.max(depth, 1e-6) * Math.tan(kFieldOfView / 2)) / this.size.y;
   }

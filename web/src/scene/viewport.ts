@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Color, Scene, type Vector3, WebGLRenderer } from "three";
+import {
+  Box3,
+  type Camera,
+  Color,
+  Matrix4,
+  Plane,
+  type Ray,
+  Scene,
+  type Vector3,
+  WebGLRenderer,
+  type WebXRManager,
+} from "three";
 import { CameraRig } from "./camera_rig.ts";
 import { ArrowField, Ghost } from "./marks.ts";
 import type { ModelView, Pick } from "./model_view.ts";
@@ -32,7 +43,9 @@ export class Viewport {
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
-  private planeCount = 0;
+  private planes: Plane[] = [];
+  private readonly roomFromWorld = new Matrix4();
+  private immersion: { room: Scene; camera: Camera; everyFrame: () => void } | null = null;
   private stereoMode: StereoMode = "off";
   private readonly stereoPicture = new StereoPicture();
 
@@ -78,7 +91,7 @@ export class Viewport {
 
   /// Asks for a picture at the next frame of the screen.
   invalidate(): void {
-    if (this.scheduled) return;
+    if (this.scheduled || this.immersion) return;
     this.scheduled = true;
     requestAnimationFrame((now) => {
       this.scheduled = false;
@@ -97,7 +110,7 @@ export class Viewport {
       this.model.dispose();
     }
     this.model = model;
-    model?.setPlaneCount(this.planeCount);
+    model?.setPlaneCount(this.planes.length);
     if (model) this.scene.add(model.root);
     this.updateBounds();
     this.invalidate();
@@ -130,7 +143,43 @@ export class Viewport {
   }
 
   pick(x: number, y: number): Pick | null {
-    return this.model?.cast(this.rig.ray(x, y), (pick) => this.isKept(pick.point)) ?? null;
+    return this.castWorld(this.rig.ray(x, y));
+  }
+
+  /// What is first along a ray of the world.
+  castWorld(ray: Ray): Pick | null {
+    return this.model?.cast(ray, (pick) => this.isKept(pick.point)) ?? null;
+  }
+
+  /// Draws a room that holds the scene into a headset, every frame of that, until surface() is called.
+  async immerse(session: XRSession, room: Scene, camera: Camera, everyFrame: () => void): Promise<WebXRManager> {
+    const { xr } = this.renderer;
+    xr.enabled = true;
+    xr.setReferenceSpaceType("local-floor");
+    await xr.setSession(session);
+    this.renderer.setClearColor(this.palette.background[1], 1);
+    this.immersion = { room, camera, everyFrame };
+    this.renderer.setAnimationLoop((now) => this.draw(now));
+    return xr;
+  }
+
+  /// Back from the headset to the page.
+  surface(): void {
+    this.immersion = null;
+    this.renderer.setAnimationLoop(null);
+    this.renderer.xr.enabled = false;
+    this.renderer.setClearColor(0, 0);
+    this.setEye(null, new Matrix4());
+    this.resize();
+    this.invalidate();
+  }
+
+  /// @param eye of a headset in the world; null: none. @param roomFromWorld where the scene stands
+  setEye(eye: Vector3 | null, roomFromWorld: Matrix4): void {
+    this.rig.eye = eye;
+    this.scene.updateWorldMatrix(true, false);
+    this.roomFromWorld.copy(roomFromWorld);
+    this.placePlanes();
   }
 
   /// The picture as a PNG, with the background of the theme.
@@ -159,20 +208,26 @@ export class Viewport {
 
   /// Cuts away what is behind the planes (n.x + d < 0).
   setPlanes(planes: { normal: Vector3; constant: number }[]): void {
-    planes.forEach(({ normal, constant }, i) => {
-      shared.uPlanes.value[i].set(normal.x, normal.y, normal.z, constant);
-    });
-    if (planes.length !== this.planeCount) this.model?.setPlaneCount(planes.length);
-    this.planeCount = planes.length;
+    if (planes.length !== this.planes.length) this.model?.setPlaneCount(planes.length);
+    this.planes = planes.map(({ normal, constant }) => new Plane(normal, constant));
+    this.placePlanes();
     this.invalidate();
   }
 
+  /// The materials want them where the scene is drawn.
+  private placePlanes(): void {
+    this.planes.forEach((plane, i) => {
+      const { normal, constant } = plane.clone().applyMatrix4(this.roomFromWorld);
+      shared.uPlanes.value[i].set(normal.x, normal.y, normal.z, constant);
+    });
+  }
+
   private isKept(point: Vector3): boolean {
-    const planes = shared.uPlanes.value.slice(0, this.planeCount);
-    return planes.every((plane) => plane.x * point.x + plane.y * point.y + plane.z * point.z + plane.w >= 0);
+    return this.planes.every((plane) => plane.distanceToPoint(point) >= 0);
   }
 
   private resize(): void {
+    if (this.immersion) return;
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     this.renderer.setSize(clientWidth, clientHeight);
     this.rig.resize(clientWidth, clientHeight);
@@ -186,8 +241,11 @@ export class Viewport {
     this.contacts.update(this.rig);
     this.directions.update(this.rig);
     this.blocked.update(this.rig);
+    this.immersion?.everyFrame();
     this.renderer.clear();
-    if (this.stereoMode === "off") {
+    if (this.immersion) {
+      this.renderer.render(this.immersion.room, this.immersion.camera);
+    } else if (this.stereoMode === "off") {
       this.renderer.render(this.scene, this.rig.camera);
       if (this.model) this.cube.render(this.renderer, this.rig);
     } else {
