@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 namespace dismantle {
 namespace {
@@ -36,6 +37,21 @@ TEST(ObbTree, ContainsRandomTrianglesOfAllShapes) {
     mesh.faces.push_back({{i, i + 1, i + 2}});
   }
   EXPECT_STREQ(obb_tree_fault(tree_of(mesh), mesh.vertices, mesh.faces), "");
+}
+
+TEST(ObbTree, PartsWhatBelongsToDifferentPartsFirst) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 9);
+  std::vector<std::uint8_t> parts(mesh.faces.size());
+  for (std::size_t f = 0; f < parts.size(); ++f) parts[f] = static_cast<std::uint8_t>(f * 7 % 5);
+  const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor(), parts);
+  EXPECT_STREQ(obb_tree_fault(tree, mesh.vertices, mesh.faces), "");
+  std::vector<std::set<std::uint8_t>> under(tree.nodes.size());
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n)
+    if (tree.nodes[n].leaf())
+      for (std::uint32_t up = n; up != ObbNode::kNone; up = tree.nodes[up].parent)
+        under[up].insert(parts[tree.nodes[n].child]);
+  const auto mixed = [](const std::set<std::uint8_t>& of) { return of.size() > 1; };
+  EXPECT_EQ(std::count_if(under.begin(), under.end(), mixed), 4) << "one cut less than there are parts";
 }
 
 TEST(ObbTree, CopesWithManyCopiesOfOneTriangle) {

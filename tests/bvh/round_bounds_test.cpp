@@ -25,7 +25,7 @@ TEST(RoundShape, BoundsEveryPointOfEveryNode) {
     const Pose pose = scenes::random_pose(random, offset, 3);
     const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, 20, 4), pose);
     const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-    const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes);
+    const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
     ASSERT_EQ(shape.axes().size(), 1u);
     const RoundAxis axis = shape.axes()[0];
     const RoundNodes& nodes = shape.about(0);
@@ -65,7 +65,7 @@ TEST(RoundShape, BoundsEveryPointOfEveryNode) {
 TEST(RoundShape, KnowsWhichWayFacesLook) {
   const TriangleMesh mesh = scenes::tube(10, 6, -20, 20, 20, 4);
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes);
+  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
   double outermost = 0, innermost = 1e9;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const RoundNode& node = shape.about(0)[n];

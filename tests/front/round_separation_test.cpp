@@ -16,7 +16,8 @@ struct Body {
   std::unique_ptr<RoundShape> round;
   explicit Body(TriangleMesh m) : mesh(std::move(m)) {
     tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-    round = std::make_unique<RoundShape>(mesh.vertices, mesh.faces, tree.nodes);
+    round = std::make_unique<RoundShape>(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces),
+                                         std::vector<ThreadAxis>{});
   }
 };
 

@@ -25,15 +25,19 @@ class Builder {
     std::uint32_t size() const { return end - begin; }
   };
 
-  Builder(Span<const Vec3> vertices, Span<const Face> faces, ObbTree& tree)
+  Builder(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint8_t> parts, ObbTree& tree)
       : vertices_(vertices),
         faces_(faces),
+        parts_(parts),
         tree_(tree),
         order_(faces.size()),
         centroids_(faces.size()),
         normals_(faces.size()),
         moments_(faces.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
+    if (!parts.empty())
+      std::stable_sort(order_.begin(), order_.end(),
+                       [parts](std::uint32_t f, std::uint32_t g) { return parts[f] < parts[g]; });
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const Face& face = faces[f];
       const Triangle local{
@@ -101,6 +105,7 @@ class Builder {
   /// Sorts the range into two by the cut whose halves are thinnest; where none makes them much thinner, at the mean
   /// of the centroids along the box's longest axis.
   std::uint32_t split(const Range& range, const Obb& box) {
+    if (!parts_.empty() && parts_[order_[range.begin]] != parts_[order_[range.end - 1]]) return after_part(range);
     const Vec3 axes[3] = {to_double(box.axis[0]), to_double(box.axis[1]), to_double(box.third_axis())};
     int longest = 0;
     for (int i = 1; i < 3; ++i)
@@ -118,6 +123,14 @@ class Builder {
         }
     }
     return apply(range, best);
+  }
+
+  /// Where the first part of a range ends, which has several and is in their order.
+  std::uint32_t after_part(const Range& range) const {
+    const std::uint8_t first = parts_[order_[range.begin]];
+    std::uint32_t i = range.begin;
+    while (parts_[order_[i]] == first) ++i;
+    return i;
   }
 
   Cut at_mean(const Range& range, Vec3 axis) const {
@@ -187,6 +200,7 @@ class Builder {
 
   Span<const Vec3> vertices_;
   Span<const Face> faces_;
+  Span<const std::uint8_t> parts_;
   ObbTree& tree_;
   std::vector<std::uint32_t> order_;
   std::vector<Vec3> centroids_, normals_;  // of each face
@@ -209,7 +223,8 @@ bool contains(const ObbNode& node, Vec3 local) {
 
 }  // namespace
 
-ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor) {
+ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor,
+                       Span<const std::uint8_t> parts) {
   ObbTree tree;
   if (faces.empty()) return tree;
   Aabb box;
@@ -218,7 +233,7 @@ ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const 
   tree.nodes.resize(2 * faces.size() - 1);
   tree.cones.resize(tree.nodes.size());
 
-  Builder builder(vertices, faces, tree);
+  Builder builder(vertices, faces, parts, tree);
   std::vector<Builder::Range> level{{0, static_cast<std::uint32_t>(faces.size()), 0, ObbNode::kNone}}, tasks;
   while (!level.empty()) {
     std::vector<Builder::Range> large;

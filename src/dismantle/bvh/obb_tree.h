@@ -55,7 +55,9 @@ struct ObbTree {
 };
 
 /// Builds the tree of a mesh. The same tree for every executor.
-ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor);
+/// @param parts of each face, or empty: faces of different parts are parted first, whatever room that takes
+ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor,
+                       Span<const std::uint8_t> parts = {});
 
 /// What is wrong with a tree over these triangles, in words for a test; empty where nothing is.
 const char* obb_tree_fault(const ObbTree& tree, Span<const Vec3> vertices, Span<const Face> faces);

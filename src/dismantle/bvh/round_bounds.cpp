@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/round_bounds.h"
 
+#include "dismantle/geometry/axis_frame.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -57,39 +59,26 @@ Sector both(const Sector& x, const Sector& y) {
   return {x.center + (least + most) / 2, std::min(kHalfTurn, (most - least) / 2)};
 }
 
-/// Two unit vectors across an axis, as long as nothing says which.
-struct Across {
-  Vec3 first, second;
-  explicit Across(Vec3 axis) {
-    const Vec3 least = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    first = normalized(cross(axis, least));
-    second = cross(axis, first);
-  }
-  double angle(Vec3 v) const { return std::atan2(dot(v, second), dot(v, first)); }
-  Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second; }
-};
-
-void set_sector(RoundNode& node, const Sector& sector, const Across& across) {
-  node.toward = to_float(across.at(sector.center));
+void set_sector(RoundNode& node, const Sector& sector, const AxisFrame& axis) {
+  node.toward = to_float(axis.at(sector.center));
   const double half = sector.half + kAngleRounding;
   node.cosine = half < kHalfTurn ? static_cast<float>(std::cos(half)) : -1;
   node.sine = half < kHalfTurn ? static_cast<float>(std::sin(half)) : 0;
 }
 
 /// Of a triangle that does not have the axis in it.
-Sector sector_of(const Corner (&corners)[3], const Across& across) {
-  Sector sector{across.angle(corners[0].across), 0};
-  for (int i = 1; i < 3; ++i) sector = both(sector, {across.angle(corners[i].across), 0});
+Sector sector_of(const Corner (&corners)[3], const AxisFrame& axis) {
+  Sector sector{axis.angle(corners[0].across), 0};
+  for (int i = 1; i < 3; ++i) sector = both(sector, {axis.angle(corners[i].across), 0});
   return sector;
 }
 
-RoundNode about_axis(const RoundAxis& axis, const Triangle& triangle, const Across& across, Sector& sector) {
+RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector) {
   Corner corners[3];
   double size = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 from = triangle[i] - axis.point;
-    corners[i].along = dot(from, axis.direction);
-    corners[i].across = from - corners[i].along * axis.direction;
+    corners[i].along = axis.along(triangle[i]);
+    corners[i].across = axis.across(triangle[i]);
     size = std::max({size, max_abs(triangle[i]), max_abs(axis.point)});
   }
   const Vec3 normal = normal_unscaled(triangle);
@@ -107,7 +96,7 @@ RoundNode about_axis(const RoundAxis& axis, const Triangle& triangle, const Acro
     node.faces_in &= facing < -enough;
   }
   const double least = least_distance(corners, axis.direction);
-  sector = least > rounding ? sector_of(corners, across) : Sector{};
+  sector = least > rounding ? sector_of(corners, axis) : Sector{};
   node.least = -rounded_up(rounding - least);
   node.most = rounded_up(most + rounding);
   node.begin = -rounded_up(rounding - begin);
@@ -129,11 +118,13 @@ RoundNode both(const RoundNode& x, const RoundNode& y) {
 
 }  // namespace
 
-RoundShape::RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes)
+RoundShape::RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes,
+                       std::vector<RoundAxis> axes, std::vector<ThreadAxis> threads)
     : vertices_(vertices),
       faces_(faces),
       nodes_(nodes),
-      axes_(round_axes(vertices, faces)),
+      axes_(std::move(axes)),
+      threads_(std::move(threads)),
       about_(std::make_unique<About[]>(axes_.size())) {
   if (axes_.empty()) return;
   order_.reserve(nodes_.size());
@@ -160,7 +151,7 @@ double RoundShape::size() const {
 const RoundNodes& RoundShape::about(std::size_t axis) const {
   About& known = about_[axis];
   std::call_once(known.once, [&] {
-    const Across across(axes_[axis].direction);
+    const AxisFrame frame(axes_[axis].point, axes_[axis].direction);
     RoundNode unknown;
     unknown.most = std::numeric_limits<float>::infinity();
     known.nodes.places_ = &places_;
@@ -172,13 +163,13 @@ const RoundNodes& RoundShape::about(std::size_t axis) const {
       if (node.leaf()) {
         const Face& f = faces_[node.child];
         const Triangle triangle{{vertices_[f.v[0]], vertices_[f.v[1]], vertices_[f.v[2]]}};
-        nodes[*i] = about_axis(axes_[axis], triangle, across, sectors[*i]);
+        nodes[*i] = about_axis(frame, triangle, sectors[*i]);
         continue;
       }
       nodes[*i] = both(nodes[node.child], nodes[node.child + 1]);
       sectors[*i] = both(sectors[node.child], sectors[node.child + 1]);
       if (places_[*i] == 0) continue;
-      set_sector(nodes[*i], sectors[*i], across);
+      set_sector(nodes[*i], sectors[*i], frame);
       known.nodes.nodes_[places_[*i]] = nodes[*i];
     }
   });

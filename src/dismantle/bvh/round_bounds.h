@@ -3,6 +3,7 @@
 
 #include "dismantle/bvh/obb_tree.h"
 #include "dismantle/geometry/round_axes.h"
+#include "dismantle/geometry/thread_axes.h"
 
 #include <memory>
 #include <mutex>
@@ -34,7 +35,7 @@ class RoundNodes {
   std::vector<RoundNode> nodes_;                        ///< The first stands for the small ones.
 };
 
-/// A component's axes, and its tree's nodes about each, which are worked out when first asked for. May be asked by
+/// A component's axes and threads, and its tree's nodes about each, which are worked out when first asked for. May be asked by
 /// several threads at the same time. What the spans look at must outlive it.
 class RoundShape {
  public:
@@ -42,9 +43,15 @@ class RoundShape {
   static constexpr std::uint32_t kLargeNode = 4;
 
   /// @param nodes of the faces' tree; not empty
-  RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes);
+  /// @param axes, threads of the faces
+  RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes, std::vector<RoundAxis> axes,
+             std::vector<ThreadAxis> threads);
 
   Span<const RoundAxis> axes() const { return axes_; }
+  Span<const ThreadAxis> threads() const { return threads_; }
+  Span<const Vec3> vertices() const { return vertices_; }
+  Span<const Face> faces() const { return faces_; }
+  Span<const ObbNode> nodes() const { return nodes_; }
   /// The largest extent of the tree's root box [mm].
   double size() const;
   /// The nodes of the tree about one axis.
@@ -60,6 +67,7 @@ class RoundShape {
   Span<const Face> faces_;
   Span<const ObbNode> nodes_;
   std::vector<RoundAxis> axes_;
+  std::vector<ThreadAxis> threads_;
   std::vector<std::uint32_t> order_;   ///< The tree's nodes, parents before their children.
   std::vector<std::uint32_t> places_;  ///< As RoundNodes has it.
   std::uint32_t large_count_ = 0;

@@ -84,12 +84,16 @@ void CertificateSweeper::prepare_round() {
     for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
       if (solids_[a].round && solids_[b].round && sphere_gap(ComponentId(a), ComponentId(b), {}, {}, 0) <= 0)
         near.emplace_back(a, b);
+  std::vector<std::vector<ThreadMatch>> threads(near.size());
   options_.executor.for_each_heavy(near.size(), [&](std::size_t i) {
     const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
+    threads[i] = match_threads(*a.round, a.tree.origin, *b.round, b.tree.origin);
     PairMotion still;
     still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
     RoundSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
   });
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
 }
 
 void CertificateSweeper::hold(Span<const ComponentId> components) {
@@ -148,7 +152,9 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
 }
 
 CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b, SideRule sides) const {
-  return {solid(a).tree, solid(b).tree, sides, solid(a).round.get(), solid(b).round.get()};
+  const auto threads = threads_.find({a, b});
+  return {solid(a).tree,        solid(b).tree,        sides,
+          solid(a).round.get(), solid(b).round.get(), threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {

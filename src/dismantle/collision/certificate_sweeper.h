@@ -126,7 +126,8 @@ class CertificateSweeper {
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;
-  /// Works out what is round of components that lie about one axis in the assembled state, so that no step has to.
+  /// Works out what is round of components that lie about one axis in the assembled state, and whose threads fit, so
+  /// that no step has to.
   void prepare_round();
   /// The front that begins with the roots of both.
   CertificateFront roots(ComponentId a, ComponentId b, SideRule sides) const;
@@ -145,6 +146,7 @@ class CertificateSweeper {
   Vec3 center_;  ///< Of a sphere around the set in hand [assembled].
   double radius_ = 0;
   std::map<std::pair<ComponentId, ComponentId>, FrontEntry> fronts_;
+  std::map<std::pair<ComponentId, ComponentId>, std::vector<ThreadMatch>> threads_;  ///< Of a < b, where any fit.
 };
 
 }  // namespace dismantle

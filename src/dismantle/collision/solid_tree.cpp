@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/solid_tree.h"
 
+#include <utility>
+
 namespace dismantle {
 
 namespace {
@@ -27,8 +29,13 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   solid.vertices = assembled_vertices(component);
   solid.faces = component.mesh->faces;
   solid.has_outside = component.faults.bounds_solid();
-  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor);
-  if (!solid.tree.empty()) solid.round = std::make_unique<RoundShape>(solid.vertices, solid.faces, solid.tree.nodes);
+  std::vector<RoundAxis> axes = round_axes(solid.vertices, solid.faces);
+  std::vector<ThreadAxis> threads = thread_axes(solid.vertices, solid.faces, axes);
+  solid.tree =
+      obb_tree_build(solid.vertices, solid.faces, executor, thread_parts(solid.vertices, solid.faces, threads));
+  if (!solid.tree.empty())
+    solid.round = std::make_unique<RoundShape>(solid.vertices, solid.faces, solid.tree.nodes, std::move(axes),
+                                               std::move(threads));
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

@@ -92,8 +92,8 @@ struct CertificateFront::Work {
 };
 
 CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a,
-                                   const RoundShape* round_b)
-    : a_(&a), b_(&b), round_a_(round_a), round_b_(round_b), parts_(1), sides_(sides) {
+                                   const RoundShape* round_b, Span<const ThreadMatch> threads)
+    : a_(&a), b_(&b), round_a_(round_a), round_b_(round_b), threads_(threads), parts_(1), sides_(sides) {
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
   parts_[0].append({0, 0}, nothing());
 }
@@ -135,6 +135,11 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
   if (round_a_ && round_b_ && sides_ != SideRule::Memory)
     sweep.rounds = b_moves_ ? std::make_unique<RoundSweeps>(*round_b_, b_->origin, *round_a_, a_->origin, motion)
                             : std::make_unique<RoundSweeps>(*round_a_, a_->origin, *round_b_, b_->origin, motion);
+  if (sides_ == SideRule::Memory) return sweep;
+  for (const ThreadMatch& match : threads_) {
+    const ThreadSweep thread(match, b_moves_ ? 1 : 0, motion);
+    if (thread.useful()) sweep.threads.push_back(thread);
+  }
   return sweep;
 }
 
@@ -270,6 +275,12 @@ bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separa
 
 bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep,
                                    FrontSweep& result) const {
+  for (const ThreadSweep& thread : sweep.threads) {
+    const double gap = b_moves_ ? thread.gap(b, a) : thread.gap(a, b);
+    if (gap < sweep.error) continue;  // it is of the true paths, which need no room for arcs
+    result.least_gap = std::min(result.least_gap, -rounded_up(-gap));
+    return true;
+  }
   if (!sweep.rounds) return false;
   for (const RoundSweep& round : sweep.rounds->get()) {
     const RoundSweep::Gap found = b_moves_ ? round.gap(b, a) : round.gap(a, b);

@@ -3,6 +3,7 @@
 
 #include "dismantle/front/certificate_part.h"
 #include "dismantle/front/round_separation.h"
+#include "dismantle/front/thread_separation.h"
 #include "dismantle/math/rigid_transform.h"
 
 #include <functional>
@@ -29,6 +30,7 @@ using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t f
 /// A motion as a front takes it.
 struct PreparedSweep : LinearSweep {
   std::unique_ptr<const RoundSweeps> rounds;  ///< Null where there are none.
+  std::vector<ThreadSweep> threads;
 };
 
 /// What sweeping a part of a front found.
@@ -65,8 +67,9 @@ class CertificateFront {
   /// The pair of the roots; A moves. The trees must outlive the front. @pre neither is empty
   /// @param sides of the two components
   /// @param round_a, round_b what is round of them, if it is known
+  /// @param threads of A in or around those of B, if there are any; must outlive the front
   CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a = nullptr,
-                   const RoundShape* round_b = nullptr);
+                   const RoundShape* round_b = nullptr, Span<const ThreadMatch> threads = {});
 
   /// How many node pairs it has.
   std::size_t size() const;
@@ -154,7 +157,7 @@ class CertificateFront {
                      FrontSweep& result) const;
   void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
-  /// Whether the two are apart as surfaces that turn about one axis. They are left without a certificate: what proves
+  /// Whether the two are apart as surfaces that turn about one axis, or as threads. They are left without a certificate: what proves
   /// it costs next to nothing, and holds for large nodes.
   bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
   /// Keeps what certifies the item; false where it does not.
@@ -170,6 +173,7 @@ class CertificateFront {
   const ObbTree* b_;
   const RoundShape* round_a_;
   const RoundShape* round_b_;
+  Span<const ThreadMatch> threads_;
   std::vector<CertificatePart> parts_;
   Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.
   std::size_t sweeps_ = 0;

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/bvh/thread_bounds.h"
+
+#include "dismantle/math/vec3f.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+/// What coordinates about an axis may be off by, relative to the size of what they are made of.
+constexpr double kRounding = 1e-13;
+/// Directions within this [cosine] are the same.
+constexpr double kSameDirection = 0.9998;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float rounded_down(double x) {
+  return -rounded_up(-x);
+}
+
+ThreadNode unknown() {
+  ThreadNode node;
+  node.most = node.end = kInfinity;
+  node.begin = -kInfinity;
+  std::fill(std::begin(node.low), std::end(node.low), -kInfinity);
+  std::fill(std::begin(node.high), std::end(node.high), kInfinity);
+  return node;
+}
+
+/// The least distance of a segment from the axis, seen along it.
+double distance_of_segment(Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double square = length_squared(along);
+  const double t = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
+  return length(a + t * along);
+}
+
+/// A triangle about an axis: its corners in its coordinates, and how far its other points may be off what lies between
+/// the corners'.
+class ThreadTriangle {
+ public:
+  ThreadTriangle(const ThreadFrame& frame, const Triangle& triangle) : frame_(&frame) {
+    double size = max_abs(frame.axis.point);
+    for (int i = 0; i < 3; ++i) {
+      across_[i] = frame.axis.across(triangle[i]);
+      along_[i] = frame.axis.along(triangle[i]);
+      size = std::max(size, max_abs(triangle[i]));
+    }
+    least_ = std::numeric_limits<double>::infinity();
+    double turned = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = across_[i], q = across_[(i + 1) % 3];
+      least_ = std::min(least_, distance_of_segment(p, q));
+      turned += angle_between(p, q);
+    }
+    rounding_ = kRounding * size;
+    // Around the axis, or too near it for angles to be told.
+    known_ = least_ > 1e3 * rounding_ && std::abs(turned) < 1;
+    if (!known_) return;
+    rounding_ *= 1 + std::abs(frame.lead) / least_;
+    const double first = frame.axis.angle(across_[0]);
+    angle_[0] = 0;
+    angle_[1] = angle_between(across_[0], across_[1]);
+    angle_[2] = angle_between(across_[0], across_[2]);
+    for (int i = 0; i < 3; ++i) {
+      distance_[i] = length(across_[i]);
+      lift_[i] = along_[i] - frame.lead * (first + angle_[i]) / kTurn;
+    }
+    bend();
+  }
+
+  /// Nothing is known of one around the axis, or nearly on it.
+  bool known() const { return known_; }
+
+  ThreadNode node() const {
+    ThreadNode node = unknown();
+    node.least = rounded_down(least_ - rounding_);
+    node.most = rounded_up(*std::max_element(distance_, distance_ + 3) + rounding_);
+    node.begin = rounded_down(*std::min_element(along_, along_ + 3) - rounding_);
+    node.end = rounded_up(*std::max_element(along_, along_ + 3) + rounding_);
+    for (int k = 0; k < frame_->direction_count; ++k) {
+      const ProfileDirection d = frame_->directions[k];
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (int i = 0; i < 3; ++i) {
+        const double x = d.radial * distance_[i] + d.lift * lift_[i];
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      const double lift = std::abs(d.lift) * lift_bend_ + 2 * rounding_;
+      node.low[k] = rounded_down(low - std::max(0.0, d.radial) * distance_bend_ - lift);
+      node.high[k] = rounded_up(high + std::max(0.0, -d.radial) * distance_bend_ + lift);
+    }
+    return node;
+  }
+
+ private:
+  double angle_between(Vec3 p, Vec3 q) const {
+    return std::atan2(dot(frame_->axis.direction, cross(p, q)), dot(p, q));
+  }
+
+  /// The distance from the axis is convex: over the triangle it is less than what lies between the corners', by at most
+  /// a sixth of what its second derivative, (the step around the axis)^2 / distance, is for the longest side. The lift
+  /// is off by as much of its own, 2 (the step around) (the step outwards) / distance^2 times the lead a radian. Steps
+  /// are taken at the middle of the triangle's sector; elsewhere in it they are turned by half the sector at most.
+  void bend() {
+    const auto [low, high] = std::minmax({angle_[0], angle_[1], angle_[2]});
+    const double sine = std::sin(std::min((high - low) / 2, kTurn / 4));
+    const double middle = frame_->axis.angle(across_[0]) + (low + high) / 2;
+    const Vec3 out = frame_->axis.at(middle), around = cross(frame_->axis.direction, out);
+    double outs[3], arounds[3], most_out = 0, most_around = 0;  // squares
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 step = across_[(i + 1) % 3] - across_[i];
+      const double o = dot(step, out) * dot(step, out), a = dot(step, around) * dot(step, around);
+      outs[i] = (1 + sine) * (o + sine * a);
+      arounds[i] = (1 + sine) * (a + sine * o);
+      most_out = std::max(most_out, outs[i]);
+      most_around = std::max(most_around, arounds[i]);
+    }
+    distance_bend_ = most_around / (6 * least_);
+    if (!(most_around > 0)) return;
+    // 2 x y <= w x^2 + y^2 / w, with the w that is best for the longest steps.
+    const double w = std::sqrt(most_around / std::max(most_out, 1e-12 * most_around));
+    double most = 0;
+    for (int i = 0; i < 3; ++i) most = std::max(most, w * outs[i] + arounds[i] / w);
+    lift_bend_ = std::abs(frame_->lead) / kTurn * most / (6 * least_ * least_);
+  }
+
+  const ThreadFrame* frame_;
+  Vec3 across_[3];
+  double along_[3], distance_[3] = {}, angle_[3] = {}, lift_[3] = {};
+  double least_ = 0, rounding_ = 0, distance_bend_ = 0, lift_bend_ = 0;
+  bool known_ = false;
+};
+
+bool bounded(const ThreadNode& node) {
+  return node.high[0] < kInfinity;
+}
+
+void extend(ThreadNode& node, const ThreadNode& other, const ThreadFrame& frame) {
+  node.least = std::min(node.least, other.least);
+  node.most = std::max(node.most, other.most);
+  node.begin = std::min(node.begin, other.begin);
+  node.end = std::max(node.end, other.end);
+  if (!bounded(node) || !bounded(other)) {
+    std::fill(std::begin(node.low), std::end(node.low), -kInfinity);
+    std::fill(std::begin(node.high), std::end(node.high), kInfinity);
+    return;
+  }
+  const double off = (static_cast<double>(node.low[0]) + static_cast<double>(node.high[0]) -
+                      static_cast<double>(other.low[0]) - static_cast<double>(other.high[0])) /
+                     2;
+  const double shift = frame.period * std::round(off / frame.period);
+  for (int k = 0; k < frame.direction_count; ++k) {
+    const double shifted = shift * frame.directions[k].lift;
+    node.low[k] = std::min(node.low[k], rounded_down(static_cast<double>(other.low[k]) + shifted));
+    node.high[k] = std::max(node.high[k], rounded_up(static_cast<double>(other.high[k]) + shifted));
+  }
+}
+
+}  // namespace
+
+void ThreadFrame::add_direction(ProfileDirection direction) {
+  for (int k = 0; k < direction_count; ++k)
+    if (std::abs(directions[k].radial * direction.radial + directions[k].lift * direction.lift) >= kSameDirection)
+      return;
+  if (direction_count < kMostDirections) directions[direction_count++] = direction;
+}
+
+ThreadNodes::ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
+                         Span<const ObbNode> nodes)
+    : places_(nodes.size(), 0), nodes_(1, unknown()) {
+  std::vector<std::uint32_t> order, waiting{0};  // a node, then all under its first child, then under its second
+  order.reserve(nodes.size());
+  while (!waiting.empty()) {
+    order.push_back(waiting.back());
+    waiting.pop_back();
+    if (const ObbNode& node = nodes[order.back()]; !node.leaf())
+      waiting.insert(waiting.end(), {node.child + 1, node.child});
+  }
+  struct Done {
+    ThreadNode node;
+    std::uint32_t count = 1;
+  };
+  std::vector<Done> done;
+  for (auto i = order.rbegin(); i != order.rend(); ++i) {
+    const ObbNode& node = nodes[*i];
+    if (node.leaf()) {
+      const Face& f = faces[node.child];
+      const ThreadTriangle triangle(frame, {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
+      done.push_back({triangle.known() ? triangle.node() : unknown()});
+    } else {
+      const Done first = done.back();
+      done.pop_back();
+      extend(done.back().node, first.node, frame);
+      done.back().count += first.count;
+    }
+    if (done.back().count < kLargeNode) continue;
+    places_[*i] = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(done.back().node);
+  }
+}
+
+}  // namespace dismantle
