@@ -173,13 +173,16 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
 }
 
 double CertificateResponse::free_part(const Pose& end, bool touch, StepResult& result) {
-  const double kept = kBackoffShare * sweeper_.tolerance() / sweeper_.travel(end);
+  const double travel = sweeper_.travel(end), tolerance = sweeper_.tolerance();
+  const double kept = kBackoffShare * tolerance / travel, rest = kRestShare * tolerance / travel;
   double part = 1;
   const auto stop_at = [&](const CertificateSweep& found) {
     stopping_ = found.blocked;
     if (found.free) return;
     report(found, result);
-    part = touch ? std::max(0.0, part * found.toi - kept) : 0;
+    part = touch ? part * found.toi - kept : 0;
+    // What is as good as at its contact already stays: every sweep of so little costs as much as one of a lot.
+    if (part < rest) part = 0;
   };
   stop_at(sweeper_.sweep_pairs(stopping_, end, kContactWindow));
   // Some of what blocks shorten the motion well enough for all the rest to be looked at.

@@ -19,19 +19,13 @@ constexpr double kKeptDistance = 0.75;
 /// Lifts of nodes that take more periods than that say nothing.
 constexpr double kMostPeriods = 8;
 
-bool is_outer(const ThreadAxis& thread) {
-  double radial = 0;
-  for (const ThreadAxis::Flank& flank : thread.flanks) radial += flank.normal.radial;
-  return radial > 0;
-}
-
 Vec3 across(Vec3 v, Vec3 direction) {
   return v - dot(v, direction) * direction;
 }
 
 bool fit(const ThreadAxis& x, const ThreadAxis& y) {
   const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
-  return is_outer(x) != is_outer(y) && x.starts == y.starts && std::abs(x.lead - y.lead) <= kSameLead * lead &&
+  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kSameLead * lead &&
          length(cross(x.direction, y.direction)) <= kMostSine &&
          length(across(x.point - y.point, y.direction)) <= kMostOff * lead;
 }

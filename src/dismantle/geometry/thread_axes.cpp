@@ -382,7 +382,9 @@ std::size_t part_of(const ThreadAxis& thread, const ProfileFace& face) {
     if (flank.normal.radial * face.normal.radial + flank.normal.lift * face.normal.lift < kOfFlank) continue;
     if (on_flank(flank, face, thread.lead, period)) return 1 + i;
   }
-  return std::abs(face.normal.radial) < kOfFlank ? 0 : thread.flanks.size() + 1;
+  // Crests and roots face the way that both flanks lean to; those of a square thread may face either.
+  const double radial = face.normal.radial, leaning = thread.leaning();
+  return std::abs(radial) < kOfFlank || radial * leaning < 0 ? 0 : thread.flanks.size() + 1;
 }
 
 }  // namespace

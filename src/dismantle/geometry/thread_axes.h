@@ -28,6 +28,13 @@ struct ThreadAxis {
     double place = 0;         ///< Of (distance, lift) along the normal; as often as the profile repeats [mm].
   };
   std::vector<Flank> flanks;
+
+  /// Above 0 where the flanks' normals lead away from the axis, as those of an outer thread do; below for an inner one.
+  double leaning() const {
+    double radial = 0;
+    for (const Flank& flank : flanks) radial += flank.normal.radial;
+    return radial;
+  }
 };
 
 /// The threads of a mesh about some of its axes, at most one about each. Found by the edges along helices, as
