@@ -283,7 +283,7 @@ bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const Prepa
   }
   if (!sweep.rounds) return false;
   for (const RoundSweep& round : sweep.rounds->get()) {
-    const RoundSweep::Gap found = b_moves_ ? round.gap(b, a) : round.gap(a, b);
+    const RoundSweep::Gap found = b_moves_ ? round.gap(b, a, sweep.limit) : round.gap(a, b, sweep.limit);
     const double limit = sides_ == SideRule::Free || found.faces ? sweep.limit : sweep.meeting;
     if (found.gap < limit) continue;
     result.least_gap = std::min(result.least_gap, -rounded_up(-found.gap));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -84,6 +85,11 @@ RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
     sweep.fixed_off_.at[end] = across(back.point - own.point, own.direction);
     sweep.fixed_off_.along[end] = across(back.direction, own.direction);
   }
+  for (const auto& [off, nodes] : {std::pair{&sweep.moving_off_, sweep.moving_}, {&sweep.fixed_off_, sweep.fixed_}})
+    for (int end = 0; end < 2; ++end)
+      for (const float place : {(*nodes)[0].begin, (*nodes)[0].end})
+        sweep.most_off_ =
+            std::max(sweep.most_off_, length(off->at[end] + static_cast<double>(place) * off->along[end]));
   const Line seen = moved(inverse(motion_.t0), other);
   const RoundNode& all = (*sweep.fixed_)[0];
   double rho = 0;

@@ -5,6 +5,8 @@
 #include "dismantle/math/rigid_transform.h"
 #include "dismantle/math/screw.h"
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace dismantle {
@@ -40,10 +42,13 @@ class RoundSweep {
     double gap = 0;
     bool faces = false;  ///< The outward normals of both lead well towards the other along those planes' normals.
   };
-  Gap gap(std::uint32_t moving, std::uint32_t fixed) const {
+  /// @param least gaps below it are of no use: what is given may be far below the true one [mm]
+  Gap gap(std::uint32_t moving, std::uint32_t fixed, double least) const {
     const RoundNode &m = (*moving_)[moving], &f = (*fixed_)[fixed];
     const double moving_inside = static_cast<double>(f.least) - static_cast<double>(m.most);
     const double fixed_inside = static_cast<double>(m.least) - static_cast<double>(f.most) - fixed_bend_;
+    if (std::max(moving_inside, fixed_inside) + most_off_ < least)
+      return {-std::numeric_limits<double>::infinity(), false};
     if (moving_inside >= fixed_inside) return {moving_inside - moving_off_.most(m, f), m.faces_out && f.faces_in};
     return {fixed_inside - fixed_off_.most(f, m), m.faces_in && f.faces_out};
   }
@@ -62,6 +67,7 @@ class RoundSweep {
   const RoundNodes* moving_ = nullptr;
   const RoundNodes* fixed_ = nullptr;
   Off moving_off_, fixed_off_;
+  double most_off_ = 0;    ///< No point of one axis that a node is at is further off the other [mm].
   double fixed_bend_ = 0;  ///< What arcs of the fixed component, as the moving one sees it, may take more [mm].
 };
 
