@@ -57,7 +57,8 @@ std::size_t expect_bounds(const TriangleMesh& mesh, const ThreadFrame& frame, do
           for (int k = 0; k < frame.direction_count; ++k) {
             const ProfileDirection d = frame.directions[k];
             const double x = d.radial * distance + d.lift * (lift + turns * frame.period);
-            inside &= x >= static_cast<double>(node.low[k]) - rounding && x <= static_cast<double>(node.high[k]) + rounding;
+            inside &=
+                x >= static_cast<double>(node.low[k]) - rounding && x <= static_cast<double>(node.high[k]) + rounding;
           }
         }
         EXPECT_TRUE(inside) << n << ' ' << up;

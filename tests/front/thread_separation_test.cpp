@@ -148,7 +148,8 @@ TEST(ThreadSweep, PartsFlanksOfAWholeBoltFromThoseOfItsNut) {
     for (const std::uint32_t m : of_moving)
       for (const std::uint32_t f : of_fixed) {
         // The nut's ends wind along and are flanks too, but other turns pass them.
-        const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0], &other = matches[0].sides[nut_moves ? 0 : 1];
+        const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0],
+                                &other = matches[0].sides[nut_moves ? 0 : 1];
         if (own.nodes[m].most > 5 || other.nodes[f].most > 5) continue;
         EXPECT_GT(sweep.gap(m, f), 0.01) << m << ' ' << f;
         ++parted;

@@ -55,10 +55,9 @@ TEST(ThreadAxes, FindTheLeadOfAThreadWhereverItIs) {
 }
 
 TEST(ThreadAxes, AreNotFoundWhereNothingWinds) {
-  for (const TriangleMesh& mesh :
-       {scenes::tube(10, 6, -20, 20, 48, 9), scenes::box({0, 0, 0}, {3, 4, 5}),
-        scenes::extruded(scenes::circle(5, 6), 0, 4),
-        scenes::revolved_loop({{4, 0}, {6, 1}, {5, 2}, {6, 3}, {4, 4}}, 40), TriangleMesh{}})
+  for (const TriangleMesh& mesh : {scenes::tube(10, 6, -20, 20, 48, 9), scenes::box({0, 0, 0}, {3, 4, 5}),
+                                   scenes::extruded(scenes::circle(5, 6), 0, 4),
+                                   scenes::revolved_loop({{4, 0}, {6, 1}, {5, 2}, {6, 3}, {4, 4}}, 40), TriangleMesh{}})
     EXPECT_TRUE(threads_of(mesh).empty()) << mesh.faces.size();
 }
 

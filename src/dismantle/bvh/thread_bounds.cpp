@@ -98,9 +98,7 @@ class ThreadTriangle {
   }
 
  private:
-  double angle_between(Vec3 p, Vec3 q) const {
-    return std::atan2(dot(frame_->axis.direction, cross(p, q)), dot(p, q));
-  }
+  double angle_between(Vec3 p, Vec3 q) const { return std::atan2(dot(frame_->axis.direction, cross(p, q)), dot(p, q)); }
 
   /// The distance from the axis is convex: over the triangle it is less than what lies between the corners', by at most
   /// a sixth of what its second derivative, (the step around the axis)^2 / distance, is for the longest side. The lift

@@ -153,8 +153,12 @@ CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving,
 
 CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b, SideRule sides) const {
   const auto threads = threads_.find({a, b});
-  return {solid(a).tree,        solid(b).tree,        sides,
-          solid(a).round.get(), solid(b).round.get(), threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
+  return {solid(a).tree,
+          solid(b).tree,
+          sides,
+          solid(a).round.get(),
+          solid(b).round.get(),
+          threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
 }
 
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {

@@ -157,8 +157,8 @@ class CertificateFront {
                      FrontSweep& result) const;
   void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
-  /// Whether the two are apart as surfaces that turn about one axis, or as threads. They are left without a certificate: what proves
-  /// it costs next to nothing, and holds for large nodes.
+  /// Whether the two are apart as surfaces that turn about one axis, or as threads. They are left without a
+  /// certificate: what proves it costs next to nothing, and holds for large nodes.
   bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
   /// Keeps what certifies the item; false where it does not.
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,

@@ -80,8 +80,8 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
 
   // The twist of the moving side as the fixed one sees it, from that of the fixed one as the moving one sees it.
   const Vec3 turning = -(motion.t0.rotation * (motion.back.angle * motion.back.axis));
-  const Vec3 velocity = -(motion.t0.rotation * motion.back.velocity) +
-                        cross(turning, at - motion.t0 * motion.back.reference);
+  const Vec3 velocity =
+      -(motion.t0.rotation * motion.back.velocity) + cross(turning, at - motion.t0 * motion.back.reference);
   const double angle = dot(turning, other.direction);
   turning_ = length(turning - angle * other.direction);
   sliding_ = length(velocity - (match.frame.lead * angle / kTurn) * other.direction);

@@ -49,11 +49,11 @@ class ThreadSweep {
 
   const ThreadMatch* match_;
   int moving_;
-  double lift_ = 0;      // what is to be added to lifts of the moving side [mm]
-  Vec3 across_;          // from the fixed axis to the point of the moving one
-  Vec3 tilt_;            // the moving axis' direction less the fixed one's
-  double turning_ = 0;   // the length of the difference of the two motions' rotations [rad]
-  double sliding_ = 0;   // and of their velocities where the moving axis' point is seen on the fixed one [mm]
+  double lift_ = 0;               // what is to be added to lifts of the moving side [mm]
+  Vec3 across_;                   // from the fixed axis to the point of the moving one
+  Vec3 tilt_;                     // the moving axis' direction less the fixed one's
+  double turning_ = 0;            // the length of the difference of the two motions' rotations [rad]
+  double sliding_ = 0;            // and of their velocities where the moving axis' point is seen on the fixed one [mm]
   double angle_ = 0, speed_ = 0;  // of the true motion, there
   bool useful_ = false;
 };

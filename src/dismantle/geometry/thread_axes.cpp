@@ -133,7 +133,7 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
       const double turn = std::abs(angle) * static_cast<double>(stride);
       const double low = frame.along(vertices[v]), high = low + rise;
       cells[2 * place + (lead < 0 ? 1 : 0)].add({turn, turn * lead, std::min(low, high), std::max(low, high),
-                                                  std::min(distance, other), std::max(distance, other)});
+                                                 std::min(distance, other), std::max(distance, other)});
     }
   std::vector<Helices> sums, found;
   for (const auto& [cell, votes] : cells) {
@@ -350,8 +350,8 @@ std::optional<Profile> best_profile(Span<const Vec3> vertices, Span<const Face> 
   return best;
 }
 
-/// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of the
-/// others.
+/// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of
+/// the others.
 double between_crest_and_root(const std::vector<double>& distances) {
   const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
   if (least == distances.end()) return 0;

@@ -17,12 +17,12 @@ struct ProfileDirection {
 /// lift is that place less the lead for each turn of the angle. Turned along the thread it keeps its distance and its
 /// lift, so that both are all that matters of a surface: its profile.
 struct ThreadAxis {
-  Vec3 point;                 ///< On the axis [mm].
-  Vec3 direction;             ///< Unit.
-  double lead = 0;            ///< Along `direction` a turn: above 0 for a right-handed thread [mm].
-  int starts = 1;             ///< Equal ridges side by side: the profile repeats after |lead| / starts.
-  double begin = 0, end = 0;  ///< Where the flanks are along the axis, from `point` [mm].
-  double least = 0, most = 0; ///< Their distances from the axis [mm].
+  Vec3 point;                  ///< On the axis [mm].
+  Vec3 direction;              ///< Unit.
+  double lead = 0;             ///< Along `direction` a turn: above 0 for a right-handed thread [mm].
+  int starts = 1;              ///< Equal ridges side by side: the profile repeats after |lead| / starts.
+  double begin = 0, end = 0;   ///< Where the flanks are along the axis, from `point` [mm].
+  double least = 0, most = 0;  ///< Their distances from the axis [mm].
   struct Flank {
     ProfileDirection normal;  ///< Outward.
     double place = 0;         ///< Of (distance, lift) along the normal; as often as the profile repeats [mm].
