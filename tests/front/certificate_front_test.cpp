@@ -2,6 +2,7 @@
 #include "dismantle/front/certificate_front.h"
 
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
+#include "tests/support/pair_motions.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -29,14 +30,7 @@ using FacePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 /// Sweeps the whole front; the pairs of faces that it cannot certify.
 FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, const Pose& start, const Pose& end,
                       LaneCount lanes = widest_lanes()) {
-  const auto between = [&](const Pose& pose) {
-    const RigidTransform t = transform_from_pose(pose);
-    return RigidTransform{t.rotation, t * a.tree.origin - b.tree.origin};
-  };
-  PairMotion motion;
-  motion.t0 = between(start);
-  motion.t1 = between(end);
-  motion.middle = motion.t0.rotation;
+  PairMotion motion = scenes::pair_motion(a.tree, b.tree, start, end);
   motion.allowed = kAllowed;
   const PreparedSweep sweep = front.begin_sweep(motion);
   FacePairs found;

@@ -3,6 +3,7 @@
 
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
+#include "tests/support/pair_motions.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -33,16 +34,7 @@ Triangle at(const Pose& pose, const Triangle& t) {
 }
 
 PairMotion motion_of(const Body& moving, const Body& fixed, const Pose& start, const Pose& end) {
-  const auto between = [&](const Pose& pose) {
-    const RigidTransform t = transform_from_pose(pose);
-    return RigidTransform{t.rotation, t * moving.tree.origin - fixed.tree.origin};
-  };
-  PairMotion motion;
-  motion.t0 = between(start);
-  motion.t1 = between(end);
-  motion.back = screw_between(inverse(start), inverse(end));
-  motion.back.reference -= moving.tree.origin;
-  return motion;
+  return scenes::pair_motion(moving.tree, fixed.tree, start, end);
 }
 
 /// The least gap of any triangles under each pair of nodes, at some times of the true screw.

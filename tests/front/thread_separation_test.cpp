@@ -4,6 +4,7 @@
 #include "dismantle/collision/solid_tree.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "tests/support/large_scenes.h"
+#include "tests/support/pair_motions.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -42,16 +43,7 @@ struct Bolted {
 };
 
 PairMotion motion_of(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end) {
-  const auto between = [&](const Pose& pose) {
-    const RigidTransform t = transform_from_pose(pose);
-    return RigidTransform{t.rotation, t * moving.tree.origin - fixed.tree.origin};
-  };
-  PairMotion motion;
-  motion.t0 = between(start);
-  motion.t1 = between(end);
-  motion.back = screw_between(inverse(start), inverse(end));
-  motion.back.reference -= moving.tree.origin;
-  return motion;
+  return scenes::pair_motion(moving.tree, fixed.tree, start, end);
 }
 
 /// The least distance of the triangles under two nodes, at some times of the true screw.

@@ -24,20 +24,13 @@ struct Corner {
   double along = 0;  // from the axis' point
 };
 
-double distance_of_segment(Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double square = length_squared(along);
-  const double t = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
-  return length(a + t * along);
-}
-
 /// The least distance of the triangle, seen along the axis, from it.
 double least_distance(const Corner (&c)[3], Vec3 axis) {
   double sides[3], least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3 p = c[i].across, q = c[(i + 1) % 3].across;
     sides[i] = dot(axis, cross(p, q));
-    least = std::min(least, distance_of_segment(p, q));
+    least = std::min(least, AxisFrame::distance_of_segment(p, q));
   }
   const bool around =
       (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) || (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);

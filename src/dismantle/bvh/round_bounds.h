@@ -35,8 +35,8 @@ class RoundNodes {
   std::vector<RoundNode> nodes_;                        ///< The first stands for the small ones.
 };
 
-/// A component's axes and threads, and its tree's nodes about each, which are worked out when first asked for. May be asked by
-/// several threads at the same time. What the spans look at must outlive it.
+/// A component's axes and threads, and its tree's nodes about each, which are worked out when first asked for. May be
+/// asked by several threads at the same time. What the spans look at must outlive it.
 class RoundShape {
  public:
   /// Nodes of at least so many faces are large: what parts two surfaces of revolution is for them.

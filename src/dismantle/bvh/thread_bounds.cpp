@@ -31,14 +31,6 @@ ThreadNode unknown() {
   return node;
 }
 
-/// The least distance of a segment from the axis, seen along it.
-double distance_of_segment(Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double square = length_squared(along);
-  const double t = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
-  return length(a + t * along);
-}
-
 /// A triangle about an axis: its corners in its coordinates, and how far its other points may be off what lies between
 /// the corners'.
 class ThreadTriangle {
@@ -54,7 +46,7 @@ class ThreadTriangle {
     double turned = 0;
     for (int i = 0; i < 3; ++i) {
       const Vec3 p = across_[i], q = across_[(i + 1) % 3];
-      least_ = std::min(least_, distance_of_segment(p, q));
+      least_ = std::min(least_, AxisFrame::distance_of_segment(p, q));
       turned += angle_between(p, q);
     }
     rounding_ = kRounding * size;

@@ -3,6 +3,7 @@
 
 #include "dismantle/math/vec3.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dismantle {
@@ -29,6 +30,13 @@ struct AxisFrame {
   }
   /// Of a vector across the axis, in (-pi, pi].
   double angle(Vec3 v) const { return std::atan2(dot(v, second), dot(v, first)); }
+  /// The least distance of a segment from the axis, seen along it; its ends as across() gives them.
+  static double distance_of_segment(Vec3 a, Vec3 b) {
+    const Vec3 along = b - a;
+    const double square = length_squared(along);
+    const double t = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
+    return length(a + t * along);
+  }
   /// The unit vector across the axis of that angle.
   Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second; }
 };
