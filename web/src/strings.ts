@@ -169,6 +169,7 @@ const kEnglish = {
   "status.label": "Status",
   "status.step": "step {time}",
   "status.rate": "{rate} steps/s",
+  "status.picture": "picture {time} ms, {calls} calls",
   "status.tolerance": "tolerance {value}",
   "status.triangles": "{count} triangles",
   "status.connecting": "Connecting…",

@@ -10,6 +10,8 @@ import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { ModelEvent, Move, Source } from "../wire/messages.ts";
 
+/// What is shown at most, in diagonals of the assembly.
+const kMostRoom = 2.5;
 /// Positions nearer to each other than this part of a step are the same.
 const kSame = 1e-6;
 
@@ -119,7 +121,8 @@ export class ExplodePanel {
     });
   }
 
-  /// Of the assembly and of where the path takes it.
+  /// Of the assembly and of where the path takes it, as far as the assembly stays large enough to be looked at: a recording
+  /// takes its components out one after another, each to a place further away.
   private extent(): Box3 {
     const { components } = this.session.store.model!;
     const boxes = components.map(({ bounds: [low, high] }) => new Box3(new Vector3(...low), new Vector3(...high)));
@@ -127,7 +130,11 @@ export class ExplodePanel {
     for (const { components: set, frames } of this.steps)
       for (const c of set)
         all.union(boxes[c].clone().applyMatrix4(setMatrixFromPose(new Matrix4(), frames[frames.length - 1].pose)));
-    return all;
+    const whole = new Box3().setFromArray(this.session.store.model!.bounds.flat());
+    const room = kMostRoom * whole.getSize(new Vector3()).length();
+    return all.intersect(
+      new Box3().setFromCenterAndSize(whole.getCenter(new Vector3()), new Vector3(room, room, room)),
+    );
   }
 
   /// How many steps have been taken; the last one in part.

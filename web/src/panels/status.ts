@@ -14,6 +14,7 @@ export class StatusLine {
     clearance: element("span", { id: "status-clearance" }),
     step: element("span", { id: "status-step" }),
     rate: element("span"),
+    picture: element("span", { id: "status-picture" }),
     device: element("span", { id: "status-device" }),
     tolerance: element("span"),
     triangles: element("span"),
@@ -25,7 +26,10 @@ export class StatusLine {
   constructor(private readonly session: Session) {
     this.node = element("footer", { id: "status", "aria-label": text("status.label") }, ...Object.values(this.parts));
     session.notifier.subscribe(() => this.update());
-    setInterval(() => this.askMetrics(), kMetricsEvery);
+    setInterval(() => {
+      this.askMetrics();
+      this.showPicture();
+    }, kMetricsEvery);
   }
 
   /// Only while something is going on: an idle page asks for nothing.
@@ -45,6 +49,12 @@ export class StatusLine {
       .finally(() => {
         this.asked = false;
       });
+  }
+
+  private showPicture(): void {
+    const { calls, milliseconds } = this.session.viewport.cost;
+    const time = milliseconds.toFixed(1);
+    setText(this.parts.picture, this.session.store.model ? text("status.picture", { calls, time }) : "");
   }
 
   private update(): void {

@@ -19,6 +19,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { WirePose } from "../wire/structs.ts";
+import { ComponentBatch } from "./component_batch.ts";
 import type { RawAssembly, RawComponent } from "./glb.ts";
 import type { Palette } from "./palette.ts";
 import { RayTree } from "./ray_tree.ts";
@@ -88,10 +89,12 @@ export class ComponentView {
   private outline: LineSegments2 | null = null;
   private cut: Mesh<BufferGeometry, ShaderMaterial> | null = null;
   private readonly opacity: number;
+  private planeCount = 0;
 
   constructor(
     readonly raw: RawComponent,
     readonly shape: SurfaceView,
+    private readonly batch: ComponentBatch,
     private palette: Palette,
   ) {
     const [r, g, b, a] = raw.color;
@@ -116,12 +119,14 @@ export class ComponentView {
 
   set visible(value: boolean) {
     this.object.visible = value;
+    this.choose();
   }
 
   setPose(pose: WirePose | null): void {
     setMatrixFromPose(this.worldFromAssembled, pose);
     this.object.matrix.multiplyMatrices(this.worldFromAssembled, this.raw.assembledFromMesh);
     this.object.matrixWorldNeedsUpdate = true;
+    this.batch.place(this.index, this.object.matrix);
   }
 
   bounds(): Box3 {
@@ -147,6 +152,8 @@ export class ComponentView {
       this.object.matrixWorldNeedsUpdate = true;
     }
     if (this.cut) this.cut.visible = count > 0;
+    this.planeCount = count;
+    this.choose();
     this.body.material.side = count > 0 && this.cut ? FrontSide : DoubleSide;
     this.body.material.stencilWrite = this.edges.material.stencilWrite = count > 0;
     for (const material of [this.body.material, this.edges.material, this.cut?.material]) {
@@ -190,11 +197,20 @@ export class ComponentView {
     const standout = this.standout();
     const tint = new Color(standout?.color ?? palette.edge);
     material.uniforms.uTint.value.set(tint.r, tint.g, tint.b, standout?.tint ?? 0);
-    this.edges.material.uniforms.uColor.value.set(look.hovered ? palette.accent : palette.edge);
+    const edge: Color = this.edges.material.uniforms.uColor.value.set(look.hovered ? palette.accent : palette.edge);
+    this.batch.paint(this.index, material.uniforms.uColor.value.clone().lerp(tint, standout?.tint ?? 0), edge);
+    this.choose();
     this.edges.material.uniforms.uOpacity.value = look.xray && !look.selected ? 0.35 : 1;
     this.edges.material.transparent = look.xray;
     if (this.cut) this.cut.material.transparent = material.transparent;
     this.setOutline(standout ? { color: standout.color, width: standout.width } : null);
+  }
+
+  /// Drawn by itself where it is seen through or cut, else with the batch.
+  private choose(): void {
+    const alone = this.body.material.transparent || this.planeCount > 0;
+    this.body.visible = this.edges.visible = alone;
+    this.batch.show(this.index, this.object.visible && !alone);
   }
 
   private standout(): { color: string; tint: number; width: number } | null {
@@ -227,11 +243,17 @@ export class ModelView {
   readonly root = new Group();
   readonly components: ComponentView[] = [];
   private readonly shapes: SurfaceView[];
+  private readonly batch: ComponentBatch;
 
   constructor(raw: RawAssembly, palette: Palette) {
     this.shapes = raw.surfaces.map((surface) => new SurfaceView(surfaceFromMesh(surface)));
+    this.batch = new ComponentBatch(
+      this.shapes,
+      raw.components.map(({ surface }) => this.shapes[surface]),
+    );
+    this.root.add(this.batch.object);
     for (const component of raw.components) {
-      const view = new ComponentView(component, this.shapes[component.surface], palette);
+      const view = new ComponentView(component, this.shapes[component.surface], this.batch, palette);
       this.components.push(view);
       this.root.add(view.object);
     }
@@ -271,6 +293,7 @@ export class ModelView {
   }
 
   dispose(): void {
+    this.batch.dispose();
     for (const component of this.components) component.dispose();
     for (const shape of this.shapes) shape.dispose();
   }

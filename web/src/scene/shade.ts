@@ -25,26 +25,41 @@ void clip(vec3 world) {}
 `;
 
 const kPlace = /* glsl */ `
+#include <batching_pars_vertex>
 varying vec3 vWorld;
-void place() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
+#ifdef USE_BATCHING
+varying vec3 vColor;
+#endif
+mat4 place() {
+#ifdef USE_BATCHING
+  float instance = getIndirectIndex(gl_DrawID);
+  mat4 worldFromMesh = modelMatrix * getBatchingMatrix(instance);
+  vColor = getBatchingColor(instance).rgb;
+#else
+  mat4 worldFromMesh = modelMatrix;
+#endif
+  vec4 world = worldFromMesh * vec4(position, 1.0);
   vWorld = world.xyz;
   gl_Position = projectionMatrix * viewMatrix * world;
+  return worldFromMesh;
 }`;
 
 const kBodyVertex = /* glsl */ `
 varying vec3 vNormal;
 ${kPlace}
 void main() {
-  place();
-  vNormal = mat3(modelMatrix) * normal;
+  vNormal = mat3(place()) * normal;
 }`;
 
 // Behind a section plane the first thing that a ray meets of a closed solid is its inside, and nothing else is between
 // that and where the ray crossed the plane: an inside that is seen is a cut, and drawn flat and hatched. The stencil
 // keeps where, so that no edges shine through the filling.
 const kBodyFragment = /* glsl */ `
+#ifdef BATCHED
+varying vec3 vColor;
+#else
 uniform vec3 uColor;
+#endif
 uniform float uOpacity;
 uniform vec4 uTint;
 uniform float uHatch;
@@ -65,7 +80,11 @@ vec3 lit(vec3 base, vec3 normal, vec3 toEye) {
 }
 void main() {
   clip(vWorld);
+#ifdef BATCHED
+  vec3 base = vColor;
+#else
   vec3 base = mix(uColor, uTint.rgb, uTint.a);
+#endif
   vec3 toEye = isOrthographic ? vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2])
                               : normalize(cameraPosition - vWorld);
   vec3 normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -93,13 +112,21 @@ void main() {
 }`;
 
 const kEdgeFragment = /* glsl */ `
+#ifdef BATCHED
+varying vec3 vColor;
+#else
 uniform vec3 uColor;
+#endif
 uniform float uOpacity;
 varying vec3 vWorld;
 ${kClip}
 void main() {
   clip(vWorld);
+#ifdef BATCHED
+  gl_FragColor = vec4(vColor, uOpacity);
+#else
   gl_FragColor = vec4(uColor, uOpacity);
+#endif
   #include <colorspace_fragment>
 }`;
 
@@ -152,4 +179,20 @@ export function edgeMaterial(color: Color, opacity: number): ShaderMaterial {
     stencilFunc: EqualStencilFunc,
     stencilRef: kSurface,
   });
+}
+
+/// As bodyMaterial, for a batch of components that each have their colour.
+export function batchedBodyMaterial(): ShaderMaterial {
+  return batched(bodyMaterial(new Color(), 1));
+}
+
+/// As edgeMaterial, for a batch.
+export function batchedEdgeMaterial(): ShaderMaterial {
+  return batched(edgeMaterial(new Color(), 1));
+}
+
+function batched(material: ShaderMaterial): ShaderMaterial {
+  material.defines.BATCHED = 1;
+  material.extensions.multiDraw = true;
+  return material;
 }

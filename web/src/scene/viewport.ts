@@ -40,6 +40,8 @@ export class Viewport {
   /// Called before each picture; returns whether another one is to follow.
   readonly beforePicture: ((now: number) => boolean)[] = [];
   readonly afterPicture = new Set<() => void>();
+  /// What the last picture cost: how many calls drew how many triangles, and how long that kept the page [ms].
+  readonly cost = { calls: 0, triangles: 0, milliseconds: 0 };
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
@@ -61,6 +63,7 @@ export class Viewport {
       preserveDrawingBuffer: testing,
     });
     this.renderer.autoClear = false;
+    this.renderer.info.autoReset = false;
     this.renderer.setPixelRatio(testing ? 1 : Math.min(devicePixelRatio, 2));
     this.rig.instant = testing || matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.rig.onChange = () => this.invalidate();
@@ -242,6 +245,8 @@ export class Viewport {
     this.directions.update(this.rig);
     this.blocked.update(this.rig);
     this.immersion?.everyFrame();
+    const start = performance.now();
+    this.renderer.info.reset();
     this.renderer.clear();
     if (this.immersion) {
       this.renderer.render(this.immersion.room, this.immersion.camera);
@@ -252,6 +257,8 @@ export class Viewport {
       const { perspective, size } = this.rig;
       this.stereoPicture.draw(this.renderer, this.scene, perspective, this.rig.current.distance, this.stereoMode, size);
     }
+    const { calls, triangles } = this.renderer.info.render;
+    Object.assign(this.cost, { calls, triangles, milliseconds: performance.now() - start });
     for (const step of this.afterPicture) step();
     if (more) this.invalidate();
   }

@@ -38,6 +38,24 @@ test("the page shows the model: many colours, all components listed, in its stat
   assert.match(await viewer.page.locator("#status").innerText(), /21,806 triangles/);
 });
 
+test("all components are drawn with a few calls, and one that is seen through by itself", async () => {
+  const calls = async () => {
+    await viewer.idle();
+    return viewer.page.evaluate(() => window.dismantle!.app.viewport.cost.calls);
+  };
+  const before = await calls();
+  assert.ok(before < 12, `${before}`);
+  const arm = await viewer.index("arm");
+  const toggle = () => viewer.page.evaluate((c) => window.dismantle!.app.session.toggleXray([c]), arm);
+  const solid = await viewer.picture();
+  await toggle();
+  assert.equal(await calls(), before + 2);
+  assert.notEqual(await viewer.picture(), solid);
+  await toggle();
+  assert.equal(await calls(), before);
+  assert.equal(await viewer.picture(), solid);
+});
+
 test("left on empty space orbits", async () => {
   const start = await camera();
   await dragView("left", kEmpty);
