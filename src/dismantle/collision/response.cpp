@@ -58,11 +58,6 @@ class Stepper {
   std::vector<RigidTransform> next_;
 };
 
-/// Into how many equal screws the motion must be cut so that each one's chords are within `deviation` of its arcs.
-int cut_count(double chord_deviation, double deviation) {
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(chord_deviation / deviation))));
-}
-
 }  // namespace
 
 RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> components) {
@@ -74,6 +69,10 @@ RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> compo
   set.center = box.center();
   set.radius = diagonal(box) / 2;
   return set;
+}
+
+int chord_count(double chord_deviation, double deviation) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(chord_deviation / deviation))));
 }
 
 StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
@@ -93,7 +92,7 @@ StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose
   // The same share is kept back whatever the motion: a state reached by a translation must not be too deep for a
   // rotation.
   const double deviation = kPathDeviationShare * tolerance;
-  const int cuts = cut_count(screw_chord_deviation(screw, rho), deviation);
+  const int cuts = chord_count(screw_chord_deviation(screw, rho), deviation);
 
   Stepper stepper(engine, set, result);
   for (int k = 0; k < cuts; ++k) {

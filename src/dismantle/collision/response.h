@@ -23,6 +23,10 @@ RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> compo
 /// itself.
 inline constexpr double kPathDeviationShare = 0.125;
 
+/// Into how many equal screws a motion must be cut so that each one's chords are within `deviation` of its arcs.
+/// @param chord_deviation of the whole motion: screw_chord_deviation [mm]
+int chord_count(double chord_deviation, double deviation);
+
 /// Moves the set from `start`, where the engine's state has it, along the one screw towards `target`, as far as
 /// `response` allows. The engine's state is then the pose that is returned. Guarantee: the screw from `start` to the
 /// returned pose holds the engine's guarantee, the deviation of the true arcs included. Stop: up to the last sweep that
