@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time a step of the streams method, stage by stage: a shaft slides and wobbles in its hole, 0.1 mm a step.
-//   bench_streams [--threads N] [--clearance MM] [--steps N] [--ccd certified|elementary] [TRIANGLES...]
-#include "dismantle/collision/collision_engine.h"
+//   bench_streams [--device cpu|cuda] [--threads N] [--clearance MM] [--steps N] [--ccd certified|elementary]
+//                 [TRIANGLES...]
+#include "dismantle/collision/choose_streams_backend.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
@@ -11,11 +12,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace dismantle {
 namespace {
 
 struct Settings {
+  DeviceChoice device = DeviceChoice::Cpu;
   int threads = 2;
   double clearance = 0.1;  // between shaft and hole, radial [mm]; below 0 they overlap and are a fit
   int steps = 100;
@@ -62,8 +65,11 @@ void run(const Settings& settings, std::size_t triangles) {
   const Assembly assembly = shaft_in_hole(triangles, settings.clearance);
   const Executor executor = settings.threads > 0 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
   const auto start = std::chrono::steady_clock::now();
+  const CollisionOptions options{settings.test, executor, 1 << 16};
+  ChosenStreamsBackend chosen = choose_streams_backend(assembly, options, settings.device);
+  if (!chosen.why.empty()) std::fprintf(stderr, "bench_streams: on the CPU (%s)\n", chosen.why.c_str());
   const std::unique_ptr<CollisionEngine> engine =
-      make_streams_engine(assembly, states_for(settings), {settings.test, executor, 1 << 16});
+      make_streams_engine(assembly, states_for(settings), options, std::move(chosen.backend));
   const std::chrono::duration<double, std::milli> built = std::chrono::steady_clock::now() - start;
 
   StepTimings sum;
@@ -102,7 +108,9 @@ bool parse(int argc, char** argv, Settings& settings) {
       continue;
     }
     if (++i == argc) return false;
-    if (option == "--threads") {
+    if (option == "--device") {
+      settings.device = std::strcmp(argv[i], "cuda") == 0 ? DeviceChoice::Cuda : DeviceChoice::Cpu;
+    } else if (option == "--threads") {
       settings.threads = std::atoi(argv[i]);
     } else if (option == "--clearance") {
       settings.clearance = std::atof(argv[i]);
@@ -125,7 +133,8 @@ int main(int argc, char** argv) {
   dismantle::Settings settings;
   if (!dismantle::parse(argc, argv, settings)) {
     std::fprintf(stderr,
-                 "usage: bench_streams [--threads N] [--clearance MM] [--steps N] [--ccd certified|elementary] "
+                 "usage: bench_streams [--device cpu|cuda] [--threads N] [--clearance MM] [--steps N] [--ccd "
+                 "certified|elementary] "
                  "[TRIANGLES...]\n");
     return 2;
   }

@@ -4,6 +4,7 @@
 #include "bench/paper/append_times.h"
 #include "bench/paper/paper_scenes.h"
 #include "bench/paper/tunnel_count.h"
+#include "dismantle/exec/cuda_device.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,13 @@ Runs run_all(Evaluation& e, const EvaluationOptions& options, const BenchScene& 
     runs[method] = run_method(method, scene, options.cores, options.repeats);
     add_steps(e, scene.name, triangle_count(scene.assembly), runs[method]);
   }
-  for (const PaperMethod method : {PaperMethod::FrontBasedRigid, PaperMethod::StreamsElementary})
+  std::vector<PaperMethod> same{PaperMethod::FrontBasedRigid, PaperMethod::StreamsElementary};
+  if (cuda_device_name()) {
+    same.push_back(PaperMethod::StreamsCuda);
+    runs[PaperMethod::StreamsCuda] = run_method(PaperMethod::StreamsCuda, scene, options.cores, options.repeats);
+    add_steps(e, scene.name, triangle_count(scene.assembly), runs[PaperMethod::StreamsCuda]);
+  }
+  for (const PaperMethod method : same)
     e.equal_poses = e.equal_poses && runs[method].poses == runs[PaperMethod::FrontBased].poses;
   return runs;
 }

@@ -2,6 +2,7 @@
 #include "bench/paper/evaluation_page.h"
 
 #include "bench/paper/paper_scenes.h"
+#include "dismantle/exec/cuda_device.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ with its baselines. Every number on this page was printed by one command, which 
     {command}
 
 {date}; {processor}, {cores} cores (load {load_before:.1f} before, {load_after:.1f} after: other work on the machine
-lengthens times); {compiler}. **No GPU was available: nothing here ran on one**, and nothing is said about when one would win.
+lengthens times); {compiler}. {device}
 
 ## What is compared
 Each method plays an assembly's bundled motion with the paper's response: a step that meets something is not made. Wall time of one step
@@ -95,9 +96,17 @@ that it stops though nothing is on the way.
 
 {tunnel_table}
 ## What a GPU is for
-Not measured: no GPU was available. *streams* is there for CUDA devices ([docs/gpu.md](gpu.md)) and has been compiled, not run; `tools/gpu_check` is to compare
-it with the CPU bit by bit on a GPU.
+{gpu}
 )";
+
+constexpr const char* kNoGpu =
+    "**No GPU was available: nothing here ran on one**, and nothing is said about when one would win.";
+constexpr const char* kNoGpuTimes =
+    "Not measured: no GPU was available. *streams* is there for CUDA devices ([docs/gpu.md](gpu.md)) and has been "
+    "compiled, not run; `tools/gpu_check` is to compare\nit with the CPU bit by bit on a GPU.";
+constexpr const char* kGpuTimes =
+    "The rows *streams (elementary, CUDA)* under [All methods](#all-methods) are those of the GPU "
+    "([docs/gpu.md](gpu.md)).";
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -136,6 +145,7 @@ EvaluationSetting present_setting(const std::string& command, int cores) {
   setting.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   setting.processor = processor_name();
   setting.compiler = std::string("compiler ") + __VERSION__;
+  setting.gpu = cuda_device_name() ? *cuda_device_name() : "";
   setting.command = command;
   setting.cores = cores;
   setting.load_before = present_load();
@@ -152,7 +162,8 @@ std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
   std::string page =
       fmt::format(kIntroduction, arg("command", s.command), arg("date", s.date), arg("processor", s.processor),
                   arg("cores", s.cores), arg("load_before", s.load_before), arg("load_after", s.load_after),
-                  arg("compiler", s.compiler), arg("equal", equal));
+                  arg("compiler", s.compiler),
+                  arg("device", s.gpu.empty() ? std::string(kNoGpu) : "GPU: " + s.gpu + "."), arg("equal", equal));
   const ResultTable ours = rows_of(e.steps, "method", std::string(name_of(PaperMethod::StreamsElementary)));
   page += fmt::format(kTable1, arg("cores", s.cores),
                       arg("ours", markdown_of(columns_of(
@@ -162,7 +173,7 @@ std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
                       arg("speed_up", markdown_of(e.speed_up)), arg("stages", markdown_of(e.stages)));
   page += fmt::format(kCurves, arg("cores", s.cores), arg("core_table", markdown_of(e.cores)),
                       arg("size_table", markdown_of(e.sizes)), arg("append_table", markdown_of(e.appends)),
-                      arg("tunnel_table", markdown_of(e.tunnels)));
+                      arg("tunnel_table", markdown_of(e.tunnels)), arg("gpu", s.gpu.empty() ? kNoGpuTimes : kGpuTimes));
   return page;
 }
 

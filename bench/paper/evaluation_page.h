@@ -10,6 +10,7 @@ namespace dismantle {
 /// Where and how an evaluation was made.
 struct EvaluationSetting {
   std::string date, processor, compiler, command;
+  std::string gpu;  ///< The CUDA device's name; empty where nothing ran on one.
   int cores = 1;
   double load_before = 0, load_after = 0;  ///< Average over a minute.
 };

@@ -5,6 +5,7 @@
 #include "bench/baselines/obb_discrete_engine.h"
 #include "dismantle/collision/certificate_engine.h"
 #include "dismantle/collision/stage_clock.h"
+#include "dismantle/collision/streams_backend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,8 @@ std::string_view name_of(PaperMethod method) {
       return "streams (elementary)";
     case PaperMethod::StreamsCertified:
       return "streams (certified)";
+    case PaperMethod::StreamsCuda:
+      return "streams (elementary, CUDA)";
     case PaperMethod::Certificates:
       return "certificates";
     case PaperMethod::ObbDiscrete:
@@ -75,6 +78,11 @@ std::unique_ptr<MotionEngine> make_method(PaperMethod method, const BenchScene& 
     case PaperMethod::StreamsCertified:
       return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance,
                                          make_streams_engine(scene.assembly, scene.states, options));
+    case PaperMethod::StreamsCuda:
+      return make_sweeping_motion_engine(
+          scene.assembly, scene.states.tolerance,
+          make_streams_engine(scene.assembly, scene.states, options,
+                              make_cuda_streams_backend(scene.assembly, options).value()));
     case PaperMethod::Certificates:
       return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
                                                  CertificateOptions{executor, widest_lanes()});

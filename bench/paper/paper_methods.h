@@ -16,6 +16,7 @@ enum class PaperMethod {
   FrontBasedRigid,    ///< The same, told what moves: FrontBasedWork::WhatMoves.
   StreamsElementary,  ///< The paper's method on the CPU with the paper's elementary tests.
   StreamsCertified,   ///< The same with certified tests: what `--method streams` does, without its guard of vertices.
+  StreamsCuda,        ///< The paper's method with the paper's tests on the CUDA device. @pre there is one
   Certificates,       ///< Our own method, as it is.
   ObbDiscrete,        ///< Trees of oriented boxes at discrete steps.
 };

@@ -23,11 +23,16 @@ Evaluation small_evaluation() {
 TEST(EvaluationPage, SaysWhereItWasMeasuredAndWhatCameOut) {
   EvaluationSetting setting = present_setting("bench_paper --cores 3", 3);
   setting.date = "2001-02-03";
+  setting.gpu = "";
   const std::string page = evaluation_page(small_evaluation(), setting);
   for (const char* part :
        {"    bench_paper --cores 3\n", "2001-02-03; ", "3 cores", "No GPU was available", "| vice | 77 | 1 | 2 | 3 |\n",
         "| vice | 77 | front-based | 8 | 9 | 17 |\n", "5.7 times", "2.5 times", "at the same pose, bit for bit"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
+  setting.gpu = "Abacus 9";
+  const std::string with_gpu = evaluation_page(small_evaluation(), setting);
+  EXPECT_NE(with_gpu.find("GPU: Abacus 9."), std::string::npos);
+  EXPECT_EQ(with_gpu.find("No GPU was available"), std::string::npos);
 }
 
 TEST(EvaluationPage, WarnsWhereTheMethodsDidNotStopAtTheSamePoses) {
