@@ -30,8 +30,8 @@ constexpr double kSameLead = 1e-3;
 constexpr std::size_t kMostAxes = 16;
 /// and so many leads of each, those with the longest edges [rad],
 constexpr std::size_t kMostLeads = 3;
-/// if these are at least a turn long.
-constexpr double kLeastTurn = kTurn;
+/// if these are at least a turn long, and this share of all such edges.
+constexpr double kLeastTurn = kTurn, kLeastShare = 0.05;
 /// No more than so many edges are looked at, of all axes together: an even choice of them.
 constexpr std::size_t kMostEdges = 4'000'000;
 constexpr int kMostStarts = 4;
@@ -116,6 +116,7 @@ struct Helices {
 std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
                              std::size_t stride) {
   std::map<std::int64_t, Helices> cells;
+  double all = 0;
   const double cell_count = 1 / kSameLead;
   for (std::size_t f = 0; f < faces.size(); f += stride)
     for (int k = 0; k < 3; ++k) {
@@ -132,6 +133,7 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
       const auto place = static_cast<std::int64_t>(std::floor(std::log(size) * cell_count));
       const double turn = std::abs(angle) * static_cast<double>(stride);
       const double low = frame.along(vertices[v]), high = low + rise;
+      all += turn;
       cells[2 * place + (lead < 0 ? 1 : 0)].add({turn, turn * lead, std::min(low, high), std::max(low, high),
                                                  std::min(distance, other), std::max(distance, other)});
     }
@@ -139,7 +141,7 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
   for (const auto& [cell, votes] : cells) {
     Helices sum = votes;
     if (const auto next = cells.find(cell + 2); next != cells.end()) sum.add(next->second);
-    if (!(sum.turn >= kLeastTurn)) continue;
+    if (!(sum.turn >= std::max(kLeastTurn, kLeastShare * all))) continue;
     sum.lead /= sum.turn;
     sums.push_back(sum);
   }
