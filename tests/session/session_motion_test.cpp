@@ -57,6 +57,18 @@ TEST(SessionTakeOut, TakesOneAfterAnotherTheSameWay) {
   EXPECT_EQ(table.session().recording().removed.size(), 3u);
 }
 
+TEST(SessionTakeOut, ParksNoFurtherForWhatGoesBesideIt) {
+  Table table(scenes::assembly({component("block", box({0, 0, 0}, {10, 10, 10})),
+                                component("beside", box({20, 0, 0}, {30, 10, 10})),
+                                component("below", box({0, 0, -5}, {10, 10, -1}))}));
+  ASSERT_TRUE(table.session().take_out(kSecond, kUp).ok());
+  table.let_run();
+  EXPECT_LT(table.pose(1).position.z, 12) << "nothing else goes up there";
+  ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());
+  table.let_run();
+  EXPECT_GT(table.pose(0).position.z, 10 + 4) << "there is room for what is below";
+}
+
 TEST(SessionTakeOut, IsUndoneAsOneEntry) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());

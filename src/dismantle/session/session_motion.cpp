@@ -39,6 +39,17 @@ void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
   }
 }
 
+/// Whether two boxes can meet where one of them goes straight along a direction: their shadows along it overlap.
+bool are_in_line(const Aabb& a, const Aabb& b, const Vec3& direction) {
+  const Vec3 between = b.center() - a.center(), half = 0.5 * (a.size() + b.size());
+  for (const Vec3& edge : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const Vec3 across = cross(direction, edge);
+    const double reach = std::fabs(across.x) * half.x + std::fabs(across.y) * half.y + std::fabs(across.z) * half.z;
+    if (std::fabs(dot(across, between)) > reach) return false;
+  }
+  return true;
+}
+
 /// The poses of a set that goes a way from `start`, screw by screw, at the targets' rate.
 std::vector<Frame> targets_along(const Removal& removal, const Pose& start) {
   const Pose body = start * inverse(removal.from);  // what the body that it is part of has moved since
@@ -73,12 +84,17 @@ Result<std::vector<FreeDirection>> Session::free_directions(Span<const Component
 }
 
 double Session::parking_distance(const Vec3& direction) const {
-  // Those that are taken out later park nearer: each has its own stretch of the way.
+  // Those that are taken out later park nearer: each has its own stretch of the way. What goes straight along the same
+  // direction beside it does not need one.
   const double gap = kParkGap * diagonal(assembled_bounds(*assembly_));
+  Aabb own;
+  for (const ComponentId c : moving_) own.extend(bounds_at((*assembly_)[c], poses()[c.value]));
   double sum = 0;
   for (std::uint32_t i = 0; i < removed_.size(); ++i) {
     if (removed_[i] || std::binary_search(moving_.begin(), moving_.end(), ComponentId(i))) continue;
-    const Vec3 size = bounds_at(assembly_->components[i], poses()[i]).size();
+    const Aabb box = bounds_at(assembly_->components[i], poses()[i]);
+    if (!are_in_line(own, box, direction)) continue;
+    const Vec3 size = box.size();
     sum += std::fabs(direction.x) * size.x + std::fabs(direction.y) * size.y + std::fabs(direction.z) * size.z + gap;
   }
   return sum;
