@@ -67,6 +67,27 @@ TEST_F(ServerClients, KeepsADragForAClientThatComesBack) {
   EXPECT_EQ(client.pose_answering(6).pose.position.x, -6);
 }
 
+TEST_F(ServerClients, GivesControlOnWhenItsClientStaysAway) {
+  Client watcher(door(), kOtherKey);
+  watcher.state();
+  const auto lost_at = std::chrono::steady_clock::now();
+  {
+    Client first(door());
+    first.state();
+    ASSERT_TRUE(first.command("take_control")["ok"]);
+    const std::uint32_t grip = hold(first, 0);
+    drag(first, grip, {}, {-5, 0, 0}, 5);
+    first.drop();
+  }
+  watcher.event_where("control", [](const Json& c) { return !c["control"]; });
+  watcher.event_where("control", [](const Json& c) { return c["control"]; });
+  EXPECT_GE(std::chrono::steady_clock::now() - lost_at, std::chrono::seconds(10));
+  const Json state =
+      watcher.event_where("state", [](const Json& s) { return s["hand"].is_null() && !s["moves"].empty(); });
+  EXPECT_EQ(state["undo"], "move block") << "what was in hand was let go of where it was";
+  hold(watcher, 0);
+}
+
 TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
   std::uint64_t id = 0;
   {

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import { validateBytes } from "gltf-validator";
 import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
@@ -43,6 +44,17 @@ test("what was done is saved as an animation, a page, tables and a path", async 
   assert.match((await saved("#export-moves-csv")).bytes.toString(), /\r\n1,[^,]*,specimen slide,0,/);
   assert.equal(JSON.parse((await saved("#export-bom-json")).bytes.toString()).format, "dismantle-bill");
   assert.equal(JSON.parse((await saved("#export-path-json")).bytes.toString()).moves.length, 1);
+});
+
+test("Khronos' validator finds nothing in the animation, nor in the model that the page itself reads", async () => {
+  const model = await viewer.page.evaluate(async () => {
+    const answer = await window.dismantle!.app.session.connection.request("/api/model.glb");
+    return [...new Uint8Array(await answer.arrayBuffer())];
+  });
+  for (const bytes of [new Uint8Array((await saved("#export-animation-glb")).bytes), Uint8Array.from(model)]) {
+    const { issues } = await validateBytes(bytes);
+    assert.equal(issues.numErrors + issues.numWarnings, 0, JSON.stringify(issues.messages));
+  }
 });
 
 test("reversed, the path comes back", async () => {

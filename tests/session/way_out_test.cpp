@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/session/way_out.h"
+
+#include "tests/session/session_table.h"
+
+namespace dismantle {
+namespace {
+
+using namespace scenes;
+
+constexpr double kReach = 3 * kTableTolerance;
+
+//   The block from above, the wall at its right: the box of both is 21 mm long and 100 mm wide.
+//
+//                     |
+//      +---+          |
+//      |   |  10.5 mm | wall
+//      +---+          |
+//      block          |
+
+class WayOutOfTheWall : public testing::Test {
+ protected:
+  const Assembly assembly_ = wall_and_block();
+  const PairStates pairs_ = *classify_pairs(assembly_, {});
+  CertificateEngine engine_{assembly_, pairs_};
+  WayOut out() {
+    engine_.hold(kFirst);
+    return {assembly_, engine_, kFirst};
+  }
+};
+
+TEST_F(WayOutOfTheWall, IsOutsideOnceItsBoxHasLeftThatOfTheAssembly) {
+  EXPECT_FALSE(out().is_outside());
+  engine_.jump(std::vector<Pose>{{{-10.5, 0, 0}, {}}, {}});
+  EXPECT_TRUE(out().is_outside());
+  EXPECT_EQ(out().exit_distance({1, 0, 0}), 0);
+}
+
+TEST_F(WayOutOfTheWall, HasToGoUntilTheWholeBoxIsBehind) {
+  const double margin = out().exit_distance({-1, 0, 0}) - 10;
+  EXPECT_GT(margin, 0);
+  EXPECT_LT(margin, 5);
+  EXPECT_NEAR(out().exit_distance({0, 1, 0}), 50 + margin, 1e-9);
+  // Along a diagonal it leaves through the side that it comes to first.
+  const double slant = std::sqrt(0.5);
+  EXPECT_NEAR(out().exit_distance({-slant, slant, 0}), 10 / slant + margin, 1e-9);
+}
+
+TEST_F(WayOutOfTheWall, LooksAlongAWayAsFarAsItIsFree) {
+  const std::vector<FreeDirection> ways = out().look(std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
+  EXPECT_FALSE(ways[0].free);
+  EXPECT_EQ(ways[0].blocked_by, ComponentId(1));
+  EXPECT_NEAR(ways[0].distance, 10.5, 0.1);
+  EXPECT_LE(ways[0].distance, 10.5 + pairs_.tolerance);
+  EXPECT_TRUE(ways[1].free);
+}
+
+TEST_F(WayOutOfTheWall, FindsTheShortestFreeWayFirst) {
+  const std::vector<FreeDirection> ways = out().find(kReach);
+  ASSERT_FALSE(ways.empty());
+  EXPECT_TRUE(ways[0].free);
+  EXPECT_EQ(ways[0].direction, (Vec3{-1, 0, 0}));
+  EXPECT_FALSE(ways.back().free);
+  EXPECT_EQ(ways.back().blocked_by, ComponentId(1));
+}
+
+TEST_F(WayOutOfTheWall, LeadsOutwardFromTheMiddle) {
+  const Vec3 outward = out().outward();
+  EXPECT_NEAR(length(outward), 1, 1e-12);
+  EXPECT_LT(outward.x, 0);
+}
+
+TEST(WayOut, FollowsTheNormalsOfWhatTheSetTouches) {
+  const double slant = std::sqrt(0.5);
+  const Quat turn = quat_about({0, 0, 1}, std::acos(-1.0) / 4);
+  const auto turned = [&](const TriangleMesh& mesh) { return moved(mesh, {{}, turn}); };
+  const Assembly assembly = scenes::assembly({component("block", turned(box({0, 0, 0}, {10, 10, 10}))),
+                                              component("wall", turned(box({-1, -50, -50}, {0, 50, 50})))});
+  const PairStates pairs = *classify_pairs(assembly, {});
+  CertificateEngine engine(assembly, pairs);
+  engine.hold(kFirst);
+  const std::vector<FreeDirection> ways = WayOut(assembly, engine, kFirst).find(kReach);
+  const bool has_normal = std::any_of(ways.begin(), ways.end(), [&](const FreeDirection& w) {
+    return w.free && length(w.direction - Vec3{slant, slant, 0}) < 1e-6;
+  });
+  EXPECT_TRUE(has_normal);
+}
+
+}  // namespace
+}  // namespace dismantle
