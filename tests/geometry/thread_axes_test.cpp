@@ -54,6 +54,17 @@ TEST(ThreadAxes, FindTheLeadOfAThreadWhereverItIs) {
         }
 }
 
+TEST(ThreadAxes, TellSeveralStartsFromOne) {
+  scenes::Winding w = winding(48, 4);
+  const scenes::Profile once = w.profile;
+  for (std::size_t i = 1; i < once.size(); ++i) w.profile.push_back({once[i].x, once[i].y + w.pitch});
+  w.pitch *= 2;
+  const std::vector<ThreadAxis> threads = threads_of(scenes::wound_solid(w));
+  ASSERT_EQ(threads.size(), 1u);
+  EXPECT_NEAR(threads[0].lead, 2.5, 1e-5);
+  EXPECT_EQ(threads[0].starts, 2);
+}
+
 TEST(ThreadAxes, AreNotFoundWhereNothingWinds) {
   for (const TriangleMesh& mesh : {scenes::tube(10, 6, -20, 20, 48, 9), scenes::box({0, 0, 0}, {3, 4, 5}),
                                    scenes::extruded(scenes::circle(5, 6), 0, 4),

@@ -159,11 +159,14 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
 struct Direction {
   double area = 0, radial = 0, lift = 0;  // sums
   std::complex<double> place, angle;      // where they are in the profile and around the axis
+  std::vector<const ProfileFace*> faces;
   ProfileDirection normal() const {
     const double size = std::hypot(radial, lift);
     return {radial / size, lift / size};
   }
 };
+
+using Directions = std::array<Direction, kDirections>;
 
 std::size_t direction_of(ProfileDirection normal) {
   const double turned = std::atan2(normal.lift, normal.radial) / kTurn + 0.5;
@@ -196,8 +199,10 @@ struct Profile {
 };
 
 /// The runs of directions in which the faces agree about their place.
-std::vector<std::vector<std::size_t>> agreeing(const std::array<Direction, kDirections>& directions, double all) {
+std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   std::vector<std::vector<std::size_t>> runs;
+  double all = 0;
+  for (const Direction& d : directions) all += d.area;
   for (std::size_t i = 0; i < kDirections; ++i) {
     const Direction& d = directions[i];
     const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kLeastAgreement * d.area &&
@@ -263,72 +268,83 @@ ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const
 }
 
 /// @param faces that may be flanks
-std::optional<Profile> profile_of(const std::vector<ProfileFace>& faces, const RoundAxis& axis, double lead,
-                                  int starts) {
-  const double period = std::abs(lead) / starts;
-  std::array<Direction, kDirections> directions;
-  double all = 0;
+Directions by_direction(const std::vector<ProfileFace>& faces, double lead, double period) {
+  Directions directions;
   for (const ProfileFace& face : faces) {
     Direction& d = directions[direction_of(face.normal)];
-    all += face.area;
+    d.faces.push_back(&face);
     d.area += face.area;
     d.radial += face.area * face.normal.radial;
     d.lift += face.area * face.normal.lift;
   }
-  for (const ProfileFace& face : faces) {
-    Direction& d = directions[direction_of(face.normal)];
-    d.place += face.area * phase(d.normal(), along(d.normal(), face.centroid, lead), period);
-    d.angle += std::polar(face.area, face.centroid.angle);
+  for (Direction& d : directions)
+    for (const ProfileFace* face : d.faces) {
+      d.place += face->area * phase(d.normal(), along(d.normal(), face->centroid, lead), period);
+      d.angle += std::polar(face->area, face->centroid.angle);
+    }
+  return directions;
+}
+
+/// The directions of a run taken together.
+Direction sum_of(const Directions& directions, const std::vector<std::size_t>& run) {
+  Direction sum;
+  for (const std::size_t i : run) {
+    const Direction& d = directions[i];
+    sum.area += std::abs(d.place);
+    sum.radial += d.radial;
+    sum.lift += d.lift;
+    sum.faces.insert(sum.faces.end(), d.faces.begin(), d.faces.end());
   }
+  return sum;
+}
+
+/// The flank that the faces of one direction are of.
+ThreadAxis::Flank flank_of(const Direction& d, double lead, double period) {
+  ThreadAxis::Flank flank{d.normal(), 0};
+  std::complex<double> place;
+  for (const ProfileFace* face : d.faces)
+    place += face->area * phase(flank.normal, along(flank.normal, face->centroid, lead), period);
+  flank.place = std::arg(place) / kTurn * flank.normal.lift * period;
+  return fitted(flank, d.faces, lead, period);
+}
+
+/// Makes the thread as long and as deep as the faces on its flank.
+void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vector<const ProfileFace*>& faces,
+            double period) {
+  for (const ProfileFace* face : faces) {
+    if (!on_flank(flank, *face, thread.lead, period)) continue;
+    for (const AxisPlace& corner : face->corner) {
+      thread.begin = std::min(thread.begin, corner.along);
+      thread.end = std::max(thread.end, corner.along);
+      thread.least = std::min(thread.least, corner.distance);
+      thread.most = std::max(thread.most, corner.distance);
+    }
+  }
+}
+
+/// @param faces that may be flanks
+std::optional<Profile> profile_of(const std::vector<ProfileFace>& faces, const RoundAxis& axis, double lead,
+                                  int starts) {
+  const double period = std::abs(lead) / starts;
+  const Directions directions = by_direction(faces, lead, period);
   Profile found;
-  std::array<int, kDirections> flank_of;
-  flank_of.fill(-1);
-  for (const std::vector<std::size_t>& run : agreeing(directions, all)) {
-    Direction sum;
-    for (const std::size_t i : run) {
-      flank_of[i] = static_cast<int>(found.thread.flanks.size());
-      sum.radial += directions[i].radial;
-      sum.lift += directions[i].lift;
-      found.area += std::abs(directions[i].place);
-    }
-    found.thread.flanks.push_back({sum.normal(), 0});
-  }
-  const auto leads_to = [&](double side) {
-    return std::any_of(found.thread.flanks.begin(), found.thread.flanks.end(),
-                       [side](const ThreadAxis::Flank& flank) { return flank.normal.lift * side > 0; });
-  };
-  if (!leads_to(-1) || !leads_to(1)) return std::nullopt;
-  std::vector<std::complex<double>> places(found.thread.flanks.size());
-  std::vector<std::vector<const ProfileFace*>> of_flank(places.size());
   ThreadAxis& thread = found.thread;
-  thread.begin = thread.least = std::numeric_limits<double>::infinity();
-  thread.end = -thread.begin;
-  for (const ProfileFace& face : faces) {
-    const int flank = flank_of[direction_of(face.normal)];
-    if (flank < 0) continue;
-    const ProfileDirection normal = thread.flanks[static_cast<std::size_t>(flank)].normal;
-    places[static_cast<std::size_t>(flank)] += face.area * phase(normal, along(normal, face.centroid, lead), period);
-    of_flank[static_cast<std::size_t>(flank)].push_back(&face);
-  }
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    ThreadAxis::Flank& flank = thread.flanks[i];
-    flank.place = std::arg(places[i]) / kTurn * flank.normal.lift * period;
-    flank = fitted(flank, of_flank[i], lead, period);
-    for (const ProfileFace* face : of_flank[i]) {
-      if (!on_flank(flank, *face, lead, period)) continue;
-      for (const AxisPlace& corner : face->corner) {
-        thread.begin = std::min(thread.begin, corner.along);
-        thread.end = std::max(thread.end, corner.along);
-        thread.least = std::min(thread.least, corner.distance);
-        thread.most = std::max(thread.most, corner.distance);
-      }
-    }
-  }
-  if (thread.least > thread.most) return std::nullopt;
   thread.point = axis.point;
   thread.direction = axis.direction;
   thread.lead = lead;
   thread.starts = starts;
+  thread.begin = thread.least = std::numeric_limits<double>::infinity();
+  thread.end = -thread.begin;
+  bool leads_on = false, leads_back = false;
+  for (const std::vector<std::size_t>& run : agreeing(directions)) {
+    const Direction sum = sum_of(directions, run);
+    const ThreadAxis::Flank flank = flank_of(sum, lead, period);
+    extend(thread, flank, sum.faces, period);
+    thread.flanks.push_back(flank);
+    found.area += sum.area;
+    (flank.normal.lift > 0 ? leads_on : leads_back) = true;
+  }
+  if (!leads_on || !leads_back || thread.least > thread.most) return std::nullopt;
   return found;
 }
 
