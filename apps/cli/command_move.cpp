@@ -59,9 +59,17 @@ double quantile(std::vector<double> values, double q) {
 /// What happened in one move, for the user: how far it got and who was in the way.
 struct MoveSummary {
   std::size_t steps = 0, reached = 0;
-  double asked = 0, got = 0;  ///< Distance of the last target and of the last pose from the move's start [mm].
+  double asked = 0, got = 0;  ///< How far the last target and the last pose take the middle of the components [mm].
   std::map<std::string, std::size_t> blocked;  ///< Steps that each component stopped.
 };
+
+/// The middle of the components' common box, assembled [mm].
+Vec3 middle_of(const Assembly& assembly, const std::vector<std::string>& names) {
+  Aabb box;
+  for (const std::string& name : names)
+    if (const std::optional<ComponentId> id = assembly.find(name)) box.extend(assembled_bounds(assembly[*id]));
+  return box.empty() ? Vec3{} : box.center();
+}
 
 std::vector<MoveSummary> summarize(const Assembly& assembly, const Motion& motion, const PlayedMotion& played) {
   std::vector<MoveSummary> moves(played.path.moves.size());
@@ -80,9 +88,11 @@ std::vector<MoveSummary> summarize(const Assembly& assembly, const Motion& motio
     for (const std::string& name : blockers) ++m.blocked[name];
   }
   for (std::size_t m = 0; m < moves.size(); ++m) {
-    const Vec3 start = played.path.moves[m].frames.front().pose.position;
-    if (!motion.moves[m].targets.empty()) moves[m].asked = length(motion.moves[m].targets.back().pose.position - start);
-    moves[m].got = length(played.path.moves[m].frames.back().pose.position - start);
+    const Vec3 middle = middle_of(assembly, motion.moves[m].components);
+    const auto at = [&](const Pose& pose) { return transform_from_pose(pose) * middle; };
+    const Vec3 start = at(played.path.moves[m].frames.front().pose);
+    if (!motion.moves[m].targets.empty()) moves[m].asked = length(at(motion.moves[m].targets.back().pose) - start);
+    moves[m].got = length(at(played.path.moves[m].frames.back().pose) - start);
   }
   return moves;
 }

@@ -98,6 +98,19 @@ TEST_F(Cli, MovesTouchesAndPassesItsOwnAudit) {
   EXPECT_EQ(run("audit parts pull.path.json").exit_code, 0);
 }
 
+TEST_F(Cli, SaysHowFarTheMiddleOfWhatMovedGot) {
+  // A quarter turn about an axis through its middle, and 3 mm back: the origin of its coordinates goes 7 mm.
+  write("turn.motion.json", R"({"format": "dismantle-motion", "version": 1, "response": "slide", "moves": [
+      {"components": ["block"], "targets": [
+        {"t": 0.0, "position": [0, 0, 0], "rotation": [1, 0, 0, 0]},
+        {"t": 0.1, "position": [7, 0, 0], "rotation": [0.7071067811865476, 0, 0, 0.7071067811865476]}]}]})");
+  const Outcome o = run("move parts turn.motion.json -o turn.path.json --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json move = Json::parse(o.out)["moves"][0];
+  EXPECT_NEAR(move["asked_mm"].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(move["got_mm"].get<double>(), 3, 1e-9);
+}
+
 TEST_F(Cli, FailsTheAuditOfATamperedPath) {
   ASSERT_EQ(run("move parts pull.motion.json -o pull.path.json --tolerance 0.01").exit_code, 0);
   Json path = Json::parse(read_all(in("pull.path.json")));
