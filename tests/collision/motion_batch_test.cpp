@@ -159,19 +159,32 @@ TEST(MotionBatch, LetsEmbeddedPairsGoAndHoldsFitsToTheirAllowance) {
   for (const FirstContact& contact : ordinary.batch->straight_contacts(ways)) EXPECT_EQ(contact.toi, 0);
 }
 
+OverlapTimes times_of(double way, double allowed) {
+  OverlapTimes t;
+  t.meet({0, 1}, way, {3, 4}, allowed);
+  return t;
+}
+
 TEST(OverlapTimes, BeginAndEndWhereExtentsMeetAndPart) {
-  const auto times = [](double way) {
-    OverlapTimes t;
-    t.meet(0, 1, way, 3, 4);
-    return t;
-  };
-  EXPECT_NEAR(times(8).begin, 0.25, 1e-9);
-  EXPECT_NEAR(times(8).end, 0.5, 1e-9);
-  EXPECT_LE(times(8).begin, 0.25);  // never late
-  EXPECT_GE(times(8).end, 0.5);
-  EXPECT_GT(times(1).begin, 1);               // it does not get there
-  EXPECT_GT(times(0).begin, 1);               // it stands apart
-  EXPECT_LT(times(-5).end, times(-5).begin);  // it goes away
+  EXPECT_NEAR(times_of(8, 0).begin, 0.25, 1e-9);
+  EXPECT_NEAR(times_of(8, 0).end, 0.5, 1e-9);
+  EXPECT_LE(times_of(8, 0).begin, 0.25);  // never late
+  EXPECT_GE(times_of(8, 0).end, 0.5);
+  EXPECT_GT(times_of(1, 0).contact(), 1);   // it does not get there
+  EXPECT_GT(times_of(0, 0).contact(), 1);   // it stands apart
+  EXPECT_GT(times_of(-5, 0).contact(), 1);  // it goes away
+}
+
+TEST(OverlapTimes, AllowADepthOnTheSideThatThingsCameFrom) {
+  EXPECT_NEAR(times_of(8, 0.4).contact(), 0.3, 1e-9);
+  EXPECT_LE(times_of(8, 0.4).contact(), 0.3);
+  EXPECT_GT(times_of(2.3, 0.4).contact(), 1);
+  OverlapTimes sheet;  // through something without thickness
+  sheet.meet({0, 0}, 8, {2, 2}, 0.4);
+  EXPECT_NEAR(sheet.contact(), 0.3, 1e-9);
+  OverlapTimes resting;  // on it, and away
+  resting.meet({2, 3}, 8, {1, 2}, 0.4);
+  EXPECT_GT(resting.contact(), 1);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace dismantle {
 /// The nodes of a Bvh as a thread of a candidate sees them: what is in hand goes its way, all else stands.
 struct CandidateScene {
   BvhView tree;
-  Span<const BvhComponent> ranges;
   Span<const Kdop16> bounds;               ///< Of all nodes at the start [world].
   Span<const Vec3> assembled, vertices;    ///< S_v0, and S_v at the start [mm].
   Span<const Face> faces;                  ///< In leaf order.
@@ -27,32 +26,42 @@ struct CandidateContact {
   friend bool operator==(const CandidateContact&, const CandidateContact&) = default;
 };
 
-/// Extents along one axis that change linearly, and those that stand: when they begin and end to overlap.
+/// Extents along axes, some of which change linearly and some stand: when all overlap, and from when on they may be
+/// deeper in each other than is allowed.
 struct OverlapTimes {
   double begin = 0, end = 1;
+  double deep = 0;
 
   /// How much nearer extents are taken than they are, of all sizes that go into a distance: rounding is less than a
   /// thousandth of it.
   static constexpr double kRounding = 0x1p-40;
 
-  /// Narrows the times to those at which [a_lower, a_upper] + s way meets [b_lower, b_upper].
-  DISMANTLE_HOST_DEVICE void meet(double a_lower, double a_upper, double way, double b_lower, double b_upper) {
-    const double size = absolute(a_lower) + absolute(a_upper) + absolute(b_lower) + absolute(b_upper) + absolute(way);
+  /// Looks at an axis: [a_lower, a_upper] + s way against [b_lower, b_upper].
+  /// @param allowed depth along it
+  DISMANTLE_HOST_DEVICE void meet(const double (&a)[2], double way, const double (&b)[2], double allowed) {
+    const double size = absolute(a[0]) + absolute(a[1]) + absolute(b[0]) + absolute(b[1]) + absolute(way);
     const double slack = kRounding * size;
-    narrow(b_lower - a_upper - slack, way);
-    narrow(a_lower - b_upper - slack, -way);
+    narrow(b[0] - a[1] - slack, way, allowed);
+    narrow(a[0] - b[1] - slack, -way, allowed);
   }
+
+  /// From when on they may be too deep; after the motion where they never are.
+  DISMANTLE_HOST_DEVICE double contact() const { return begin <= end ? deep : kNever; }
+
+  static constexpr double kNever = 2;
 
  private:
   DISMANTLE_HOST_DEVICE static double absolute(double x) { return x < 0 ? -x : x; }
-  /// A gap that closes at speed `way`: it is closed from gap / way on, or until then.
-  DISMANTLE_HOST_DEVICE void narrow(double gap, double way) {
+  /// A gap that closes at speed `way`: it is closed from gap / way on, or until then. What goes through a thing without
+  /// thickness is never deep in it on both sides, but comes to be so on one: `deep` asks for the side that it came
+  /// from.
+  DISMANTLE_HOST_DEVICE void narrow(double gap, double way, double allowed) {
     if (way > 0) {
       if (gap > begin * way) begin = gap / way;
-    } else if (way < 0) {
-      if (gap > end * way) end = gap / way;
-    } else if (gap > 0) {
-      begin = 2;
+      if (gap + allowed > deep * way) deep = (gap + allowed) / way;
+    } else {
+      if (gap + allowed > 0) deep = kNever;
+      if (way < 0 && gap > end * way) end = gap / way;
     }
   }
 };
@@ -64,17 +73,23 @@ struct KdopProjections {
       : along{p.x, p.y, p.z, p.x + p.y, p.x + p.z, p.y + p.z, p.x - p.y, p.x - p.z} {}
 };
 
+/// An allowed depth [mm] in the measure of an axis: the diagonal ones are sqrt(2) long, and 1.4 is less.
+DISMANTLE_HOST_DEVICE inline double allowed_along(int axis, double allowed) {
+  return (axis < 3 ? 1 : 1.4) * kAllowanceRounding * allowed;
+}
+
 /// A way straight on, by `way` [mm], from the start.
 class StraightPiece {
  public:
   DISMANTLE_HOST_DEVICE StraightPiece(const CandidateScene&, Vec3 way) : way_(way), along_(way) {}
 
-  DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodeIndex moving, NodeIndex fixed) const {
-    const Kdop16& a = scene.bounds[moving];
-    const Kdop16& b = scene.bounds[fixed];
+  /// @param allowed depth of two triangles in these nodes [mm]
+  DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodePair p, double allowed) const {
+    const Kdop16& a = scene.bounds[p.a];
+    const Kdop16& b = scene.bounds[p.b];
     OverlapTimes times;
     for (int k = 0; k < Kdop16::kAxisCount; ++k)
-      times.meet(a.lower[k], a.upper[k], along_.along[k], b.lower[k], b.upper[k]);
+      times.meet({a.lower[k], a.upper[k]}, along_.along[k], {b.lower[k], b.upper[k]}, allowed_along(k, allowed));
     return times;
   }
   DISMANTLE_HOST_DEVICE TriangleMotion motion(const CandidateScene& scene, NodeIndex leaf) const {
@@ -99,14 +114,15 @@ class TurningPiece {
                                      const RigidTransform& end)
       : start_(start), end_(end), from_start_(start * inverse(scene.start)), from_end_(end * inverse(scene.start)) {}
 
-  DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodeIndex moving, NodeIndex fixed) const {
-    const Kdop16& b = scene.bounds[fixed];
-    const Turned at_start(from_start_, scene.bounds[moving]), at_end(from_end_, scene.bounds[moving]);
+  DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodePair p, double allowed) const {
+    const Kdop16& b = scene.bounds[p.b];
+    const Turned at_start(from_start_, scene.bounds[p.a]), at_end(from_end_, scene.bounds[p.a]);
     OverlapTimes times;
     for (int k = 0; k < Kdop16::kAxisCount; ++k) {
-      const double a0 = at_start.center.along[k] - at_start.reach(k), a1 = at_start.center.along[k] + at_start.reach(k);
-      const double e0 = at_end.center.along[k] - at_end.reach(k), e1 = at_end.center.along[k] + at_end.reach(k);
-      times.meet(a0 < e0 ? a0 : e0, a1 > e1 ? a1 : e1, 0, b.lower[k], b.upper[k]);
+      const double lower = at_start.lower(k), upper = at_start.upper(k);
+      const double lower_end = at_end.lower(k), upper_end = at_end.upper(k);
+      times.meet({lower < lower_end ? lower : lower_end, upper > upper_end ? upper : upper_end}, 0,
+                 {b.lower[k], b.upper[k]}, allowed_along(k, allowed));
     }
     return times;
   }
@@ -130,6 +146,8 @@ class TurningPiece {
           edge_x(by.rotation * Vec3{half(box, 0), 0, 0}),
           edge_y(by.rotation * Vec3{0, half(box, 1), 0}),
           edge_z(by.rotation * Vec3{0, 0, half(box, 2)}) {}
+    DISMANTLE_HOST_DEVICE double lower(int k) const { return center.along[k] - reach(k); }
+    DISMANTLE_HOST_DEVICE double upper(int k) const { return center.along[k] + reach(k); }
     DISMANTLE_HOST_DEVICE double reach(int k) const {
       return absolute(edge_x.along[k]) + absolute(edge_y.along[k]) + absolute(edge_z.along[k]);
     }
@@ -161,10 +179,12 @@ class CandidateSearch {
   DISMANTLE_HOST_DEVICE CandidateContact first() {
     const auto root = static_cast<NodeIndex>(scene_.bounds.size() - 1);
     for (const NodeIndex moving : scene_.moving_roots) {
-      open({moving, root}, begin_of({moving, root}));
+      open({moving, root}, contact_of({moving, root}));
       while (open_count_ > 0) {
         const Open next = open_[--open_count_];
-        if (next.begin <= found_.toi) expand(next.pair);
+        if (!worth(next.contact)) continue;
+        const bool leaves = scene_.tree.is_leaf(next.pair.a) && scene_.tree.is_leaf(next.pair.b);
+        leaves ? test(next.pair) : expand(next.pair);
       }
     }
     return found_;
@@ -173,56 +193,50 @@ class CandidateSearch {
  private:
   struct Open {
     NodePair pair;
-    double begin;
+    double contact;  ///< Not before this time.
   };
 
-  /// When the pair may first meet; after the end where it does not, or later than is worth knowing.
-  DISMANTLE_HOST_DEVICE double begin_of(NodePair p) const {
-    if (excluded(p)) return 2;
-    const OverlapTimes times = piece_.times(scene_, p.a, p.b);
-    return times.begin <= times.end && times.begin <= found_.toi ? times.begin : 2;
+  DISMANTLE_HOST_DEVICE bool worth(double contact) const {
+    return found_.key == CandidateContact::kFree ? contact <= 1 : contact < found_.toi;
   }
-  /// Puts the pair where it is looked at next; triangles are tested at once.
-  DISMANTLE_HOST_DEVICE void open(NodePair p, double begin) {
-    if (begin > found_.toi) return;
-    if (scene_.tree.is_leaf(p.a) && scene_.tree.is_leaf(p.b)) {
-      test(p);
-    } else {
-      open_[open_count_++] = {p, begin};
-    }
+  DISMANTLE_HOST_DEVICE void open(NodePair p, double contact) {
+    if (worth(contact)) open_[open_count_++] = {p, contact};
   }
 
   DISMANTLE_HOST_DEVICE void expand(NodePair p) {
     const NodePairChildren next = expanded(scene_.tree, scene_.bounds, p);  // two: no node meets itself
-    const double begin[2] = {begin_of(next.pair[0]), begin_of(next.pair[1])};
-    const int later = begin[0] < begin[1] ? 1 : 0;
-    open(next.pair[later], begin[later]);
-    open(next.pair[1 - later], begin[1 - later]);
+    const double contact[2] = {contact_of(next.pair[0]), contact_of(next.pair[1])};
+    const int later = contact[0] < contact[1] ? 1 : 0;
+    open(next.pair[later], contact[later]);
+    open(next.pair[1 - later], contact[1 - later]);
   }
 
-  /// True of what is in hand itself, and of pairs that are free all the way.
-  DISMANTLE_HOST_DEVICE bool excluded(NodePair p) const {
-    if (scene_.tree.is_top(p.b)) return false;
-    const std::uint32_t moving = scene_.tree.component_of[p.a], fixed = scene_.tree.component_of[p.b];
-    if (p.b != scene_.ranges[fixed].root) return false;
-    return scene_.motion_class[fixed] != 0 || rule(moving, fixed).test == PairTest::Discrete;
+  /// Before which time no two triangles of the nodes are in contact.
+  DISMANTLE_HOST_DEVICE double contact_of(NodePair p) const {
+    if (scene_.tree.is_top(p.b)) return piece_.times(scene_, p, 0).contact();
+    const std::uint32_t fixed = scene_.tree.component_of[p.b];
+    if (scene_.motion_class[fixed] != 0) return OverlapTimes::kNever;
+    const PairRule rule = rule_of(p);
+    if (rule.test == PairTest::Discrete) return OverlapTimes::kNever;
+    return piece_.times(scene_, p, allowed_of(rule)).contact();
   }
 
-  DISMANTLE_HOST_DEVICE PairRule rule(std::uint32_t a, std::uint32_t b) const {
+  /// @pre b is no top node
+  DISMANTLE_HOST_DEVICE PairRule rule_of(NodePair p) const {
+    const std::uint32_t a = scene_.tree.component_of[p.a], b = scene_.tree.component_of[p.b];
     return a < b ? scene_.rules.find(a, b) : scene_.rules.find(b, a);
+  }
+  DISMANTLE_HOST_DEVICE double allowed_of(const PairRule& rule) const {
+    return allowed_on_chords(rule.allowed_penetration, scene_.path_deviation, true, false);
   }
 
   DISMANTLE_HOST_DEVICE void test(NodePair p) {
-    const std::uint32_t moving = scene_.tree.component_of[p.a], fixed = scene_.tree.component_of[p.b];
-    const double allowed =
-        allowed_on_chords(rule(moving, fixed).allowed_penetration, scene_.path_deviation, true, false);
     TriangleMotion standing;
     for (int k = 0; k < 3; ++k) standing.t0[k] = standing.t1[k] = scene_.vertices[scene_.faces[p.b].v[k]];
     const double horizon = found_.toi;
-    const CcdResult ccd = ccd_triangle_triangle(part_of(piece_.motion(scene_, p.a), 0, horizon), standing, allowed);
-    if (ccd.status == CcdStatus::Free) return;
-    const CandidateContact contact{horizon * ccd.toi, pair_key(p.a, p.b)};
-    if (contact.toi < found_.toi || contact.key < found_.key) found_ = contact;
+    const CcdResult ccd =
+        ccd_triangle_triangle(part_of(piece_.motion(scene_, p.a), 0, horizon), standing, allowed_of(rule_of(p)));
+    if (ccd.status == CcdStatus::Contact) found_ = {horizon * ccd.toi, pair_key(p.a, p.b)};
   }
 
   const CandidateScene& scene_;

@@ -78,7 +78,6 @@ void ResidentBatch<Queue>::set_state(Span<const Pose> poses, Span<const Componen
 template <class Queue>
 CandidateScene ResidentBatch<Queue>::scene() const {
   return {geometry_.tree(),
-          geometry_.ranges.view(),
           bounds_.view(),
           geometry_.assembled.view(),
           vertices_.view(),
