@@ -38,6 +38,14 @@ test("nor with section, gizmo and the dark theme", async () => {
   await viewer.press("t");
 });
 
+test("nor with the planner's panel and what it says of a component", async () => {
+  await viewer.select("foot");
+  await viewer.press("l", "q");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.kind === "why");
+  assert.deepEqual(await faults(), []);
+  await viewer.press("l");
+});
+
 test("nor in the dialogs", async () => {
   await viewer.press("h");
   assert.deepEqual(await faults(), []);
@@ -61,6 +69,7 @@ test("every button is reached by Tab, and has a name", async () => {
     "gizmo",
     "section",
     "measure",
+    "plan",
     "fit",
     "theme",
     "help",
@@ -68,6 +77,8 @@ test("every button is reached by Tab, and has a name", async () => {
     "view",
     "take-out",
     "isolate",
+    "find-path",
+    "why",
     "numeric-0",
   ])
     assert.ok(reached.has(id), id);
