@@ -11,7 +11,7 @@
 #include "bench/motion_scenes.h"
 #include "dismantle/collision/certificate_engine.h"
 #ifdef DISMANTLE_WITH_FCL
-#include "bench/discrete_fcl.h"
+#include "bench/fcl_baseline.h"
 #endif
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include "tests/support/random_scenes.h"
 #include "tests/support/tunnelling_scenes.h"
 #ifdef DISMANTLE_WITH_FCL
-#include "bench/continuous_fcl.h"
+#include "bench/fcl_baseline.h"
 #endif
 
 #include <cmath>
