@@ -50,9 +50,9 @@ export class Drag {
     return control && state?.playback == null;
   }
 
-  /// The server has given a grip.
+  /// The server has given a grip, and was not yet asked to take it back.
   get held(): boolean {
-    return this.grip !== null;
+    return this.grip !== null && !this.ending;
   }
 
   /// The last target is neither reached nor blocked yet.
@@ -128,10 +128,11 @@ export class Drag {
     )
       await new Promise((resolve) => setTimeout(resolve, 4));
     if (!this.motion) return;
-    await this.session.ask("release", {});
     const { store } = this.session;
     const blocking = [...store.blocking];
-    store.stuck = this.stuckAsked && blocking.length > 0 ? { components: this.components, blocking } : null;
+    const stuck = this.stuckAsked && blocking.length > 0 ? { components: this.components, blocking } : null;
+    await this.session.ask("release", {});
+    store.stuck = stuck;
     this.clear();
   }
 

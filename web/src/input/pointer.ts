@@ -8,7 +8,6 @@ import type { DragMode, PointerStep } from "./drag_motion.ts";
 
 const kClickReach = 4;
 const kZoomStep = 0.0012;
-const kDoubleClick = 350;
 
 type Gesture =
   | { kind: "orbit"; pivot: Vector3 }
@@ -31,7 +30,6 @@ export class PointerInput {
   private last = { x: 0, y: 0 };
   private readonly touches = new Map<number, { x: number; y: number }>();
   private hoverAt: { x: number; y: number } | null = null;
-  private lastClick = { time: -1e9, x: 0, y: 0 };
 
   constructor(
     private readonly session: Session,
@@ -45,6 +43,7 @@ export class PointerInput {
     canvas.addEventListener("pointercancel", (event) => this.release(event));
     canvas.addEventListener("pointerleave", () => this.leave());
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("dblclick", (event) => this.focus(event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     session.viewport.beforePicture.push(() => this.showHover());
   }
@@ -158,23 +157,22 @@ export class PointerInput {
   private click(gesture: Gesture): void {
     if (gesture.kind === "arrow") return this.takeOutAlong(gesture.arrow);
     const pick = gesture.kind === "press" ? gesture.pick : null;
-    const now = performance.now();
-    const again =
-      now - this.lastClick.time < kDoubleClick &&
-      Math.hypot(this.down.x - this.lastClick.x, this.down.y - this.lastClick.y) < kClickReach;
-    this.lastClick = { time: again ? -1e9 : now, ...this.down };
     if (this.onClick(pick)) return;
-    if (again) {
-      const { viewport } = this.session;
-      const box = pick ? viewport.model!.components[pick.component].bounds() : viewport.model?.bounds();
-      if (box) viewport.rig.fit(box);
-      return;
-    }
     if (!pick) return this.session.select([]);
     const { selection } = this.session.store;
     if (gesture.kind !== "press" || !gesture.adds) return this.session.select([pick.component]);
     const has = selection.includes(pick.component);
     this.session.select(has ? selection.filter((c) => c !== pick.component) : [...selection, pick.component]);
+  }
+
+  /// Looks closely at what was clicked twice, or at everything.
+  private focus(event: MouseEvent): void {
+    const { viewport, store } = this.session;
+    const at = this.place(event);
+    if (this.moved || store.measuring || !viewport.model) return;
+    if (viewport.pickCube(at.x, at.y) || this.isOnHandle(at)) return;
+    const pick = viewport.pick(at.x, at.y);
+    viewport.rig.fit(pick ? viewport.model.components[pick.component].bounds() : viewport.model.bounds());
   }
 
   private wheel(event: WheelEvent): void {
@@ -232,6 +230,12 @@ export class PointerInput {
     if (!this.gesture) this.session.hover(null);
   }
 
+  /// Of the gizmo, or an arrow of a free direction.
+  private isOnHandle({ x, y }: { x: number; y: number }): boolean {
+    const { rig, directions } = this.session.viewport;
+    return directions.pick(rig, x, y) >= 0 || this.gizmo.pick(rig, x, y) !== null;
+  }
+
   private showHover(): boolean {
     const { viewport } = this.session;
     const at = this.hoverAt;
@@ -239,8 +243,7 @@ export class PointerInput {
     if (!at || this.gesture) return false;
     const view = viewport.pickCube(at.x, at.y);
     viewport.cube.hover(view);
-    const onArrow = viewport.directions.pick(viewport.rig, at.x, at.y) >= 0;
-    const onHandle = onArrow || this.gizmo.pick(viewport.rig, at.x, at.y) !== null;
+    const onHandle = this.isOnHandle(at);
     this.session.hover(view || onHandle ? null : (viewport.pick(at.x, at.y)?.component ?? null));
     viewport.canvas.classList.toggle("pointing", view !== null || onHandle);
     return false;

@@ -24,6 +24,8 @@ export class OpenDialog {
   });
   private dismissed = false;
   private waiting = false;
+  /// Shown of itself, because there was no assembly.
+  private greets = false;
 
   constructor(private readonly session: Session) {
     this.picker.onchange = () => {
@@ -65,6 +67,7 @@ export class OpenDialog {
   }
 
   open(): void {
+    this.greets = false;
     if (!this.node.open) this.node.showModal();
     void this.refresh();
   }
@@ -78,12 +81,14 @@ export class OpenDialog {
   private update(): void {
     const { model, link, jobs } = this.session.store;
     const idle = () => link === "open" && !this.session.store.model && jobs.size === 0 && !this.dismissed;
-    if (jobs.size > 0 && this.node.open) this.node.close();
+    if (this.node.open && (jobs.size > 0 || (model && this.greets))) this.node.close();
     if (model || !idle() || this.node.open || this.waiting) return;
     this.waiting = true;
     setTimeout(() => {
       this.waiting = false;
-      if (idle()) this.open();
+      if (!idle()) return;
+      this.open();
+      this.greets = true;
     }, kGreeting);
   }
 

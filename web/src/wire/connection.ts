@@ -19,7 +19,7 @@ const kLongestRetry = 2000;
 export interface Wire {
   onFrame: Listener<PoseFrame>;
   onLink: Listener<Link>;
-  /// Whether every command has its answer.
+  /// Whether every command and request has its answer.
   readonly settled: boolean;
   connect(): void;
   /// Drops the connection; it comes back as after any loss.
@@ -29,7 +29,7 @@ export interface Wire {
   command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]>;
   /// Sends a struct, or drops it where the connection is lost or behind: the next one is newer.
   sendStruct(bytes: ArrayBuffer): void;
-  /// Asks one of the doors under /api/.
+  /// Asks one of the doors under /api/. The answer is there as a whole.
   request(address: string, options?: { method?: string; body?: Blob }): Promise<globalThis.Response>;
 }
 
@@ -44,6 +44,7 @@ export class Connection implements Wire {
   private readonly token: string;
   private readonly client: string;
   private readonly waiting = new Map<number, Waiting>();
+  private requests = 0;
   private readonly listeners: { [Name in keyof Events]?: Listener<Events[Name]>[] } = {};
 
   constructor() {
@@ -74,6 +75,7 @@ export class Connection implements Wire {
 
   reconnect(): void {
     this.socket?.close();
+    this.setLink("lost");
   }
 
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void {
@@ -98,14 +100,19 @@ export class Connection implements Wire {
 
   async request(address: string, options: { method?: string; body?: Blob } = {}): Promise<globalThis.Response> {
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": this.client };
-    const answer = await fetch(address, { ...options, headers });
-    if (answer.ok) return answer;
-    const body = (await answer.json().catch(() => ({}))) as { error?: string };
-    throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
+    ++this.requests;
+    try {
+      const answer = await fetch(address, { ...options, headers });
+      if (answer.ok) return new Response(await answer.arrayBuffer(), { headers: answer.headers });
+      const body = (await answer.json().catch(() => ({}))) as { error?: string };
+      throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
+    } finally {
+      --this.requests;
+    }
   }
 
   get settled(): boolean {
-    return this.waiting.size === 0;
+    return this.waiting.size === 0 && this.requests === 0;
   }
 
   private setLink(link: Link): void {
