@@ -72,7 +72,20 @@ test("why it stays: the blocker is named, highlighted, and an arrow points at it
   assert.equal(await arrows(), 0);
 });
 
+test("what goes by itself is stopped where it is", async () => {
+  await viewer.select("pinion shaft");
+  await viewer.page.keyboard.press("n");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic !== null);
+  await viewer.page.keyboard.press("Escape");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
+  await viewer.idle();
+  const { components } = await viewer.state();
+  assert.equal(components[await viewer.index("pinion shaft")].removed, undefined);
+  assert.ok(components.some(({ pose }) => pose));
+});
+
 test("find a path takes it out, and first what is in its way; each is one entry of undo", async () => {
+  await viewer.click("#reset");
   await viewer.select("pinion shaft");
   await viewer.press("n");
   const shaft = await viewer.index("pinion shaft");

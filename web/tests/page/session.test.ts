@@ -62,16 +62,17 @@ test("a page that is loaded again shows the same session", async () => {
 test("a second page watches: it sees what the first moves, may move nothing, and can take control", async () => {
   const watcher = await Viewer.open(server);
   assert.equal(await watcher.page.locator("[data-banner=watching]").count(), 1);
-  assert.match((await viewer.page.locator("#status").textContent()) ?? "", /2 in this session/);
+  await viewer.page.locator("#status", { hasText: "2 in this session" }).waitFor();
   await viewer.grab(kSlide, 25, 0);
   await viewer.letGo();
-  await watcher.idle();
+  await watcher.catchUpWith(viewer);
   assert.deepEqual(await watcher.drawnShift(kSlide), await viewer.shift(kSlide));
 
   const before = (await viewer.state()).moves.length;
   await watcher.press("1");
   await watcher.grab(kSlide, 30, 0);
   await watcher.letGo();
+  await viewer.catchUpWith(watcher);
   assert.equal((await viewer.state()).moves.length, before);
 
   await watcher.click("[data-banner=watching] button");

@@ -6,6 +6,8 @@ import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
+/// How long the hand rests in a drag [ms]: its playback takes its time, however few pictures the drag had.
+const kRest = 4000;
 const playback = async () => (await viewer.state()).playback;
 
 /// Until the playback stands still.
@@ -20,7 +22,10 @@ test("without a recording there is nothing to play", async () => {
 });
 
 test("two drags are two blocks on the line of time", async () => {
+  const { x, y } = await viewer.placeOf(kSlide);
   await viewer.grab(kSlide, 40, 0);
+  await viewer.page.waitForTimeout(kRest);
+  await viewer.page.mouse.move(x + 44, y);
   await viewer.letGo();
   await viewer.grab("foot", 0, 25);
   await viewer.letGo();
@@ -44,12 +49,16 @@ test("played backward it ends in the assembled state, to the bit", async () => {
 
 test("a playback is paused, and goes on faster", async () => {
   await viewer.page.selectOption("#speed", "0.25");
-  await viewer.page.click("#play-reverse");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.frame?.playback);
+  await viewer.page.click("#play");
+  await viewer.page.waitForFunction(() => {
+    const { frame } = window.dismantle!.app.session.store;
+    return frame?.playback && frame.time > 0;
+  });
   await viewer.click("#play-pause");
   const { time, playing, duration } = (await playback())!;
   assert.ok(!playing && time > 0 && time < duration, `${time}`);
   await viewer.page.keyboard.press("p");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback!.playing);
   await viewer.page.selectOption("#speed", "4");
   await stands();
   assert.equal((await playback())!.speed, 4);

@@ -122,18 +122,6 @@ test("free directions are arrows; one that is clicked takes the component out al
   assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), false);
 });
 
-test("what goes by itself is stopped where it is", async () => {
-  await viewer.select("foot");
-  await viewer.page.click("#take-out");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.frame?.automatic);
-  await viewer.page.keyboard.press("Escape");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
-  await viewer.idle();
-  const state = await viewer.state();
-  assert.equal(state.components[await viewer.index("foot")].removed, undefined);
-  assert.ok(Math.hypot(...(await viewer.shift("foot"))) > 0);
-});
-
 test("put back brings it home", async () => {
   await viewer.select(kSlide);
   await viewer.click("#put-back");

@@ -22,6 +22,7 @@ test("a click in the picture selects in the tree, a click in the tree in the pic
   assert.deepEqual(await viewer.selection(), ["head"]);
   assert.equal(await row("head").getAttribute("aria-selected"), "true");
   await row("base").click();
+  await viewer.idle();
   assert.deepEqual(await viewer.selection(), ["base"]);
   assert.equal(await viewer.page.locator("#selection-name").innerText(), "base");
 });

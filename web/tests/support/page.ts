@@ -9,7 +9,8 @@ import { chromium, pageFolder, program } from "./tree.ts";
 
 /// Drawn by Mesa on the processor: twice as fast as what the browser itself has for machines without a GPU.
 const kChromiumFlags = ["--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
-const kPatience = 30_000;
+/// The longest that anything is waited for [ms]: on a machine that does much else.
+const kPatience = 90_000;
 
 /// A running server with an assembly, as a user starts it.
 export class Server {
@@ -74,6 +75,14 @@ export async function closeBrowser(): Promise<void> {
   browser = null;
 }
 
+/// As on a machine so many times as slow, where DISMANTLE_SLOWDOWN says so.
+async function slowDown(page: Page): Promise<void> {
+  const rate = Number(process.env.DISMANTLE_SLOWDOWN ?? 1);
+  if (rate === 1) return;
+  const browserSession = await page.context().newCDPSession(page);
+  await browserSession.send("Emulation.setCPUThrottlingRate", { rate });
+}
+
 export interface OpenOptions {
   /// Until the model is there and drawn; true where it is not given.
   waits?: boolean;
@@ -95,9 +104,10 @@ export class Viewer {
   }
 
   static async visit(url: string, before?: OpenOptions["before"], size = { width: 800, height: 500 }): Promise<Viewer> {
-    browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags });
+    browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags, timeout: kPatience });
     const page = await browser.newPage({ viewport: size });
     page.setDefaultTimeout(kPatience);
+    await slowDown(page);
     await before?.(page);
     const viewer = new Viewer(page);
     await page.goto(url);
@@ -123,6 +133,13 @@ export class Viewer {
 
   idle(): Promise<void> {
     return this.page.evaluate(() => window.dismantle!.idle());
+  }
+
+  /// Until what another page of the session knows is known and drawn here.
+  async catchUpWith(other: Viewer): Promise<void> {
+    const { number } = await other.state();
+    await this.page.waitForFunction((n) => window.dismantle!.app.session.store.state!.number >= n, number);
+    await this.idle();
   }
 
   state(): Promise<StateEvent> {
