@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Viewer } from "../support/page.ts";
 import { kSlide, server, useMicroscope, viewer } from "../support/scene.ts";
+import { slowLine } from "../support/slow_line.ts";
 
 useMicroscope({ view: "1" });
 
@@ -82,6 +83,27 @@ test("a second page watches: it sees what the first moves, may move nothing, and
   await watcher.letGo();
   assert.equal((await watcher.state()).moves.length, before + 1);
   await watcher.close();
+});
+
+test("where the model comes late the start page shows itself, and goes when it is there", async () => {
+  const far = await Viewer.open(server, { waits: false, before: (page) => slowLine(page, /"event":"model"/, 1000) });
+  await far.page.locator("#open-dialog").waitFor();
+  await far.model();
+  assert.equal(await far.page.isVisible("#open-dialog"), false);
+  await far.close();
+});
+
+test("where answers come late it is still said what kept a component that was let go of", async () => {
+  const far = await Viewer.open(server, { before: (page) => slowLine(page, /"reply":/, 300) });
+  await far.page.locator("[data-banner=watching] button").click();
+  await far.page.locator("[data-banner=watching]").waitFor({ state: "detached" });
+  await far.press("1");
+  await far.grab(kSlide, 0, 60);
+  await far.page.locator("[data-banner=stuck]", { hasText: /free:/ }).waitFor();
+  await far.letGo();
+  await far.page.locator("[data-banner=was-stuck]", { hasText: /blocked by stage plate/ }).waitFor();
+  assert.deepEqual(far.problems, []);
+  await far.close();
 });
 
 test("without the token nothing is shown, and the page says that it has no connection", async () => {
