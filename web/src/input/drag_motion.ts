@@ -23,6 +23,9 @@ export interface PointerStep {
   pixel: number;
 }
 
+/// A turn about an axis follows the pointer around it from so far [px], and where the axis goes so much along the line of sight.
+const kLeastArm = 8;
+const kLeastFacing = 0.3;
 const kTurnSpeed = 0.01;
 const kAxes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
 
@@ -98,15 +101,26 @@ export class DragMotion {
     );
   }
 
-  private turnBy({ dx, dy, right, up }: PointerStep, axis: 0 | 1 | 2 | null): void {
+  private turnBy(step: PointerStep, axis: 0 | 1 | 2 | null): void {
+    const { dx, dy, right, up } = step;
     const turn = new Quaternion();
     if (axis === null) {
       turn.setFromAxisAngle(up, dx * kTurnSpeed);
       turn.premultiply(new Quaternion().setFromAxisAngle(right, dy * kTurnSpeed));
     } else {
-      turn.setFromAxisAngle(kAxes[axis], (dx - dy) * kTurnSpeed);
+      turn.setFromAxisAngle(kAxes[axis], this.angleAbout(kAxes[axis], step) ?? (dx - dy) * kTurnSpeed);
     }
     this.turn.premultiply(turn).normalize();
+  }
+
+  /// How far the pointer has gone about an axis through the centre; null where that cannot be told: too near to it, or the
+  /// axis lies across the line of sight.
+  private angleAbout(axis: Vector3, { before, after, pixel }: PointerStep): number | null {
+    if (Math.abs(before.direction.dot(axis)) < kLeastFacing) return null;
+    const center = this.center.clone().add(this.offset);
+    const [a, b] = [before, after].map((ray) => meetPlane(ray, center, axis)?.sub(center));
+    if (!a || !b || Math.min(a.length(), b.length()) < kLeastArm * pixel) return null;
+    return Math.atan2(axis.dot(a.clone().cross(b)), a.dot(b));
   }
 }
 

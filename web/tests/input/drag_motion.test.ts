@@ -62,6 +62,17 @@ test("turning keeps the centre where it is", () => {
   assert.ok(moved.distanceTo(center) < 1e-9);
 });
 
+test("about an axis that one looks along, the turn follows the pointer around it", () => {
+  const center = new Vector3(7, 8, 9);
+  const motion = new DragMotion(kAssembled, center, center);
+  const ray = (x: number, z: number) => new Ray(new Vector3(7 + x, -100, 9 + z), new Vector3(0, 1, 0));
+  const around = (before: Ray, after: Ray) => motion.move({ ...step(0, 0), before, after }, { kind: "turn", axis: 1 });
+  around(ray(20, 0), ray(0, 20));
+  assert.ok(new Vector3(1, 0, 0).applyQuaternion(motion.turn).distanceTo(new Vector3(0, 0, 1)) < 1e-9);
+  around(ray(0, 20), ray(20, 0));
+  assert.ok(Math.abs(motion.turn.w) > 1 - 1e-9);
+});
+
 test("the way there does not matter: pieces of a motion add up", () => {
   const motion = new DragMotion(kAssembled, new Vector3(), new Vector3());
   for (let i = 0; i < 10; ++i) motion.move(step(4, -2), { kind: "plane", axis: null });

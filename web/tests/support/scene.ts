@@ -37,12 +37,22 @@ export function useViewer(arguments_: string[], { prepare, ...options }: SceneOp
 
 /// What is recorded in a page's session must pass the audit.
 export async function audit(page = viewer, at = server): Promise<void> {
-  const text = await page.recording();
+  auditPath(await page.recording(), at);
+}
+
+/// A path of the assembly that a server has open must pass the audit.
+export function auditPath(text: string, at = server): void {
   const { assembly, moves } = JSON.parse(text) as { assembly: { file: string }; moves: object[] };
   if (moves.length === 0) return;
   const path = join(at.home, "audited.path.json");
   writeFileSync(path, text);
   execFileSync(program(), ["audit", at.fileOf(assembly.file), path]);
+}
+
+/// Everything as it was at first; what was recorded by then must pass the audit.
+export async function reset(): Promise<void> {
+  await audit();
+  await viewer.click("#reset");
 }
 
 export const useMicroscope = (options: SceneOptions = {}): void => useViewer(["--sample", "microscope"], options);
