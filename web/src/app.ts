@@ -201,6 +201,8 @@ export class App {
       theme: () => this.theme.toggle(),
       help: () => this.help.showModal(),
       play: () => this.timeline.toggle(),
+      nextStep: () => this.timeline.step(1),
+      previousStep: () => this.timeline.step(-1),
       directions: () => void this.inspector.find(),
       takeOut: withSelection("take_out"),
       putBack: withSelection("put_back"),

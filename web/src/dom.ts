@@ -44,6 +44,8 @@ const kIcons = {
   pause: "M5 3v10M11 3v10",
   start: "M3 3v10M13 3 6 8l7 5z",
   end: "M13 3v10M3 3l7 5-7 5z",
+  stepBack: "M7 4 3 8l4 4M12 4 8 8l4 4",
+  stepOn: "M4 4l4 4-4 4M9 4l4 4-4 4",
   close: "M4 4l8 8M12 4l-8 8",
   out: "M8 10V2M5 5l3-3 3 3M3 9v5h10V9",
   back: "M8 2v8M5 7l3 3 3-3M3 9v5h10V9",

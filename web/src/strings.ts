@@ -159,6 +159,8 @@ const kEnglish = {
   "timeline.empty": "Every motion you make is recorded here.",
   "timeline.start": "To the start",
   "timeline.end": "To the end",
+  "timeline.before": "One move back",
+  "timeline.next": "One move on",
   "timeline.play": "Play",
   "timeline.reverse": "Play backward",
   "timeline.pause": "Pause",
@@ -259,6 +261,7 @@ export const kHelp: Help = [
     "Everything else",
     [
       ["P", "Play the recording, or pause"],
+      [". ,", "One move on in it, one back"],
       ["S", "Section"],
       ["M", "Measure"],
       ["L", "Plan: the order in which everything comes apart"],

@@ -7,6 +7,8 @@ import type { Move, Source } from "../wire/messages.ts";
 
 const kSpeeds = [0.25, 0.5, 1, 2, 4];
 const kTicks = 1000;
+/// Times nearer to each other are the same [s].
+const kSame = 1e-6;
 
 /// The recorded moves as blocks on a line of time, with a scrubber, and the buttons that play them.
 export class TimelinePanel {
@@ -28,7 +30,7 @@ export class TimelinePanel {
   private readonly clock = element("output", { class: "clock", for: "scrub" });
   private readonly empty = element("p", { class: "muted" }, text("timeline.empty"));
   private readonly buttons: Record<
-    "start" | "reverse" | "pause" | "play" | "end" | "stop" | "follow",
+    "start" | "before" | "reverse" | "pause" | "play" | "next" | "end" | "stop" | "follow",
     HTMLButtonElement
   >;
   private shownMoves: Move[] | null = null;
@@ -39,6 +41,12 @@ export class TimelinePanel {
     this.seeker = new Seeker(session);
     this.buttons = {
       start: button({ icon: "start", label: text("timeline.start"), id: "play-start", press: () => this.seek(0) }),
+      before: button({
+        icon: "stepBack",
+        label: text("timeline.before"),
+        id: "play-before",
+        press: () => this.step(-1),
+      }),
       reverse: button({
         icon: "playBack",
         label: text("timeline.reverse"),
@@ -52,6 +60,7 @@ export class TimelinePanel {
         press: () => void session.ask("pause", {}),
       }),
       play: button({ icon: "play", label: text("timeline.play"), key: "P", id: "play", press: () => this.play(1) }),
+      next: button({ icon: "stepOn", label: text("timeline.next"), id: "play-next", press: () => this.step(1) }),
       end: button({
         icon: "end",
         label: text("timeline.end"),
@@ -79,11 +88,11 @@ export class TimelinePanel {
       this.scrubbing = false;
     };
     this.speed.onchange = () => this.changeSpeed();
-    const { start, reverse, pause, play, end, stop, follow } = this.buttons;
+    const { start, before, reverse, pause, play, next, end, stop, follow } = this.buttons;
     this.node = element(
       "section",
       { id: "timeline", "aria-label": text("timeline") },
-      element("div", { class: "transport" }, start, reverse, pause, play, end, this.speed),
+      element("div", { class: "transport" }, start, before, reverse, pause, play, next, end, this.speed),
       element("div", { class: "track" }, this.blocks, this.scrub, this.empty),
       this.clock,
       follow,
@@ -96,6 +105,14 @@ export class TimelinePanel {
   toggle(): void {
     if (this.session.store.state?.playback?.playing) void this.session.ask("pause", {});
     else this.play(1);
+  }
+
+  /// To where the present move ends (1), or to where it began (-1).
+  step(by: 1 | -1): void {
+    const time = this.time();
+    const ends = [0, ...this.moves().map(({ start, duration }) => start + duration)];
+    const there = by > 0 ? ends.find((end) => end > time + kSame) : ends.filter((end) => end < time - kSame).at(-1);
+    if (there !== undefined) this.seek(there);
   }
 
   private source(): Source {
@@ -150,7 +167,8 @@ export class TimelinePanel {
     if (moves !== this.shownMoves) this.showMoves(moves);
     const [duration, playback] = [this.duration(), state?.playback];
     const unavailable = duration === 0 || !control || state?.hand != null || state?.automatic != null;
-    for (const name of ["start", "reverse", "play", "end"] as const) this.buttons[name].disabled = unavailable;
+    for (const name of ["start", "before", "reverse", "play", "next", "end"] as const)
+      this.buttons[name].disabled = unavailable;
     this.buttons.pause.disabled = !playback?.playing;
     this.buttons.stop.hidden = !playback;
     this.buttons.follow.hidden = playback != null;

@@ -76,6 +76,22 @@ test("the scrubber goes to any time", async () => {
   assert.ok(Math.abs(time - duration) < 1e-6);
 });
 
+test("buttons and keys go from move to move", async () => {
+  const [first, second] = (await viewer.state()).moves;
+  const time = async () => (await playback())!.time;
+  await viewer.click("#play-before");
+  assert.ok(Math.abs((await time()) - second.start) < 1e-6, `${await time()}`);
+  assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
+  assert.ok((await viewer.drawnShift(kSlide))[0] > 5);
+  await viewer.press(",");
+  assert.equal(await time(), first.start);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
+  await viewer.press(".");
+  assert.ok(Math.abs((await time()) - second.start) < 1e-6, `${await time()}`);
+  await viewer.click("#play-next");
+  assert.ok(Math.abs((await time()) - second.start - second.duration) < 1e-6, `${await time()}`);
+});
+
 test("back to work: everything is where it was, and can be moved again", async () => {
   const there = (await viewer.drawnShift(kSlide))[0];
   await viewer.page.fill("#scrub", "300");
