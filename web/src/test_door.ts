@@ -26,6 +26,8 @@ export interface TestDoor<Page extends Tested = App> {
   /// What is in front at a place on screen.
   at(x: number, y: number): string | null;
   readonly app: Page;
+  /// When the first model was drawn, from the page's beginning [ms]; null: not yet.
+  readonly modelDrawn: number | null;
 }
 
 const kGrid = 60;
@@ -40,8 +42,18 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
     const pick = app.viewport.pick(x, y);
     return pick && app.session.nameOf(pick.component);
   };
+  let modelDrawn: number | null = null;
+  const watch = () => {
+    if (!app.viewport.model) return;
+    modelDrawn = performance.now();
+    app.viewport.afterPicture.delete(watch);
+  };
+  app.viewport.afterPicture.add(watch);
   return {
     app,
+    get modelDrawn() {
+      return modelDrawn;
+    },
     idle: () => waitUntilIdle(app),
     drawnMatrix: (name) => view(name)?.worldFromAssembled.toArray() ?? [],
     drawn: (name) => view(name)?.visible ?? false,

@@ -16,7 +16,7 @@ export class StatusLine {
     rate: element("span"),
     picture: element("span", { id: "status-picture" }),
     device: element("span", { id: "status-device" }),
-    tolerance: element("span"),
+    tolerance: element("span", { id: "status-tolerance" }),
     triangles: element("span"),
     clients: element("span"),
     link: element("span", { class: "link", id: "status-link" }),

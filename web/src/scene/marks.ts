@@ -95,7 +95,8 @@ export function distanceToSegment(place: Vector2, a: Vector3, b: Vector3): numbe
 export class Ghost {
   readonly object = new Group();
   private readonly material: ShaderMaterial;
-  private readonly band: LineSegments2;
+  /// From the grabbed point to where the hand wants it.
+  readonly band: LineSegments2;
   private bodies: { body: Group; component: ComponentView }[] = [];
 
   constructor(color: string) {

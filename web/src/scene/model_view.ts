@@ -83,7 +83,8 @@ class SurfaceView {
 export class ComponentView {
   readonly object = new Group();
   readonly worldFromAssembled = new Matrix4();
-  private look: Look = kPlain;
+  /// How it stands out: see setLook.
+  look: Readonly<Look> = kPlain;
   private readonly body: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly edges: LineSegments<BufferGeometry, ShaderMaterial>;
   private outline: LineSegments2 | null = null;

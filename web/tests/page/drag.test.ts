@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
-import { audit, kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
 
 //   The stage from the front, z up: the slide lies on the stage, two clips hold it down, and it is free to the sides.
 //
@@ -11,8 +11,7 @@ import { audit, kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1", prepare: () => viewer.zoomTo(kSlide, 0.45) });
 afterEach(async () => {
-  await audit();
-  if ((await viewer.state()).moves.length > 0) await viewer.click("#reset");
+  if ((await viewer.state()).moves.length > 0) await reset();
 });
 
 const blocking = () => viewer.page.locator("#tree-panel .badge.blocks").count();
@@ -22,20 +21,29 @@ const drag = () =>
     const { viewport, session } = app;
     return {
       ghost: viewport.ghost.object.visible,
+      band: viewport.ghost.band.visible,
       contacts: viewport.contacts.object.count,
       blocking: [...session.store.blocking].map((c) => session.nameOf(c)),
     };
   });
 
+/// Where the hand wants the grabbed point.
+const wanted = () => viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
+
 test("a component pressed into a wall stops there: contacts are drawn and the wall is named", async () => {
   await viewer.grab(kSlide, 0, 60);
   const seen = await drag();
-  assert.equal(seen.ghost, true);
+  assert.deepEqual([seen.ghost, seen.band], [true, true]);
   assert.ok(seen.contacts > 0);
   assert.ok(seen.blocking.includes("stage plate"), String(seen.blocking));
   assert.ok((await blocking()) > 0);
   assert.match(await viewer.page.locator("#touches").innerText(), /stage plate/);
-  assert.match(await viewer.page.locator("#status-clearance").innerText(), /contact/);
+  const status = (part: string, words: RegExp) =>
+    viewer.page.locator(`#status-${part}`, { hasText: words }).waitFor({ state: "attached" });
+  await status("clearance", /contact/);
+  await status("step", /\d (µs|ms)/);
+  await status("device", /CPU|CUDA/);
+  await status("tolerance", /\d (µm|mm)/);
   const frame = await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!);
   assert.ok(Math.abs(frame.position[2]) < 0.1, `${frame.position}`);
   await viewer.letGo();
@@ -124,10 +132,19 @@ test("Z keeps a drag to the axis, Alt turns, Shift goes deeper", async () => {
   await viewer.letGo();
   const [x, y, z] = await viewer.shift(kSlide);
   assert.ok(x > 5 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
-  await viewer.click("#reset");
+  await reset();
 
   await viewer.page.keyboard.down("Shift");
-  await viewer.grab(kSlide, 0, -30);
+  const { x: right, y: down } = await viewer.placeOf(kSlide);
+  await viewer.page.mouse.move(right, down);
+  await viewer.page.mouse.down();
+  await viewer.page.mouse.move(right, down - 5);
+  const near = await wanted();
+  await viewer.page.mouse.move(right, down - 30);
+  const deep = await wanted();
+  assert.ok(deep[1] - near[1] > 5, `${near} ${deep}`);
+  assert.ok(Math.abs(deep[0] - near[0]) < 0.1 * (deep[1] - near[1]), `${near} ${deep}`);
+  await viewer.idle();
   await viewer.page.keyboard.up("Shift");
   assert.match(await viewer.page.locator("#status .hint").innerText(), /depth/);
   await viewer.press("Escape");
@@ -138,8 +155,7 @@ test("Alt turns what is held", async () => {
   await viewer.page.keyboard.down("Alt");
   await viewer.grab(kSlide, 0, -40);
   assert.match(await viewer.page.locator("#status .hint").innerText(), /turning/);
-  const wanted = await viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
-  assert.ok(wanted.every(Number.isFinite));
+  assert.ok((await wanted()).every(Number.isFinite));
   await viewer.page.keyboard.up("Alt");
   await viewer.letGo();
   const pose = (await viewer.state()).components[await viewer.index(kSlide)].pose!;
@@ -188,6 +204,11 @@ test("a move by numbers goes as far as the engine lets it", async () => {
   await viewer.click("#numeric-apply");
   const [x, y, z] = await viewer.shift(kSlide);
   assert.ok(Math.abs(x - 12.5) < 0.05 && Math.abs(y) < 0.1 && Math.abs(z) < 0.1, `${[x, y, z]}`);
+  await viewer.page.fill("#numeric-0", "0");
+  await viewer.page.fill("#numeric-5", "3");
+  await viewer.click("#numeric-apply");
+  const [, , , , , , turn] = (await viewer.state()).components[await viewer.index(kSlide)].pose!;
+  assert.ok(Math.abs(turn - Math.sin((1.5 * Math.PI) / 180)) < 1e-3, `${turn}`);
 });
 
 test("the page had no errors", () => {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
 const step = () => viewer.page.locator("#guide-step").innerText();
+/// The components that are drawn as what comes next.
+const glowing = () =>
+  viewer.page.evaluate(() =>
+    window.dismantle!.app.viewport.model!.components.filter(({ look }) => look.next).map(({ raw }) => raw.name),
+  );
 const score = () => viewer.page.locator("#guide-score").innerText();
 test("the recording becomes a guide: everything is assembled again, and the first step is named", async () => {
   await viewer.grab(kSlide, 60, 0);
@@ -18,6 +23,7 @@ test("the recording becomes a guide: everything is assembled again, and the firs
   await viewer.idle();
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.match(await step(), /Step 1 of 2: take specimen slide/);
+  assert.deepEqual(await glowing(), [kSlide]);
 });
 
 test("the ghost shows the way and goes", async () => {
@@ -33,13 +39,14 @@ test("a step that is done leads to the next, the last one to the end", async () 
   await viewer.grab(kSlide, 60, 0);
   await viewer.letGo();
   assert.match(await step(), /Step 2 of 2: take foot/);
+  assert.deepEqual(await glowing(), ["foot"]);
   await viewer.grab("foot", 0, 25);
   await viewer.letGo();
   assert.match(await step(), /Done/);
 });
 
 test("practice counts what is taken out of turn, contacts and hints", async () => {
-  await viewer.click("#reset");
+  await reset();
   await viewer.page.check("#guide-practice");
   await viewer.idle();
   assert.match(await step(), /Step 1 of 2: what comes next/);
@@ -56,7 +63,7 @@ test("practice counts what is taken out of turn, contacts and hints", async () =
 });
 
 test("the guide plays by itself", async () => {
-  await viewer.click("#reset");
+  await reset();
   await viewer.page.click("#guide-play");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.source === "guide");
   await viewer.page.waitForFunction((name) => window.dismantle!.drawnMatrix(name)[12] > 5, kSlide);

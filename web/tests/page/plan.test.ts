@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { auditPath, kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
@@ -23,6 +23,11 @@ test("a plan of everything becomes the guide, and moves nothing", async () => {
   assert.ok(components.every(({ pose }) => !pose));
   assert.match(await viewer.page.locator("#plan-found").innerText(), new RegExp(`^${found!.steps} steps`));
   assert.match(await viewer.page.locator("#guide-step").innerText(), /Step 1 of/);
+  auditPath(
+    await viewer.page.evaluate(async () =>
+      (await window.dismantle!.app.session.connection.request("/api/guide.json")).text(),
+    ),
+  );
 });
 
 test("the plan plays, and nothing is in its way", async () => {
@@ -85,7 +90,7 @@ test("what goes by itself is stopped where it is", async () => {
 });
 
 test("find a path takes it out, and first what is in its way; each is one entry of undo", async () => {
-  await viewer.click("#reset");
+  await reset();
   await viewer.select("pinion shaft");
   await viewer.press("n");
   const shaft = await viewer.index("pinion shaft");
@@ -97,7 +102,7 @@ test("find a path takes it out, and first what is in its way; each is one entry 
   assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion shaft")), false);
   await viewer.press("Control+z");
   assert.equal((await viewer.state()).moves.length, moves.length - 1);
-  await viewer.click("#reset");
+  await reset();
 });
 
 test("stuck in a drag, N finds the way; let go of, a button does", async () => {
@@ -116,14 +121,14 @@ test("stuck in a drag, N finds the way; let go of, a button does", async () => {
     viewer.page.waitForFunction((c) => window.dismantle!.app.session.store.state!.components[c].removed, slide);
   await out();
   await viewer.idle();
-  await viewer.click("#reset");
+  await reset();
   await viewer.press("1");
   await viewer.grab(kSlide, 20, 0);
   await viewer.press("n");
   await out();
   await viewer.letGo();
   assert.equal((await viewer.state()).moves.length, 2);
-  await viewer.click("#reset");
+  await reset();
 });
 
 test("the page had no errors", () => {

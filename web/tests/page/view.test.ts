@@ -38,6 +38,18 @@ test("the page shows the model: many colours, all components listed, in its stat
   assert.match(await viewer.page.locator("#status").innerText(), /21,806 triangles/);
 });
 
+test("something is on screen at once, and the sample within a second", async (t) => {
+  await viewer.page.reload();
+  await viewer.model();
+  const { paint, model } = await viewer.page.evaluate(() => ({
+    paint: performance.getEntriesByName("first-contentful-paint")[0].startTime,
+    model: window.dismantle!.modelDrawn!,
+  }));
+  t.diagnostic(`first paint after ${paint.toFixed(0)} ms, the sample after ${model.toFixed(0)} ms`);
+  // Generous: here it is drawn in software, beside other tests.
+  assert.ok(paint < 5000 && model < 10_000, `${paint} ${model}`);
+});
+
 test("all components are drawn with a few calls, and one that is seen through by itself", async () => {
   const calls = async () => {
     await viewer.idle();
