@@ -54,6 +54,25 @@ TEST(ObbTree, PartsWhatBelongsToDifferentPartsFirst) {
   EXPECT_EQ(std::count_if(under.begin(), under.end(), mixed), 4) << "one cut less than there are parts";
 }
 
+TEST(ObbSubtree, HoldsWhatIsBelowItsNode) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 12, 3);
+  const ObbTree tree = tree_of(mesh);
+  const auto is_below = [&](std::uint32_t node, std::uint32_t top) {
+    while (node != top && node != 0) node = tree.nodes[node].parent;
+    return node == top;
+  };
+  std::vector<ObbSubtree> waiting{ObbSubtree::whole(tree)};
+  std::size_t looked_at = 0;
+  for (; looked_at < waiting.size(); ++looked_at) {
+    const ObbSubtree subtree = waiting[looked_at];
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n)
+      ASSERT_EQ(subtree.holds(n), is_below(n, subtree.node)) << n << " in " << subtree.node;
+    if (!tree.nodes[subtree.node].leaf())
+      for (const std::uint32_t k : {0u, 1u}) waiting.push_back(subtree.half(tree, k));
+  }
+  EXPECT_EQ(looked_at, tree.nodes.size());
+}
+
 TEST(ObbTree, CopesWithManyCopiesOfOneTriangle) {
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
   mesh.faces.assign(500, {{0, 1, 2}});

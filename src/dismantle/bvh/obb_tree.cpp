@@ -105,7 +105,7 @@ class Builder {
   /// Sorts the range into two by the cut whose halves are thinnest; where none makes them much thinner, at the mean
   /// of the centroids along the box's longest axis.
   std::uint32_t split(const Range& range, const Obb& box) {
-    if (!parts_.empty() && parts_[order_[range.begin]] != parts_[order_[range.end - 1]]) return after_part(range);
+    if (!parts_.empty() && parts_[order_[range.begin]] != parts_[order_[range.end - 1]]) return between_parts(range);
     const Vec3 axes[3] = {to_double(box.axis[0]), to_double(box.axis[1]), to_double(box.third_axis())};
     int longest = 0;
     for (int i = 1; i < 3; ++i)
@@ -125,12 +125,13 @@ class Builder {
     return apply(range, best);
   }
 
-  /// Where the first part of a range ends, which has several and is in their order.
-  std::uint32_t after_part(const Range& range) const {
-    const std::uint8_t first = parts_[order_[range.begin]];
-    std::uint32_t i = range.begin;
-    while (parts_[order_[i]] == first) ++i;
-    return i;
+  /// Between the parts of a range, which has several and is in their order, where it is next to the middle.
+  std::uint32_t between_parts(const Range& range) const {
+    const auto part = [this](std::uint32_t i) { return parts_[order_[i]]; };
+    std::uint32_t middle = range.begin + range.size() / 2;
+    for (std::uint32_t off = 0;; ++off)
+      for (const std::uint32_t i : {middle - off, middle + off})
+        if (range.begin < i && i < range.end && part(i - 1) != part(i)) return i;
   }
 
   Cut at_mean(const Range& range, Vec3 axis) const {

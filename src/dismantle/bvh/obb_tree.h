@@ -43,8 +43,9 @@ struct TriangleF {
 };
 
 /// A static tree of oriented boxes over one component's triangles, one triangle a leaf (Gottschalk, Lin, Manocha 1996).
-/// Node 0 is the root; siblings are neighbours (2k - 1, 2k). Every node's box contains its triangles as they are in
-/// double, about `origin`: certain, despite float32.
+/// Node 0 is the root; siblings are neighbours (2k - 1, 2k), k being the place between theirs in an order of the faces
+/// in which those of every node are together. Every node's box contains its triangles as they are in double, about
+/// `origin`: certain, despite float32.
 struct ObbTree {
   Vec3 origin;  ///< [mm, the mesh's frame]
   std::vector<ObbNode> nodes;
@@ -52,6 +53,23 @@ struct ObbTree {
   std::vector<TriangleF> triangles;  ///< Of each face.
 
   bool empty() const { return nodes.empty(); }
+};
+
+/// A node and all below it.
+struct ObbSubtree {
+  std::uint32_t node = 0;
+  std::uint32_t begin = 0, end = 0;  ///< The places of its faces in the tree's order.
+
+  static ObbSubtree whole(const ObbTree& tree) { return {0, 0, static_cast<std::uint32_t>(tree.triangles.size())}; }
+  bool holds(std::uint32_t other) const {
+    const std::uint32_t place = (other + 1) / 2;
+    return other == node || (begin < place && place < end);
+  }
+  /// The one below the first child (k = 0) or the second (k = 1). @pre the node is no leaf
+  ObbSubtree half(const ObbTree& tree, std::uint32_t k) const {
+    const std::uint32_t child = tree.nodes[node].child, place = (child + 1) / 2;
+    return k == 0 ? ObbSubtree{child, begin, place} : ObbSubtree{child + 1, place, end};
+  }
 };
 
 /// Builds the tree of a mesh. The same tree for every executor.

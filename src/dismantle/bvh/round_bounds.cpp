@@ -17,6 +17,9 @@ namespace {
 constexpr double kRounding = 1e-13;
 /// The cosine of 45 degrees.
 constexpr double kFacing = 0.70710678;
+/// A face lies across the axis where what its unit normal has across it is at most this long: it is seen edge-on by
+/// every axis that leads away (OutwardNormals::kLeastCosine).
+constexpr double kAcross = 0.04;
 
 /// A corner about an axis.
 struct Corner {
@@ -88,6 +91,9 @@ RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& se
     node.faces_out &= facing > enough;
     node.faces_in &= facing < -enough;
   }
+  const bool lies_across = length(cross(normal, axis.direction)) <= kAcross * length(normal);
+  node.clear_out = node.faces_out || lies_across;
+  node.clear_in = node.faces_in || lies_across;
   const double least = least_distance(corners, axis.direction);
   sector = least > rounding ? sector_of(corners, axis) : Sector{};
   node.least = -rounded_up(rounding - least);
@@ -106,7 +112,9 @@ RoundNode both(const RoundNode& x, const RoundNode& y) {
           -1,
           0,
           x.faces_out && y.faces_out,
-          x.faces_in && y.faces_in};
+          x.faces_in && y.faces_in,
+          x.clear_out && y.clear_out,
+          x.clear_in && y.clear_in};
 }
 
 }  // namespace

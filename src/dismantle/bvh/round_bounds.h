@@ -21,6 +21,8 @@ struct RoundNode {
   float cosine = -1, sine = 0;
   bool faces_out = false;  ///< All outward normals are within 45 degrees of pointing away from the axis,
   bool faces_in = false;   ///< or to it.
+  bool clear_out = false;  ///< All are, but for those of faces that lie across the axis: a shaft with its ends;
+  bool clear_in = false;   ///< or to it: a bore with the faces that it opens in.
 };
 
 /// The nodes of a tree about one axis. Of small nodes nothing is known: their distances are from 0 to without end.

@@ -18,7 +18,7 @@ constexpr int kQuickSteps = 6;
 constexpr double kQuickShare = 1e-2;
 
 /// Effort::Some ends with about so many blocked pairs of two components.
-constexpr std::size_t kSomeBlocked = 64;
+constexpr std::size_t kSomeBlocked = 32;
 
 /// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
@@ -41,6 +41,7 @@ struct CertificateSweeper::ActivePair {
   LeafSweep leaves;
   PreparedSweep sweep;
   double allowed;
+  bool free = true;  ///< As far as was looked at by now.
 };
 
 /// A pair to be looked at with its fronts left as they are.
@@ -286,13 +287,14 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     result.clearance = std::min<double>(result.clearance, task.found.least_gap - sweep.error);
     result.leaf_tests += task.found.leaf_tests;
     result.complete &= task.found.complete;
+    active[task.pair].free &= task.found.complete && task.found.blocked == 0;
     const std::pair both{active[task.pair].moving, active[task.pair].fixed};
     if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
       result.touching.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
   }
   for (const ActivePair& pair : active) {
-    pair.front->end_sweep();
+    pair.front->end_sweep(pair.sweep, pair.free);
     result.front += pair.front->size();
   }
   finish(result, window);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -24,6 +26,11 @@ constexpr std::size_t kMergeShare = 8;
 constexpr std::size_t kBatch = 64;
 /// Where some blocked pairs are enough: so many that come from one pair of the front.
 constexpr std::size_t kEnoughOfPair = 2;
+/// What was parted as round, and is not any more, is opened to so many pairs of each part of the front.
+constexpr std::size_t kRoundStarts = 128;
+/// Fronts of more pairs than this are looked through for what is parted as round, in so many pairs of nodes.
+constexpr std::size_t kLeastToMergeRound = 64;
+constexpr std::size_t kRoundTries = 256;
 /// The offset of a certificate of which only the side is left.
 constexpr float kForgotten = -1e29f;
 /// Once a component has turned by more than this [of a unit vector], certificates are judged anew: they may use the
@@ -64,6 +71,17 @@ Certificate nothing() {
   return certificate;
 }
 
+Certificate parted_as_round() {
+  Certificate certificate = nothing();
+  certificate.hull.kind = NodeHull::kNone;
+  return certificate;
+}
+
+/// Whether some of what is blocked are enough.
+bool some(const LinearSweep& sweep) {
+  return sweep.enough_blocked < LinearSweep().enough_blocked;
+}
+
 float reach(const ObbTree& tree) {
   const ObbNode& root = tree.nodes[0];
   return root.radius + length(root.box.center);
@@ -76,7 +94,8 @@ struct CertificateFront::Work {
   std::vector<std::uint32_t> failing;  // indices into the part
   std::vector<Item> items;             // the failing ones, in order, then their descendants
   std::vector<Certificate> proofs;
-  std::vector<std::uint32_t> blocked;  // of each failing one
+  std::size_t of_front = 0;            // the first so many items are
+  std::vector<std::uint32_t> blocked;  // of each start
   std::vector<std::uint32_t> waiting;  // indices of items, the next one last
   std::vector<std::uint32_t> batch;
   std::vector<BoxPairQuery> queries;  // of a batch
@@ -156,7 +175,7 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
   if (work.items.empty()) return result;
 
   resolve(work, sweep, kernels, test, result);
-  replace(part, work);
+  replace(part, work, result.blocked == 0 && result.complete);
   return result;
 }
 
@@ -180,10 +199,12 @@ void CertificateFront::find_failing(const CertificatePart& part, const PreparedS
     item.place = i;
     item.origin = static_cast<std::uint32_t>(k);
     item.hint = hint_of(part, i, sweep);
-    item.of_triangles = part.kind(i) != NodeHull::kBox;
+    item.round = part.kind(i) == NodeHull::kNone;
+    item.of_triangles = part.kind(i) > NodeHull::kBox;
     item.on_edge = part.kind(i) == NodeHull::kTriangleOnEdge;
     work.items.push_back(item);
   }
+  work.of_front = work.items.size();
 }
 
 FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
@@ -207,26 +228,51 @@ float CertificateFront::limit(Vec3f guard, const LinearSweep& sweep) const {
 
 void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
                                const LeafTest& test, FrontSweep& result) const {
-  const std::size_t failing = work.items.size();
-  const bool some = sweep.enough_blocked < LinearSweep().enough_blocked;
-  work.blocked.assign(failing, 0);
-  // Where some are enough they should lie far from each other, as the front's pairs do not: in long strides.
-  std::size_t stride = some ? failing * 5 / 8 | 1 : 1;
-  while (std::gcd(stride, failing) != 1) stride += 2;
-  for (std::size_t k = 0; k < failing; ++k)
-    work.waiting.push_back(static_cast<std::uint32_t>((failing - 1 - k) * stride % failing));
+  work.waiting = find_starts(work, sweep, result);
+  work.blocked.assign(work.waiting.size(), 0);
+  for (std::uint32_t k = 0; k < work.waiting.size(); ++k) work.items[work.waiting[k]].start = k;
   while (!work.waiting.empty()) {
     const std::size_t kept = work.waiting.size() - std::min(kBatch, work.waiting.size());
     work.batch.assign(work.waiting.begin() + static_cast<std::ptrdiff_t>(kept), work.waiting.end());
     work.waiting.resize(kept);
-    if (some) {
+    if (some(sweep)) {
       const auto enough = [&](std::uint32_t i) {
-        return result.blocked >= sweep.enough_blocked || work.blocked[work.items[i].origin] >= kEnoughOfPair;
+        return result.blocked >= sweep.enough_blocked || work.blocked[work.items[i].start] >= kEnoughOfPair;
       };
       result.complete &= std::erase_if(work.batch, enough) == 0;
     }
     resolve_batch(work, sweep, kernels, test, result);
   }
+}
+
+std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const PreparedSweep& sweep,
+                                                         FrontSweep& result) const {
+  std::vector<std::uint32_t> plain, opened;
+  const auto of_front = static_cast<std::uint32_t>(work.of_front);
+  for (std::uint32_t i = 0; i < of_front; ++i) (work.items[i].round ? opened : plain).push_back(i);
+  // Where some are enough they should lie far from each other, as the front's pairs do not: in long strides.
+  const std::size_t count = plain.size();
+  std::size_t stride = some(sweep) ? count * 5 / 8 | 1 : 1;
+  while (std::gcd(stride, count) > 1) stride += 2;
+  std::vector<std::uint32_t> starts;
+  for (std::size_t k = 0; k < count; ++k) starts.push_back(plain[(count - 1 - k) * stride % count]);
+  std::vector<std::pair<double, std::uint32_t>> nearest;  // their gaps and items
+  for (std::size_t k = 0; k < opened.size(); ++k) {
+    const std::uint32_t i = opened[k];
+    const std::uint32_t a = work.items[i].a, b = work.items[i].b;
+    if (parts_round(a, b, sweep, result)) {
+      work.prove(work.items[i], parted_as_round());
+    } else if (nearest.size() + opened.size() - k >= kRoundStarts || (a_->nodes[a].leaf() && b_->nodes[b].leaf())) {
+      nearest.emplace_back(round_gap(a, b, sweep), i);
+    } else {
+      const std::uint32_t first = split(work, i);
+      opened.insert(opened.end(), {first, first + 1});
+    }
+  }
+  // The last one comes first.
+  std::sort(nearest.begin(), nearest.end(), std::greater<>());
+  for (const auto& [gap, i] : nearest) starts.push_back(i);
+  return starts;
 }
 
 void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const {
@@ -284,19 +330,31 @@ bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const Prepa
   if (!sweep.rounds) return false;
   for (const RoundSweep& round : sweep.rounds->get()) {
     const RoundSweep::Gap found = b_moves_ ? round.gap(b, a, sweep.limit) : round.gap(a, b, sweep.limit);
-    const double limit = sides_ == SideRule::Free || found.faces ? sweep.limit : sweep.meeting;
+    const double limit = sides_ == SideRule::Free || found.facing ? sweep.limit : sweep.meeting;
     if (found.gap < limit) continue;
     result.least_gap = std::min(result.least_gap, -rounded_up(-found.gap));
-    result.touching |= sides_ != SideRule::Normals && found.gap < sweep.meeting;
+    result.touching |= found.gap < sweep.meeting && !(sides_ == SideRule::Normals && found.face_on);
     return true;
   }
   return false;
 }
 
+double CertificateFront::round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
+  double most = -std::numeric_limits<double>::infinity();
+  if (!sweep.rounds) return most;
+  for (const RoundSweep& round : sweep.rounds->get())
+    most = std::max(most, (b_moves_ ? round.gap(b, a, most) : round.gap(a, b, most)).gap);
+  return most;
+}
+
 void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
                                      const LeafTest& test, FrontSweep& result) const {
-  std::erase_if(work.batch,
-                [&](std::uint32_t i) { return parts_round(work.items[i].a, work.items[i].b, sweep, result); });
+  std::erase_if(work.batch, [&](std::uint32_t i) {
+    Item& item = work.items[i];
+    if (!parts_round(item.a, item.b, sweep, result)) return false;
+    work.prove(item, parted_as_round());
+    return true;
+  });
   separate_boxes(work, sweep, kernels);
   work.triangles_asked.clear();
   for (const std::uint32_t i : work.batch)
@@ -307,7 +365,8 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
     if (work.queries[k].a->leaf() && work.queries[k].b->leaf()) {
       work.triangles_asked.push_back(i);
     } else {
-      descend(work, i);
+      const std::uint32_t first = split(work, i);
+      work.waiting.insert(work.waiting.end(), {first, first + 1});
     }
   }
 
@@ -326,40 +385,39 @@ void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test,
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;
-    ++work.blocked[item.origin];
+    ++work.blocked[item.start];
   }
   result.least_gap = std::min(result.least_gap, verdict.gap);
   result.touching |= !verdict.harmless;
 }
 
-void CertificateFront::descend(Work& work, std::uint32_t i) const {
+std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {
   const Item parent = work.items[i];
   const auto first = static_cast<std::uint32_t>(work.items.size());
   work.items[i].first_child = first;
-  const ObbNode& a = a_->nodes[parent.a];
-  const ObbNode& b = b_->nodes[parent.b];
+  const bool splits_of_a = splits_a(parent.a, parent.b);
   for (std::uint32_t k = 0; k < 2; ++k) {
     Item child = parent;
     // The first takes its parent's place, others come behind all.
     if (k > 0) child.place = Item::kNone;
-    if (a.size >= b.size) {
-      child.a = a.child + k;
+    if (splits_of_a) {
+      child.a = a_->nodes[parent.a].child + k;
     } else {
-      child.b = b.child + k;
+      child.b = b_->nodes[parent.b].child + k;
     }
     work.items.push_back(child);
-    work.waiting.push_back(first + k);
   }
+  return first;
 }
 
-void CertificateFront::replace(CertificatePart& part, const Work& work) const {
+void CertificateFront::replace(CertificatePart& part, const Work& work, bool free) const {
   for (std::uint32_t i = 0; i < work.items.size(); ++i) {
     const Item& item = work.items[i];
-    if (item.first_child != Item::kNone) continue;
+    if (item.first_child != Item::kNone || (item.round && !free)) continue;
     Certificate certificate;
     if (item.proof != Item::kNone) {
       certificate = work.proofs[item.proof];
-    } else if (i < work.blocked.size()) {
+    } else if (i < work.of_front) {
       continue;  // stays as it was
     } else {
       certificate.axis = item.hint;
@@ -413,7 +471,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
     if (merged[s.first] || merged[s.second]) continue;
     const bool by_boxes = separations[k].gap >= limit(queries[k].guard, sweep);
     if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
-    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : nothing());
+    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : parted_as_round());
     merged[s.first] = merged[s.second] = true;
     gone.push_back(s.second);
   }
@@ -450,8 +508,38 @@ CertificatePart CertificateFront::cut(CertificatePart& part) const {
   return rest;
 }
 
-void CertificateFront::end_sweep() {
+void CertificateFront::merge_round(const PreparedSweep& sweep) {
+  struct Pair {
+    ObbSubtree a, b;
+  };
+  std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
+  FrontSweep unused;
+  for (std::size_t k = 0; k < tried.size() && k < kRoundTries; ++k) {
+    const Pair pair = tried[k];
+    if (parts_round(pair.a.node, pair.b.node, sweep, unused)) {
+      found.push_back(pair);
+    } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
+      const bool splits_of_a = splits_a(pair.a.node, pair.b.node);
+      for (std::uint32_t h = 0; h < 2; ++h)
+        tried.push_back(splits_of_a ? Pair{pair.a.half(*a_, h), pair.b} : Pair{pair.a, pair.b.half(*b_, h)});
+    }
+  }
+  if (found.empty()) return;
+  const auto lies_below = [](const FrontPair& pair) {
+    return [pair](const Pair& large) { return large.a.holds(pair.a) && large.b.holds(pair.b); };
+  };
+  for (CertificatePart& part : parts_)
+    for (std::size_t i = part.size(); i-- > 0;)
+      if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
+  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, parted_as_round());
+}
+
+void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
   ++sweeps_;
+  if (free && sweeps_ >= merged_round_ + kMergePeriod && size() > kLeastToMergeRound) {
+    merge_round(sweep);
+    merged_round_ = sweeps_;
+  }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].size() <= kLargestPart) continue;
     CertificatePart rest = cut(parts_[p]);

@@ -85,7 +85,8 @@ class CertificateFront {
   /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
   FrontSweep look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
-  void end_sweep();
+  /// @param free no pair was found blocked, and none left unlooked at
+  void end_sweep(const PreparedSweep& sweep, bool free);
 
   /// From now on sweeps move B and A stands still, or the other way round. The front stays as it is, certificates are
   /// made anew, and every pair remembers its side.
@@ -93,15 +94,6 @@ class CertificateFront {
   void exchange_roles(const Mat3& rotation);
   /// Makes all certificates anew with the next sweep: what stands still was moved.
   void forget();
-  /// Calls visit(face of the moving component, face of the fixed one, certificate) for every pair of leaves.
-  template <class Visit>
-  void for_each_leaf_pair(Visit&& visit) const {
-    for (const CertificatePart& part : parts_)
-      for (std::size_t i = 0; i < part.size(); ++i)
-        if (a_->nodes[part.pair(i).a].leaf() && b_->nodes[part.pair(i).b].leaf())
-          visit(moving_face(part.pair(i).a, part.pair(i).b), fixed_face(part.pair(i).a, part.pair(i).b),
-                part.certificate(i));
-  }
 
  private:
   /// A pair that has to be looked at, and what comes of it.
@@ -112,7 +104,9 @@ class CertificateFront {
     std::uint32_t place = kNone;        ///< In the part; none for what comes behind all.
     std::uint32_t first_child = kNone;  ///< Index of the first of two items that replace it.
     std::uint32_t proof = kNone;        ///< Index of its certificate; none for what was left unlooked at.
-    std::uint32_t origin = 0;           ///< Index of the pair of the front that it comes from.
+    std::uint32_t origin = 0;           ///< Index of the pair of the front that it comes from,
+    std::uint32_t start = 0;            ///< and of that which the search began with, among all of these.
+    bool round = false;                 ///< The front's pair was parted as round the last time.
     bool of_triangles = false;          ///< The front tested these triangles before,
     bool on_edge = false;               ///< and found that they are in each other on edge.
   };
@@ -151,21 +145,30 @@ class CertificateFront {
   std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
-  /// Which of two nodes that cannot be separated is split: the one that takes more room.
-  bool splits_a(const Item& item) const;
+  /// The items to begin with, the first one last. What was parted as round, and is not any more, is opened to some
+  /// pairs all over it, and those that come nearest are looked at before all others.
+  std::vector<std::uint32_t> find_starts(Work& work, const PreparedSweep& sweep, FrontSweep& result) const;
   void resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                      FrontSweep& result) const;
   void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
-  /// Whether the two are apart as surfaces that turn about one axis, or as threads. They are left without a
-  /// certificate: what proves it costs next to nothing, and holds for large nodes.
+  /// Whether the two are apart as surfaces that turn about one axis, or as threads. They get no certificate: what
+  /// proves it costs next to nothing, and holds for large nodes.
   bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
+  /// The most that any pair of axes leaves between two nodes [mm].
+  double round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// Keeps what certifies the item; false where it does not.
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
             FrontSweep& result) const;
   void test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const;
-  void descend(Work& work, std::uint32_t i) const;
-  void replace(CertificatePart& part, const Work& work) const;
+  /// Whether of two nodes A's is split: the one that takes more room.
+  bool splits_a(std::uint32_t a, std::uint32_t b) const { return a_->nodes[a].size >= b_->nodes[b].size; }
+  /// Replaces an item by the halves of a node; gives the index of the first.
+  std::uint32_t split(Work& work, std::uint32_t i) const;
+  /// What was parted as round stays whole in a sweep that is not free: the next one is another.
+  void replace(CertificatePart& part, const Work& work, bool free) const;
+  /// Replaces what lies below pairs of large nodes that are parted as round.
+  void merge_round(const PreparedSweep& sweep);
   /// Cuts the part in two of about the same size, siblings together.
   CertificatePart cut(CertificatePart& part) const;
 
@@ -177,6 +180,7 @@ class CertificateFront {
   std::vector<CertificatePart> parts_;
   Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.
   std::size_t sweeps_ = 0;
+  std::size_t merged_round_ = 0;  ///< After how many sweeps that was last tried.
   bool b_moves_ = false;
   SideRule sides_;
 };

@@ -38,8 +38,9 @@ struct NodeHull {
   Vec3f center;
   Vec3f span[3];
   /// A number, for lanes. On edge: a triangle whose certificate lets it be in the other along an axis that does not
-  /// lead well out of the one face and into the other, though its component is closed.
-  static constexpr float kBox = 0, kTriangle = 1, kTriangleOnEdge = 2;
+  /// lead well out of the one face and into the other, though its component is closed. None: what proves the pair is no
+  /// such certificate.
+  static constexpr float kNone = -1, kBox = 0, kTriangle = 1, kTriangleOnEdge = 2;
   float kind = kBox;
 };
 

@@ -18,6 +18,10 @@ constexpr std::size_t kMostPairs = 3;
 constexpr double kMostSine = 0.1;
 /// and one's point is off the other by no more than this share of the smaller component's size.
 constexpr double kMostOff = 0.05;
+/// What places along axes may be off by [mm].
+constexpr double kPlaceRounding = 1e-6;
+/// What is further apart than this share of the outer surface's radius is said to be so far apart.
+constexpr double kPastEnds = 0.1;
 
 /// An axis in a frame.
 struct Line {
@@ -36,17 +40,40 @@ Vec3 across(Vec3 v, Vec3 direction) {
 
 }  // namespace
 
-double RoundSweep::Off::most(const RoundNode& inner, const RoundNode& outer) const {
-  const Vec3 toward = to_double(outer.toward);
+std::pair<double, double> RoundSweep::Off::part_beside(const RoundNode& inner, const RoundNode& outer,
+                                                       double past) const {
+  const double aside = most_aside * static_cast<double>(inner.most) + kPlaceRounding + past;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (int end = 0; end < 2; ++end)
+    for (const double border : {static_cast<double>(outer.begin) - aside, static_cast<double>(outer.end) + aside}) {
+      const double place = (border - beside[end]) / ahead[end];
+      least = std::min(least, place);
+      most = std::max(most, place);
+    }
+  const double begin = inner.begin, end = inner.end;
+  return {std::clamp(least, begin, end), std::clamp(most, begin, end)};
+}
+
+double RoundSweep::Off::most(const RoundNode& inner, const RoundNode& outer, double room) const {
+  const double least = toward(inner, outer, 0);
+  if (room <= least) return least;
+  // They are apart, but what is past the ends may be nearer.
+  const double past = kPastEnds * static_cast<double>(outer.least);
+  return std::max(room - past, std::min(room, toward(inner, outer, past)));
+}
+
+double RoundSweep::Off::toward(const RoundNode& inner, const RoundNode& outer, double past) const {
+  const Vec3 middle = to_double(outer.toward);
   const double cosine = outer.cosine, sine = outer.sine;
+  const auto [begin, stop] = part_beside(inner, outer, past);
   double most = -std::numeric_limits<double>::infinity();  // convex along the axis
   for (int end = 0; end < 2; ++end)
-    for (const float place : {inner.begin, inner.end}) {
-      const Vec3 off = at[end] + static_cast<double>(place) * along[end];
-      const double size = length(off), ahead = dot(off, toward);
+    for (const double place : {begin, stop}) {
+      const Vec3 off = at[end] + place * along[end];
+      const double size = length(off), along_middle = dot(off, middle);
       // The least angle between it and a direction of the sector is what is left of that to its middle.
-      const double aside = std::sqrt(std::max(0.0, size * size - ahead * ahead));
-      most = std::max(most, ahead >= cosine * size ? size : ahead * cosine + aside * sine);
+      const double across_it = std::sqrt(std::max(0.0, size * size - along_middle * along_middle));
+      most = std::max(most, along_middle >= cosine * size ? size : along_middle * cosine + across_it * sine);
     }
   return most;
 }
@@ -84,6 +111,13 @@ RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
     sweep.moving_off_.along[end] = across(there.direction, other.direction);
     sweep.fixed_off_.at[end] = across(back.point - own.point, own.direction);
     sweep.fixed_off_.along[end] = across(back.direction, own.direction);
+    sweep.moving_off_.beside[end] = dot(there.point - other.point, other.direction);
+    sweep.fixed_off_.beside[end] = dot(back.point - own.point, own.direction);
+    const double cosine = dot(there.direction, other.direction), sine = length(cross(there.direction, other.direction));
+    for (RoundSweep::Off* off : {&sweep.moving_off_, &sweep.fixed_off_}) {
+      off->ahead[end] = cosine;
+      off->most_aside = std::max(off->most_aside, sine);
+    }
   }
   for (const auto& [off, nodes] : {std::pair{&sweep.moving_off_, sweep.moving_}, {&sweep.fixed_off_, sweep.fixed_}})
     for (int end = 0; end < 2; ++end)

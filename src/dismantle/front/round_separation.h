@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
@@ -33,14 +34,18 @@ struct PairMotion {
 /// normal leads from the line to the triangle's nearest point. Everything within distance s of another line, between
 /// two places of it, is at most s + off in front of that plane's parallel through the first line, off being how far
 /// those places are off the line along the normal. Both are so at the start and at the end of a linear motion, with the
-/// plane at rest: so they are in between.
+/// plane at rest: so they are in between. Only those places count that come beside the outer triangle: the rest of the
+/// inner one is past its ends, along the line, and stays there when it is moved along the normal. So moved by as much
+/// as the bound is below zero the two are apart; and where it is above zero for all that is at most some way past the
+/// ends, they are that way apart, or the bound.
 class RoundSweep {
  public:
   /// What is proved of two nodes: their gap along planes that touch the outer one's cylinder is never less than that
   /// [mm].
   struct Gap {
     double gap = 0;
-    bool faces = false;  ///< The outward normals of both lead well towards the other along those planes' normals.
+    bool facing = false;   ///< No outward normal leads away from the other along those planes' normals,
+    bool face_on = false;  ///< and all lead well towards it.
   };
   /// @param least gaps below it are of no use: what is given may be far below the true one [mm]
   Gap gap(std::uint32_t moving, std::uint32_t fixed, double least) const {
@@ -48,20 +53,33 @@ class RoundSweep {
     const double moving_inside = static_cast<double>(f.least) - static_cast<double>(m.most);
     const double fixed_inside = static_cast<double>(m.least) - static_cast<double>(f.most) - fixed_bend_;
     if (std::max(moving_inside, fixed_inside) + most_off_ < least)
-      return {-std::numeric_limits<double>::infinity(), false};
-    if (moving_inside >= fixed_inside) return {moving_inside - moving_off_.most(m, f), m.faces_out && f.faces_in};
-    return {fixed_inside - fixed_off_.most(f, m), m.faces_in && f.faces_out};
+      return {-std::numeric_limits<double>::infinity(), false, false};
+    if (moving_inside >= fixed_inside)
+      return {moving_inside - moving_off_.most(m, f, moving_inside), m.clear_out && f.clear_in,
+              m.faces_out && f.faces_in};
+    return {fixed_inside - fixed_off_.most(f, m, fixed_inside), m.clear_in && f.clear_out, m.faces_in && f.faces_out};
   }
 
  private:
   friend class RoundSweeps;
   /// How far the points of one axis are off the other, at both ends of the motion.
   struct Off {
-    Vec3 at[2];     ///< At its own point, across the other [mm].
-    Vec3 along[2];  ///< The change a mm along it.
-    /// How far the axis of the inner node is off that of the outer one, towards the outer node, at most [mm]; negative
-    /// where it is off the other way.
-    double most(const RoundNode& inner, const RoundNode& outer) const;
+    Vec3 at[2];             ///< At its own point, across the other [mm].
+    Vec3 along[2];          ///< The change a mm along it.
+    double beside[2];       ///< The place of its own point along the other one [mm].
+    double ahead[2];        ///< The change a mm along it.
+    double most_aside = 0;  ///< The sine of the largest angle between the axes.
+    /// What the axes' being off each other takes at most from the room between the nodes [mm]; negative where the inner
+    /// one is off the other way.
+    /// @param room between the distances of the two from their axes [mm]
+    double most(const RoundNode& inner, const RoundNode& outer, double room) const;
+
+   private:
+    /// How far the inner node's axis is off towards the outer node where the two are beside each other, or at most
+    /// `past` its ends [mm].
+    double toward(const RoundNode& inner, const RoundNode& outer, double past) const;
+    /// Between which places along its axis something of the inner node may be there at some time.
+    std::pair<double, double> part_beside(const RoundNode& inner, const RoundNode& outer, double past) const;
   };
 
   const RoundNodes* moving_ = nullptr;

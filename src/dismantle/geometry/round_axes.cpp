@@ -3,12 +3,16 @@
 
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/adjacency.h"
+#include "dismantle/geometry/axis_frame.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 
 namespace dismantle {
 
@@ -69,6 +73,54 @@ RoundAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const Neigh
   return axis;
 }
 
+/// A cylinder's corners are at one distance from its axis to this share of it.
+constexpr double kOneDistance = 1e-3;
+/// And its faces' normals lead away from the axis, or to it, with at least this cosine.
+constexpr double kLeadsAway = 0.8;
+/// Cylinders of fewer faces are left alone.
+constexpr std::size_t kLeastOfCylinder = 12;
+
+/// A face of a cylinder: the mean distance of its corners from the axis, negative where its normal leads to it [mm].
+std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& triangle) {
+  double distances[3];
+  Vec3 away;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 across = frame.across(triangle[i]);
+    distances[i] = length(across);
+    away = away + across;
+  }
+  const double mean = (distances[0] + distances[1] + distances[2]) / 3;
+  for (const double d : distances)
+    if (std::abs(d - mean) > kOneDistance * mean) return std::nullopt;
+  const Vec3 normal = normal_unscaled(triangle);
+  const double facing = dot(normal, away), least = kLeadsAway * length(normal) * length(away);
+  if (std::abs(facing) <= least) return std::nullopt;
+  return facing > 0 ? mean : -mean;
+}
+
+/// Faces that belong together.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
+  std::uint32_t of(std::uint32_t face) {
+    while (of_[face] != face) face = of_[face] = of_[of_[face]];
+    return face;
+  }
+  void join(std::uint32_t x, std::uint32_t y) { of_[of(std::max(x, y))] = of(std::min(x, y)); }
+
+ private:
+  std::vector<std::uint32_t> of_;
+};
+
+/// What a group of faces is as a cylinder.
+struct CylinderExtent {
+  double area = 0, distance = 0;
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  std::size_t count = 0;
+  /// The angle that it goes around, were it of one length all around [rad].
+  double turn() const { return area / (distance * (end - begin)); }
+};
+
 }  // namespace
 
 std::vector<RoundAxis> round_axes(Span<const Vec3> vertices, Span<const Face> faces) {
@@ -95,6 +147,48 @@ std::vector<RoundAxis> round_axes(Span<const Vec3> vertices, Span<const Face> fa
   std::stable_sort(axes.begin(), axes.end(), [](const RoundAxis& x, const RoundAxis& y) { return x.turn > y.turn; });
   if (axes.size() > kMostRoundAxes) axes.resize(kMostRoundAxes);
   return axes;
+}
+
+void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes,
+                        std::vector<std::uint8_t>& parts) {
+  if (axes.empty()) return;
+  if (parts.empty()) parts.assign(faces.size(), 0);
+  const std::vector<NeighbouringFaces> neighbours = neighbouring_faces(faces);
+  std::size_t last = *std::max_element(parts.begin(), parts.end());
+  std::vector<double> distances(faces.size());  // 0 for what is none of the axis' cylinders
+  for (const RoundAxis& axis : axes) {
+    const AxisFrame frame(axis.point, axis.direction);
+    const auto triangle = [&](std::size_t f) {
+      return Triangle{{vertices[faces[f].v[0]], vertices[faces[f].v[1]], vertices[faces[f].v[2]]}};
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      distances[f] = parts[f] == 0 ? cylinder_distance(frame, triangle(f)).value_or(0) : 0;
+    Groups groups(faces.size());
+    for (const NeighbouringFaces& n : neighbours) {
+      const double x = distances[n.face[0]], y = distances[n.face[1]];
+      if (x * y > 0 && std::abs(x - y) <= kOneDistance * std::abs(x)) groups.join(n.face[0], n.face[1]);
+    }
+    std::map<std::uint32_t, CylinderExtent> cylinders;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      if (distances[f] == 0) continue;
+      CylinderExtent& cylinder = cylinders[groups.of(f)];
+      ++cylinder.count;
+      cylinder.area += length(normal_unscaled(triangle(f))) / 2;
+      cylinder.distance = std::abs(distances[f]);
+      for (int i = 0; i < 3; ++i) {
+        cylinder.begin = std::min(cylinder.begin, frame.along(triangle(f)[i]));
+        cylinder.end = std::max(cylinder.end, frame.along(triangle(f)[i]));
+      }
+    }
+    std::map<std::uint32_t, std::uint8_t> numbers;
+    for (const auto& [group, cylinder] : cylinders)
+      if (cylinder.count >= kLeastOfCylinder && cylinder.turn() >= 2 * kQuarterTurn * 0.95 &&
+          last < std::numeric_limits<std::uint8_t>::max())
+        numbers[group] = static_cast<std::uint8_t>(++last);
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      if (const auto number = distances[f] != 0 ? numbers.find(groups.of(f)) : numbers.end(); number != numbers.end())
+        parts[f] = number->second;
+  }
 }
 
 }  // namespace dismantle

@@ -4,6 +4,7 @@
 #include "dismantle/core/span.h"
 #include "dismantle/geometry/triangle_mesh.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace dismantle {
@@ -24,5 +25,11 @@ struct RoundAxis {
 std::vector<RoundAxis> round_axes(Span<const Vec3> vertices, Span<const Face> faces);
 
 inline constexpr std::size_t kMostRoundAxes = 32;
+
+/// Numbers the cylinders about these axes that go at least half way around: the faces of each that have no number yet
+/// get one of their own, next to those that there are, as far as numbers reach.
+/// @param parts of each face, 0 for none; empty for none of all
+void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes,
+                        std::vector<std::uint8_t>& parts);
 
 }  // namespace dismantle
