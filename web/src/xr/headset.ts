@@ -3,7 +3,8 @@ import { Box3, Group, Matrix4, PerspectiveCamera, Scene, Vector3 } from "three";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
-import { type HandPose, motionOfHand, motionOfHands, roomMotionOfHands } from "./hand_motion.ts";
+import { type HandPose, roomMotionOfHands } from "./hand_motion.ts";
+import { Hold } from "./hold.ts";
 import { type WristButton, WristPanel } from "./wrist_panel.ts";
 import { XrHand } from "./xr_hand.ts";
 
@@ -11,6 +12,10 @@ import { XrHand } from "./xr_hand.ts";
 const kSide = 0.5;
 const kAhead = 0.6;
 const kBelow = 0.25;
+/// Of two sets in two hands the engine moves one at a time: the other has its turn when its hand has gone so far [m], and the
+/// first has had so long [ms].
+const kStir = 0.01;
+const kTurn = 150;
 const kHandColors = ["#56b4e9", "#e69f00"];
 /// z up in the world, y up in the room.
 const kUpright = new Matrix4().makeRotationX(-Math.PI / 2);
@@ -36,9 +41,11 @@ export class Headset {
   hands: XrHand[] = [];
   private xr: XRSession | null = null;
   private isPlaced = false;
-  /// The hands that hold what is in hand, and where they took it; the motion that it had made by then.
-  private grabs: Grabbed[] = [];
-  private made = new Matrix4();
+  /// The sets that hands hold: one, or in each hand another; and the one of them that the engine moves now.
+  private holds: Hold<XrHand>[] = [];
+  private moved: Hold<XrHand> | null = null;
+  private turnBegan = 0;
+  private givesTurn = false;
   private pulls: Grabbed[] = [];
   private stageThen = new Matrix4();
   private wasBlocked = false;
@@ -82,7 +89,7 @@ export class Headset {
   private leave(): void {
     const { viewport } = this.session;
     if (this.drag.active) void this.drag.end();
-    [this.xr, this.grabs, this.pulls] = [null, [], []];
+    [this.xr, this.holds, this.moved, this.pulls] = [null, [], null, []];
     for (const hand of this.hands) hand.dispose();
     this.room.remove(...this.hands.flatMap(({ aim, grip }) => [aim, grip]));
     this.stage.remove(viewport.scene);
@@ -118,31 +125,44 @@ export class Headset {
     const aimed = this.aimed(hand);
     if (!aimed || !this.drag.allowed) return this.session.select([]);
     const { store } = this.session;
-    if (this.grabs.length > 0) {
-      // The other hand holds something: this one helps, or has to wait.
-      if (store.selection.includes(aimed.component)) this.regrip([...this.grabs.map((one) => one.hand), hand]);
-      else hand.tap();
-      return;
-    }
-    if (this.drag.active) return hand.tap();
-    if (!store.selection.includes(aimed.component)) this.session.select([aimed.component]);
-    this.made.identity();
-    this.regrip([hand]);
-    void this.drag.begin([...store.selection], aimed.point).then((held) => {
-      if (!held) this.grabs = [];
-    });
+    const held = this.holds.find(({ components }) => components.includes(aimed.component));
+    if (held) return held.regrip([...held.hands, hand], this.stage.matrix);
+    if (this.drag.active && this.holds.length === 0) return hand.tap();
+    const isFirst = this.holds.length === 0;
+    if (isFirst && !store.selection.includes(aimed.component)) this.session.select([aimed.component]);
+    const components = isFirst ? [...store.selection] : [aimed.component];
+    const hold = new Hold<XrHand>(components, aimed.point, this.session.poseOf(components[0]));
+    hold.regrip([hand], this.stage.matrix);
+    this.holds.push(hold);
+    if (isFirst) void this.giveTurn(hold);
   }
 
   private letGo(hand: XrHand): void {
-    if (!this.grabs.some((one) => one.hand === hand)) return;
-    this.regrip(this.grabs.map((one) => one.hand).filter((other) => other !== hand));
-    if (this.grabs.length === 0) void this.drag.end();
+    const hold = this.holds.find(({ hands }) => hands.includes(hand));
+    if (!hold) return;
+    const others = hold.hands.filter((other) => other !== hand);
+    if (others.length > 0) return hold.regrip(others, this.stage.matrix);
+    this.holds = this.holds.filter((other) => other !== hold);
+    if (hold === this.moved) void this.giveTurn(this.holds[0] ?? null);
   }
 
-  /// From here on these hands hold: the motion goes on from what it is by now.
-  private regrip(hands: XrHand[]): void {
-    if (this.grabs.length > 0) this.made = this.motion();
-    this.grabs = hands.map((hand) => ({ hand, from: hand.pose }));
+  /// Has the engine move a set that a hand holds in place of what it moves now; another one where that cannot be taken, or was
+  /// let go of in the meantime.
+  private async giveTurn(next: Hold<XrHand> | null): Promise<void> {
+    if (this.givesTurn) return;
+    this.givesTurn = true;
+    this.moved?.rest();
+    if (this.drag.active) await this.drag.end();
+    this.moved = next;
+    if (next && !(await this.take(next))) this.holds = this.holds.filter((hold) => hold !== next);
+    this.turnBegan = performance.now();
+    this.givesTurn = false;
+    if (this.moved && !this.holds.includes(this.moved)) await this.giveTurn(this.holds[0] ?? null);
+  }
+
+  private take(hold: Hold<XrHand>): Promise<boolean> {
+    this.session.select(hold.components);
+    return this.drag.begin(hold.components, hold.point(this.session.poseOf(hold.components[0])));
   }
 
   private pull(hands: XrHand[]): void {
@@ -150,24 +170,23 @@ export class Headset {
     this.stageThen.copy(this.stage.matrix);
   }
 
-  /// What the hands have made of the set since it was taken, in the world [mm].
-  private motion(): Matrix4 {
-    const [a, b] = this.grabs;
-    const inRoom = b ? motionOfHands([a.from, b.from], [a.hand.pose, b.hand.pose]) : motionOfHand(a.from, a.hand.pose);
-    const worldFromRoom = this.stage.matrix.clone().invert();
-    return worldFromRoom.multiply(inRoom).multiply(this.stage.matrix).multiply(this.made);
-  }
-
   private everyFrame(): void {
     this.room.updateMatrixWorld();
     const eye = new Vector3().setFromMatrixPosition(this.camera.matrixWorld);
     if (!this.isPlaced && eye.lengthSq() > 0) this.place(eye);
-    if (this.grabs.length > 0) this.drag.follow(this.motion());
+    this.followHands();
     this.pullRoom();
     this.session.viewport.setEye(eye.applyMatrix4(this.stage.matrix.clone().invert()), this.stage.matrix);
     this.showRays();
     this.showPanel();
     this.tellContact();
+  }
+
+  private followHands(): void {
+    if (this.givesTurn || !this.moved) return;
+    this.drag.follow(this.moved.motion(this.stage.matrix));
+    const other = this.holds.find((hold) => hold !== this.moved);
+    if (other && other.stirred > kStir && performance.now() - this.turnBegan > kTurn) void this.giveTurn(other);
   }
 
   private place(eye: Vector3): void {
@@ -260,8 +279,8 @@ export class Headset {
 
   /// What is held runs into something: the hand feels it.
   private tellContact(): void {
-    const blocked = this.grabs.length > 0 && this.session.store.frame?.blocked === true;
-    if (blocked && !this.wasBlocked) for (const { hand } of this.grabs) hand.tap();
+    const blocked = this.moved !== null && this.session.store.frame?.blocked === true;
+    if (blocked && !this.wasBlocked) for (const hand of this.moved!.hands) hand.tap();
     this.wasBlocked = blocked;
   }
 }

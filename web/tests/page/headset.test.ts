@@ -48,6 +48,8 @@ const button = (id: string): Promise<Place> =>
 /// Metres of the room for a millimetre of the world.
 const scale = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.getMaxScaleOnAxis());
 
+/// It is free to the right.
+const kOther = "coarse knob#2";
 const kFront = { x: 0, y: 0.07, z: 0.25 };
 const plus = (a: Place, b: Place): Place => ({ x: a.x + b.x, y: a.y + b.y, z: a.z + b.z });
 
@@ -73,9 +75,16 @@ async function carry(side: "left" | "right", from: Place, by: Place, aim: Place)
   await viewer.idle();
 }
 
+/// Until nothing is in hand any more.
+const handsEmpty = () =>
+  viewer.page.waitForFunction(() => {
+    const { drag, session } = window.dismantle!.app;
+    return !drag.active && session.store.state!.hand === null;
+  });
+
 async function letGo(side: "left" | "right"): Promise<void> {
   await press(viewer.page, side, "trigger", 0);
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await handsEmpty();
   await viewer.idle();
 }
 
@@ -122,6 +131,36 @@ test("the other hand takes, too; and both together turn what they hold", async (
   await frames();
   assert.notEqual((await viewer.state()).hand, null, "the left one still holds it");
   await letGo("left");
+});
+
+test("two hands take two components, and each goes with its own", async () => {
+  const start = await viewer.shift(kSlide);
+  const right = await take("right", kSlide);
+  const left = await take("left", kOther);
+  const per = await scale();
+  const toRight = { x: 25 * per, y: 0, z: 0 };
+  const farther = { x: 40 * per, y: 0, z: 0 };
+  const at = async (name: string) => (await viewer.drawnShift(name)) as number[];
+  await carry("right", right, toRight, kAhead);
+  const first = await at(kSlide);
+  assert.ok(first[0] - start[0] > 10, `${start} ${first}`);
+  assert.deepEqual(await at(kOther), [0, 0, 0]);
+  await carry("left", left, farther, kAhead);
+  await viewer.page.waitForFunction((name) => window.dismantle!.drawnMatrix(name)[12] > 10, kOther);
+  assert.deepEqual(await at(kSlide), first);
+  await carry("right", plus(right, toRight), { x: -20 * per, y: 0, z: 0 }, kAhead);
+  await viewer.page.waitForFunction(
+    ([name, x]) => window.dismantle!.drawnMatrix(name as string)[12] < (x as number) - 5,
+    [kSlide, first[0]],
+  );
+  assert.ok((await at(kOther))[0] > 10);
+  await press(viewer.page, "right", "trigger", 0);
+  await press(viewer.page, "left", "trigger", 0);
+  await handsEmpty();
+  await viewer.idle();
+  for (let undone = 0; undone < 3; ++undone) await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift(kOther), [0, 0, 0]);
+  assert.deepEqual(await viewer.shift(kSlide), start);
 });
 
 test("the wrist panel undoes, in reach of the other hand's ray", async () => {
