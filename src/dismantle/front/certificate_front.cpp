@@ -28,7 +28,9 @@ constexpr std::size_t kBatch = 64;
 constexpr std::size_t kEnoughOfPair = 2;
 /// What was parted as round, and is not any more, is opened to so many pairs of each part of the front.
 constexpr std::size_t kRoundStarts = 128;
-/// Fronts of more pairs than this are looked through for what is parted as round, in so many pairs of nodes.
+/// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
+/// for what is parted as round, in so many pairs of nodes.
+constexpr std::size_t kBlockedToMerge = 3;
 constexpr std::size_t kLeastToMergeRound = 64;
 constexpr std::size_t kRoundTries = 256;
 /// The offset of a certificate of which only the side is left.
@@ -536,9 +538,10 @@ void CertificateFront::merge_round(const PreparedSweep& sweep) {
 
 void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
   ++sweeps_;
-  if (free && sweeps_ >= merged_round_ + kMergePeriod && size() > kLeastToMergeRound) {
+  blocked_ += !free;
+  if (free && blocked_ >= kBlockedToMerge && size() > kLeastToMergeRound) {
     merge_round(sweep);
-    merged_round_ = sweeps_;
+    blocked_ = 0;
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].size() <= kLargestPart) continue;

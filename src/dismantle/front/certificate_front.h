@@ -180,7 +180,7 @@ class CertificateFront {
   std::vector<CertificatePart> parts_;
   Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.
   std::size_t sweeps_ = 0;
-  std::size_t merged_round_ = 0;  ///< After how many sweeps that was last tried.
+  std::size_t blocked_ = 0;  ///< Sweeps that were not free since merge_round().
   bool b_moves_ = false;
   SideRule sides_;
 };
