@@ -98,7 +98,7 @@ const kEnglish = {
   "selection.none": "Click a component, or pick one in the list.",
   "selection.many": "{count} components",
   "selection.triangles": "Triangles",
-  "selection.size": "Size",
+  "selection.size": "Size [mm]",
   "selection.place": "Place",
   "place.assembled": "assembled",
   "place.moved": "moved {distance}",

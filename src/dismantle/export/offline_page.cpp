@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <new>
 
 namespace dismantle {
 
@@ -24,7 +25,9 @@ constexpr std::string_view kPolicy =
 /// In blocks, so that it can be cancelled.
 class Deflater {
  public:
-  Deflater() { DISMANTLE_ENSURE(deflateInit(&stream_, Z_DEFAULT_COMPRESSION) == Z_OK); }
+  Deflater() {
+    if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::bad_alloc();
+  }
   ~Deflater() { deflateEnd(&stream_); }
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
