@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -33,35 +32,6 @@ Result<std::vector<ComponentId>> find_all(const Assembly& assembly, const std::v
     found.push_back(*id);
   }
   return found;
-}
-
-/// How many components each tier took out by themselves, and how many bodies of several.
-std::map<PlanTier, std::size_t> tier_counts(const Plan& plan) {
-  std::map<PlanTier, std::size_t> counts;
-  for (const PlanStep& step : plan.steps) ++counts[step.tier];
-  return counts;
-}
-
-Json to_json(const PlanCommand& command, const Assembly& a, const Plan& plan, const Path& path) {
-  Json steps = Json::array(), staying = Json::array(), tiers = Json::object();
-  for (const PlanStep& step : plan.steps)
-    steps.push_back({{"components", names_json(a, step.components)},
-                     {"tier", name_of(step.tier)},
-                     {"part_of_step", step.part_of == PlanStep::kWhole ? Json(nullptr) : Json(step.part_of)},
-                     {"exit", {step.exit.x, step.exit.y, step.exit.z}}});
-  for (const Explanation& e : plan.staying) staying.push_back(explanation_json(a, e));
-  for (const auto& [tier, count] : tier_counts(plan)) tiers[std::string(name_of(tier))] = count;
-  return {{"format", "dismantle-plan"},
-          {"version", 1},
-          {"assembly", {{"file", a.source_file}, {"components", a.components.size()}}},
-          {"path", command.output},
-          {"complete", plan.complete()},
-          {"out_of_time", plan.out_of_time},
-          {"seconds", plan.seconds},
-          {"tiers", tiers},
-          {"steps", steps},
-          {"staying", staying},
-          {"removed", path.removed}};
 }
 
 void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan) {
@@ -100,7 +70,9 @@ Result<ExitCode> run(const PlanCommand& command) {
   const Result<Done> written = write_path(command.output, path);
   if (!written) return written.error();
   if (command.common.json) {
-    fmt::print("{}\n", to_json(command, *assembly, plan, path).dump(2, ' ', false, Json::error_handler_t::replace));
+    Json report = plan_json(*assembly, plan, path);
+    report.update({{"path", command.output}, {"seconds", plan.seconds}});
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     print_text(command, *assembly, plan);
   }

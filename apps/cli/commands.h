@@ -16,6 +16,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code);
 void add_plan_command(CLI::App& app, ExitCode& exit_code);
 void add_why_command(CLI::App& app, ExitCode& exit_code);
 void add_export_command(CLI::App& app, ExitCode& exit_code);
+void add_batch_command(CLI::App& app, ExitCode& exit_code);
 void add_sample_command(CLI::App& app, ExitCode& exit_code);
 void add_view_command(CLI::App& app, ExitCode& exit_code);
 

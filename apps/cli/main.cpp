@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   add_plan_command(app, exit_code);
   add_why_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_batch_command(app, exit_code);
   add_sample_command(app, exit_code);
   add_view_command(app, exit_code);
 

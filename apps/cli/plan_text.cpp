@@ -47,4 +47,30 @@ Json explanation_json(const Assembly& assembly, const Explanation& e) {
           {"locked_with", names_json(assembly, e.locked)}};
 }
 
+Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
+  Json steps = Json::array(), staying = Json::array(), tiers = Json::object();
+  for (const PlanStep& step : plan.steps)
+    steps.push_back({{"components", names_json(a, step.components)},
+                     {"tier", name_of(step.tier)},
+                     {"part_of_step", step.part_of == PlanStep::kWhole ? Json(nullptr) : Json(step.part_of)},
+                     {"exit", {step.exit.x, step.exit.y, step.exit.z}}});
+  for (const Explanation& e : plan.staying) staying.push_back(explanation_json(a, e));
+  for (const auto& [tier, count] : tier_counts(plan)) tiers[std::string(name_of(tier))] = count;
+  return {{"format", "dismantle-plan"},
+          {"version", 1},
+          {"assembly", {{"file", a.source_file}, {"components", a.components.size()}}},
+          {"complete", plan.complete()},
+          {"out_of_time", plan.out_of_time},
+          {"tiers", tiers},
+          {"steps", steps},
+          {"staying", staying},
+          {"removed", path.removed}};
+}
+
+std::map<PlanTier, std::size_t> tier_counts(const Plan& plan) {
+  std::map<PlanTier, std::size_t> counts;
+  for (const PlanStep& step : plan.steps) ++counts[step.tier];
+  return counts;
+}
+
 }  // namespace dismantle::cli

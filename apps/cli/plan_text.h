@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/path.h"
 #include "dismantle/core/result.h"
 #include "dismantle/planner/explanation.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-/// What the commands plan and why print alike.
+/// What the commands plan, why and batch print alike.
 namespace dismantle::cli {
 
 /// The component of that name. Errors: Usage where there is none.
@@ -19,5 +21,10 @@ std::string names_text(const Assembly& assembly, const std::vector<ComponentId>&
 
 nlohmann::ordered_json names_json(const Assembly& assembly, const std::vector<ComponentId>& components);
 nlohmann::ordered_json explanation_json(const Assembly& assembly, const Explanation& explanation);
+/// The plan and what its path removes, without what it cost.
+nlohmann::ordered_json plan_json(const Assembly& assembly, const Plan& plan, const Path& path);
+
+/// How many steps each tier found.
+std::map<PlanTier, std::size_t> tier_counts(const Plan& plan);
 
 }  // namespace dismantle::cli

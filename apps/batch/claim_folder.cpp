@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/batch/claim_folder.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace dismantle::batch {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr double kRenewalsALease = 10;
+
+fs::path link_of(const fs::path& base, int attempt) {
+  return base.string() + ".claim." + std::to_string(attempt);
+}
+
+std::string first_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+/// When a process was started, in ticks since the machine was: tells a process from a later one of the same number.
+std::string start_of(const std::string& pid) {
+  const std::string stat = first_line("/proc/" + pid + "/stat");
+  std::istringstream fields(stat.substr(stat.rfind(')') + 1));  // the name before may hold anything
+  std::string field;
+  for (int k = 0; k < 20; ++k) fields >> field;
+  return field;
+}
+
+/// A started machine, or a container in it: process numbers mean something there and nowhere else.
+std::string this_machine() {
+  std::error_code ignored;
+  return first_line("/proc/sys/kernel/random/boot_id") + "," + fs::read_symlink("/proc/self/ns/pid", ignored).string();
+}
+
+std::string this_process() {
+  const std::string pid = std::to_string(::getpid());
+  return this_machine() + " " + pid + " " + start_of(pid);
+}
+
+/// True where it is certain.
+bool is_dead(const std::string& owner) {
+  std::istringstream words(owner);
+  std::string machine, pid, start;
+  words >> machine >> pid >> start;
+  if (machine != this_machine()) return false;
+  const bool gone = ::kill(static_cast<pid_t>(std::atoi(pid.c_str())), 0) != 0 && errno == ESRCH;
+  const std::string start_now = start_of(pid);
+  return gone || (!start_now.empty() && start_now != start);
+}
+
+std::string owner_of(const fs::path& link) {
+  std::error_code ignored;
+  return fs::read_symlink(link, ignored).string();
+}
+
+/// When a link was last made or renewed.
+fs::file_time_type change_of(const fs::path& link) {
+  struct stat status {};
+  if (::lstat(link.c_str(), &status) != 0) return {};
+  return fs::file_time_type(std::chrono::seconds(status.st_mtim.tv_sec) +
+                            std::chrono::nanoseconds(status.st_mtim.tv_nsec));
+}
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+}  // namespace
+
+Claim::Claim(fs::path base, int attempt, std::string owner)
+    : base_(std::move(base)), attempt_(attempt), owner_(std::move(owner)), renewed_(Clock::now()) {}
+
+fs::path Claim::workplace(int attempt) const {
+  return link_of(base_, attempt).string() + ".work";
+}
+
+void Claim::renew(double lease_seconds) {
+  if (seconds_since(renewed_) < lease_seconds / kRenewalsALease) return;
+  renewed_ = Clock::now();
+  ::utimensat(AT_FDCWD, link_of(base_, attempt_).c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+}
+
+bool Claim::holds() const {
+  return owner_of(link_of(base_, attempt_)) == owner_ && !fs::is_symlink(link_of(base_, attempt_ + 1));
+}
+
+void Claim::release() {
+  std::error_code ignored;
+  for (int attempt = 1; attempt <= attempt_; ++attempt) {
+    fs::remove_all(workplace(attempt), ignored);
+    if (attempt < attempt_ || owner_of(link_of(base_, attempt)) == owner_) fs::remove(link_of(base_, attempt), ignored);
+  }
+}
+
+ClaimFolder::ClaimFolder(fs::path folder, double lease_seconds)
+    : folder_(std::move(folder)), lease_seconds_(lease_seconds), owner_(this_process()) {}
+
+bool ClaimFolder::is_lost(const std::string& item, int attempt, const fs::path& link) {
+  if (is_dead(owner_of(link))) return true;
+  const fs::file_time_type changed = change_of(link);
+  Seen& seen = seen_[item];
+  if (seen.attempt != attempt || seen.changed != changed) seen = {attempt, changed, Clock::now()};
+  return seconds_since(seen.since) > lease_seconds_;
+}
+
+std::optional<Claim> ClaimFolder::take(const std::string& item) {
+  const fs::path base = folder_ / item;
+  int attempt = 1;
+  while (fs::is_symlink(link_of(base, attempt))) ++attempt;
+  if (attempt > 1 && !is_lost(item, attempt - 1, link_of(base, attempt - 1))) return {};
+
+  const fs::path link = link_of(base, attempt);
+  // A network file system may have made the link and, asked again, say that it was there.
+  const int failure = ::symlink(owner_.c_str(), link.c_str()) == 0 ? 0 : errno;
+  std::error_code ignored;
+  if (failure == ENOENT) fs::create_directories(folder_, ignored);  // for the next try
+  if (failure != 0 && (failure != EEXIST || owner_of(link) != owner_)) return {};
+  return Claim(base, attempt, owner_);
+}
+
+}  // namespace dismantle::batch

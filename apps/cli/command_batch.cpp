@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/batch/launched_rank.h"
+#include "apps/batch/run_batch.h"
+#include "apps/batch/stop_signal.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/plan_text.h"
+#include "dismantle/io/atomic_file.h"
+#include "dismantle/io/check_report.h"
+#include "dismantle/io/path_file.h"
+#include "dismantle/planner/plan_disassembly.h"
+#include "dismantle/planner/plan_path.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+struct BatchCommand {
+  CommonOptions common;
+  std::string folder, output;
+  batch::BatchSelection selection;
+  batch::BatchLimits limits;
+  double lease_seconds = batch::BatchJob{}.lease_seconds;
+  double clearance = 0, time_limit = 0;
+  int workers = 0;
+  bool check_only = false, retry = false;
+};
+
+/// All that a result depends on but its input.
+std::string options_text(const BatchCommand& c) {
+  return fmt::format(
+      "dismantle {} units={} deflection={} angular={} tolerance={} fit={} pairs={} simplify={} "
+      "clearance={} time-limit={} check-only={} memory={} cpu-time={}",
+      DISMANTLE_VERSION, c.common.import.units, c.common.import.deflection, c.common.import.angular_deflection,
+      c.common.tolerance, c.common.fit, static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit,
+      c.check_only, c.limits.memory_gib, c.limits.cpu_seconds);
+}
+
+Result<Done> write_json(const fs::path& file, const Json& json) {
+  return write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+/// Adds to the summary what planning gives.
+Result<Done> plan(const BatchCommand& command, const Assembly& assembly, const PairStates& states,
+                  const fs::path& folder, Json& summary) {
+  const Executor executor = make_executor(command.common);
+  const Plan plan = plan_disassembly(
+      assembly, states, {{}, {}, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)});
+  const Path path = plan_path(assembly, states, plan);
+  if (Result<Done> written = write_path(folder / "plan.path.json", path); !written) return written;
+  if (Result<Done> written = write_json(folder / "plan.json", plan_json(assembly, plan, path)); !written)
+    return written;
+  summary.update({{"steps", plan.steps.size()},
+                  {"removed", path.removed.size()},
+                  {"staying", plan.staying.size()},
+                  {"complete", plan.complete()},
+                  {"out_of_time", plan.out_of_time}});
+  return Done{};
+}
+
+/// What is done with one assembly: runs in a process of its own, whose output nobody sees.
+Result<std::string> examine(BatchCommand command, const batch::BatchItem& item, const fs::path& folder) {
+  command.common.assembly_file = item.input.string();
+  const Result<Assembly> assembly = load(command.common);
+  if (!assembly) return assembly.error();
+  const Result<PairStates> states = classify(*assembly, command.common, command.clearance);
+  if (!states) return states.error();
+  Result<Done> written = write_file(folder / "check.json", check_report_json(*assembly, *states));
+  if (!written) return written.error();
+
+  const PairCounts pairs = count_pairs(*states);
+  Json summary{{"components", assembly->components.size()},
+               {"triangles", triangle_count(*assembly)},
+               {"tolerance_mm", states->tolerance},
+               {"near", pairs.near},
+               {"contact", pairs.contact},
+               {"fit", pairs.fit},
+               {"embedded", pairs.embedded}};
+  if (!command.check_only) written = plan(command, *assembly, *states, folder, summary);
+  if (!written) return written.error();
+  return summary.dump();
+}
+
+/// One line of what became of an item.
+std::string report_line(const batch::BatchResult& result) {
+  if (result.failed()) return "failed: " + result.error;
+  const Json s = Json::parse(result.summary, nullptr, false);
+  std::string line = fmt::format("{} components; pairs: {} in contact, {} fits, {} embedded", s.value("components", 0),
+                                 s.value("contact", 0), s.value("fit", 0), s.value("embedded", 0));
+  if (s.contains("steps"))
+    line += fmt::format("; {} come out in {} steps, {} stay{}", s.value("removed", 0), s.value("steps", 0),
+                        s.value("staying", 0), s.value("out_of_time", false) ? " (time is up)" : "");
+  return line;
+}
+
+/// Prints a line an item, to stderr where stdout gets JSON.
+batch::BatchReport line_printer(const BatchCommand& command, const batch::BatchJob& job) {
+  auto count = std::make_shared<std::size_t>(0);
+  std::FILE* const stream = command.common.json ? stderr : stdout;
+  return [&job, count, stream](std::uint32_t i, batch::BatchProgress progress) {
+    const std::optional<batch::BatchResult> result = find_result(job, job.items[i]);
+    fmt::print(stream, "[{}/{}] {}: {}{}\n", ++*count, job.items.size(), job.items[i].name,
+               progress == batch::BatchProgress::Found ? "(was done) " : "", result ? report_line(*result) : "");
+    std::fflush(stream);
+  };
+}
+
+Result<ExitCode> run(const BatchCommand& command, const batch::LaunchedRank& rank) {
+  batch::BatchSelection selection = command.selection;
+  selection.except = command.output;
+  Result<std::vector<batch::BatchItem>> items =
+      batch::find_batch_items(command.folder, selection, options_text(command));
+  if (!items) return items.error();
+  batch::BatchJob job{std::move(*items), command.output, {}, command.limits, command.lease_seconds};
+  job.work = [&command](const batch::BatchItem& item, const fs::path& folder) {
+    return examine(command, item, folder);
+  };
+  batch::BatchRunOptions options;
+  options.workers = command.workers > 0 ? command.workers : batch::usable_cores(rank);
+  options.retry_failed = command.retry;
+  if (rank.rank == 0 && !command.common.quiet) options.report = line_printer(command, job);
+
+  const Result<batch::BatchTables> tables = batch::run_batch(job, options);
+  if (!tables && rank.rank != 0 && batch::stop_requested()) return ExitCode::Failed;  // the first one says so
+  if (!tables) return tables.error();
+  if (rank.rank != 0) return ExitCode::Done;  // the first one answers for all
+  if (command.common.json) {
+    fmt::print("{}", tables->json);
+  } else {
+    fmt::print("{} assemblies, {} failed; table: {}\n", job.items.size(), tables->failed,
+               (fs::path(command.output) / "batch.tsv").string());
+  }
+  return tables->failed == 0 ? ExitCode::Done : ExitCode::No;
+}
+
+void add_work_options(CLI::App& command, BatchCommand& options) {
+  command.add_flag("--check-only", options.check_only, "Only check, do not plan");
+  command.add_option("--clearance", options.clearance, "List pairs that are apart, too, if by no more than this")
+      ->type_name("MM")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--time-limit", options.time_limit, "End the search of a plan after so long, with what it found")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_batch_options(CLI::App& command, BatchCommand& options) {
+  static const std::map<std::string, batch::MeshGrouping> kMeshes{{"folder", batch::MeshGrouping::Folder},
+                                                                  {"file", batch::MeshGrouping::File}};
+  command.add_option("--only", options.selection.only, "Only assemblies whose place in FOLDER is like this")
+      ->type_name("PATTERN");
+  command
+      .add_option("--meshes", options.selection.meshes,
+                  "Mesh files that lie together are one assembly (folder), or one each (file)")
+      ->transform(CLI::CheckedTransformer(kMeshes))
+      ->type_name("folder|file");
+  command.add_option("--workers", options.workers, "Assemblies at a time on this machine (default: one a core)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command.add_flag("--retry", options.retry, "Do again what failed before");
+  command.add_option("--memory", options.limits.memory_gib, "What one assembly may use before it counts as failed")
+      ->type_name("GIB")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--cpu-time", options.limits.cpu_seconds, "The same, computing time")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--lease", options.lease_seconds, "A machine that is silent for so long has lost its assembly")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_batch_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("batch", "Check and plan every assembly below a folder, on all cores and hosts");
+  auto options = std::make_shared<BatchCommand>();
+  options->common.threads = 1;
+  command->add_option("FOLDER", options->folder, "Where the assemblies are")->required();
+  command->add_option("-o,--output", options->output, "Folder for the results: one of its own an assembly, and tables")
+      ->required()
+      ->type_name("FOLDER");
+  add_work_options(*command, *options);
+  add_batch_options(*command, *options);
+  add_common_options(*command, options->common);
+  command->get_option("--threads")->description("Threads for one assembly (default: 1)");
+  command->footer(
+      "What is done is not done again. Several hosts share the work of one output folder: mpirun --enable-recovery "
+      "dismantle batch ... (docs/batch.md).\nExit code 0: every assembly was worked through; 1: some failed, and why.");
+  command->callback([options, &exit_code] {
+    const batch::LaunchedRank rank = batch::launched_rank();
+    const Result<ExitCode> result = run(*options, rank);
+    exit_code = result ? *result : report(result.error());
+  });
+}
+
+}  // namespace dismantle::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/batch/claim_folder.h"
+
+#include "tests/batch/batch_fixture.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <thread>
+
+namespace dismantle::batch {
+namespace {
+
+constexpr double kLongLease = 1000;  // [s]: what is seen sooner is seen by other means
+
+class Claims : public BatchFolder {
+ protected:
+  /// The link of the first attempt, as somebody of another machine would have made it.
+  void claim_from_elsewhere() const { fs::create_symlink("another-machine 1 1", root_ / "item.claim.1"); }
+};
+
+TEST_F(Claims, AreOfOneProcessOnly) {
+  ClaimFolder folder(root_, kLongLease);
+  std::optional<Claim> claim = folder.take("item");
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->attempt(), 1);
+  EXPECT_TRUE(claim->holds());
+  EXPECT_FALSE(ClaimFolder(root_, kLongLease).take("item")) << "its owner lives";
+  EXPECT_TRUE(folder.take("another"));
+  claim->release();
+  EXPECT_FALSE(claim->holds());
+  EXPECT_TRUE(ClaimFolder(root_, kLongLease).take("item"));
+}
+
+TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithWhatItLeft) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).take("item");
+    fs::create_directories(claim->workplace());
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  std::optional<Claim> claim = ClaimFolder(root_, kLongLease).take("item");
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->attempt(), 2);
+  EXPECT_TRUE(fs::exists(claim->workplace(1)));
+  claim->release();
+  EXPECT_TRUE(fs::is_empty(root_));
+}
+
+TEST_F(Claims, OfAnotherMachineAreLostAfterItsSilence) {
+  claim_from_elsewhere();
+  ClaimFolder folder(root_, 0.05);
+  EXPECT_FALSE(folder.take("item")) << "it was not silent for long";
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::optional<Claim> claim = folder.take("item");
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->attempt(), 2);
+}
+
+TEST_F(Claims, OfAnotherMachineStayWhileItShowsLife) {
+  claim_from_elsewhere();
+  ClaimFolder folder(root_, 0.05);
+  for (int k = 1; k <= 3; ++k) {
+    EXPECT_FALSE(folder.take("item"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const timespec times[2] = {{k, 0}, {k, 0}};  // its clock is far off, which must not matter
+    utimensat(AT_FDCWD, (root_ / "item.claim.1").c_str(), times, AT_SYMLINK_NOFOLLOW);
+  }
+  EXPECT_FALSE(folder.take("item"));
+}
+
+TEST_F(Claims, AreRenewedByTheirOwner) {
+  Claim claim = *ClaimFolder(root_, kLongLease).take("item");
+  const timespec long_ago[2] = {{1, 0}, {1, 0}};
+  const std::string link = (root_ / "item.claim.1").string();
+  utimensat(AT_FDCWD, link.c_str(), long_ago, AT_SYMLINK_NOFOLLOW);
+  claim.renew(kLongLease);
+  struct stat status {};
+  lstat(link.c_str(), &status);
+  EXPECT_EQ(status.st_mtim.tv_sec, 1) << "not so soon again";
+  claim.renew(0);
+  lstat(link.c_str(), &status);
+  EXPECT_GT(status.st_mtim.tv_sec, 1);
+}
+
+TEST_F(Claims, AreKnownToBeLostByTheirOwner) {
+  Claim claim = *ClaimFolder(root_, kLongLease).take("item");
+  fs::create_symlink("another-machine 1 1", root_ / "item.claim.2");
+  EXPECT_FALSE(claim.holds());
+  claim.release();
+  EXPECT_TRUE(fs::is_symlink(root_ / "item.claim.2")) << "that is not its own";
+}
+
+}  // namespace
+}  // namespace dismantle::batch
