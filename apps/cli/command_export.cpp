@@ -41,20 +41,8 @@ struct Exported {
   Timeline timeline;  ///< Of the path.
 };
 
-/// By how the name ends; nothing where that tells nothing.
-std::optional<ExportFormat> format_of(const std::string& file) {
-  static const std::pair<std::string, ExportFormat> kEndings[] = {
-      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson}, {"bom.csv", ExportFormat::BillCsv},
-      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html},
-      {".png", ExportFormat::Png}};
-  for (const auto& [ending, format] : kEndings)
-    if (file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
-      return format;
-  return {};
-}
-
 Result<ExportFormat> check(const ExportCommand& command) {
-  const std::optional<ExportFormat> format = command.format ? command.format : format_of(command.output);
+  const std::optional<ExportFormat> format = command.format ? command.format : export_format_of(command.output);
   if (!format)
     return Error{ErrorKind::Usage, command.output +
                                        " cannot be written (its name tells no format); end it with .glb, .html, .png, "

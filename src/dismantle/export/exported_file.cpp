@@ -4,6 +4,8 @@
 #include "dismantle/io/bill_of_materials.h"
 #include "dismantle/io/path_file.h"
 
+#include <utility>
+
 namespace dismantle {
 
 namespace {
@@ -18,6 +20,16 @@ Result<std::string> animated_glb(const Assembly& assembly, const Timeline& timel
 }
 
 }  // namespace
+
+std::optional<ExportFormat> export_format_of(std::string_view file) {
+  static constexpr std::pair<std::string_view, ExportFormat> kEndings[] = {
+      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson}, {"bom.csv", ExportFormat::BillCsv},
+      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html},
+      {".png", ExportFormat::Png}};
+  for (const auto& [ending, format] : kEndings)
+    if (file.size() >= ending.size() && file.substr(file.size() - ending.size()) == ending) return format;
+  return {};
+}
 
 bool needs_path(ExportFormat format) {
   return format == ExportFormat::Moves || format == ExportFormat::Path;

@@ -13,6 +13,9 @@ namespace dismantle {
 /// What an assembly and its path are written as; docs/export.md.
 enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path };
 
+/// The format that a file's name tells by how it ends; nothing where it tells none.
+std::optional<ExportFormat> export_format_of(std::string_view file);
+
 /// Whether a format is about moves only, so that there has to be a path.
 bool needs_path(ExportFormat format);
 /// Whether a format tells moves apart from their reverse.

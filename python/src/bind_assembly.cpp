@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/io/assembly_builder.h"
+#include "dismantle/io/check_report.h"
+#include "dismantle/io/load_assembly.h"
+#include "python/src/bind.h"
+
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <filesystem>
+
+namespace dismantle::python {
+
+namespace {
+
+using Faces = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
+
+/// One component, kept alive with its assembly.
+struct ComponentView {
+  std::shared_ptr<const Assembly> assembly;
+  ComponentId id;
+  const Component& get() const { return (*assembly)[id]; }
+};
+
+std::shared_ptr<Assembly> load(const std::filesystem::path& file, const std::string& units, double deflection,
+                               double angular_deflection, const py::object& progress) {
+  PythonProgress watched(progress);
+  ImportOptions options;
+  options.units = units;
+  options.deflection = deflection;
+  options.angular_deflection = angular_deflection;
+  options.progress = watched.callback();
+  Result<Assembly> assembly = without_gil([&] { return load_assembly(file, options); });
+  watched.finish();
+  return std::make_shared<Assembly>(value_or_raise(std::move(assembly)));
+}
+
+TriangleMesh mesh_of(const std::string& name, const DoubleArray& vertices, const Faces& faces) {
+  if (vertices.ndim() != 2 || vertices.shape(1) != 3 || faces.ndim() != 2 || faces.shape(1) != 3)
+    raise_usage("the mesh of '" + name + "' cannot be read (its arrays have another shape); give (n, 3) and (m, 3)");
+  TriangleMesh mesh;
+  const auto* points = reinterpret_cast<const Vec3*>(vertices.data());
+  const auto* triangles = reinterpret_cast<const Face*>(faces.data());
+  mesh.vertices.assign(points, points + vertices.shape(0));
+  mesh.faces.assign(triangles, triangles + faces.shape(0));
+  for (const Vec3& p : mesh.vertices)
+    if (!is_finite(p)) raise_usage("the mesh of '" + name + "' cannot be read (a vertex is not finite); mend it");
+  for (const Face& f : mesh.faces)
+    for (const std::uint32_t v : f.v)
+      if (v >= mesh.vertices.size())
+        raise_usage("the mesh of '" + name + "' cannot be read (a face names a vertex that it has not); mend it");
+  return mesh;
+}
+
+std::shared_ptr<Assembly> from_meshes(const py::dict& meshes, const std::string& units) {
+  ImportOptions options;
+  options.units = units;
+  AssemblyBuilder builder = value_or_raise(AssemblyBuilder::create("meshes", "mm", options));
+  for (const auto& [key, value] : meshes) {
+    const auto name = key.cast<std::string>();
+    const auto arrays = value.cast<std::pair<DoubleArray, Faces>>();
+    if (const auto error = builder.add({name, mesh_of(name, arrays.first, arrays.second), {}, {}})) raise(*error);
+  }
+  return std::make_shared<Assembly>(value_or_raise(builder.finish({})));
+}
+
+CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance, double fit, double clearance,
+                    const std::string& pairs, int threads, const py::object& progress) {
+  if (!(tolerance >= 0) || !(fit >= 0) || !(clearance >= 0))
+    raise_usage("the pairs cannot be checked (a length is negative); give 0 for the default");
+  if (pairs != "auto" && pairs != "paper")
+    raise_usage("there is no rule '" + pairs + "' (pairs are 'auto' or 'paper'); give one of these");
+  PythonProgress watched(progress);
+  ClassifyOptions options;
+  options.tolerance = tolerance;
+  options.fit = fit;
+  options.clearance = clearance;
+  options.rule = pairs == "auto" ? ClassifyRule::Auto : ClassifyRule::Paper;
+  options.executor = executor_of(threads);
+  options.progress = watched.callback();
+  Result<PairStates> states = without_gil([&] { return classify_pairs(*assembly, options); });
+  watched.finish();
+  return std::make_shared<CheckedAssembly>(CheckedAssembly{assembly, value_or_raise(std::move(states))});
+}
+
+py::array_t<double> transform_array(const RigidTransform& t) {
+  py::array_t<double> array({4, 4});
+  auto rows = array.mutable_unchecked<2>();
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c)
+      rows(r, c) = r == 3 ? (c == 3 ? 1 : 0) : (c == 3 ? t.translation[r] : t.rotation.row[r][c]);
+  return array;
+}
+
+void bind_component(py::module_& module) {
+  using Mesh = std::shared_ptr<const TriangleMesh>;
+  const auto owner = [](const Mesh& mesh) {
+    return py::capsule(new Mesh(mesh), [](void* p) { delete static_cast<Mesh*>(p); });
+  };
+  py::class_<ComponentView>(module, "Component", "One rigid part of an assembly.")
+      .def_property_readonly("name", [](const ComponentView& c) { return c.get().name; })
+      .def_property_readonly("index", [](const ComponentView& c) { return c.id.value; })
+      .def_property_readonly(
+          "vertices",
+          [owner](const ComponentView& c) {
+            const Mesh& mesh = c.get().mesh;
+            return look_at<double, Vec3>(reinterpret_cast<const double*>(mesh->vertices.data()), mesh->vertices.size(),
+                                         owner(mesh), 3);
+          },
+          "Positions [mm] in the component's own frame, shape (n, 3): the mesh itself, not a copy; read-only.")
+      .def_property_readonly(
+          "faces",
+          [owner](const ComponentView& c) {
+            const Mesh& mesh = c.get().mesh;
+            return look_at<std::uint32_t, Face>(reinterpret_cast<const std::uint32_t*>(mesh->faces.data()),
+                                                mesh->faces.size(), owner(mesh), 3);
+          },
+          "Vertex indices, shape (m, 3): the mesh itself, not a copy; read-only.")
+      .def_property_readonly(
+          "transform", [](const ComponentView& c) { return transform_array(c.get().assembly_from_mesh); },
+          "From the component's own frame to the assembled state, shape (4, 4).")
+      .def_property_readonly(
+          "assembled_vertices",
+          [](const ComponentView& c) {
+            auto [kept, first] = keep(assembled_vertices(c.get()));
+            return look_at<double, Vec3>(&first->x, c.get().mesh->vertices.size(), kept, 3);
+          },
+          "Positions [mm] in the assembled state, shape (n, 3).")
+      .def_property_readonly("color",
+                             [](const ComponentView& c) {
+                               const Color& color = c.get().color;
+                               return std::array<float, 4>{color.r, color.g, color.b, color.a};
+                             })
+      .def_property_readonly("is_closed", [](const ComponentView& c) { return c.get().faults.closed(); })
+      .def("__repr__", [](const ComponentView& c) {
+        return "<dismantle.Component '" + c.get().name + "', " + std::to_string(c.get().mesh->faces.size()) +
+               " triangles>";
+      });
+}
+
+void bind_assembly_class(py::module_& module) {
+  using Holder = std::shared_ptr<Assembly>;
+  py::class_<Assembly, Holder>(module, "Assembly", "A CAD assembly in its assembled state.")
+      .def_static("from_meshes", &from_meshes, py::arg("meshes"), py::kw_only(), py::arg("units") = "mm",
+                  "An assembly of meshes {name: (vertices (n, 3), faces (m, 3))}, in their assembled places.")
+      .def_property_readonly("names",
+                             [](const Assembly& a) {
+                               std::vector<std::string> names;
+                               for (const Component& c : a.components) names.push_back(c.name);
+                               return names;
+                             })
+      .def_property_readonly("components",
+                             [](const Holder& a) {
+                               std::vector<ComponentView> views;
+                               for (std::uint32_t i = 0; i < a->components.size(); ++i)
+                                 views.push_back({a, ComponentId(i)});
+                               return views;
+                             })
+      .def_property_readonly("triangle_count", &triangle_count)
+      .def_property_readonly("default_tolerance", &default_tolerance, "[mm]")
+      .def_property_readonly(
+          "bounds",
+          [](const Assembly& a) {
+            const Aabb box = assembled_bounds(a);
+            return py::make_tuple(to_array(box.lower), to_array(box.upper));
+          },
+          "The lower and upper corner of the box around it [mm].")
+      .def_readonly("source_file", &Assembly::source_file)
+      .def("__len__", [](const Assembly& a) { return a.components.size(); })
+      .def(
+          "__getitem__",
+          [](const Holder& a, const py::object& key) {
+            return ComponentView{a, component_of(*a, key)};
+          },
+          py::arg("key"))
+      .def("__repr__", [](const Assembly& a) {
+        return "<dismantle.Assembly '" + a.source_file + "', " + std::to_string(a.components.size()) + " components>";
+      });
+}
+
+/// A pair with its names.
+struct PairView {
+  ComponentPair pair;
+  std::string a, b;
+};
+
+void bind_pairs(py::module_& module) {
+  py::class_<PairView>(module, "Pair", "How two components stand to each other in the assembled state.")
+      .def_readonly("a", &PairView::a)
+      .def_readonly("b", &PairView::b)
+      .def_property_readonly(
+          "state", [](const PairView& p) { return std::string(name_of(p.pair.state)); },
+          "'near', 'contact', 'fit' or 'embedded'")
+      .def_property_readonly(
+          "distance", [](const PairView& p) { return p.pair.distance; }, "[mm]")
+      .def_property_readonly(
+          "penetration", [](const PairView& p) { return p.pair.penetration; }, "[mm]")
+      .def_property_readonly(
+          "allowed_penetration", [](const PairView& p) { return p.pair.allowed_penetration; },
+          "[mm]; infinite where embedded")
+      .def_property_readonly("triangle_pairs", [](const PairView& p) { return p.pair.triangle_pairs; })
+      .def("__repr__", [](const PairView& p) {
+        return "<dismantle.Pair '" + p.a + "', '" + p.b + "': " + std::string(name_of(p.pair.state)) + ">";
+      });
+  py::class_<CheckedAssembly, CheckedHolder>(module, "PairStates", "Every pair of components that is not clear.")
+      .def_property_readonly(
+          "tolerance", [](const CheckedAssembly& c) { return c.pairs.tolerance; }, "[mm]")
+      .def_property_readonly("assembly", [](const CheckedAssembly& c) { return c.assembly; })
+      .def_property_readonly("pairs",
+                             [](const CheckedAssembly& c) {
+                               std::vector<PairView> views;
+                               for (const ComponentPair& p : c.pairs.pairs)
+                                 views.push_back({p, (*c.assembly)[p.a].name, (*c.assembly)[p.b].name});
+                               return views;
+                             })
+      .def(
+          "report", [](const CheckedAssembly& c) { return check_report_text(*c.assembly, c.pairs); },
+          "The clash report for a terminal.")
+      .def(
+          "report_json", [](const CheckedAssembly& c) { return check_report_json(*c.assembly, c.pairs); },
+          "As 'dismantle check --json'.")
+      .def("__len__", [](const CheckedAssembly& c) { return c.pairs.pairs.size(); });
+}
+
+}  // namespace
+
+void bind_assembly(py::module_& module) {
+  bind_component(module);
+  bind_assembly_class(module);
+  bind_pairs(module);
+  module.def("load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
+             py::arg("angular_deflection") = 0.0, py::arg("progress") = py::none(),
+             "Reads STEP, glTF, OBJ, STL, PLY, URDF or a folder of meshes.");
+  module.def("check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("fit") = 0.0,
+             py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0,
+             py::arg("progress") = py::none(),
+             "How every pair of components stands in the assembled state, and so how deep it may get.");
+}
+
+}  // namespace dismantle::python

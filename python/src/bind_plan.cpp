@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/viewer_files.h"
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/export/exported_file.h"
+#include "dismantle/io/atomic_file.h"
+#include "dismantle/planner/explanation.h"
+#include "dismantle/planner/plan_disassembly.h"
+#include "dismantle/planner/plan_path.h"
+#include "python/src/path_object.h"
+
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+
+namespace dismantle::python {
+
+namespace {
+
+struct PlanView {
+  CheckedHolder states;
+  Plan plan;
+};
+
+struct ExplanationView {
+  CheckedHolder states;
+  Explanation explanation;
+};
+
+struct StepOfPlan {
+  CheckedHolder states;
+  PlanStep step;
+};
+
+PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed, double time_limit,
+              int threads, const py::object& progress) {
+  PythonProgress watched(progress);
+  PlanOptions options;
+  options.targets = components_of(*states->assembly, targets);
+  options.fixed = components_of(*states->assembly, fixed);
+  options.time_limit = time_limit;
+  options.engine.executor = executor_of(threads);
+  options.progress = watched.callback();
+  if (!(time_limit >= 0)) raise_usage("the plan cannot be made (the time limit is negative); give 0 for none");
+  for (const ComponentId c : options.targets)
+    if (std::find(options.fixed.begin(), options.fixed.end(), c) != options.fixed.end())
+      raise_usage("'" + (*states->assembly)[c].name +
+                  "' cannot come out (it is a target, and fixed); leave out one of the two");
+  PlanView view{states, without_gil([&] { return plan_disassembly(*states->assembly, states->pairs, options); })};
+  watched.finish();
+  return view;
+}
+
+ExplanationView why(const CheckedHolder& states, const py::object& component, int threads) {
+  const ComponentId id = component_of(*states->assembly, component);
+  const CertificateOptions options{executor_of(threads), widest_lanes()};
+  return {states, without_gil([&] { return why_blocked(*states->assembly, states->pairs, id, options); })};
+}
+
+AuditReport audit(const Assembly& assembly, const Path& path, int threads, const py::object& progress) {
+  PythonProgress watched(progress);
+  const AuditOptions options{executor_of(threads), watched.callback()};
+  AuditReport report = without_gil([&] { return audit_path(assembly, path, options); });
+  watched.finish();
+  return report;
+}
+
+void export_file(const Assembly& assembly, const Path& path, const std::filesystem::path& file, bool reverse,
+                 const py::object& progress) {
+  const std::optional<ExportFormat> format = export_format_of(file.string());
+  if (!format || *format == ExportFormat::Png)
+    raise_usage(file.string() +
+                " cannot be written (its name tells no format); end it with .glb, .html, .csv, "
+                "bom.csv, bom.json or .path.json");
+  PythonProgress watched(progress);
+  ExportOptions options;
+  options.direction = reverse ? PathDirection::Reversed : PathDirection::Forward;
+  options.viewer = server::viewer_files();
+  options.progress = watched.callback();
+  Result<std::string> bytes = without_gil([&] { return exported_file(*format, assembly, path, options); });
+  watched.finish();
+  value_or_raise(write_file(file, value_or_raise(std::move(bytes))));
+}
+
+std::vector<std::string> blockers(const ExplanationView& view) {
+  std::vector<ComponentId> found;
+  for (const Blocker& b : view.explanation.blockers) found.push_back(b.component);
+  return component_names(*view.states->assembly, found);
+}
+
+void bind_explanation(py::module_& module) {
+  py::class_<ExplanationView>(module, "Explanation", "What keeps a component from going straight out.")
+      .def_property_readonly(
+          "component", [](const ExplanationView& e) { return (*e.states->assembly)[e.explanation.component].name; })
+      .def_property_readonly(
+          "direction", [](const ExplanationView& e) { return to_array(e.explanation.direction); },
+          "The one along which the fewest are in the way.")
+      .def_property_readonly("blocked_by", &blockers, "Nearest first; empty where it comes out.")
+      .def_property_readonly(
+          "comes_out_with",
+          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.together); })
+      .def_property_readonly(
+          "locked_with",
+          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.locked); })
+      .def("__str__", [](const ExplanationView& e) { return explanation_text(*e.states->assembly, e.explanation); });
+}
+
+void bind_plan_classes(py::module_& module) {
+  py::class_<StepOfPlan>(module, "PlanStep", "A set of components leaves what it is part of.")
+      .def_property_readonly(
+          "components", [](const StepOfPlan& s) { return component_names(*s.states->assembly, s.step.components); })
+      .def_property_readonly("tier", [](const StepOfPlan& s) { return std::string(name_of(s.step.tier)); })
+      .def_property_readonly(
+          "exit", [](const StepOfPlan& s) { return to_array(s.step.exit); },
+          "The direction in which it leaves for good.")
+      .def_property_readonly("part_of", [](const StepOfPlan& s) -> std::optional<std::uint32_t> {
+        if (s.step.part_of == PlanStep::kWhole) return {};
+        return s.step.part_of;
+      });
+  py::class_<PlanView>(module, "Plan", "How an assembly comes apart.")
+      .def_property_readonly("steps",
+                             [](const PlanView& p) {
+                               std::vector<StepOfPlan> steps;
+                               for (const PlanStep& s : p.plan.steps) steps.push_back({p.states, s});
+                               return steps;
+                             })
+      .def_property_readonly(
+          "staying",
+          [](const PlanView& p) {
+            std::vector<ExplanationView> staying;
+            for (const Explanation& e : p.plan.staying) staying.push_back({p.states, e});
+            return staying;
+          },
+          "Why what should come out and does not stays.")
+      .def_property_readonly("complete", [](const PlanView& p) { return p.plan.complete(); })
+      .def_property_readonly("out_of_time", [](const PlanView& p) { return p.plan.out_of_time; })
+      .def_property_readonly("seconds", [](const PlanView& p) { return p.plan.seconds; })
+      .def(
+          "path",
+          [](const PlanView& p) {
+            return hold_path(without_gil([&] { return plan_path(*p.states->assembly, p.states->pairs, p.plan); }));
+          },
+          "One move a step.");
+}
+
+}  // namespace
+
+void bind_plan(py::module_& module) {
+  bind_explanation(module);
+  bind_plan_classes(module);
+  py::class_<AuditReport>(module, "AuditReport", "Whether a path holds the guarantee.")
+      .def_property_readonly("holds", &AuditReport::holds)
+      .def_property_readonly("violations",
+                             [](const AuditReport& r) {
+                               std::vector<std::string> sentences;
+                               for (const AuditViolation& v : r.violations) sentences.push_back(v.message);
+                               return sentences;
+                             })
+      .def_readonly("seconds", &AuditReport::seconds);
+  module.def("plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(),
+             py::arg("fixed") = py::none(), py::arg("time_limit") = 0.0, py::arg("threads") = 0,
+             py::arg("progress") = py::none(), "How the assembly comes apart, or how the targets get out.");
+  module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0);
+  module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
+             py::arg("progress") = py::none(), "Checks a path by means that share nothing with what made it.");
+  module.def("export", &export_file, py::arg("assembly"), py::arg("path"), py::arg("file"), py::kw_only(),
+             py::arg("reverse") = false, py::arg("progress") = py::none(),
+             "Writes .glb, .html, .csv, bom.csv, bom.json or .path.json, by the file's name.");
+}
+
+}  // namespace dismantle::python

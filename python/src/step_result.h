@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/motion_engine.h"
+#include "python/src/bind.h"
+
+namespace dismantle::python {
+
+/// What a step gave, with the names of its assembly.
+struct StepView {
+  std::shared_ptr<const Assembly> assembly;
+  StepResult result;
+};
+
+/// 'stop', 'touch' or 'slide'.
+ResponseKind response_of(const std::string& name);
+
+}  // namespace dismantle::python

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+import gc
+import os
+import signal
+import threading
+
+import dismantle
+import numpy as np
+import pytest
+from conftest import ROOT, box
+
+MICROSCOPE = ROOT / "samples" / "microscope.step"
+
+
+def test_loads_a_file_and_names_its_components():
+    assembly = dismantle.load(MICROSCOPE)
+    assert len(assembly) == len(assembly.names) == len(assembly.components)
+    assert assembly["specimen slide"].name == "specimen slide"
+    assert assembly[0].name == assembly.names[0]
+    assert assembly.triangle_count == sum(len(c.faces) for c in assembly.components)
+    assert assembly.source_file == "microscope.step"
+
+
+def test_gives_meshes_without_a_copy_that_outlive_the_assembly(drawer):
+    vertices, faces = drawer["back"].vertices, drawer["back"].faces
+    assert vertices.shape == (8, 3) and faces.shape == (12, 3)
+    assert vertices.__array_interface__["data"] == drawer["back"].vertices.__array_interface__["data"]
+    assert not vertices.flags.owndata and not vertices.flags.writeable
+    before = vertices.copy()
+    del drawer
+    gc.collect()
+    assert np.array_equal(vertices, before)
+
+
+def test_gives_back_the_meshes_that_it_was_given(drawer):
+    vertices, faces = box((10, 0, 0), (20, 10, 10))
+    assert np.array_equal(drawer["front"].assembled_vertices, vertices)
+    assert np.array_equal(drawer["front"].faces, faces)
+    assert np.array_equal(drawer["front"].transform, np.eye(4))
+    assert drawer["front"].is_closed
+    lower, upper = drawer.bounds
+    assert lower.tolist() == [-5, -5, -5] and upper.tolist() == [20, 15, 15]
+
+
+def test_takes_meshes_of_any_number_type_and_order():
+    vertices, faces = box((0, 0, 0), (1, 1, 1))
+    assembly = dismantle.Assembly.from_meshes(
+        {"a": (np.asfortranarray(vertices.astype(np.float32)), faces.astype(np.int64).tolist())}, units="m")
+    assert np.array_equal(assembly["a"].assembled_vertices, 1000 * vertices)
+
+
+@pytest.mark.parametrize("vertices, faces, why", [
+    (np.zeros((3, 2)), [[0, 1, 2]], "another shape"),
+    (np.zeros((3, 3)), [[0, 1, 3]], "names a vertex that it has not"),
+    (np.full((3, 3), np.nan), [[0, 1, 2]], "not finite"),
+])
+def test_refuses_meshes_that_are_none(vertices, faces, why):
+    with pytest.raises(dismantle.UsageError, match=why):
+        dismantle.Assembly.from_meshes({"a": (vertices, faces)})
+
+
+def test_tells_errors_apart_with_the_sentence_of_the_command_line(tmp_path, drawer):
+    with pytest.raises(dismantle.UnreadableError, match="no such file"):
+        dismantle.load(tmp_path / "missing.step")
+    (tmp_path / "broken.step").write_text("this is no STEP file")
+    with pytest.raises(OSError):
+        dismantle.load(tmp_path / "broken.step")
+    with pytest.raises(dismantle.Error, match="'lid' is unknown"):
+        drawer["lid"]
+    with pytest.raises(ValueError):
+        drawer[99]
+
+
+def test_checks_every_pair(drawer):
+    states = dismantle.check(drawer, tolerance=0.01, clearance=1)
+    assert states.tolerance == 0.01
+    assert states.assembly is drawer
+    pair = next(p for p in states.pairs if {p.a, p.b} == {"back", "front"})
+    assert pair.state == "contact" and pair.distance == 0 and pair.allowed_penetration == 0.01
+    assert len(states) == len(states.pairs)
+    assert "back" in states.report() and '"dismantle-check"' in states.report_json()
+    with pytest.raises(dismantle.UsageError, match="there is no rule 'all'"):
+        dismantle.check(drawer, pairs="all")
+    with pytest.raises(dismantle.UsageError, match="negative"):
+        dismantle.check(drawer, tolerance=-1)
+
+
+def test_lets_progress_call_work_off_and_passes_on_what_it_raises():
+    stages = []
+    dismantle.load(MICROSCOPE, progress=lambda stage, fraction: stages.append(stage))
+    assert stages
+    with pytest.raises(dismantle.FailedError, match="cancelled"):
+        dismantle.load(MICROSCOPE, progress=lambda stage, fraction: False)
+
+    def fail(stage, fraction):
+        raise KeyError(stage)
+
+    with pytest.raises(KeyError):
+        dismantle.load(MICROSCOPE, progress=fail)
+
+
+def test_is_ended_by_control_c():
+    interrupt = threading.Timer(0.01, lambda: os.kill(os.getpid(), signal.SIGINT))
+    with pytest.raises(KeyboardInterrupt):
+        interrupt.start()
+        for _ in range(1000):
+            dismantle.load(MICROSCOPE)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+
+import dismantle
+import numpy as np
+import pytest
+from conftest import box
+
+WALLS = ["floor", "roof", "left", "right", "end"]
+
+
+def test_finds_the_order_and_a_path_that_passes_the_audit(states):
+    plan = dismantle.plan(states, targets="back", fixed=WALLS)
+    assert plan.complete and not plan.out_of_time and plan.staying == []
+    assert [s.components for s in plan.steps] == [["front"], ["back"]]
+    assert plan.steps[0].tier == "straight" and plan.steps[0].part_of is None
+    assert np.array_equal(plan.steps[0].exit, [1, 0, 0])
+    path = plan.path()
+    assert path.removed == ["back", "front"] or path.removed == ["front", "back"]
+    report = dismantle.audit(states.assembly, path)
+    assert report.holds and report.violations == []
+
+
+def test_says_why_something_stays(states):
+    plan = dismantle.plan(states, targets=["back"], fixed=WALLS + ["front"])
+    assert not plan.complete and plan.steps == []
+    assert plan.staying[0].component == "back" and "back is blocked by" in str(plan.staying[0])
+    why = dismantle.why(states, "back")
+    assert len(why.blocked_by) == 1 and "back" in why.comes_out_with
+    assert dismantle.why(states, "front").blocked_by == []
+
+
+def test_ends_early_where_it_is_told(states):
+    assert dismantle.plan(states, time_limit=1e-6).out_of_time
+    assert dismantle.plan(states, progress=lambda stage, fraction: False).out_of_time
+
+
+def test_refuses_what_makes_no_sense(states, tmp_path):
+    path = dismantle.plan(states).path()
+    for call, why in [
+        (lambda: dismantle.plan(states, targets="lid"), "'lid' is unknown"),
+        (lambda: dismantle.plan(states, targets="back", fixed="back"), "it is a target, and fixed"),
+        (lambda: dismantle.plan(states, time_limit=-1), "negative"),
+        (lambda: dismantle.export(states.assembly, path, tmp_path / "x.doc"), "its name tells no format"),
+    ]:
+        with pytest.raises(dismantle.UsageError, match=why):
+            call()
+    other = dismantle.Assembly.from_meshes({"stone": box((0, 0, 0), (1, 1, 1))})
+    with pytest.raises(dismantle.UnreadableError):
+        dismantle.export(other, path, tmp_path / "x.glb")
+    assert not dismantle.audit(other, path).holds
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_exports_and_reads_paths(states, tmp_path):
+    path = dismantle.plan(states).path()
+    path.write(tmp_path / "plan.path.json")
+    assert dismantle.read_path(tmp_path / "plan.path.json") == path
+    assert len(path.there_and_back().moves) == 2 * len(path.moves)
+    for name in ("plan.glb", "plan.html", "plan.csv", "bom.json", "again.path.json"):
+        dismantle.export(states.assembly, path, tmp_path / name)
+    assert (tmp_path / "plan.glb").read_bytes()[:4] == b"glTF"
+    assert b"<html" in (tmp_path / "plan.html").read_bytes()
+    assert json.loads((tmp_path / "bom.json").read_text())
+    assert dismantle.read_path(tmp_path / "again.path.json") == path
+    dismantle.export(states.assembly, path, tmp_path / "reversed.glb", reverse=True)
+    assert (tmp_path / "reversed.glb").read_bytes() != (tmp_path / "plan.glb").read_bytes()
