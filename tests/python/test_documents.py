@@ -8,7 +8,7 @@ import sys
 
 import dismantle
 import pytest
-from conftest import ROOT
+from conftest import ROOT, box
 
 SAMPLE = ROOT / "samples" / "microscope.step"
 
@@ -63,13 +63,22 @@ def test_the_documents_code_runs(tmp_path, monkeypatch):
     assert (tmp_path / "microscope.glb").exists()
 
 
+def write_obj(file, mesh):
+    vertices, faces = mesh
+    lines = [f"v {x} {y} {z}" for x, y, z in vertices] + [f"f {a} {b} {c}" for a, b, c in faces + 1]
+    file.write_text("\n".join(lines))
+
+
 @pytest.mark.parametrize("example, arguments, says", [
-    ("candidate_motions.py", ["specimen slide"], "directions are free"),
+    ("candidate_motions.py", ["lid"], "directions are free"),
     ("take_apart.py", ["."], "audit: holds"),
 ])
 def test_the_examples_run(tmp_path, example, arguments, says):
+    (tmp_path / "parts").mkdir()
+    write_obj(tmp_path / "parts" / "case.obj", box((0, 0, 0), (10, 10, 10)))
+    write_obj(tmp_path / "parts" / "lid.obj", box((0, 0, 10), (10, 10, 12)))
     program = [sys.executable, ROOT / "python" / "examples" / example]
-    done = subprocess.run(program + [SAMPLE] + arguments, cwd=tmp_path, capture_output=True, text=True, check=True)
+    done = subprocess.run(program + ["parts"] + arguments, cwd=tmp_path, capture_output=True, text=True, check=True)
     assert says in done.stdout
     wrong = subprocess.run(program + ["missing.step"] + arguments, cwd=tmp_path, capture_output=True, text=True)
     assert wrong.returncode == 1 and "no such file" in wrong.stderr and "Traceback" not in wrong.stderr
