@@ -29,17 +29,25 @@ bool all_default_colored(const Assembly& assembly) {
                      [](const Component& c) { return c.color == Color{}; });
 }
 
-/// A solid of revolution about z: rings of (radius, z) from the bottom tip to the top tip.
-TriangleMesh revolved(const std::vector<std::array<double, 2>>& profile) {
+/// A round ring of a surface, about a middle and across a direction.
+struct Ring {
+  Vec3 middle;
+  Vec3 first, second;  ///< Unit vectors in its plane.
+  double radius = 0;
+};
+
+/// The closed surface through rings, the first and last of which have no radius.
+TriangleMesh skin(const std::vector<Ring>& rings) {
   TriangleMesh mesh;
   constexpr auto kSides = static_cast<std::uint32_t>(kArrowSides);
-  for (const auto& [radius, z] : profile) {
+  for (const Ring& ring : rings) {
     for (std::uint32_t i = 0; i < kSides; ++i) {
       const double angle = 2 * std::acos(-1.0) * i / kSides;
-      mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      mesh.vertices.push_back(ring.middle +
+                              ring.radius * (std::cos(angle) * ring.first + std::sin(angle) * ring.second));
     }
   }
-  for (std::uint32_t ring = 0; ring + 1 < profile.size(); ++ring) {
+  for (std::uint32_t ring = 0; ring + 1 < rings.size(); ++ring) {
     for (std::uint32_t i = 0; i < kSides; ++i) {
       const std::uint32_t a = ring * kSides + i, b = ring * kSides + (i + 1) % kSides;
       mesh.faces.push_back({{a, b, b + kSides}});
@@ -47,6 +55,31 @@ TriangleMesh revolved(const std::vector<std::array<double, 2>>& profile) {
     }
   }
   return clean_mesh(mesh).mesh;  // the tips' rings shrink to points
+}
+
+/// An arrow's way in two.
+struct ShaftAndHead {
+  std::vector<Vec3> shaft;  ///< Up to where the head begins.
+  Vec3 tip;
+};
+
+ShaftAndHead cut_head(Span<const Vec3> way, double head) {
+  ShaftAndHead cut{{way.begin(), way.end()}, way[way.size() - 1]};
+  double left = head;
+  while (cut.shaft.size() > 2 && length(cut.shaft.back() - cut.shaft[cut.shaft.size() - 2]) <= left) {
+    left -= length(cut.shaft.back() - cut.shaft[cut.shaft.size() - 2]);
+    cut.shaft.pop_back();
+  }
+  const Vec3 last = cut.shaft.back() - cut.shaft[cut.shaft.size() - 2];
+  cut.shaft.back() -= std::min(left, 0.9 * length(last)) * normalized(last);
+  return cut;
+}
+
+/// The direction of a row of points at one of them: the mean of those before and after it.
+Vec3 direction_at(const std::vector<Vec3>& points, std::size_t i) {
+  const Vec3 before = i > 0 ? normalized(points[i] - points[i - 1]) : Vec3{};
+  const Vec3 after = i + 1 < points.size() ? normalized(points[i + 1] - points[i]) : Vec3{};
+  return length(before + after) > 1e-6 ? normalized(before + after) : before;  // it may turn back
 }
 
 }  // namespace
@@ -93,15 +126,35 @@ void make_highlighted(RenderItem& item, const Color& color) {
 }
 
 RenderItem make_arrow(Vec3 from, Vec3 to, double radius, const Color& color) {
-  DISMANTLE_EXPECT(!(from == to) && radius > 0);
-  const double arrow_length = length(to - from);
-  const double head = std::min(6 * radius, 0.5 * arrow_length);
-  const Vec3 z = normalized(to - from);
-  const Vec3 x = normalized(cross(std::abs(z.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, z));
+  const std::vector<Vec3> way{from, to};
+  return make_bent_arrow(way, radius, color);
+}
+
+RenderItem make_bent_arrow(Span<const Vec3> way, double radius, const Color& color) {
+  DISMANTLE_EXPECT(way.size() >= 2 && radius > 0);
+  double way_length = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    DISMANTLE_EXPECT(!(way[i] == way[i - 1]));
+    way_length += length(way[i] - way[i - 1]);
+  }
+  const ShaftAndHead parts = cut_head(way, std::min(6 * radius, 0.5 * way_length));
+  const Vec3 origin = way[0];
+  const Vec3 start = direction_at(parts.shaft, 0);
+  Vec3 first = normalized(cross(std::abs(start.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, start));
+  std::vector<Ring> rings;
+  const auto add = [&](Vec3 point, Vec3 direction, double ring_radius) {
+    first = normalized(first - dot(first, direction) * direction);  // turns no more than the way does
+    rings.push_back({point - origin, first, cross(direction, first), ring_radius});
+  };
+  add(parts.shaft[0], start, 0);
+  for (std::size_t i = 0; i < parts.shaft.size(); ++i) add(parts.shaft[i], direction_at(parts.shaft, i), radius);
+  const Vec3 end = normalized(parts.tip - parts.shaft.back());
+  add(parts.shaft.back(), end, 2.5 * radius);
+  add(parts.tip, end, 0);
+
   RenderItem item;
-  item.mesh = std::make_shared<const RenderMesh>(make_render_mesh(revolved(
-      {{0, 0}, {radius, 0}, {radius, arrow_length - head}, {2.5 * radius, arrow_length - head}, {0, arrow_length}})));
-  item.world_from_mesh = {transposed(Mat3{{x, cross(z, x), z}}), from};
+  item.mesh = std::make_shared<const RenderMesh>(make_render_mesh(skin(rings)));
+  item.world_from_mesh.translation = origin;
   item.color = color;
   item.edge_opacity = 0;
   item.closed = true;

@@ -32,6 +32,10 @@ void make_highlighted(RenderItem& item, const Color& color);
 /// @pre from != to, radius > 0
 RenderItem make_arrow(Vec3 from, Vec3 to, double radius, const Color& color);
 
+/// The same along a bent way, with its head at the end of it.
+/// @pre way has two points or more, neighbours differ, radius > 0
+RenderItem make_bent_arrow(Span<const Vec3> way, double radius, const Color& color);
+
 /// The plane across the axis `direction` through `point`, taking away what is on the camera's side.
 SectionPlane section_facing(const Camera& camera, Vec3 direction, Vec3 point);
 
