@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/precedence_graph.h"
+
+#include "dismantle/core/contract.h"
+#include "dismantle/math/screw.h"
+#include "dismantle/planner/component_set.h"
+#include "dismantle/planner/step_maker.h"
+#include "dismantle/session/session_path.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// What was taken away stands so many diameters of the assembly off.
+constexpr double kFarAway = 100;
+/// Ways go on for so many diameters of the assembly: past all of it.
+constexpr double kWayOut = 1.1;
+
+/// Finds what is in the way of each step.
+class PrecedenceFinder {
+ public:
+  PrecedenceFinder(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
+                   const CertificateOptions& options, const GoOn& go_on)
+      : assembly_(assembly),
+        plan_(plan),
+        size_(diagonal(assembled_bounds(assembly))),
+        maker_(assembly, pairs, options, kFarAway * size_, go_on) {}
+
+  /// All steps that have to come before step `k`, ascending.
+  std::vector<std::uint32_t> before(std::uint32_t k) {
+    const PlanStep& step = plan_.steps[k];
+    std::vector<std::uint32_t> earlier, found;
+    for (std::uint32_t j = 0; j < k; ++j)
+      if (plan_.steps[j].part_of == step.part_of) earlier.push_back(j);
+    found = step.way.empty() ? met_straight(step, earlier) : near_way(step, earlier);
+    if (step.part_of != PlanStep::kWhole) found.push_back(step.part_of);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  std::vector<std::uint32_t> met_straight(const PlanStep& step, std::vector<std::uint32_t> earlier) {
+    std::vector<std::uint32_t> found;
+    while (!earlier.empty()) {
+      ComponentSet present(assembly_.components.size(), step.components);
+      for (const std::uint32_t j : earlier)
+        for (const ComponentId c : plan_.steps[j].components) present.insert(c);
+      maker_.stand(present);
+      const StepMaker::Trial trial = maker_.try_straight(step.components, step.exit, kWayOut * size_);
+      if (trial.free) break;
+      const auto is_met = [&](std::uint32_t j) {
+        const ComponentSet other(assembly_.components.size(), plan_.steps[j].components);
+        return trial.against.empty() ||  // by a rule that names nobody: it may be any of them
+               std::any_of(trial.against.begin(), trial.against.end(),
+                           [&](const auto& pair) { return other.has(pair.second); });
+      };
+      const auto first_met = std::stable_partition(earlier.begin(), earlier.end(), [&](auto j) { return !is_met(j); });
+      const bool none = first_met == earlier.end();
+      found.insert(found.end(), none ? earlier.begin() : first_met, earlier.end());
+      earlier.erase(none ? earlier.begin() : first_met, earlier.end());
+    }
+    return found;
+  }
+
+  std::vector<std::uint32_t> near_way(const PlanStep& step, const std::vector<std::uint32_t>& earlier) const {
+    const Aabb passed = box_around_way(step);
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t j : earlier)
+      if (overlaps(passed, bounds(plan_.steps[j], Pose{}))) found.push_back(j);
+    return found;
+  }
+
+  Aabb bounds(const PlanStep& step, const Pose& pose) const {
+    Aabb box;
+    for (const ComponentId c : step.components) box.extend(bounds_at(assembly_[c], pose));
+    return box;
+  }
+
+  Aabb box_around_way(const PlanStep& step) const {
+    Aabb box = bounds(step, Pose{});
+    Pose from;
+    for (const Pose& to : step.way) {
+      const Screw screw = screw_between(from, to);
+      box.extend(bounds(step, to));
+      box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), diagonal(box) / 2)));
+      from = to;
+    }
+    box.extend(bounds(step, {from.position + kWayOut * size_ * step.exit, from.rotation}));
+    return box;
+  }
+
+  const Assembly& assembly_;
+  const Plan& plan_;
+  double size_;
+  StepMaker maker_;
+};
+
+/// Which steps come before which, by way of any others: the row of a step has a 1 for each.
+using Reach = std::vector<std::vector<std::uint8_t>>;
+
+Reach reach_of(const std::vector<std::vector<std::uint32_t>>& before) {
+  Reach reach(before.size(), std::vector<std::uint8_t>(before.size()));
+  for (std::size_t k = 0; k < before.size(); ++k)
+    for (const std::uint32_t j : before[k]) {
+      reach[k][j] = 1;
+      for (std::size_t i = 0; i < before.size(); ++i) reach[k][i] |= reach[j][i];
+    }
+  return reach;
+}
+
+}  // namespace
+
+PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
+                                 const CertificateOptions& options, const GoOn& go_on) {
+  PrecedenceFinder finder(assembly, pairs, plan, options, go_on);
+  std::vector<std::vector<std::uint32_t>> all;
+  all.reserve(plan.steps.size());
+  for (std::uint32_t k = 0; k < plan.steps.size(); ++k) all.push_back(finder.before(k));
+
+  const Reach reach = reach_of(all);
+  PrecedenceGraph graph;
+  for (const std::vector<std::uint32_t>& before : all) {
+    graph.before.emplace_back();
+    graph.ranks.push_back(0);
+    for (const std::uint32_t j : before) {
+      graph.ranks.back() = std::max(graph.ranks.back(), graph.ranks[j] + 1);
+      if (std::none_of(before.begin(), before.end(), [&](std::uint32_t i) { return reach[i][j] != 0; }))
+        graph.before.back().push_back(j);
+    }
+  }
+  return graph;
+}
+
+Plan reordered(const Plan& plan, const std::vector<std::uint32_t>& order) {
+  DISMANTLE_EXPECT(order.size() == plan.steps.size());
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  Plan other = plan;
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    PlanStep& step = other.steps[i] = plan.steps[order[i]];
+    if (step.part_of == PlanStep::kWhole) continue;
+    step.part_of = place[step.part_of];
+    DISMANTLE_EXPECT(step.part_of < i);
+  }
+  return other;
+}
+
+}  // namespace dismantle
