@@ -5,6 +5,8 @@
 
 #include "dismantle/export/exported_file.h"
 #include "dismantle/export/step_scene.h"
+#include "dismantle/instructions/instructions_page.h"
+#include "dismantle/instructions/instructions_pdf.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/path_file.h"
 #include "dismantle/render/assembly_scene.h"
@@ -44,9 +46,10 @@ struct Exported {
 Result<ExportFormat> check(const ExportCommand& command) {
   const std::optional<ExportFormat> format = command.format ? command.format : export_format_of(command.output);
   if (!format)
-    return Error{ErrorKind::Usage, command.output +
-                                       " cannot be written (its name tells no format); end it with .glb, .html, .png, "
-                                       ".csv, bom.csv, bom.json or .path.json, or give --format"};
+    return Error{ErrorKind::Usage,
+                 command.output +
+                     " cannot be written (its name tells no format); end it with .glb, .html, .pdf, .png, "
+                     ".csv, bom.csv, bom.json or .path.json, or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
                  "there is no path to export (only an assembly is given, and this format is about "
@@ -123,8 +126,22 @@ Result<std::vector<MoveClearance>> clearances(const Exported& exported, const Co
   return std::move(*found);
 }
 
+Result<std::string> instructions(ExportFormat format, const Exported& exported, const ExportCommand& command) {
+  const Result<PairStates> states = classify(exported.assembly, command.common);
+  if (!states) return states.error();
+  WorkInstructionsOptions options;
+  options.direction = direction(command);
+  options.engine = {make_executor(command.common), widest_lanes()};
+  options.progress = progress_printer(command.common);
+  const Result<WorkInstructions> made = work_instructions(exported.assembly, *states, exported.timeline, options);
+  if (!made) return made.error();
+  if (format == ExportFormat::InstructionsPdf) return instructions_pdf(*made);
+  return instructions_page(*made);
+}
+
 Result<std::string> content(ExportFormat format, const Exported& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
+  if (is_made_elsewhere(format)) return instructions(format, exported, command);
   ExportOptions options;
   options.direction = direction(command);
   options.viewer = server::viewer_files();
@@ -172,12 +189,17 @@ void sort_arguments(ExportCommand& command) {
 }  // namespace
 
 void add_export_command(CLI::App& app, ExitCode& exit_code) {
-  static const std::map<std::string, ExportFormat> kFormats{
-      {"glb", ExportFormat::Glb},     {"html", ExportFormat::Html},       {"png", ExportFormat::Png},
-      {"moves", ExportFormat::Moves}, {"bom-csv", ExportFormat::BillCsv}, {"bom-json", ExportFormat::BillJson},
-      {"path", ExportFormat::Path}};
-  CLI::App* command =
-      app.add_subcommand("export", "An assembly and its path for others: animation, page, picture, tables, path file");
+  static const std::map<std::string, ExportFormat> kFormats{{"glb", ExportFormat::Glb},
+                                                            {"html", ExportFormat::Html},
+                                                            {"png", ExportFormat::Png},
+                                                            {"moves", ExportFormat::Moves},
+                                                            {"bom-csv", ExportFormat::BillCsv},
+                                                            {"bom-json", ExportFormat::BillJson},
+                                                            {"path", ExportFormat::Path},
+                                                            {"instructions", ExportFormat::InstructionsHtml},
+                                                            {"instructions-pdf", ExportFormat::InstructionsPdf}};
+  CLI::App* command = app.add_subcommand(
+      "export", "An assembly and its path for others: animation, page, instructions, pictures, tables, path file");
   auto options = std::make_shared<ExportCommand>();
   command
       ->add_option("ASSEMBLY", options->common.assembly_file,
@@ -186,7 +208,8 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("PATH", options->path_file, "What a session, move or plan wrote (*.path.json)");
   command
       ->add_option("-o,--output", options->output,
-                   "File to write: .glb (animated), .html (a page that plays it), .png (a picture), .csv (a row a "
+                   "File to write: .glb (animated), .html (a page that plays it), .pdf or instructions.html (work "
+                   "instructions), .png (a picture), .csv (a row a "
                    "move), bom.csv or "
                    "bom.json (bill of materials), "
                    ".path.json")
@@ -194,7 +217,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("FILE");
   command->add_option("--format", options->format, "Format of the file (default: by its name)")
       ->transform(CLI::CheckedTransformer(kFormats))
-      ->type_name("glb|html|png|moves|bom-csv|bom-json|path");
+      ->type_name("glb|html|png|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
   command->add_flag("--reverse", options->reverse,
                     "The assembly: moves the other way, last first (.path.json: apart and together again)");
   command->add_flag("--clearance", options->clearance, "Table of moves: measure the least clearance of each");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/instructions/precedence_drawing.h"
+#include "dismantle/instructions/precedence_files.h"
+#include "dismantle/io/atomic_file.h"
 #include "dismantle/io/path_file.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
@@ -19,10 +22,34 @@ using Json = nlohmann::ordered_json;
 
 struct PlanCommand {
   CommonOptions common;
-  std::string output;
+  std::string output, graph;
   std::vector<std::string> targets, fixed;
   double time_limit = 0;
 };
+
+bool ends_with(const std::string& text, std::string_view ending) {
+  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+Result<Done> check_graph(const std::string& file) {
+  if (file.empty() || ends_with(file, ".svg") || ends_with(file, ".dot") || ends_with(file, ".json")) return Done{};
+  return Error{ErrorKind::Usage,
+               file + " cannot be written (its name tells no format); end it with .svg, .dot or .json"};
+}
+
+/// Writes which step has to come before which. @return how many ranks there are
+Result<std::size_t> write_graph(const std::string& file, const Assembly& a, const PairStates& states, const Plan& plan,
+                                const CommonOptions& common) {
+  const ProgressCallback progress = progress_printer(common);
+  const auto go_on = [&] { return report_progress(progress, "finding what has to come before what", -1); };
+  const PrecedenceGraph graph = precedence_graph(a, states, plan, {make_executor(common), widest_lanes()}, go_on);
+  const auto text = ends_with(file, ".svg")   ? precedence_svg
+                    : ends_with(file, ".dot") ? precedence_dot
+                                              : precedence_json;
+  if (const Result<Done> written = write_file(file, text(a, plan, graph)); !written) return written.error();
+  const auto last = std::max_element(graph.ranks.begin(), graph.ranks.end());
+  return last == graph.ranks.end() ? std::size_t{0} : std::size_t{*last} + 1;
+}
 
 Result<std::vector<ComponentId>> find_all(const Assembly& assembly, const std::vector<std::string>& names) {
   std::vector<ComponentId> found;
@@ -49,6 +76,7 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
 }
 
 Result<ExitCode> run(const PlanCommand& command) {
+  if (const Result<Done> named = check_graph(command.graph); !named) return named.error();
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   const Result<PairStates> states = classify(*assembly, command.common);
@@ -69,6 +97,11 @@ Result<ExitCode> run(const PlanCommand& command) {
   const Path path = plan_path(*assembly, *states, plan);
   const Result<Done> written = write_path(command.output, path);
   if (!written) return written.error();
+  if (!command.graph.empty()) {
+    const Result<std::size_t> ranks = write_graph(command.graph, *assembly, *states, plan, command.common);
+    if (!ranks) return ranks.error();
+    if (!command.common.json) fmt::print("wrote {}: {} ranks of steps\n", command.graph, *ranks);
+  }
   if (command.common.json) {
     Json report = plan_json(*assembly, plan, path);
     report.update({{"path", command.output}, {"seconds", plan.seconds}});
@@ -91,6 +124,11 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("NAME");
   command->add_option("--fixed", options->fixed, "These never move (default: the largest component)")
       ->type_name("NAME");
+  command
+      ->add_option("--graph", options->graph,
+                   "Write which step has to come before which, too: a drawing (.svg), for Graphviz (.dot), or with "
+                   "the tree of subassemblies (.json)")
+      ->type_name("FILE");
   command->add_option("--time-limit", options->time_limit, "End the search after so long, with what it has found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);

@@ -67,7 +67,7 @@ AuditReport audit(const Assembly& assembly, const Path& path, int threads, const
 void export_file(const Assembly& assembly, const Path& path, const std::filesystem::path& file, bool reverse,
                  const py::object& progress) {
   const std::optional<ExportFormat> format = export_format_of(file.string());
-  if (!format || *format == ExportFormat::Png)
+  if (!format || is_made_elsewhere(*format))
     raise_usage(file.string() +
                 " cannot be written (its name tells no format); end it with .glb, .html, .csv, "
                 "bom.csv, bom.json or .path.json");

@@ -101,6 +101,16 @@ TEST_F(CliExport, FindsTheAssemblyBesideAPathThatStandsAlone) {
   expect_error("export pull.path.json -o alone.glb", 3, "is not beside it");
 }
 
+TEST_F(CliExport, WritesWorkInstructions) {
+  ASSERT_EQ(export_to("pull.pdf").exit_code, 0);
+  EXPECT_EQ(read_all(in("pull.pdf")).substr(0, 5), "%PDF-");
+  ASSERT_EQ(export_to("pull-instructions.html --reverse").exit_code, 0);
+  const std::string page = read_all(in("pull-instructions.html"));
+  EXPECT_NE(page.find("<h1>Assembly of parts</h1>"), std::string::npos);
+  EXPECT_NE(page.find("id=\"step-1\""), std::string::npos);
+  expect_error("export parts -o parts.pdf", 2, "there is no path to export");
+}
+
 TEST_F(CliExport, TakesTheFormatByNameWhereTheFileTellsNone) {
   ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
   expect_error("export parts pull.path.json -o pull.xyz", 2, "its name tells no format");

@@ -38,6 +38,19 @@ TEST_F(CliPlan, TakesEverythingApartAndItsPathPassesTheAudit) {
   EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
 }
 
+TEST_F(CliPlan, WritesWhatHasToComeBeforeWhat) {
+  const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
+  ASSERT_EQ(run(open + "order.json").exit_code, 0);
+  const Json graph = Json::parse(read_all(in("order.json")));
+  EXPECT_EQ(graph["ranks"], Json({{1}, {2}}));
+  EXPECT_EQ(graph["steps"][1]["before"], Json({1}));
+  ASSERT_EQ(run(open + "order.svg").exit_code, 0);
+  EXPECT_EQ(read_all(in("order.svg")).substr(0, 4), "<svg");
+  ASSERT_EQ(run(open + "order.dot").exit_code, 0);
+  EXPECT_NE(read_all(in("order.dot")).find("s1 -> s2;"), std::string::npos);
+  expect_error(open + "order.txt", 2, "its name tells no format");
+}
+
 TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
   const std::string walls = " --fixed floor roof left right end";
   const Outcome o = run("plan parts -o one.path.json --json --target back" + walls);

@@ -23,16 +23,24 @@ Result<std::string> animated_glb(const Assembly& assembly, const Timeline& timel
 
 std::optional<ExportFormat> export_format_of(std::string_view file) {
   static constexpr std::pair<std::string_view, ExportFormat> kEndings[] = {
-      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson}, {"bom.csv", ExportFormat::BillCsv},
-      {".csv", ExportFormat::Moves},      {".glb", ExportFormat::Glb},          {".html", ExportFormat::Html},
+      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson},
+      {"bom.csv", ExportFormat::BillCsv}, {".csv", ExportFormat::Moves},
+      {".glb", ExportFormat::Glb},        {"instructions.html", ExportFormat::InstructionsHtml},
+      {".html", ExportFormat::Html},      {".pdf", ExportFormat::InstructionsPdf},
       {".png", ExportFormat::Png}};
   for (const auto& [ending, format] : kEndings)
     if (file.size() >= ending.size() && file.substr(file.size() - ending.size()) == ending) return format;
   return {};
 }
 
+bool is_made_elsewhere(ExportFormat format) {
+  return format == ExportFormat::Png || format == ExportFormat::InstructionsHtml ||
+         format == ExportFormat::InstructionsPdf;
+}
+
 bool needs_path(ExportFormat format) {
-  return format == ExportFormat::Moves || format == ExportFormat::Path;
+  return format == ExportFormat::Moves || format == ExportFormat::Path || format == ExportFormat::InstructionsHtml ||
+         format == ExportFormat::InstructionsPdf;
 }
 
 bool knows_direction(ExportFormat format) {
@@ -41,7 +49,7 @@ bool knows_direction(ExportFormat format) {
 
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
                                   const ExportOptions& options) {
-  DISMANTLE_EXPECT(format != ExportFormat::Png);
+  DISMANTLE_EXPECT(!is_made_elsewhere(format));
   const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
   if (!timeline) return timeline.error();
   switch (format) {
@@ -57,6 +65,8 @@ Result<std::string> exported_file(ExportFormat format, const Assembly& assembly,
       return bill_json(assembly, bill_of_materials(assembly));
     case ExportFormat::Path:
     case ExportFormat::Png:
+    case ExportFormat::InstructionsHtml:
+    case ExportFormat::InstructionsPdf:
       break;
   }
   return path_text(options.direction == PathDirection::Forward ? path : there_and_back(path));

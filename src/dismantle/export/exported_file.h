@@ -11,7 +11,10 @@
 namespace dismantle {
 
 /// What an assembly and its path are written as; docs/export.md.
-enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path };
+enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path, InstructionsHtml, InstructionsPdf };
+
+/// Whether a format is made elsewhere: pictures (step_scene.h) and work instructions (instructions/).
+bool is_made_elsewhere(ExportFormat format);
 
 /// The format that a file's name tells by how it ends; nothing where it tells none.
 std::optional<ExportFormat> export_format_of(std::string_view file);
@@ -28,9 +31,9 @@ struct ExportOptions {
   ProgressCallback progress;
 };
 
-/// The file's bytes. Pictures are taken elsewhere (step_scene.h). Errors: Unreadable where the path does not fit the
+/// The file's bytes. Errors: Unreadable where the path does not fit the
 /// assembly, Failed where the file would be too large or was cancelled.
-/// @pre format is not Png
+/// @pre !is_made_elsewhere(format)
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
                                   const ExportOptions& options = {});
 

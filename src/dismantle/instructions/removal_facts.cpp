@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/removal_facts.h"
+
+#include "dismantle/session/session_path.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+/// What is gone stands so many diagonals of the assembly off.
+constexpr double kFarAway = 100;
+/// So many screws of a way are looked at, at most: of more, every n-th.
+constexpr std::size_t kMostPlaces = 60;
+
+bool has(Span<const ComponentId> set, ComponentId c) {
+  return std::find(set.begin(), set.end(), c) != set.end();
+}
+
+}  // namespace
+
+RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
+    : assembly_(assembly), pairs_(pairs), engine_(assembly, pairs, options) {}
+
+WayClearance RemovalFacts::clearance(const WorkStep& step, const Removal& removal) {
+  const Vec3 middle = bounds_of(assembly_, removal.components).center();
+  const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
+  const std::vector<WayPlace> places = places_along(removal, middle, pieces);
+  const std::size_t stride = 1 + places.size() / kMostPlaces;
+  std::vector<Pose> poses = step.before;
+  WayClearance found{0, {}, std::numeric_limits<double>::infinity(), {}};
+  for (std::size_t i = 0; i < places.size(); i += stride) {
+    for (const ComponentId c : removal.components) poses[c.value] = places[i].pose;
+    engine_.jump(poses);
+    engine_.hold(removal.components);
+    const Clearance now = engine_.clearance();
+    if (!now.fixed.valid()) continue;
+    if (now.distance <= pairs_.tolerance) {
+      found = {places[i].distance, now.fixed, std::numeric_limits<double>::infinity(), {}};
+    } else if (now.distance < found.least && now.fixed != found.touched) {
+      found.least = now.distance;
+      found.nearest = now.fixed;
+    }
+  }
+  return found;
+}
+
+std::vector<ComponentId> RemovalFacts::neighbours(Span<const ComponentId> set) const {
+  std::vector<ComponentId> found;
+  for (const ComponentPair& pair : pairs_.pairs) {
+    if (pair.state == PairState::Near || has(set, pair.a) == has(set, pair.b)) continue;
+    found.push_back(has(set, pair.a) ? pair.b : pair.a);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+bool RemovalFacts::can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> gone) {
+  const double away = kFarAway * diagonal(assembled_bounds(assembly_));
+  std::vector<Pose> now(poses.begin(), poses.end());
+  for (const ComponentId g : gone) now[g.value] = {{away, 0, 0}, {}};
+  engine_.jump(now);
+  engine_.hold({&c, 1});
+  Pose fallen = now[c.value];
+  fallen.position.z -= kFall * diagonal(bounds_at(assembly_[c], fallen));
+  return engine_.first_contacts({&fallen, 1})[0].free;
+}
+
+std::vector<ComponentId> RemovalFacts::left_unsupported(const WorkStep& step, ComponentId ground) {
+  std::vector<ComponentId> gone;
+  for (const Removal& removal : step.removals)
+    gone.insert(gone.end(), removal.components.begin(), removal.components.end());
+  const std::vector<ComponentId> around = surroundings(step, step.removals.front());
+
+  std::vector<ComponentId> unsupported;
+  for (const ComponentId c : neighbours(gone)) {
+    const bool is_held = std::any_of(pairs_.pairs.begin(), pairs_.pairs.end(), [&](const ComponentPair& pair) {
+      const bool grips = pair.state == PairState::Fit || pair.state == PairState::Embedded;
+      if (!grips || (pair.a != c && pair.b != c)) return false;
+      const ComponentId other = pair.a == c ? pair.b : pair.a;
+      return has(around, other) && !has(gone, other);
+    });
+    if (c == ground || is_held || !has(around, c)) continue;
+    if (can_fall(c, step.before, gone) && !can_fall(c, step.before, {})) unsupported.push_back(c);
+  }
+  return unsupported;
+}
+
+std::vector<ComponentId> staying_components(const Assembly& assembly, Span<const WorkStep> steps) {
+  std::vector<bool> moves(assembly.components.size());
+  for (const WorkStep& step : steps)
+    for (const Removal& removal : step.removals)
+      for (const ComponentId c : removal.components) moves[c.value] = true;
+  std::vector<ComponentId> staying;
+  for (std::uint32_t c = 0; c < moves.size(); ++c)
+    if (!moves[c]) staying.emplace_back(c);
+  std::stable_sort(staying.begin(), staying.end(), [&](ComponentId a, ComponentId b) {
+    return diagonal(assembled_bounds(assembly[a])) > diagonal(assembled_bounds(assembly[b]));
+  });
+  return staying;
+}
+
+}  // namespace dismantle

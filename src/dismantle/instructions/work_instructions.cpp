@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/work_instructions.h"
+
+#include "dismantle/geometry/thread_axes.h"
+#include "dismantle/instructions/hexagon_drives.h"
+#include "dismantle/instructions/removal_facts.h"
+#include "dismantle/instructions/step_picture.h"
+#include "dismantle/instructions/way_text.h"
+#include "dismantle/io/bill_of_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+using Kind = InstructionNote::Kind;
+
+/// A drive or a thread is of use to a motion along it, within this sine.
+constexpr double kAlong = 0.02;
+/// Of more names, the rest is counted.
+constexpr std::size_t kMostNames = 6;
+/// So much of the checksum tells versions apart.
+constexpr std::size_t kChecksumDigits = 12;
+
+/// "a, b and c"; of many, the first and how many more.
+std::string names_text(const Assembly& assembly, Span<const ComponentId> components) {
+  const std::size_t named = components.size() <= kMostNames ? components.size() : kMostNames - 1;
+  std::string text;
+  for (std::size_t i = 0; i < named; ++i) {
+    if (i > 0) text += i + 1 == components.size() ? " and " : ", ";
+    text += assembly[components[i]].name;
+  }
+  if (named < components.size()) text += " and " + std::to_string(components.size() - named) + " more";
+  return text;
+}
+
+constexpr const char* kTimes = " \u00d7 ";
+
+/// "4 x bolt", or "bolt" where it is one.
+std::string counted_name(const WorkInstructions& instructions, const CountedPart& part) {
+  const std::string& name = instructions.parts[part.item].name;
+  return part.count > 1 ? std::to_string(part.count) + kTimes + name : name;
+}
+
+/// Along which line a component is turned or pulled.
+bool lies_along(const Vec3& axis, const Leg& leg) {
+  return length(cross(axis, leg.direction)) < kAlong;
+}
+
+/// Makes the steps' texts and takes their pictures.
+class Writer {
+ public:
+  Writer(const Assembly& assembly, const PairStates& pairs, const Timeline& timeline,
+         const WorkInstructionsOptions& options)
+      : assembly_(assembly),
+        pairs_(pairs),
+        options_(options),
+        is_forward_(options.direction == PathDirection::Forward),
+        steps_(work_steps(assembly, timeline, options.direction)),
+        bill_(bill_of_materials(assembly)),
+        lines_(assembly.components.size()),
+        facts_(assembly, pairs, options.engine),
+        pictures_(assembly, options.picture_width, options.picture_height, options.engine.executor) {
+    for (std::size_t i = 0; i < bill_.size(); ++i)
+      for (const ComponentId c : bill_[i].components) lines_[c.value] = i;
+    const std::vector<ComponentId> staying = staying_components(assembly, steps_);
+    if (!staying.empty()) ground_ = staying.front();
+    for (const ComponentId c : staying) result_.staying.push_back(assembly[c].name);
+  }
+
+  Result<WorkInstructions> write() {
+    result_.title = (is_forward_ ? "Disassembly of " : "Assembly of ") + assembly_.source_file;
+    result_.assembly = assembly_.source_file;
+    if (!assembly_.source_sha256.empty())
+      result_.assembly += ", SHA-256 " + assembly_.source_sha256.substr(0, kChecksumDigits) + "...";
+    for (const BillItem& item : bill_) result_.parts.push_back({item.name, item.components.size(), item.size, {}});
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (!report_progress(options_.progress, "writing instructions",
+                           static_cast<double>(i) / static_cast<double>(steps_.size())))
+        return Error{ErrorKind::Failed, "the instructions were not written (cancelled); start it again"};
+      add(steps_[i]);
+    }
+    result_.cover = pictures_.cover();
+    report_progress(options_.progress, "writing instructions", 1);
+    return std::move(result_);
+  }
+
+ private:
+  void add(const WorkStep& step) {
+    Instruction instruction;
+    const Removal& first = step.removals.front();
+    const std::vector<Leg> legs = legs_of(first, bounds_of(assembly_, first.components).center());
+    instruction.parts = counted(step);
+    instruction.title = verb(step, legs) + " " + subject(step, instruction.parts);
+    note_way(step, legs, instruction);
+    note_tools(first, legs, instruction);
+    note_warnings(step, legs, instruction);
+    note_clearance(step, instruction);
+    note_overlaps(step, instruction);
+    StepPictures pictures = pictures_.take(step, options_.direction);
+    instruction.picture = std::move(pictures.close);
+    instruction.overview = std::move(pictures.overview);
+    result_.steps.push_back(std::move(instruction));
+    for (const CountedPart& part : result_.steps.back().parts)
+      result_.parts[part.item].steps.push_back(result_.steps.size());
+  }
+
+  std::vector<CountedPart> counted(const WorkStep& step) const {
+    std::vector<CountedPart> parts;
+    for (const Removal& removal : step.removals) {
+      for (const ComponentId c : removal.components) {
+        const std::size_t line = lines_[c.value];
+        auto part = std::find_if(parts.begin(), parts.end(), [&](const CountedPart& p) { return p.item == line; });
+        if (part == parts.end()) part = parts.insert(part, {line, 0});
+        ++part->count;
+      }
+    }
+    return parts;
+  }
+
+  /// What is done: taken away, screwed, or only moved.
+  std::string verb(const WorkStep& step, const std::vector<Leg>& legs) const {
+    const Removal& removal = step.removals.front();
+    Aabb around;
+    for (const ComponentId c : surroundings(step, removal))
+      around.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
+    if (overlaps(bounds_of(assembly_, removal.components, removal.way.back()), around)) return "Move";
+    if (std::any_of(legs.begin(), legs.end(), is_screwing)) return is_forward_ ? "Unscrew" : "Screw in";
+    return is_forward_ ? "Remove" : "Mount";
+  }
+
+  std::string subject(const WorkStep& step, const std::vector<CountedPart>& parts) const {
+    if (step.removals.size() == 1 && step.removals[0].components.size() == 1)
+      return assembly_[step.removals[0].components[0]].name;
+    if (step.removals.size() > 1) return counted_name(result_, parts.front());
+    if (const std::optional<std::string> name = name_of_body(step.removals[0].components)) return *name;
+    return names_text(assembly_, step.removals[0].components) + " together";
+  }
+
+  /// Of the node of the product tree that has these components and no others, if there is one.
+  std::optional<std::string> name_of_body(const std::vector<ComponentId>& components) const {
+    std::vector<std::size_t> inside(assembly_.tree.size()), all(assembly_.tree.size());
+    const auto count = [&](ComponentId c, std::vector<std::size_t>& counts) {
+      for (std::uint32_t node = assembly_[c].tree_node; node != 0; node = assembly_.tree[node].parent) ++counts[node];
+    };
+    for (const ComponentId c : components) count(c, inside);
+    for (std::uint32_t c = 0; c < assembly_.components.size(); ++c) count(ComponentId(c), all);
+    for (std::size_t node = 1; node < inside.size(); ++node)
+      if (inside[node] == components.size() && all[node] == inside[node]) return assembly_.tree[node].name;
+    return {};
+  }
+
+  void note_way(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
+    std::string text = way_text(legs, options_.direction);
+    if (step.removals.size() > 1) text += " One after another, each the same way.";
+    instruction.notes.push_back({Kind::Way, text});
+  }
+
+  void note_tools(const Removal& removal, const std::vector<Leg>& legs, Instruction& instruction) {
+    if (removal.components.size() != 1 || legs.empty()) return;
+    const Component& c = assembly_[removal.components[0]];
+    const Mat3 turned = transform_from_pose(removal.way.front()).rotation * c.assembly_from_mesh.rotation;
+    std::vector<std::string> tools;
+    for (const RoundAxis& axis : round_axes(c.mesh->vertices, c.mesh->faces)) {
+      if (!lies_along(turned * axis.direction, legs.front())) continue;
+      for (const HexagonDrive& drive : hexagon_drives(*c.mesh, axis)) {
+        const bool is_head = drive.kind == HexagonDrive::Kind::Head;
+        tools.push_back((is_head ? "Spanner " : "Hexagon key ") + number_text(drive.across_flats) + " mm");
+      }
+    }
+    std::sort(tools.begin(), tools.end());
+    tools.erase(std::unique(tools.begin(), tools.end()), tools.end());
+    for (const std::string& tool : tools) {
+      instruction.notes.push_back({Kind::Tool, tool});
+      if (std::find(result_.tools.begin(), result_.tools.end(), tool) == result_.tools.end())
+        result_.tools.push_back(tool);
+    }
+    note_thread(c, turned, legs, instruction);
+  }
+
+  void note_thread(const Component& c, const Mat3& turned, const std::vector<Leg>& legs,
+                   Instruction& instruction) const {
+    const std::vector<RoundAxis> axes = round_axes(c.mesh->vertices, c.mesh->faces);
+    for (const ThreadAxis& thread : thread_axes(c.mesh->vertices, c.mesh->faces, axes)) {
+      if (!lies_along(turned * thread.direction, legs.front())) continue;
+      std::string text = "Thread of " + number_text(2 * thread.most) + " mm, " + number_text(std::abs(thread.lead)) +
+                         " mm a turn, " + (thread.lead > 0 ? "right" : "left") + "-handed.";
+      if (std::none_of(legs.begin(), legs.end(), is_screwing))
+        text += is_forward_ ? " The way shown does not turn: unscrew it first if it is engaged."
+                            : " The way shown does not turn: screw it in.";
+      instruction.notes.push_back({Kind::Warning, text});
+    }
+  }
+
+  void note_warnings(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
+    const auto warn = [&](const std::string& text) { instruction.notes.push_back({Kind::Warning, text}); };
+    const std::size_t count = step.removals.front().components.size();
+    if (count > 1) warn("These " + std::to_string(count) + " go as one body: keep them together.");
+    if (is_forward_ && !legs.empty() && legs.front().angle == 0 && direction_words(legs.front().direction) == "down")
+      warn("It comes out downwards: hold it.");
+    const std::vector<ComponentId> falling = facts_.left_unsupported(step, ground_);
+    if (falling.empty()) return;
+    const std::string names = names_text(assembly_, falling);
+    warn(is_forward_ ? "Nothing holds " + names + " from below after this step: support it before."
+                     : "Nothing holds " + names + " from below before this step: support it until then.");
+  }
+
+  void note_clearance(const WorkStep& step, Instruction& instruction) {
+    WayClearance least = facts_.clearance(step, step.removals.front());
+    for (std::size_t i = 1; i < step.removals.size(); ++i) {
+      const WayClearance other = facts_.clearance(step, step.removals[i]);
+      if (other.least < least.least) {
+        least.least = other.least;
+        least.nearest = other.nearest;
+      }
+      if (other.touching > least.touching) {
+        least.touching = other.touching;
+        least.touched = other.touched;
+      }
+    }
+    std::string text;
+    if (least.touched.valid() && least.touching > 0) {
+      text = "Slides on " + assembly_[least.touched].name + (is_forward_ ? " for the first " : " for the last ") +
+             number_text(least.touching) + " mm.";
+    } else if (least.touched.valid()) {
+      text =
+          "Touches " + assembly_[least.touched].name + (is_forward_ ? " only before it moves." : " only in the end.");
+    }
+    if (least.nearest.valid())
+      text += std::string(text.empty() ? "" : " ") + "Passes " + assembly_[least.nearest].name + " at " +
+              number_text(least.least) + " mm or more.";
+    if (!text.empty()) instruction.notes.push_back({Kind::Clearance, text});
+  }
+
+  void note_overlaps(const WorkStep& step, Instruction& instruction) const {
+    std::vector<ComponentId> set;
+    for (const Removal& removal : step.removals)
+      set.insert(set.end(), removal.components.begin(), removal.components.end());
+    const std::vector<ComponentId> around = surroundings(step, step.removals.front());
+    const auto is_in = [](const std::vector<ComponentId>& in, ComponentId c) {
+      return std::find(in.begin(), in.end(), c) != in.end();
+    };
+    std::vector<std::string> texts;
+    for (const ComponentPair& pair : pairs_.pairs) {
+      if (pair.state != PairState::Fit && pair.state != PairState::Embedded) continue;
+      if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
+      const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
+      if (!is_in(around, other)) continue;
+      const std::string meaning = pair.state == PairState::Fit
+                                      ? ": a close fit, a press fit or a thread"
+                                      : ": overlaps as drawn, not checked until they are apart";
+      texts.push_back(assembly_[own].name + " in " + assembly_[other].name + ", " + number_text(pair.penetration) +
+                      " mm" + meaning + ".");
+    }
+    const std::size_t told = texts.size() <= kMostNames ? texts.size() : kMostNames - 1;
+    for (std::size_t i = 0; i < told; ++i) instruction.notes.push_back({Kind::Overlap, texts[i]});
+    if (told < texts.size())
+      instruction.notes.push_back({Kind::Overlap, "And " + std::to_string(texts.size() - told) + " more."});
+  }
+
+  const Assembly& assembly_;
+  const PairStates& pairs_;
+  const WorkInstructionsOptions& options_;
+  bool is_forward_;
+  std::vector<WorkStep> steps_;
+  std::vector<BillItem> bill_;
+  std::vector<std::size_t> lines_;  // of the bill, of each component
+  RemovalFacts facts_;
+  StepPictureTaker pictures_;
+  ComponentId ground_;
+  WorkInstructions result_;
+};
+
+}  // namespace
+
+Result<WorkInstructions> work_instructions(const Assembly& assembly, const PairStates& pairs, const Timeline& timeline,
+                                           const WorkInstructionsOptions& options) {
+  if (timeline.moves().empty())
+    return Error{ErrorKind::Usage, "there are no steps to tell (the path has no moves); give a path that has some"};
+  return Writer(assembly, pairs, timeline, options).write();
+}
+
+const char* heading_of(InstructionNote::Kind kind) {
+  switch (kind) {
+    case Kind::Way:
+      return "How";
+    case Kind::Tool:
+      return "Tools";
+    case Kind::Warning:
+      return "Take care";
+    case Kind::Clearance:
+      return "Clearance";
+    case Kind::Overlap:
+      return "Overlaps as drawn";
+  }
+  return "";
+}
+
+std::string part_text(const WorkInstructions& instructions, const CountedPart& part) {
+  return counted_name(instructions, part) + " (item " + std::to_string(part.item + 1) + ")";
+}
+
+std::string size_text(const Vec3& size) {
+  return number_text(size.x) + kTimes + number_text(size.y) + kTimes + number_text(size.z);
+}
+
+std::string summary_text(const WorkInstructions& instructions) {
+  std::size_t components = 0;
+  for (const PartsLine& line : instructions.parts) components += line.count;
+  std::string text = std::to_string(instructions.steps.size()) + " steps, " + std::to_string(components) +
+                     " components of " + std::to_string(instructions.parts.size()) + " kinds; " +
+                     std::to_string(instructions.staying.size()) + " stay where they are. Made from " +
+                     instructions.assembly + ".";
+  return text;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/work_steps.h"
+
+#include "dismantle/io/bill_of_materials.h"
+#include "dismantle/math/screw.h"
+#include "dismantle/session/session_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+/// Ways are parallel whose directions [sine], and whose turns [rad], differ by less.
+constexpr double kParallel = 0.02;
+/// Components stand to each other as assembled where their poses differ by no more [mm, quaternion].
+constexpr double kSamePose = 1e-5;
+
+bool same_pose(const Pose& a, const Pose& b) {
+  return max_abs(a.position - b.position) <= kSamePose && 1 - std::abs(dot(a.rotation, b.rotation)) <= kSamePose;
+}
+
+/// The number of the bill's line of each component.
+std::vector<std::size_t> kinds_of(const Assembly& assembly) {
+  std::vector<std::size_t> kinds(assembly.components.size());
+  const std::vector<BillItem> bill = bill_of_materials(assembly);
+  for (std::size_t i = 0; i < bill.size(); ++i)
+    for (const ComponentId c : bill[i].components) kinds[c.value] = i;
+  return kinds;
+}
+
+/// Where a way leads, and how much it turns in all.
+struct Course {
+  Vec3 direction;    ///< From the middle's home to its end; unit, or zero.
+  double angle = 0;  ///< [rad]
+};
+
+Course course_of(const Assembly& assembly, const Removal& removal) {
+  const Vec3 middle = bounds_of(assembly, removal.components).center();
+  const Vec3 from = transform_from_pose(removal.way.front()) * middle;
+  Course course{normalized(transform_from_pose(removal.way.back()) * middle - from)};
+  for (std::size_t i = 1; i < removal.way.size(); ++i)
+    course.angle += screw_between(removal.way[i - 1], removal.way[i]).angle;
+  return course;
+}
+
+bool are_parallel(const Course& a, const Course& b) {
+  return length(a.direction - b.direction) < kParallel && std::abs(a.angle - b.angle) < kParallel;
+}
+
+std::vector<Removal> removals_of(const Timeline& timeline) {
+  std::vector<Removal> removals;
+  for (const TimelineMove& move : timeline.moves()) {
+    if (removals.empty() || removals.back().components != move.components)
+      removals.push_back({move.components, {move.frames.front().pose}});
+    for (std::size_t i = 1; i < move.frames.size(); ++i) removals.back().way.push_back(move.frames[i].pose);
+  }
+  return removals;
+}
+
+}  // namespace
+
+std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timeline, PathDirection direction) {
+  const std::vector<std::size_t> kinds = kinds_of(assembly);
+  const auto are_equal = [&](const Removal& a, const Removal& b) {
+    return a.components.size() == 1 && b.components.size() == 1 &&
+           kinds[a.components[0].value] == kinds[b.components[0].value] &&
+           are_parallel(course_of(assembly, a), course_of(assembly, b));
+  };
+  std::vector<WorkStep> steps;
+  std::vector<Pose> poses(assembly.components.size());
+  for (Removal& removal : removals_of(timeline)) {
+    if (steps.empty() || !are_equal(steps.back().removals.back(), removal)) steps.push_back({{}, poses});
+    for (const ComponentId c : removal.components) poses[c.value] = removal.way.back();
+    steps.back().removals.push_back(std::move(removal));
+  }
+  if (direction == PathDirection::Reversed) std::reverse(steps.begin(), steps.end());
+  return steps;
+}
+
+std::vector<ComponentId> surroundings(const WorkStep& step, const Removal& removal) {
+  std::vector<ComponentId> others, together;
+  for (std::uint32_t c = 0; c < step.before.size(); ++c) {
+    const auto& set = removal.components;
+    if (std::find(set.begin(), set.end(), ComponentId(c)) != set.end()) continue;
+    others.emplace_back(c);
+    if (same_pose(step.before[c], removal.way.front())) together.emplace_back(c);
+  }
+  return together.empty() ? others : together;
+}
+
+std::vector<WayPlace> places_along(const Removal& removal, const Vec3& middle, int pieces) {
+  DISMANTLE_EXPECT(pieces >= 1);
+  std::vector<WayPlace> places{{removal.way.front(), 0}};
+  for (std::size_t i = 1; i < removal.way.size(); ++i) {
+    for (int k = 1; k <= pieces; ++k) {
+      // Contacts end near home: there the places are close.
+      const double share = i == 1 ? std::pow(static_cast<double>(k) / pieces, 2) : static_cast<double>(k) / pieces;
+      const Pose pose = k == pieces ? removal.way[i] : pose_between(removal.way[i - 1], removal.way[i], share);
+      const Vec3 from = transform_from_pose(places.back().pose) * middle;
+      places.push_back({pose, places.back().distance + length(transform_from_pose(pose) * middle - from)});
+    }
+  }
+  return places;
+}
+
+Aabb bounds_of(const Assembly& assembly, Span<const ComponentId> components, const Pose& pose) {
+  Aabb box;
+  for (const ComponentId c : components) box.extend(bounds_at(assembly[c], pose));
+  return box;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/removal_facts.h"
+
+#include "tests/instructions/bolted_lid.h"
+
+namespace dismantle {
+namespace {
+
+struct Lid {
+  Assembly assembly = scenes::bolted_lid();
+  PairStates pairs = scenes::bolted_lid_pairs();
+  std::vector<WorkStep> steps =
+      work_steps(assembly, scenes::timeline_of(assembly, scenes::bolted_lid_path()), PathDirection::Forward);
+};
+
+TEST(WayClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
+  Lid lid;
+  RemovalFacts facts(lid.assembly, lid.pairs, {});
+  const WayClearance up = facts.clearance(lid.steps[0], lid.steps[0].removals[0]);
+  EXPECT_EQ(up.touching, 0);
+  EXPECT_EQ(up.touched, ComponentId(1));
+  EXPECT_FALSE(up.nearest.valid()) << "the lid, which it leaves, does not count";
+
+  const Removal along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
+  const WayClearance slid = facts.clearance(lid.steps[0], along);
+  EXPECT_EQ(slid.touching, 70) << "it is on the lid all the way";
+  EXPECT_FALSE(slid.nearest.valid());
+
+  const Removal over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
+  const WayClearance passing = facts.clearance(lid.steps[0], over);
+  EXPECT_EQ(passing.nearest, ComponentId(3));
+  EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
+}
+
+TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
+  // A shelf under a cup: the shelf goes sideways. The cup's neighbour, a wall, is no help.
+  const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-10, -50, -50}, {0, 50, 50})),
+                                       scenes::component("shelf", scenes::box({0, -5, -2}, {20, 5, 0})),
+                                       scenes::component("cup", scenes::box({5, -3, 0}, {12, 3, 9})),
+                                       scenes::component("lamp", scenes::box({5, -3, -9}, {12, 3, -2}))});
+  const auto contact = [](std::uint32_t p, std::uint32_t q) {
+    return ComponentPair{ComponentId(p), ComponentId(q), PairState::Contact, 0, 0, 0.01, 4};
+  };
+  PairStates pairs{0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
+  const WorkStep step{{{{ComponentId(1)}, {{}, {{100, 0, 0}, {}}}}}, std::vector<Pose>(4)};
+  EXPECT_EQ(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)), std::vector<ComponentId>{ComponentId(2)})
+      << "the lamp could fall before, too";
+
+  pairs.pairs.insert(pairs.pairs.begin() + 1, {ComponentId(0), ComponentId(2), PairState::Fit, 0, 0.1, 0.11, 4});
+  EXPECT_TRUE(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)).empty()) << "it fits into the wall";
+}
+
+TEST(LeftUnsupported, IsNothingWhereTheRestStandsOnTheGround) {
+  Lid lid;
+  RemovalFacts facts(lid.assembly, lid.pairs, {});
+  for (const WorkStep& step : lid.steps) EXPECT_TRUE(facts.left_unsupported(step, ComponentId(0)).empty());
+}
+
+TEST(StayingComponents, AreThoseThatNoStepMovesTheLargestFirst) {
+  Lid lid;
+  EXPECT_EQ(staying_components(lid.assembly, lid.steps), std::vector<ComponentId>{ComponentId(0)});
+  lid.steps.pop_back();
+  EXPECT_EQ(staying_components(lid.assembly, lid.steps), (std::vector<ComponentId>{ComponentId(1), ComponentId(0)}));
+}
+
+}  // namespace
+}  // namespace dismantle

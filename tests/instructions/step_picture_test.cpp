@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/step_picture.h"
+
+#include "tests/instructions/bolted_lid.h"
+
+namespace dismantle {
+namespace {
+
+/// How many pixels of a picture are clearly of the colour of what moves.
+std::size_t orange_pixels(const Image& image) {
+  return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), [](const Pixel& p) {
+    return p.r > 140 && p.r > p.b + 90 && p.g > p.b + 20 && p.r > p.g + 30;
+  }));
+}
+
+WorkStep pull(const Assembly& a, std::uint32_t c, Vec3 way) {
+  return {{{{ComponentId(c)}, {{}, {way, {}}}}}, std::vector<Pose>(a.components.size())};
+}
+
+TEST(StepPicture, IsTakenFromTheSideOnWhichTheComponentIsSeen) {
+  // A knob on one side of a wall: which side decides.
+  for (const double side : {1.0, -1.0}) {
+    const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-5, -60, -60}, {5, 60, 60})),
+                                         scenes::component("knob", side > 0 ? scenes::box({5, -9, -9}, {15, 9, 9})
+                                                                            : scenes::box({-15, -9, -9}, {-5, 9, 9}))});
+    StepPictureTaker taker(a, 160, 120, Executor());
+    const StepPictures pictures = taker.take(pull(a, 1, {100 * side, 0, 0}), PathDirection::Forward);
+    EXPECT_LT(side * pictures.view.x, -0.2) << side;
+    EXPECT_GT(orange_pixels(pictures.close), 300u) << side;
+  }
+}
+
+TEST(StepPicture, LooksThroughWhatHidesAComponentFromAllSides) {
+  const Assembly a = scenes::assembly({scenes::component("shell", scenes::box({-30, -30, -30}, {30, 30, 30})),
+                                       scenes::component("core", scenes::box({-12, -12, -12}, {12, 12, 12}))});
+  StepPictureTaker taker(a, 160, 120, Executor());
+  EXPECT_GT(orange_pixels(taker.take(pull(a, 1, {0, 0, 2}), PathDirection::Forward).close), 300u);
+}
+
+TEST(StepPicture, ShowsSmallThingsNearAndWhereTheyAre) {
+  const Assembly a = scenes::assembly({scenes::component("plate", scenes::box({-200, -200, -10}, {200, 200, 0})),
+                                       scenes::component("pin", scenes::box({90, 90, 0}, {96, 96, 8}))});
+  StepPictureTaker taker(a, 160, 120, Executor());
+  const StepPictures pin = taker.take(pull(a, 1, {0, 0, 50}), PathDirection::Forward);
+  ASSERT_TRUE(pin.overview.has_value());
+  EXPECT_GT(orange_pixels(pin.close), 3 * orange_pixels(*pin.overview));
+  const Assembly lid = scenes::bolted_lid();
+  EXPECT_FALSE(
+      StepPictureTaker(lid, 160, 120, Executor()).take(pull(lid, 1, {0, 0, 50}), PathDirection::Forward).overview);
+}
+
+TEST(StepPicture, KeepsItsViewWhereAnotherIsNoBetter) {
+  const Assembly a = scenes::bolted_lid();
+  StepPictureTaker taker(a, 80, 60, Executor());
+  const Vec3 first = taker.take(pull(a, 2, {0, 0, 50}), PathDirection::Forward).view;
+  EXPECT_EQ(taker.take(pull(a, 3, {0, 0, 50}), PathDirection::Forward).view, first);
+}
+
+TEST(StepPicture, IsTheSameForAllExecutors) {
+  const Assembly a = scenes::bolted_lid();
+  const StepPictures serial =
+      StepPictureTaker(a, 80, 60, Executor()).take(pull(a, 2, {0, 0, 50}), PathDirection::Reversed);
+  const StepPictures threads = StepPictureTaker(a, 80, 60, Executor(ExecutorKind::Threads, 2))
+                                   .take(pull(a, 2, {0, 0, 50}), PathDirection::Reversed);
+  EXPECT_EQ(serial.close, threads.close);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/instructions/work_instructions.h"
+
+#include "tests/instructions/bolted_lid.h"
+
+#include <algorithm>
+
+namespace dismantle {
+namespace {
+
+WorkInstructionsOptions small(PathDirection direction = PathDirection::Forward) {
+  WorkInstructionsOptions options;
+  options.direction = direction;
+  options.picture_width = 64;
+  options.picture_height = 48;
+  return options;
+}
+
+WorkInstructions written(const Assembly& a, const PairStates& pairs, const Path& path,
+                         const WorkInstructionsOptions& options = small()) {
+  Result<WorkInstructions> made = work_instructions(a, pairs, scenes::timeline_of(a, path), options);
+  EXPECT_TRUE(made.ok()) << made.error().message;
+  return std::move(*made);
+}
+
+/// The step's sentences of a kind, one after another.
+std::string said(const Instruction& step, InstructionNote::Kind kind) {
+  std::string text;
+  for (const InstructionNote& note : step.notes)
+    if (note.kind == kind) text += note.text + "\n";
+  return text;
+}
+
+TEST(WorkInstructions, CountEqualComponentsNameToolsAndListTheParts) {
+  const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), scenes::bolted_lid_path());
+  ASSERT_EQ(made.steps.size(), 2u);
+  EXPECT_EQ(made.steps[0].title, "Remove 2 \u00d7 bolt");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Way), "Straight up. One after another, each the same way.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "Spanner 7 mm\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance).substr(0, 33), "Touches lid only before it moves.");
+  EXPECT_EQ(made.tools, std::vector<std::string>{"Spanner 7 mm"});
+  EXPECT_EQ(made.staying, std::vector<std::string>{"base"});
+  ASSERT_EQ(made.parts.size(), 3u);
+  EXPECT_EQ(made.parts[2].count, 2u);
+  EXPECT_EQ(made.parts[2].steps, std::vector<std::size_t>{1});
+  EXPECT_EQ(part_text(made, made.steps[0].parts[0]), "2 \u00d7 bolt (item 3)");
+}
+
+TEST(WorkInstructions, GoTheOtherWayForTheAssembly) {
+  const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), scenes::bolted_lid_path(),
+                                        small(PathDirection::Reversed));
+  ASSERT_EQ(made.steps.size(), 2u);
+  EXPECT_EQ(made.title.substr(0, 9), "Assembly ");
+  EXPECT_EQ(made.steps[0].title, "Mount lid");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Way), "Straight down.\n");
+  EXPECT_EQ(made.steps[1].title, "Mount 2 \u00d7 bolt");
+}
+
+TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
+  Path path = scenes::bolted_lid_path();
+  path.moves = {{"all", {"lid", "bolt", "bolt#2"}, {{0, {}}, {1, {{0, 0, 60}, {}}}}}};
+  PairStates pairs = scenes::bolted_lid_pairs();
+  pairs.pairs[0] = {ComponentId(0), ComponentId(1), PairState::Fit, 0, 0.05, 0.06, 4};
+  const WorkInstructions made = written(scenes::bolted_lid(), pairs, path);
+  EXPECT_EQ(made.steps[0].title, "Remove lid, bolt and bolt#2 together");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "These 3 go as one body: keep them together.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
+            "lid in base, 0.05 mm: a close fit, a press fit or a thread.\n");
+}
+
+TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {
+  Assembly a = scenes::bolted_lid();
+  a.tree.push_back({"cover assembly", 0});
+  for (const std::size_t c : {1, 2, 3}) a.tree[a.components[c].tree_node].parent = 5;
+  Path path = scenes::bolted_lid_path();
+  path.moves = {{"all", {"lid", "bolt", "bolt#2"}, {{0, {}}, {1, {{0, 0, 60}, {}}}}}};
+  EXPECT_EQ(written(a, scenes::bolted_lid_pairs(), path).steps[0].title, "Remove cover assembly");
+}
+
+TEST(WorkInstructions, SayWhatMovesWithoutLeaving) {
+  Path path = scenes::bolted_lid_path();
+  path.moves = {{"shift", {"bolt"}, {{0, {}}, {1, {{3, 0, 0}, {}}}}}};
+  const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), path);
+  EXPECT_EQ(made.steps[0].title, "Move bolt");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance), "Slides on lid for the first 3 mm.\n");
+}
+
+TEST(WorkInstructions, HaveSomethingToTell) {
+  const Assembly a = scenes::bolted_lid();
+  const auto none = work_instructions(a, scenes::bolted_lid_pairs(), Timeline(), small());
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().kind, ErrorKind::Usage);
+
+  WorkInstructionsOptions cancelled = small();
+  cancelled.progress = [](std::string_view, double) { return false; };
+  const auto half =
+      work_instructions(a, scenes::bolted_lid_pairs(), scenes::timeline_of(a, scenes::bolted_lid_path()), cancelled);
+  ASSERT_FALSE(half.ok());
+  EXPECT_EQ(half.error().kind, ErrorKind::Failed);
+}
+
+}  // namespace
+}  // namespace dismantle
