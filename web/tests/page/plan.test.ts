@@ -81,6 +81,7 @@ test("what goes by itself is stopped where it is", async () => {
   await viewer.select("pinion shaft");
   await viewer.page.keyboard.press("n");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic !== null);
+  while (!(await viewer.state()).components.some(({ pose }) => pose)) await viewer.page.waitForTimeout(20);
   await viewer.page.keyboard.press("Escape");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
   await viewer.idle();
