@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/embedded_pairs.h"
 
+#include "dismantle/geometry/aabb_corners.h"
+
 #include <algorithm>
 
 namespace dismantle {
@@ -10,12 +12,9 @@ namespace {
 /// The longest way that a vertex of the box goes from one transform to the other; of all points of a box a corner
 /// goes furthest.
 double longest_way(const Aabb& box, const RigidTransform& start, const RigidTransform& end) {
+  if (box.empty()) return 0;
   double longest = 0;
-  for (int i = 0; i < 8 && !box.empty(); ++i) {
-    const Vec3 corner{i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
-                      i & 4 ? box.upper.z : box.lower.z};
-    longest = std::max(longest, length(end * corner - start * corner));
-  }
+  for (const Vec3& corner : corners_of(box)) longest = std::max(longest, length(end * corner - start * corner));
   return longest * (1 + 1e-9);
 }
 

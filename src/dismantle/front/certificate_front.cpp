@@ -2,7 +2,6 @@
 #include "dismantle/front/certificate_front.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/front/sibling_table.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
@@ -10,14 +9,11 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 namespace dismantle {
 
 namespace {
 
-/// Parts of more pairs than this are cut in two.
-constexpr std::size_t kLargestPart = 2048;
 /// Every part looks for siblings to merge each so many sweeps.
 constexpr std::size_t kMergePeriod = 8;
 /// It goes on with that while more than one in so many pairs goes.
@@ -28,13 +24,6 @@ constexpr std::size_t kBatch = 64;
 constexpr std::size_t kEnoughOfPair = 2;
 /// What was parted as round, and is not any more, is opened to so many pairs of each part of the front.
 constexpr std::size_t kRoundStarts = 128;
-/// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
-/// for what is parted as round, in so many pairs of nodes.
-constexpr std::size_t kBlockedToMerge = 3;
-constexpr std::size_t kLeastToMergeRound = 64;
-constexpr std::size_t kRoundTries = 256;
-/// The offset of a certificate of which only the side is left.
-constexpr float kForgotten = -1e29f;
 /// Once a component has turned by more than this [of a unit vector], certificates are judged anew: they may use the
 /// allowance only as long as they face along the normals.
 constexpr double kMostTurn = 0.25;
@@ -65,18 +54,6 @@ float gap_at(const Certificate& c, const RigidTransformF& t) {
   const float s0 = dot(w, h.span[0]), s1 = dot(w, h.span[1]), s2 = dot(w, h.span[2]);
   const float reach = h.kind > NodeHull::kBox ? std::max({0.0f, s0, s1}) : std::abs(s0) + std::abs(s1) + std::abs(s2);
   return c.offset - dot(c.axis, t.translation) - dot(w, h.center) - reach;
-}
-
-Certificate nothing() {
-  Certificate certificate;
-  certificate.offset = kNoCertificate;
-  return certificate;
-}
-
-Certificate parted_as_round() {
-  Certificate certificate = nothing();
-  certificate.hull.kind = NodeHull::kNone;
-  return certificate;
 }
 
 /// Whether some of what is blocked are enough.
@@ -116,7 +93,7 @@ CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule 
                                    const RoundShape* round_b, Span<const ThreadMatch> threads)
     : a_(&a), b_(&b), round_a_(round_a), round_b_(round_b), threads_(threads), parts_(1), sides_(sides) {
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
-  parts_[0].append({0, 0}, nothing());
+  parts_[0].append({0, 0}, Certificate::none());
 }
 
 std::size_t CertificateFront::size() const {
@@ -263,7 +240,7 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
     const std::uint32_t i = opened[k];
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (parts_round(a, b, sweep, result)) {
-      work.prove(work.items[i], parted_as_round());
+      work.prove(work.items[i], Certificate::of_round());
     } else if (nearest.size() + opened.size() - k >= kRoundStarts || (a_->nodes[a].leaf() && b_->nodes[b].leaf())) {
       nearest.emplace_back(round_gap(a, b, sweep), i);
     } else {
@@ -354,7 +331,7 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   std::erase_if(work.batch, [&](std::uint32_t i) {
     Item& item = work.items[i];
     if (!parts_round(item.a, item.b, sweep, result)) return false;
-    work.prove(item, parted_as_round());
+    work.prove(item, Certificate::of_round());
     return true;
   });
   separate_boxes(work, sweep, kernels);
@@ -423,7 +400,7 @@ void CertificateFront::replace(CertificatePart& part, const Work& work, bool fre
       continue;  // stays as it was
     } else {
       certificate.axis = item.hint;
-      certificate.offset = length_squared(item.hint) > 0 ? kForgotten : kNoCertificate;
+      certificate.offset = length_squared(item.hint) > 0 ? kForgottenCertificate : kNoCertificate;
     }
     if (item.place == Item::kNone) {
       part.append({item.a, item.b}, certificate);
@@ -431,156 +408,6 @@ void CertificateFront::replace(CertificatePart& part, const Work& work, bool fre
       part.set(item.place, {item.a, item.b}, certificate);
     }
   }
-}
-
-std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& sweep,
-                                    const FrontKernels& kernels) const {
-  struct Siblings {
-    FrontPair parent;
-    std::uint32_t first, second;
-  };
-  std::vector<Siblings> found;
-  std::vector<BoxPairQuery> queries;
-  SiblingTable table(2 * part.size());
-  const auto siblings = [&](FrontPair x, FrontPair y, bool halves_a) {
-    return halves_a ? x.b == y.b && a_->nodes[x.a].parent == a_->nodes[y.a].parent
-                    : x.a == y.a && b_->nodes[x.b].parent == b_->nodes[y.b].parent;
-  };
-  const auto look_for = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
-    const std::optional<std::uint32_t> other = table.meet(parent.a, parent.b, halves_a, i);
-    if (!other || !siblings(part.pair(*other), part.pair(i), halves_a)) return;
-    // Siblings on different sides of the same thing stay apart; one side is handed on.
-    const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
-    if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
-    queries.push_back(query(parent.a, parent.b, length_squared(one) > 0 ? one : two));
-    found.push_back({parent, *other, i});
-  };
-  for (std::uint32_t i = 0; i < part.size(); ++i) {
-    const FrontPair pair = part.pair(i);
-    const std::uint32_t up_a = a_->nodes[pair.a].parent, up_b = b_->nodes[pair.b].parent;
-    if (up_a != ObbNode::kNone) look_for({up_a, pair.b}, true, i);
-    if (up_b != ObbNode::kNone) look_for({pair.a, up_b}, false, i);
-  }
-  if (queries.empty()) return 0;
-  std::vector<NodeSeparation> separations(queries.size());
-  kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
-
-  FrontSweep unused;
-  std::vector<bool> merged(part.size());
-  std::vector<std::uint32_t> gone;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const Siblings& s = found[k];
-    if (merged[s.first] || merged[s.second]) continue;
-    const bool by_boxes = separations[k].gap >= limit(queries[k].guard, sweep);
-    if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
-    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : parted_as_round());
-    merged[s.first] = merged[s.second] = true;
-    gone.push_back(s.second);
-  }
-  std::sort(gone.begin(), gone.end());
-  for (auto i = gone.rbegin(); i != gone.rend(); ++i) part.remove(*i);
-  return gone.size();
-}
-
-CertificatePart CertificateFront::cut(CertificatePart& part) const {
-  std::vector<std::uint32_t> of_a(part.size()), of_b(part.size());
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    of_a[i] = part.pair(i).a;
-    of_b[i] = part.pair(i).b;
-  }
-  // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not part them.
-  const auto middle_of = [](std::vector<std::uint32_t>& nodes) {
-    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-    std::nth_element(nodes.begin(), middle, nodes.end());
-    return *middle | 1u;
-  };
-  const auto spread = [](const std::vector<std::uint32_t>& nodes) {
-    const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
-    return *most - *least;
-  };
-  const bool by_a = spread(of_a) >= spread(of_b);
-  std::vector<std::uint32_t>& nodes = by_a ? of_a : of_b;
-  std::uint32_t border = middle_of(nodes);
-  // Where most pairs have the first node, it and its sibling go before the border: something has to.
-  if (*std::min_element(nodes.begin(), nodes.end()) >= border) border += 2;
-  CertificatePart kept, rest;
-  for (std::size_t i = 0; i < part.size(); ++i)
-    ((by_a ? part.pair(i).a : part.pair(i).b) < border ? kept : rest).append(part.pair(i), part.certificate(i));
-  part = std::move(kept);
-  return rest;
-}
-
-void CertificateFront::merge_round(const PreparedSweep& sweep) {
-  struct Pair {
-    ObbSubtree a, b;
-  };
-  std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
-  FrontSweep unused;
-  for (std::size_t k = 0; k < tried.size() && k < kRoundTries; ++k) {
-    const Pair pair = tried[k];
-    if (parts_round(pair.a.node, pair.b.node, sweep, unused)) {
-      found.push_back(pair);
-    } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
-      const bool splits_of_a = splits_a(pair.a.node, pair.b.node);
-      for (std::uint32_t h = 0; h < 2; ++h)
-        tried.push_back(splits_of_a ? Pair{pair.a.half(*a_, h), pair.b} : Pair{pair.a, pair.b.half(*b_, h)});
-    }
-  }
-  if (found.empty()) return;
-  const auto lies_below = [](const FrontPair& pair) {
-    return [pair](const Pair& large) { return large.a.holds(pair.a) && large.b.holds(pair.b); };
-  };
-  for (CertificatePart& part : parts_)
-    for (std::size_t i = part.size(); i-- > 0;)
-      if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
-  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, parted_as_round());
-}
-
-void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
-  ++sweeps_;
-  blocked_ += !free;
-  if (free && blocked_ >= kBlockedToMerge && size() > kLeastToMergeRound) {
-    merge_round(sweep);
-    blocked_ = 0;
-  }
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    if (parts_[p].size() <= kLargestPart) continue;
-    CertificatePart rest = cut(parts_[p]);
-    if (rest.size() > 0) parts_.push_back(std::move(rest));
-  }
-  // Parts that merging has left small join, so that siblings meet again.
-  for (std::size_t p = 1; p < parts_.size();) {
-    CertificatePart& before = parts_[p - 1];
-    const CertificatePart& part = parts_[p];
-    if (before.size() + part.size() > kLargestPart / 2) {
-      ++p;
-      continue;
-    }
-    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.pair(i), part.certificate(i));
-    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
-  }
-}
-
-void CertificateFront::exchange_roles(const Mat3& rotation) {
-  const Mat3 back = transposed(rotation);
-  for (CertificatePart& part : parts_)
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      Certificate c = part.certificate(i);
-      const Vec3f axis = c.axis;
-      c.axis = to_float(-(back * Vec3{axis.x, axis.y, axis.z}));
-      part.set_certificate(i, c);
-    }
-  b_moves_ = !b_moves_;
-  forget();
-}
-
-void CertificateFront::forget() {
-  for (CertificatePart& part : parts_)
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      Certificate c = part.certificate(i);
-      c.offset = std::min(c.offset, kForgotten);
-      part.set_certificate(i, c);
-    }
 }
 
 }  // namespace dismantle

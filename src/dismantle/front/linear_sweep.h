@@ -46,6 +46,8 @@ struct NodeHull {
 
 /// The offset of a certificate that says nothing.
 inline constexpr float kNoCertificate = -1e30f;
+/// The offset of one of which only the side is left.
+inline constexpr float kForgottenCertificate = -1e29f;
 
 /// A fact about two nodes or triangles, true for every pose of A: along the unit vector `axis` (from A to B, B's frame)
 /// their gap is offset - axis.t - max over p in the hull of axis.(R p), with x -> R x + t the pose of A.
@@ -53,6 +55,14 @@ struct Certificate {
   Vec3f axis;
   float offset = 0;  ///< [mm]
   NodeHull hull;
+
+  static Certificate none() { return {{}, kNoCertificate, {}}; }
+  /// Marks what is parted as round: says nothing by itself.
+  static Certificate of_round() {
+    Certificate certificate = none();
+    certificate.hull.kind = NodeHull::kNone;
+    return certificate;
+  }
 };
 
 }  // namespace dismantle

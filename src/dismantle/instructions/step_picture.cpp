@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/step_picture.h"
 
+#include "dismantle/geometry/aabb_corners.h"
 #include "dismantle/instructions/way_text.h"
 #include "dismantle/render/assembly_scene.h"
 #include "dismantle/render/render.h"
@@ -53,15 +54,6 @@ std::vector<Vec3> candidate_views() {
   return views;
 }
 
-std::vector<Vec3> corners(const Aabb& box) {
-  std::vector<Vec3> points;
-  points.reserve(8);
-  for (int i = 0; i < 8; ++i)
-    points.push_back(
-        {i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y, i & 4 ? box.upper.z : box.lower.z});
-  return points;
-}
-
 /// What of a removal's way a picture shows: from home to a place where it is seen to be out.
 std::vector<WayPlace> shown_way(const Assembly& assembly, const Removal& removal, const Aabb& around) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
@@ -93,7 +85,7 @@ std::vector<Vec3> arc_of(const Leg& leg, const Aabb& box, PathDirection directio
   const Vec3 middle = leg.axis_point + dot(box.center() - leg.axis_point, axis) * axis;
   const Vec3 across = normalized(cross(axis, std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
   double radius = 0;
-  for (const Vec3& corner : corners(box)) radius = std::max(radius, length(cross(axis, corner - middle)));
+  for (const Vec3& corner : corners_of(box)) radius = std::max(radius, length(cross(axis, corner - middle)));
   std::vector<Vec3> arc;
   arc.reserve(kWayPieces + 1);
   for (int i = 0; i <= kWayPieces; ++i) {
@@ -183,7 +175,7 @@ Vec3 StepPictureTaker::best_view(const Subject& subject) const {
     CameraFit fit;
     fit.direction = views[v];
     fit.aspect = static_cast<double>(kJudgedWidth) / kJudgedHeight;
-    const Camera camera = fit_camera(corners(subject.region), fit);
+    const Camera camera = fit_camera(corners_of(subject.region), fit);
     const std::vector<std::size_t> pixels = visible_pixels(scene, camera, kJudgedWidth, kJudgedHeight);
     const double scale = camera.height * camera.height;  // pixels show more of the world in a larger picture
     for (const std::size_t i : subject.moving) seen[v][0] += static_cast<double>(pixels[i]) * scale;
@@ -213,7 +205,7 @@ double StepPictureTaker::seen_share(const Subject& subject, const Vec3& view) co
   CameraFit fit;
   fit.direction = view;
   fit.aspect = static_cast<double>(kJudgedWidth) / kJudgedHeight;
-  const Camera camera = fit_camera(corners(subject.region), fit);
+  const Camera camera = fit_camera(corners_of(subject.region), fit);
   RenderScene alone;
   for (const std::size_t i : subject.moving) alone.items.push_back(subject.scene.items[i]);
   const std::vector<std::size_t> all = visible_pixels(subject.scene, camera, kJudgedWidth, kJudgedHeight);
@@ -250,8 +242,8 @@ StepPictures StepPictureTaker::take(const WorkStep& step, PathDirection directio
   if (seen_share(subject, pictures.view) < kLeastSeen)
     for (std::size_t i = 0; i < subject.moving.front(); ++i) subject.scene.items[i].color.a = kSeeThrough;
   const bool is_part = !(subject.region == subject.surroundings);
-  pictures.close = take(subject, pictures.view, corners(subject.region), 1);
-  if (is_part) pictures.overview = take(subject, pictures.view, corners(subject.surroundings), 3);
+  pictures.close = take(subject, pictures.view, corners_of(subject.region), 1);
+  if (is_part) pictures.overview = take(subject, pictures.view, corners_of(subject.surroundings), 3);
   return pictures;
 }
 

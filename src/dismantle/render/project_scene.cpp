@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/render/project_scene.h"
 
+#include "dismantle/geometry/aabb_corners.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -210,9 +212,7 @@ double scene_size(const RenderScene& scene) {
   for (const RenderItem& item : scene.items) {
     const Aabb b = bounds(item.mesh->mesh);
     if (b.empty()) continue;
-    for (int i = 0; i < 8; ++i)
-      box.extend(item.world_from_mesh *
-                 Vec3{i & 1 ? b.upper.x : b.lower.x, i & 2 ? b.upper.y : b.lower.y, i & 4 ? b.upper.z : b.lower.z});
+    for (const Vec3& corner : corners_of(b)) box.extend(item.world_from_mesh * corner);
   }
   return std::max(diagonal(box), 1e-9);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/report/check_pictures.h"
 
+#include "dismantle/geometry/aabb_corners.h"
 #include "dismantle/render/assembly_scene.h"
 #include "dismantle/render/render.h"
 
@@ -20,15 +21,6 @@ void add_curve(const std::vector<CurveSegment>& curve, RenderScene& scene) {
   Color color = kOverlapColor;
   color.a = 1;
   for (const CurveSegment& s : curve) scene.lines.push_back({{s.ends[0], s.ends[1]}, color, kCurveWidth, true});
-}
-
-std::vector<Vec3> corners_of(const Aabb& box) {
-  std::vector<Vec3> corners;
-  corners.reserve(8);
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(
-        {i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y, i & 4 ? box.upper.z : box.lower.z});
-  return corners;
 }
 
 }  // namespace
