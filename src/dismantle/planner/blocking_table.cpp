@@ -57,6 +57,13 @@ double BlockingTable::way_out(ComponentId moving, DirectionId d) const {
   return way + kMargin * features_[moving.value].radius;
 }
 
+double BlockingTable::way_length(ComponentId moving) const {
+  const ShapeFeatures& m = features_[moving.value];
+  double way = 0;
+  for (const ShapeFeatures& f : features_) way = std::max(way, length(f.center - m.center) + f.radius);
+  return way + (1 + kMargin) * m.radius;
+}
+
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
   Known& known = row(moving, d).known[fixed.value];
   if (known == Known::Nothing) {

@@ -32,7 +32,10 @@ class BlockingTable {
   /// A way along `d` after which `moving` is past all that is where it was assembled [mm].
   double way_out(ComponentId moving, DirectionId d) const;
 
-  /// Of the sphere around a component [mm].
+  /// A way in any direction after which `moving` is past all that is where it was assembled [mm].
+  double way_length(ComponentId moving) const;
+  /// Center and radius of the sphere around an assembled component [mm].
+  Vec3 center(ComponentId c) const { return features_[c.value].center; }
   double radius(ComponentId c) const { return features_[c.value].radius; }
 
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);

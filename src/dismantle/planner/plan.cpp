@@ -7,6 +7,10 @@ std::string_view name_of(PlanTier tier) {
   switch (tier) {
     case PlanTier::Straight:
       return "straight";
+    case PlanTier::Helical:
+      return "helical";
+    case PlanTier::Sliding:
+      return "sliding";
     case PlanTier::StraightTogether:
       return "straight together";
   }

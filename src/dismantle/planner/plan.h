@@ -12,10 +12,12 @@ namespace dismantle {
 /// How a step was found.
 enum class PlanTier {
   Straight,          ///< One component goes straight out.
+  Helical,           ///< One component is screwed out along a thread.
+  Sliding,           ///< One component is pushed and turned out, along what is in its way.
   StraightTogether,  ///< Several go straight out as one body.
 };
 
-/// "straight", "straight together": as reports have it.
+/// "straight", "helical", "sliding", "straight together": as reports have it.
 std::string_view name_of(PlanTier tier);
 
 /// A set of components leaves what it is part of, rigidly together.

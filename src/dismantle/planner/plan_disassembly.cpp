@@ -2,26 +2,36 @@
 #include "dismantle/planner/plan_disassembly.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/geometry/round_axes.h"
 #include "dismantle/planner/candidate_directions.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/removal_search.h"
+#include "dismantle/planner/screw_search.h"
+#include "dismantle/planner/slide_search.h"
 #include "dismantle/planner/step_maker.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <optional>
 
 namespace dismantle {
 
 namespace {
 
+using Threads = std::vector<std::pair<ComponentId, Thread>>;
 using Clock = std::chrono::steady_clock;
 
 /// So many of the directions that most components share are tried with all of them.
 constexpr std::size_t kShared = 8;
 /// How much less each next one of a component's directions counts for that.
 constexpr double kRankWeight = 0.9;
+/// A sliding component is pushed along so many of its directions and turned about so many axes at most, from so many
+/// places: few of each component first.
+constexpr std::size_t kMostPushes = 12;
+constexpr std::size_t kMostTurns = 4;
+constexpr std::size_t kSlidePlaces[] = {2, 8, 32};
 /// What was taken away stands so many diameters of the assembly off.
 constexpr double kFarAway = 100;
 
@@ -43,7 +53,11 @@ class Planner {
         maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
                [this] { return in_time(); }),
         table_(maker_.engine(), features_, [this] { return in_time(); }),
-        directions_(count_) {
+        directions_(count_),
+        tolerance_(pairs.tolerance),
+        contacts_(count_),
+        threads_(count_),
+        round_(count_) {
     find_directions(pairs.tolerance);
   }
 
@@ -154,10 +168,87 @@ class Planner {
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
     if (!single.empty()) return go_on() ? next_step(body, staying) : std::nullopt;
+    if (auto step = find_screwed(body, staying)) return step;
     const auto ask = [this] { return go_on(); };
     while (const auto removal = smallest_body(table_, directions_, body, staying, ask))
       if (auto step = try_removal(*removal, body)) return step;
+    return find_sliding(body, staying);
+  }
+
+  /// One component that is screwed out, the smallest first.
+  std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying) {
+    for (const ComponentId c : smallest_first(body, staying)) {
+      for (const auto& [neighbour, thread] : threads_of(c)) {
+        if (!go_on()) return std::nullopt;
+        if (!body.has(neighbour)) continue;
+        std::vector<ComponentId>& met = met_[{c, neighbour}];
+        if (!met.empty() && body.has_all(met)) continue;
+        WaySearch search = screw_out(maker_, table_, c, thread, [this] { return in_time(); });
+        if (search.step) return std::move(search.step);
+        met = std::move(search.met);
+      }
+    }
     return std::nullopt;
+  }
+
+  /// One component that is slid out, the smallest first; the longer one is searched for, the fewer have come out.
+  std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
+    for (const std::size_t places : kSlidePlaces)
+      for (const ComponentId c : smallest_first(body, staying)) {
+        if (!go_on()) return std::nullopt;
+        std::vector<ComponentId>& met = slid_[{c, places}];
+        if (!met.empty() && body.has_all(met)) continue;
+        WaySearch search = slide_out(maker_, table_, c, slide_moves(c, body), places, [this] { return in_time(); });
+        if (search.step) return std::move(search.step);
+        met = std::move(search.met);
+      }
+    return std::nullopt;
+  }
+
+  /// The directions of a component, and the axes that it or what is about it is round about.
+  SlideMoves slide_moves(ComponentId c, const ComponentSet& body) {
+    SlideMoves moves;
+    for (const DirectionId d : directions_[c.value])
+      if (moves.directions.size() < kMostPushes) moves.directions.push_back(table_.direction(d));
+    const auto add = [&](const RoundAxis& axis) {
+      const auto same = [&](const TurnAxis& known) {
+        return length(cross(known.direction, axis.direction)) < kSameDirectionAngle &&
+               length(cross(axis.direction, known.point - axis.point)) <
+                   kSameDirectionAngle * features_[c.value].radius;
+      };
+      if (moves.axes.size() < kMostTurns && std::none_of(moves.axes.begin(), moves.axes.end(), same))
+        moves.axes.push_back({axis.point, axis.direction});
+    };
+    for (const RoundAxis& axis : round_of(c)) add(axis);
+    for (const ComponentId near : contacts_[c.value].neighbours)
+      if (body.has(near))
+        for (const RoundAxis& axis : round_of(near)) add(axis);
+    for (const WeightedDirection& axis : features_[c.value].axes) add({features_[c.value].center, axis.direction, 0});
+    return moves;
+  }
+
+  const std::vector<RoundAxis>& round_of(ComponentId c) {
+    std::optional<std::vector<RoundAxis>>& known = round_[c.value];
+    if (!known) {
+      const TriangleMesh mesh = assembled_mesh(assembly_[c]);
+      known = round_axes(mesh.vertices, mesh.faces);
+    }
+    return *known;
+  }
+
+  std::vector<ComponentId> smallest_first(const ComponentSet& body, const ComponentSet& staying) const {
+    std::vector<ComponentId> members = body.members();
+    std::erase_if(members, [&](ComponentId c) { return staying.has(c); });
+    std::stable_sort(members.begin(), members.end(), [this](ComponentId a, ComponentId b) {
+      return features_[a.value].radius < features_[b.value].radius;
+    });
+    return members;
+  }
+
+  const Threads& threads_of(ComponentId c) {
+    std::optional<Threads>& known = threads_[c.value];
+    if (!known) known = shared_threads(assembly_, maker_.hold(c), features_[c.value].radius, tolerance_);
+    return *known;
   }
 
   /// Tries it with the engine, and learns from it where that refuses.
@@ -185,12 +276,11 @@ class Planner {
   /// turns of the assembly), and the rest of its own.
   void find_directions(double tolerance) {
     std::vector<double> popularity;  // of every direction
-    std::vector<ContactNormals> contacts(count_);
     std::vector<std::vector<CandidateDirection>> own(count_);
     for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
       const ComponentId id(c);
-      contacts[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
-      own[c] = candidate_directions(id, contacts[c], features_);
+      contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
+      own[c] = candidate_directions(id, contacts_[c], features_);
       double weight = 1;
       const auto vote = [&](const Vec3& direction) {
         const std::size_t index = table_.add_direction(direction).value;
@@ -214,7 +304,7 @@ class Planner {
     for (std::uint32_t c = 0; c < count_; ++c) {
       directions_[c] = in_order(own[c], shared);
       for (const DirectionId d : directions_[c])
-        for (const ComponentId against : neighbours_against(contacts[c], table_.direction(d)))
+        for (const ComponentId against : neighbours_against(contacts_[c], table_.direction(d)))
           table_.expect_blocker(ComponentId(c), d, against);
     }
   }
@@ -269,7 +359,13 @@ class Planner {
   StepMaker maker_;
   BlockingTable table_;
   DirectionLists directions_;
+  double tolerance_;
+  std::vector<ContactNormals> contacts_;
   DirectionId last_direction_;
+  std::vector<std::optional<Threads>> threads_;               // of every component, once they are asked for
+  std::vector<std::optional<std::vector<RoundAxis>>> round_;  // the same
+  std::map<std::pair<ComponentId, std::size_t>, std::vector<ComponentId>> slid_;  // by those slid in vain, and how far
+  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;   // by those screwed apart in vain
   Plan plan_;
 };
 

@@ -35,38 +35,50 @@ void StepMaker::stand(const ComponentSet& present) {
 StepMaker::Trial StepMaker::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
   engine_.hold(set);
   held_ = set[0];
-  const std::vector<ComponentPair> embedded = engine_.embedded_pairs();
-  StepResult made;
-  for (const double part : kParts) {
-    made = go_on_() ? go_straight(direction, part * way) : StepResult();
-    if (!made.reached) break;
-  }
+  embedded_ = engine_.embedded_pairs();
+  Trial trial = trial_of(go_straight(direction, way), set);
+  put_back();
+  return trial;
+}
+
+StepMaker::Trial StepMaker::trial_of(const StepResult& made, Span<const ComponentId> set) const {
   Trial trial{made.reached, {}};
   const auto moves = [&](ComponentId c) { return std::find(set.begin(), set.end(), c) != set.end(); };
   const auto add = [&](ComponentId a, ComponentId b) {
     if (moves(a) != moves(b)) trial.against.emplace_back(moves(a) ? a : b, moves(a) ? b : a);
   };
   for (const CollisionContact& c : made.contacts) add(c.a, c.b);
-  if (!trial.free && engine_.embedded_pairs().size() != embedded.size()) {
-    // What has parted and meets again, by a rule that names no faces.
-    if (trial.against.empty())
-      for (const ComponentPair& pair : embedded) add(pair.a, pair.b);
-    // It would be taken for parted where it stands in the other again.
-    engine_ = CertificateEngine(assembly_, pairs_, options_);
-  }
+  // What has parted and meets again is stopped by a rule that names no faces.
+  if (!trial.free && trial.against.empty() && some_parted())
+    for (const ComponentPair& pair : embedded_) add(pair.a, pair.b);
   std::sort(trial.against.begin(), trial.against.end());
   trial.against.erase(std::unique(trial.against.begin(), trial.against.end()), trial.against.end());
-  engine_.jump(poses_);
   return trial;
 }
 
+void StepMaker::put_back() {
+  // What has parted would be taken for parted where it stands in the other again.
+  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
+  engine_.jump(poses_);
+}
+
 StepResult StepMaker::go_straight(const Vec3& direction, double way) {
-  const Pose target{way * direction, {}};
+  const Pose from = pose();
+  StepResult made;
+  for (const double part : kParts) {
+    if (!go_on_()) return {};
+    made = go_part({from.position + part * way * direction, from.rotation}, direction);
+    if (!made.reached) break;
+  }
+  return made;
+}
+
+StepResult StepMaker::go_part(const Pose& target, const Vec3& direction) {
   for (int starts = 1;; ++starts) {
-    const double before = dot(engine_.poses()[held_.value].position, direction);
+    const Vec3 before = pose().position;
     StepResult made = engine_.step(target, ResponseKind::Touch);
     // Where one start stops, a new one may go on: see straight_contact.
-    const double progress = dot(made.pose.position, direction) - before;
+    const double progress = dot(made.pose.position - before, direction);
     if (made.reached || starts == kMostStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
   }
 }
@@ -74,6 +86,27 @@ StepResult StepMaker::go_straight(const Vec3& direction, double way) {
 const CertificateEngine& StepMaker::hold(ComponentId component) {
   engine_.hold({&component, 1});
   return engine_;
+}
+
+void StepMaker::take(ComponentId component) {
+  engine_.hold({&component, 1});
+  held_ = component;
+  embedded_ = engine_.embedded_pairs();
+}
+
+void StepMaker::go_back(const Pose& pose) {
+  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
+  std::vector<Pose> poses = poses_;
+  poses[held_.value] = pose;
+  engine_.jump(poses);
+  engine_.hold({&held_, 1});
+}
+
+StepMaker::Trial StepMaker::try_exit(const Vec3& direction, double way) {
+  const Pose from = pose();
+  Trial trial = trial_of(go_straight(direction, way), {&held_, 1});
+  go_back(from);
+  return trial;
 }
 
 }  // namespace dismantle

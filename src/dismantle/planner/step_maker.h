@@ -31,8 +31,25 @@ class StepMaker {
   const CertificateEngine& hold(ComponentId component);
   const CertificateEngine& engine() const { return engine_; }
 
+  /// Takes one component in hand where it was assembled, to look for its way out.
+  void take(ComponentId component);
+  /// Where the one in hand is.
+  const Pose& pose() const { return engine_.poses()[held_.value]; }
+  /// Goes on towards `target`, sliding along what is in the way.
+  StepResult slide(const Pose& target) { return engine_.step(target, ResponseKind::Slide); }
+  /// Puts what is in hand back where it has been.
+  void go_back(const Pose& pose);
+  /// Whether what is in hand can go straight on from where it is by `way` [mm]; it stays where it is.
+  Trial try_exit(const Vec3& direction, double way);
+  /// All stands as before.
+  void put_back();
+
  private:
+  /// From where the set in hand is.
   StepResult go_straight(const Vec3& direction, double way);
+  StepResult go_part(const Pose& target, const Vec3& direction);
+  Trial trial_of(const StepResult& made, Span<const ComponentId> set) const;
+  bool some_parted() const { return engine_.embedded_pairs().size() != embedded_.size(); }
 
   const Assembly& assembly_;
   const PairStates& pairs_;
@@ -41,7 +58,8 @@ class StepMaker {
   GoOn go_on_;
   CertificateEngine engine_;
   std::vector<Pose> poses_;
-  ComponentId held_;  ///< One of the set in hand.
+  ComponentId held_;                     ///< One of the set in hand.
+  std::vector<ComponentPair> embedded_;  ///< When it was taken in hand.
 };
 
 }  // namespace dismantle

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/planner/plan.h"
+#include "dismantle/planner/step_maker.h"
+
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace dismantle {
+
+/// What came of the search for a way out that is not straight.
+struct WaySearch {
+  std::optional<PlanStep> step;
+  std::vector<ComponentId> met;  ///< What was in the way somewhere: as long as all of it is there, nothing changes.
+};
+
+/// Moves one component about with the engine, from where it was assembled, and remembers what it met. In the end all
+/// stands as before.
+class Explorer {
+ public:
+  /// @param maker must outlive the explorer, and nobody else may use it until then
+  Explorer(StepMaker& maker, ComponentId component) : maker_(maker), component_(component) { maker_.take(component); }
+  ~Explorer() { maker_.put_back(); }
+  Explorer(const Explorer&) = delete;
+  Explorer& operator=(const Explorer&) = delete;
+
+  const Pose& pose() const { return maker_.pose(); }
+  /// Goes on towards `target`, sliding along what is in the way.
+  StepResult slide(const Pose& target);
+  /// Whether it can go straight on from where it is by `way` [mm]; it stays where it is.
+  bool exits(const Vec3& direction, double way);
+  /// Puts it back where it has been.
+  void go_back(const Pose& pose) { maker_.go_back(pose); }
+  std::vector<ComponentId> met() const { return {met_.begin(), met_.end()}; }
+
+ private:
+  StepMaker& maker_;
+  ComponentId component_;
+  std::set<ComponentId> met_;
+};
+
+}  // namespace dismantle

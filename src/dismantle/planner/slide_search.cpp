@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/slide_search.h"
+
+#include "dismantle/math/screw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+/// One push is as long as this share of the component's radius, one turn takes the component's rim as far.
+constexpr double kHandShare = 0.25;
+/// What makes less than this share of a push is as far as it goes.
+constexpr double kStuckShare = 0.05;
+/// Places nearer to each other than this share of the component's radius are one.
+constexpr double kSamePlace = 0.05;
+/// A turn goes on for so long [rad].
+constexpr double kMostTurn = 6.4;
+/// A place on the way counts less than its end.
+constexpr double kOnTheWay = 0.5;
+/// Each place between this one and the assembled one counts against it.
+constexpr double kDepthShare = 0.1;
+/// What is within this share of the component's radius of a straight line is tried as one.
+constexpr double kStraight = 1e-6;
+
+/// One thing to do with a component.
+struct SlideMove {
+  Vec3 push;      ///< Unit, or zero.
+  TurnAxis axis;  ///< Where not pushed.
+};
+
+/// Where a component has been.
+struct Place {
+  Pose pose;
+  std::size_t from = 0;   ///< Index of the place that it came from; of the first one itself.
+  std::vector<Pose> way;  ///< From there.
+  double promise = 0;
+  double depth = 0;
+  bool left = false;  ///< All was tried from here.
+};
+
+class SlideOut {
+ public:
+  SlideOut(Explorer& explorer, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+           const GoOn& go_on)
+      : explorer_(explorer),
+        component_(component),
+        center_(table.center(component)),
+        radius_(table.radius(component)),
+        way_out_(table.way_length(component)),
+        go_on_(go_on) {
+    for (const Vec3& d : moves.directions) moves_.push_back({d, {}});
+    for (const TurnAxis& axis : moves.axes)
+      for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
+    places_.emplace_back();
+  }
+
+  std::optional<PlanStep> find(std::size_t places) {
+    for (std::size_t left = 0; left < places; ++left) {
+      const auto best = std::max_element(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+        return a.left != b.left ? a.left : a.promise < b.promise;
+      });
+      if (best->left) break;
+      best->left = true;
+      const auto index = static_cast<std::size_t>(best - places_.begin());
+      for (const SlideMove& move : moves_) {
+        if (!go_on_()) return std::nullopt;
+        explorer_.go_back(places_[index].pose);
+        if (auto step = follow(index, move)) return step;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Goes on with a move as long as it makes something.
+  std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
+    const bool pushed = length(move.push) > 0;
+    std::vector<Pose> way;
+    std::vector<std::size_t> ends;  // of the hand's steps, in `way`
+    double turned = 0;
+    for (bool stuck = false; !stuck && turned < kMostTurn && go_on_();) {
+      const Pose before = explorer_.pose();
+      const StepResult made = explorer_.slide(target(before, move));
+      way.insert(way.end(), made.way.begin(), made.way.end());
+      stuck = distance(before, made.pose) < kStuckShare * kHandShare * radius_;
+      if (made.way.empty()) break;
+      ends.push_back(way.size());
+      turned += pushed ? 0 : hand_turn(move.axis);
+      if (pushed && dot(transform_from_pose(made.pose) * center_ - center_, move.push) > way_out_)
+        return step_out(from, std::move(way), move.push);
+    }
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      reach(from, {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(ends[k])}, k + 1 == ends.size());
+    return std::nullopt;
+  }
+
+  Pose target(const Pose& pose, const SlideMove& move) const {
+    if (length(move.push) > 0) return {pose.position + kHandShare * radius_ * move.push, pose.rotation};
+    Screw screw;
+    screw.reference = move.axis.point;
+    screw.axis = move.axis.direction;
+    screw.angle = hand_turn(move.axis);
+    return screw_at(screw, 1) * pose;
+  }
+
+  double hand_turn(const TurnAxis& axis) const {
+    const double arm = length(cross(axis.direction, center_ - axis.point)) + radius_;
+    return std::min(0.5, kHandShare * radius_ / arm);
+  }
+
+  /// How far apart two poses are [mm].
+  double distance(const Pose& a, const Pose& b) const {
+    const Screw turn = screw_between(a, b);
+    return length(transform_from_pose(a) * center_ - transform_from_pose(b) * center_) + radius_ * turn.angle;
+  }
+
+  /// Takes up a place, if it is new.
+  void reach(std::size_t from, std::vector<Pose> way, bool is_end) {
+    const Pose& pose = way.back();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Place& place : places_) nearest = std::min(nearest, distance(place.pose, pose));
+    if (nearest < kSamePlace * radius_) return;
+    Place place{pose, from, std::move(way), 0, places_[from].depth + 1, false};
+    place.promise = (is_end ? 1 : kOnTheWay) * (nearest + distance(Pose{}, pose)) / radius_ - kDepthShare * place.depth;
+    places_.push_back(std::move(place));
+  }
+
+  /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
+  PlanStep step_out(std::size_t from, std::vector<Pose> way, const Vec3& exit) {
+    std::vector<std::vector<Pose>> parts{std::move(way)};
+    for (std::size_t k = from; k != 0; k = places_[k].from) parts.push_back(places_[k].way);
+    std::vector<Pose> whole;
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+      whole.insert(whole.end(), part->begin(), part->end());
+
+    const Pose last = whole.back();
+    std::size_t first = whole.size() - 1;
+    const auto on_line = [&](const Pose& p) {
+      const Vec3 apart = last.position - p.position;
+      return p.rotation == last.rotation && length(apart - dot(apart, exit) * exit) < kStraight * radius_;
+    };
+    while (first > 0 && on_line(whole[first - 1])) --first;
+    explorer_.go_back(whole[first]);
+    if (explorer_.exits(exit, 2 * way_out_)) whole.resize(first + 1);
+    return {{component_}, PlanTier::Sliding, PlanStep::kWhole, std::move(whole), exit};
+  }
+
+  Explorer& explorer_;
+  ComponentId component_;
+  Vec3 center_;
+  double radius_, way_out_;
+  const GoOn& go_on_;
+  std::vector<SlideMove> moves_;
+  std::vector<Place> places_;
+};
+
+}  // namespace
+
+WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+                    std::size_t places, const GoOn& go_on) {
+  WaySearch search;
+  Explorer explorer(maker, component);
+  search.step = SlideOut(explorer, table, component, moves, go_on).find(places);
+  search.met = explorer.met();
+  return search;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tests/support/meshes.h"
+#include "tests/support/swept_meshes.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+/// Parts that come apart only by going round a corner or turning.
+namespace dismantle::scenes {
+
+/// A closed solid of the cells of a grid, of which `solid(i, j, k)` says which are solid; `place(i, j, k)` puts the
+/// grid's points, right-handed.
+struct CellGrid {
+  std::array<int, 3> size;  ///< In cells.
+  bool round = false;       ///< The second index goes round.
+};
+
+template <class Place, class Solid>
+TriangleMesh cell_block(const CellGrid& grid, Place place, Solid solid) {
+  TriangleMesh m;
+  std::map<std::array<int, 3>, std::uint32_t> known;
+  const auto vertex = [&](std::array<int, 3> k) {
+    if (grid.round) k[1] %= grid.size[1];
+    const auto [found, fresh] = known.try_emplace(k, static_cast<std::uint32_t>(m.vertices.size()));
+    if (fresh) m.vertices.push_back(place(k[0], k[1], k[2]));
+    return found->second;
+  };
+  const auto is_solid = [&](std::array<int, 3> k) {
+    if (grid.round) k[1] = (k[1] + grid.size[1]) % grid.size[1];
+    for (std::size_t a = 0; a < 3; ++a)
+      if (k[a] < 0 || k[a] >= grid.size[a]) return false;
+    return static_cast<bool>(solid(k[0], k[1], k[2]));
+  };
+  for (int cell = 0; cell < grid.size[0] * grid.size[1] * grid.size[2]; ++cell) {
+    const std::array<int, 3> at{cell / (grid.size[1] * grid.size[2]), cell / grid.size[2] % grid.size[1],
+                                cell % grid.size[2]};
+    for (std::size_t axis = 0; axis < 3 && is_solid(at); ++axis)
+      for (const int side : {0, 1}) {
+        std::array<int, 3> next = at, corner = at;
+        next[axis] += 2 * side - 1;
+        if (is_solid(next)) continue;
+        corner[axis] += side;
+        std::array<int, 3> b = corner, c = corner, d = corner;
+        ++b[(axis + 1) % 3], ++c[(axis + 1) % 3], ++c[(axis + 2) % 3], ++d[(axis + 2) % 3];
+        if (side == 0) std::swap(b, d);
+        add_quad(m, vertex(corner), vertex(b), vertex(c), vertex(d));
+      }
+  }
+  return m;
+}
+
+/// The same between planes along the axes, at these coordinates [mm].
+template <class Solid>
+TriangleMesh box_block(const std::array<std::vector<double>, 3>& at, Solid solid) {
+  const auto cells = [&](std::size_t axis) { return static_cast<int>(at[axis].size()) - 1; };
+  const auto place = [&](int i, int j, int k) {
+    return Vec3{at[0][static_cast<std::size_t>(i)], at[1][static_cast<std::size_t>(j)],
+                at[2][static_cast<std::size_t>(k)]};
+  };
+  return cell_block({{cells(0), cells(1), cells(2)}}, place, solid);
+}
+
+/// The same between radii and heights about z [mm], all around in `sides` sectors.
+template <class Solid>
+TriangleMesh round_block(const std::vector<double>& radii, const std::vector<double>& heights, int sides, Solid solid) {
+  const auto place = [&](int i, int j, int k) {
+    const double r = radii[static_cast<std::size_t>(i)], angle = kTurn * j / sides;
+    return Vec3{r * std::cos(angle), r * std::sin(angle), heights[static_cast<std::size_t>(k)]};
+  };
+  return cell_block({{static_cast<int>(radii.size()) - 1, sides, static_cast<int>(heights.size()) - 1}, true}, place,
+                    solid);
+}
+
+/// A pin in an L-shaped tunnel of a block: along x, then out along y. `clearance` on every side [mm].
+inline std::vector<Component> l_slot(double clearance) {
+  const double c = clearance, wide = 6 + 2 * c;
+  const TriangleMesh block =
+      box_block({{{-10, 0, 10, 10 + wide, 26}, {-10, 0, wide, 20}, {-5, 0, wide, 12}}}, [](int x, int y, int z) {
+        const bool tunnel = z == 1 && (((x == 1 || x == 2) && y == 1) || (x == 2 && y == 2));
+        return !tunnel;
+      });
+  return {component("block", block), component("pin", box({c, c, c}, {6 + c, 6 + c, 6 + c}))};
+}
+
+/// A hook around a bar, between two plates that leave it only its own plane: it goes down, aside from under the bar,
+/// and up beside it. `clearance` between hook and plates [mm].
+///
+///     #        ##   bar: ##### with the hook's mouth around its end
+///     #####  [  #
+///     #      [[[#   floor below
+///     ###########
+inline std::vector<Component> hook(double clearance) {
+  const double c = clearance;
+  const TriangleMesh frame = box_block({{{-20, -12, 0, 14, 20}, {-14, -10, 0, 4}, {0, 10}}}, [](int x, int y, int) {
+    return x == 0 || y == 0 || x == 3 || (x == 1 && y == 2);
+  });
+  const TriangleMesh body =
+      box_block({{{-6, c, 4}, {-4, -c, 4 + c, 8}, {c, 10 - c}}}, [](int x, int y, int) { return x == 1 || y != 1; });
+  return {component("frame", frame), component("front", box({-24, -18, -4}, {24, 12, 0})),
+          component("back", box({-24, -18, 10}, {24, 12, 14})), component("hook", body)};
+}
+
+/// A plug with two lugs in a socket: turned by a tenth of a turn, where stops hold it, its lugs are below their slots,
+/// and it comes out along z. `clearance` all around [mm], at least 0.05 for the sides.
+inline std::vector<Component> bayonet(double clearance) {
+  constexpr int kSides = 48;
+  const double c = clearance;
+  const auto within = [](int sector, int first, int last) { return sector % 24 >= first && sector % 24 < last; };
+  const TriangleMesh socket =
+      round_block({5 + c, 7 + c, 10}, {-2, 2 - c, 4 + c, 10}, kSides, [&](int ring, int sector, int layer) {
+        if (ring == 1 || layer == 0) return true;
+        return layer == 1 ? within(sector, 13, 22) : !within(sector, 8, 13);
+      });
+  const TriangleMesh plug = round_block({2, 5, 7}, {0, 2, 4, 20}, kSides, [&](int ring, int sector, int layer) {
+    return ring == 0 || (layer == 1 && within(sector, 0, 4));
+  });
+  return {component("socket", socket), component("plug", plug)};
+}
+
+}  // namespace dismantle::scenes
