@@ -15,6 +15,7 @@ using scenes::PlanScene;
 
 Plan plan_of(const Assembly& assembly, PlanOptions options = {}) {
   const PlanScene scene = plan_scene(assembly);
+  options.slide_effort = scenes::kSlideEffort;
   return plan_disassembly(scene.assembly, scene.pairs, options);
 }
 
@@ -44,7 +45,7 @@ TEST(PlanDisassembly, IsTheSameInAnyOrientation) {
   for (const Assembly& assembly : {scenes::peg_in_hole(24, 0.01).assembly, scenes::dovetail(0.01).assembly,
                                    scenes::stack_in_tube(4), scenes::closed_shell(), scenes::assembly(chain)}) {
     const Plan plan = plan_of(assembly);
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < 3; ++round) {
       const Pose pose = scenes::random_pose(random, 50, 3);
       const Plan turned = plan_of(scenes::placed(assembly, pose));
       EXPECT_EQ(taken_out(plan), taken_out(turned)) << assembly.components[0].name << ' ' << round;

@@ -3,6 +3,7 @@
 
 #include "dismantle/collision/classify_pairs.h"
 #include "dismantle/planner/plan_disassembly.h"
+#include "tests/support/puzzle_scenes.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/slide_scenes.h"
 
@@ -11,6 +12,9 @@
 
 /// Small assemblies of which it is known what comes out, and how.
 namespace dismantle::scenes {
+
+/// What searches for sliding ways may cost in tests: at least twice what those cost that find one.
+inline constexpr std::size_t kSlideEffort = 40'000;
 
 /// An assembly with its pairs.
 struct PlanScene {
@@ -26,10 +30,13 @@ inline PlanScene plan_scene(Assembly assembly, double tolerance = 0.01) {
   return scene;
 }
 
-/// The assembly turned and moved as a whole.
-inline Assembly placed(Assembly assembly, const Pose& pose) {
-  for (Component& c : assembly.components)
-    c.mesh = std::make_shared<const TriangleMesh>(moved(assembled_mesh(c), pose));
+/// The assembly turned and moved as a whole, then in another size.
+inline Assembly placed(Assembly assembly, const Pose& pose, double scale = 1) {
+  for (Component& c : assembly.components) {
+    TriangleMesh mesh = moved(assembled_mesh(c), pose);
+    for (Vec3& p : mesh.vertices) p = scale * p;
+    c.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+  }
   return assembly;
 }
 
@@ -40,28 +47,6 @@ inline Assembly without(const Assembly& assembly, const std::vector<ComponentId>
     if (std::find(components.begin(), components.end(), ComponentId(c)) == components.end())
       left.push_back(assembly.components[c]);
   return scenes::assembly(std::move(left));
-}
-
-/// A frame along z around a square hole of the half width `half`.
-inline TriangleMesh frame(double half, double wall, double z0, double z1) {
-  return extruded_band(square_around(half + wall, 8), square_around(half, 8), true, z0, z1);
-}
-
-/// A box in a shell without an opening.
-inline Assembly closed_shell() {
-  TriangleMesh shell = box({-10, -10, -10}, {10, 10, 10});
-  TriangleMesh hollow = box({-8, -8, -8}, {8, 8, 8});
-  const auto first = static_cast<std::uint32_t>(shell.vertices.size());
-  shell.vertices.insert(shell.vertices.end(), hollow.vertices.begin(), hollow.vertices.end());
-  for (const Face& f : hollow.faces) shell.faces.push_back({{f.v[0] + first, f.v[2] + first, f.v[1] + first}});
-  return assembly({component("shell", shell), component("core", box({-5, -5, -8}, {5, 5, 2}))});
-}
-
-/// Two links of a chain, one turned about x and through the other.
-inline std::vector<Component> chain_links() {
-  const TriangleMesh link = frame(5, 2, -1, 1);
-  const Pose through{{7, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)};
-  return {component("link", link), component("next link", moved(link, through))};
 }
 
 /// A tube with square hole along z, and boxes in it from bottom to top, their faces touching: "box 0", "box 1", ...

@@ -4,22 +4,15 @@
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/planner/plan_path.h"
 #include "tests/planner/plan_scenes.h"
-#include "tests/support/large_scenes.h"
+#include "tests/support/disassembly_cases.h"
 
 #include <gtest/gtest.h>
 
 namespace dismantle {
 namespace {
 
-/// A short bolt with a thread of 1.25 mm pitch through a nut of two turns, 0.05 mm between their flanks.
 scenes::PlanScene bolt_in_nut() {
-  scenes::Winding bolt = scenes::thread(0, 0.5), nut = scenes::thread(0.1, 0.5);
-  bolt.sides = nut.sides = 24;
-  bolt.turns = 3;
-  bolt.start = -bolt.pitch;
-  nut.turns = 2;
-  return scenes::plan_scene(scenes::assembly(
-      {scenes::component("nut", scenes::wound_hole(nut, 7)), scenes::component("bolt", scenes::wound_solid(bolt))}));
+  return scenes::plan_scene(scenes::assembly(scenes::short_screw(0.05, 24)));
 }
 
 TEST(ScrewSearch, ScrewsABoltOutOfItsNut) {
@@ -37,11 +30,11 @@ TEST(ScrewSearch, KnowsTheThreadFromTheContacts) {
   CertificateEngine engine(scene.assembly, scene.pairs);
   const ComponentId bolt(1);
   engine.hold({&bolt, 1});
-  const auto threads = shared_threads(scene.assembly, engine, 10, scene.pairs.tolerance);
+  const auto threads = touched_threads(scene.assembly, engine, 10, scene.pairs.tolerance);
   ASSERT_EQ(threads.size(), 1u);
-  EXPECT_EQ(threads[0].first, ComponentId(0));
-  EXPECT_NEAR(threads[0].second.rise * scenes::kTurn, 1.25, 0.1);
-  EXPECT_NEAR(std::abs(threads[0].second.axis.z), 1, 1e-3);
+  EXPECT_EQ(threads[0].neighbour, ComponentId(0));
+  EXPECT_NEAR(threads[0].thread.lead, 1.25, 0.1);
+  EXPECT_NEAR(std::abs(threads[0].thread.direction.z), 1, 1e-3);
 }
 
 TEST(ScrewSearch, SeesNoThreadInAPlainBore) {
@@ -49,7 +42,7 @@ TEST(ScrewSearch, SeesNoThreadInAPlainBore) {
   const scenes::PlanScene scene = scenes::plan_scene(peg.assembly);
   CertificateEngine engine(scene.assembly, scene.pairs);
   engine.hold({&peg.moving, 1});
-  EXPECT_TRUE(shared_threads(scene.assembly, engine, 15, scene.pairs.tolerance).empty());
+  EXPECT_TRUE(touched_threads(scene.assembly, engine, 15, scene.pairs.tolerance).empty());
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ std::vector<Puzzle> puzzles() {
 /// The plan for the last component.
 Plan plan_for_last(const scenes::PlanScene& scene) {
   PlanOptions options;
+  options.slide_effort = scenes::kSlideEffort;
   const auto count = static_cast<std::uint32_t>(scene.assembly.components.size());
   for (std::uint32_t c = 0; c + 1 < count; ++c) options.fixed.emplace_back(c);
   return plan_disassembly(scene.assembly, scene.pairs, options);
@@ -41,6 +42,16 @@ TEST(SlideSearch, FindsTheWayRoundCornersAndOutOfLocks) {
   }
 }
 
+TEST(SlideSearch, TakesATargetOutThatDoesNotGoStraight) {
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::l_slot(0.1)));
+  PlanOptions options;
+  options.targets = {ComponentId(1)};
+  const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
+  EXPECT_TRUE(plan.complete());
+  ASSERT_EQ(plan.steps.size(), 1u);
+  EXPECT_EQ(plan.steps[0].components, std::vector{ComponentId(1)});
+}
+
 TEST(SlideSearch, GivesWaysThatPassTheAudit) {
   for (const Puzzle& puzzle : puzzles()) {
     const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(puzzle.components));
@@ -52,23 +63,12 @@ TEST(SlideSearch, GivesWaysThatPassTheAudit) {
   }
 }
 
-/// The assembly turned about and moved, and all of it in another size.
-Assembly resized(const Assembly& assembly, const Pose& pose, double scale) {
-  Assembly other = scenes::placed(assembly, pose);
-  for (Component& c : other.components) {
-    TriangleMesh mesh = *c.mesh;
-    for (Vec3& p : mesh.vertices) p = scale * p;
-    c.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-  }
-  return other;
-}
-
 TEST(SlideSearch, FindsThemInAnyOrientationAndSize) {
   std::mt19937_64 random(11);
   for (const Puzzle& puzzle : puzzles())
     for (const double scale : {0.01, 1000.0}) {
       const Pose pose = scenes::random_pose(random, 20, 3);
-      const Assembly assembly = resized(scenes::assembly(puzzle.components), pose, scale);
+      const Assembly assembly = scenes::placed(scenes::assembly(puzzle.components), pose, scale);
       const Plan plan = plan_for_last(scenes::plan_scene(assembly, 0.01 * scale));
       ASSERT_EQ(plan.steps.size(), 1u) << puzzle.name << " at " << scale;
       EXPECT_EQ(plan.steps[0].tier, PlanTier::Sliding) << puzzle.name;

@@ -6,9 +6,10 @@
 
 #include <array>
 #include <map>
+#include <string>
 #include <vector>
 
-/// Parts that come apart only by going round a corner or turning.
+/// Parts that come apart only by going round a corner or turning, or not at all.
 namespace dismantle::scenes {
 
 /// A closed solid of the cells of a grid, of which `solid(i, j, k)` says which are solid; `place(i, j, k)` puts the
@@ -72,6 +73,28 @@ TriangleMesh round_block(const std::vector<double>& radii, const std::vector<dou
   };
   return cell_block({{static_cast<int>(radii.size()) - 1, sides, static_cast<int>(heights.size()) - 1}, true}, place,
                     solid);
+}
+
+/// A frame along z around a square hole of the half width `half`.
+inline TriangleMesh frame(double half, double wall, double z0, double z1) {
+  return extruded_band(square_around(half + wall, 8), square_around(half, 8), true, z0, z1);
+}
+
+/// A box in a shell without an opening.
+inline Assembly closed_shell() {
+  TriangleMesh shell = box({-10, -10, -10}, {10, 10, 10});
+  TriangleMesh hollow = box({-8, -8, -8}, {8, 8, 8});
+  const auto first = static_cast<std::uint32_t>(shell.vertices.size());
+  shell.vertices.insert(shell.vertices.end(), hollow.vertices.begin(), hollow.vertices.end());
+  for (const Face& f : hollow.faces) shell.faces.push_back({{f.v[0] + first, f.v[2] + first, f.v[1] + first}});
+  return assembly({component("shell", shell), component("core", box({-5, -5, -8}, {5, 5, 2}))});
+}
+
+/// Two links of a chain, one turned about x and through the other.
+inline std::vector<Component> chain_links() {
+  const TriangleMesh link = frame(5, 2, -1, 1);
+  const Pose through{{7, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)};
+  return {component("link", link), component("next link", moved(link, through))};
 }
 
 /// A pin in an L-shaped tunnel of a block: along x, then out along y. `clearance` on every side [mm].

@@ -4,6 +4,7 @@
 #include "dismantle/planner/plan.h"
 #include "dismantle/planner/step_maker.h"
 
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <vector>
@@ -14,6 +15,7 @@ namespace dismantle {
 struct WaySearch {
   std::optional<PlanStep> step;
   std::vector<ComponentId> met;  ///< What was in the way somewhere: as long as all of it is there, nothing changes.
+  bool exhausted = false;        ///< All that there is to try was tried: more effort does not help.
 };
 
 /// Moves one component about with the engine, from where it was assembled, and remembers what it met. In the end all
@@ -21,7 +23,9 @@ struct WaySearch {
 class Explorer {
  public:
   /// @param maker must outlive the explorer, and nobody else may use it until then
-  Explorer(StepMaker& maker, ComponentId component) : maker_(maker), component_(component) { maker_.take(component); }
+  Explorer(StepMaker& maker, ComponentId component) : maker_(maker), component_(component), begun_(maker.effort()) {
+    maker_.take(component);
+  }
   ~Explorer() { maker_.put_back(); }
   Explorer(const Explorer&) = delete;
   Explorer& operator=(const Explorer&) = delete;
@@ -33,11 +37,14 @@ class Explorer {
   bool exits(const Vec3& direction, double way);
   /// Puts it back where it has been.
   void go_back(const Pose& pose) { maker_.go_back(pose); }
+  /// What all that it did has cost: see StepMaker::effort.
+  std::size_t effort() const { return maker_.effort() - begun_; }
   std::vector<ComponentId> met() const { return {met_.begin(), met_.end()}; }
 
  private:
   StepMaker& maker_;
   ComponentId component_;
+  std::size_t begun_;
   std::set<ComponentId> met_;
 };
 

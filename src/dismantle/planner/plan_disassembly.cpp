@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -20,18 +21,17 @@ namespace dismantle {
 
 namespace {
 
-using Threads = std::vector<std::pair<ComponentId, Thread>>;
 using Clock = std::chrono::steady_clock;
 
 /// So many of the directions that most components share are tried with all of them.
 constexpr std::size_t kShared = 8;
 /// How much less each next one of a component's directions counts for that.
 constexpr double kRankWeight = 0.9;
-/// A sliding component is pushed along so many of its directions and turned about so many axes at most, from so many
-/// places: few of each component first.
+/// A sliding component is pushed along so many of its directions and turned about so many axes at most. The search may
+/// cost so much for each component, little for all of them first.
 constexpr std::size_t kMostPushes = 12;
 constexpr std::size_t kMostTurns = 4;
-constexpr std::size_t kSlidePlaces[] = {2, 8, 32};
+constexpr std::size_t kSlideEfforts[] = {40'000, 160'000};
 /// What was taken away stands so many diameters of the assembly off.
 constexpr double kFarAway = 100;
 
@@ -57,6 +57,7 @@ class Planner {
         tolerance_(pairs.tolerance),
         contacts_(count_),
         threads_(count_),
+        modelled_(count_),
         round_(count_) {
     find_directions(pairs.tolerance);
   }
@@ -110,23 +111,24 @@ class Planner {
     explain_left(left, staying_of(left));
   }
 
-  /// Takes the targets out of a body with as few others as possible.
+  /// Takes the targets out of a body with as few others as possible; where straight ways do not do, by themselves.
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
     const ComponentSet never(count_, options_.fixed);
     const GoOn ask = [this] { return go_on(); };
+    ComponentSet left = body;
     for (;;) {
       const auto needed = fewest_removals(table_, directions_, body, never, targets, ask);
       ComponentSet staying = body;
-      if (needed) staying.erase(needed->members());
-      if (!needed) break;
+      staying.erase(needed ? needed->members() : targets);
       const std::size_t steps = plan_.steps.size();
-      const ComponentSet left = take_away(body, staying, part_of);
-      if (!left.has_any(targets) || stopped_) return;
+      left = take_away(body, staying, part_of);
+      if (!needed || !left.has_any(targets) || stopped_) break;
       // The engine refused a step: what it said is known now.
       plan_.steps.resize(steps);
     }
     for (const ComponentId target : targets)
-      if (go_on()) plan_.staying.push_back(explain(table_, target, directions_[target.value], body));
+      if (left.has(target) && go_on())
+        plan_.staying.push_back(explain(table_, target, directions_[target.value], left));
   }
 
   /// Takes what it can out of `body` but for `staying`. @return what is left
@@ -193,14 +195,19 @@ class Planner {
 
   /// One component that is slid out, the smallest first; the longer one is searched for, the fewer have come out.
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
-    for (const std::size_t places : kSlidePlaces)
+    for (const std::size_t effort : kSlideEfforts)
       for (const ComponentId c : smallest_first(body, staying)) {
-        if (!go_on()) return std::nullopt;
-        std::vector<ComponentId>& met = slid_[{c, places}];
-        if (!met.empty() && body.has_all(met)) continue;
-        WaySearch search = slide_out(maker_, table_, c, slide_moves(c, body), places, [this] { return in_time(); });
+        SlidInVain& before = slid_[c];
+        if (before.effort >= effort && body.has_all(before.met)) continue;
+        const std::size_t left = options_.slide_effort - std::min(slide_effort_, options_.slide_effort);
+        if (left == 0 || !go_on()) return std::nullopt;
+        SlideMoves moves = slide_moves(c, body);
+        moves.most_effort = std::min(effort, left);
+        const std::size_t begun = maker_.effort();
+        WaySearch search = slide_out(maker_, table_, c, moves, [this] { return in_time(); });
+        slide_effort_ += maker_.effort() - begun;
         if (search.step) return std::move(search.step);
-        met = std::move(search.met);
+        before = {search.exhausted ? std::numeric_limits<std::size_t>::max() : effort, std::move(search.met)};
       }
     return std::nullopt;
   }
@@ -245,9 +252,36 @@ class Planner {
     return members;
   }
 
-  const Threads& threads_of(ComponentId c) {
-    std::optional<Threads>& known = threads_[c.value];
-    if (!known) known = shared_threads(assembly_, maker_.hold(c), features_[c.value].radius, tolerance_);
+  /// The threads that a component shares with others: those that both are modelled with, or else those that their
+  /// faces tell.
+  const std::vector<NeighbourThread>& threads_of(ComponentId c) {
+    std::optional<std::vector<NeighbourThread>>& known = threads_[c.value];
+    if (known) return *known;
+    known.emplace();
+    for (const ComponentId other : neighbours_of(c))
+      for (const ThreadAxis& thread : modelled_threads(c))
+        for (const ThreadAxis& its : modelled_threads(other))
+          if (threads_mate(thread, its)) known->push_back({other, thread});
+    if (known->empty()) known = touched_threads(assembly_, maker_.hold(c), features_[c.value].radius, tolerance_);
+    return *known;
+  }
+
+  /// All the others that may be within its sphere.
+  std::vector<ComponentId> neighbours_of(ComponentId c) const {
+    std::vector<ComponentId> near;
+    for (std::uint32_t k = 0; k < count_; ++k)
+      if (k != c.value &&
+          length(features_[k].center - features_[c.value].center) < features_[k].radius + features_[c.value].radius)
+        near.emplace_back(k);
+    return near;
+  }
+
+  const std::vector<ThreadAxis>& modelled_threads(ComponentId c) {
+    std::optional<std::vector<ThreadAxis>>& known = modelled_[c.value];
+    if (!known) {
+      const TriangleMesh mesh = assembled_mesh(assembly_[c]);
+      known = thread_axes(mesh.vertices, mesh.faces, round_of(c));
+    }
     return *known;
   }
 
@@ -362,10 +396,18 @@ class Planner {
   double tolerance_;
   std::vector<ContactNormals> contacts_;
   DirectionId last_direction_;
-  std::vector<std::optional<Threads>> threads_;               // of every component, once they are asked for
-  std::vector<std::optional<std::vector<RoundAxis>>> round_;  // the same
-  std::map<std::pair<ComponentId, std::size_t>, std::vector<ComponentId>> slid_;  // by those slid in vain, and how far
-  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;   // by those screwed apart in vain
+  // Of every component, once they are asked for.
+  std::vector<std::optional<std::vector<NeighbourThread>>> threads_;
+  std::vector<std::optional<std::vector<ThreadAxis>>> modelled_;
+  std::vector<std::optional<std::vector<RoundAxis>>> round_;
+  /// What a search for a sliding way that found none cost at most, and what was in the way.
+  struct SlidInVain {
+    std::size_t effort = 0;
+    std::vector<ComponentId> met;
+  };
+  std::map<ComponentId, SlidInVain> slid_;
+  std::size_t slide_effort_ = 0;                                                 // of all searches for sliding ways
+  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by those screwed apart in vain
   Plan plan_;
 };
 

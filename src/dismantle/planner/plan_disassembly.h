@@ -5,6 +5,7 @@
 #include "dismantle/core/progress.h"
 #include "dismantle/planner/plan.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace dismantle {
@@ -16,6 +17,8 @@ struct PlanOptions {
   double time_limit = 0;             ///< [s]; 0: none.
   CertificateOptions engine;
   ProgressCallback progress;
+  /// What all searches for sliding ways may cost together: see StepMaker::effort; some 10 us each.
+  std::size_t slide_effort = 400'000;
 };
 
 /// How the assembly comes apart. Every step's motion was tried with the engine: it holds the guarantee. Ends with what

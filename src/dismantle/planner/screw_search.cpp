@@ -12,6 +12,7 @@ namespace dismantle {
 
 namespace {
 
+constexpr double kTurn = 6.283185307179586;
 /// How near faces count as those of one thread, at first and at most: in tolerances, and as a share of the component's
 /// size. Loose threads have wide gaps.
 constexpr double kFirstReach = 2;
@@ -24,8 +25,10 @@ constexpr std::size_t kEnoughContacts = 8192;
 constexpr double kHandTurn = 0.25;
 constexpr double kStuckShare = 0.3;
 constexpr int kStuckTurns = 3;
-/// After so much [rad] the rise that was made is known better than the one that was measured.
+/// After so much [rad] the lead that was made is known better than the one that was measured.
 constexpr double kTurnToLearn = 3;
+/// What turns so many times as often as its way out takes turns of the thread just spins.
+constexpr double kMostTurns = 2;
 /// Turns between looks whether the component is out of the thread.
 constexpr int kTurnsToLook = 12;
 
@@ -39,31 +42,33 @@ void add_samples(const Component& component, const std::set<FaceId>& near, std::
 }
 
 /// The motion by `angle` along a thread [rad].
-Pose screw_motion(const Thread& thread, double angle) {
+Pose screw_motion(const ThreadAxis& thread, double angle) {
   Screw screw;
   screw.reference = thread.point;
-  screw.velocity = angle * thread.rise * thread.axis;
-  screw.axis = angle < 0 ? -thread.axis : thread.axis;
+  screw.velocity = angle / kTurn * thread.lead * thread.direction;
+  screw.axis = angle < 0 ? -thread.direction : thread.direction;
   screw.angle = std::abs(angle);
   return screw_at(screw, 1);
 }
 
 /// Turns one way, as long as that makes something.
-std::optional<PlanStep> turn_out(Explorer& explorer, Thread thread, double turn, double way_out, const GoOn& go_on) {
-  const Vec3 exit = turn * thread.rise > 0 ? thread.axis : -thread.axis;
+std::optional<PlanStep> turn_out(Explorer& explorer, ThreadAxis thread, double turn, double way_out,
+                                 const GoOn& go_on) {
+  const Vec3 exit = turn * thread.lead > 0 ? thread.direction : -thread.direction;
   std::vector<Pose> way;
+  const double most_turned = kMostTurns * kTurn * (1 + way_out / std::abs(thread.lead));
   double turned = 0, risen = 0;
-  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(risen) < 2 * way_out && go_on(); ++turns) {
+  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < most_turned && go_on(); ++turns) {
     const Pose before = explorer.pose();
     const StepResult made = explorer.slide(screw_motion(thread, turn) * before);
     way.insert(way.end(), made.way.begin(), made.way.end());
 
     const Screw screw = screw_between(before, made.pose);
-    const double angle = screw.angle * dot(screw.axis, thread.axis);
+    const double angle = screw.angle * dot(screw.axis, thread.direction);
     turned += angle;
-    risen += dot(screw.velocity + angle * cross(thread.axis, thread.point - screw.reference), thread.axis);
-    // The flanks know their rise best.
-    if (std::abs(turned) > kTurnToLearn) thread.rise = risen / turned;
+    risen += dot(screw.velocity + angle * cross(thread.direction, thread.point - screw.reference), thread.direction);
+    // The flanks know their lead best.
+    if (std::abs(turned) > kTurnToLearn) thread.lead = kTurn * risen / turned;
     const bool moved = angle / turn > kStuckShare;
     stuck = moved ? 0 : stuck + 1;
     if (turns % kTurnsToLook == 0 && moved && explorer.exits(exit, way_out + std::abs(risen)))
@@ -74,13 +79,13 @@ std::optional<PlanStep> turn_out(Explorer& explorer, Thread thread, double turn,
 
 }  // namespace
 
-std::vector<std::pair<ComponentId, Thread>> shared_threads(const Assembly& assembly, const CertificateEngine& engine,
-                                                           double radius, double tolerance) {
+std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const CertificateEngine& engine, double radius,
+                                             double tolerance) {
   struct Near {
     ComponentId component;
     std::set<FaceId> own, others;
   };
-  std::map<ComponentId, Thread> threads;
+  std::map<ComponentId, ThreadAxis> threads;
   for (double reach = kFirstReach * tolerance; reach < kLargestReach * radius; reach *= kReachGrowth) {
     const std::vector<ContactPoint> contacts = engine.contacts(reach);
     std::map<ComponentId, Near> faces;
@@ -99,10 +104,13 @@ std::vector<std::pair<ComponentId, Thread>> shared_threads(const Assembly& assem
     }
     if (contacts.size() > kEnoughContacts) break;
   }
-  return {threads.begin(), threads.end()};
+  std::vector<NeighbourThread> found;
+  found.reserve(threads.size());
+  for (const auto& [neighbour, thread] : threads) found.push_back({neighbour, thread});
+  return found;
 }
 
-WaySearch screw_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const Thread& thread,
+WaySearch screw_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
                     const GoOn& go_on) {
   WaySearch search;
   std::set<ComponentId> met;

@@ -51,6 +51,7 @@ class SlideOut {
         center_(table.center(component)),
         radius_(table.radius(component)),
         way_out_(table.way_length(component)),
+        most_effort_(moves.most_effort),
         go_on_(go_on) {
     for (const Vec3& d : moves.directions) moves_.push_back({d, {}});
     for (const TurnAxis& axis : moves.axes)
@@ -58,31 +59,32 @@ class SlideOut {
     places_.emplace_back();
   }
 
-  std::optional<PlanStep> find(std::size_t places) {
-    for (std::size_t left = 0; left < places; ++left) {
+  std::optional<PlanStep> find() {
+    for (;;) {
       const auto best = std::max_element(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
         return a.left != b.left ? a.left : a.promise < b.promise;
       });
-      if (best->left) break;
+      if (best->left) return std::nullopt;
       best->left = true;
       const auto index = static_cast<std::size_t>(best - places_.begin());
       for (const SlideMove& move : moves_) {
-        if (!go_on_()) return std::nullopt;
+        if (!goes_on()) return std::nullopt;
         explorer_.go_back(places_[index].pose);
         if (auto step = follow(index, move)) return step;
       }
     }
-    return std::nullopt;
   }
 
  private:
+  bool goes_on() const { return explorer_.effort() < most_effort_ && go_on_(); }
+
   /// Goes on with a move as long as it makes something.
   std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
     const bool pushed = length(move.push) > 0;
     std::vector<Pose> way;
     std::vector<std::size_t> ends;  // of the hand's steps, in `way`
     double turned = 0;
-    for (bool stuck = false; !stuck && turned < kMostTurn && go_on_();) {
+    for (bool stuck = false; !stuck && turned < kMostTurn && goes_on();) {
       const Pose before = explorer_.pose();
       const StepResult made = explorer_.slide(target(before, move));
       way.insert(way.end(), made.way.begin(), made.way.end());
@@ -153,6 +155,7 @@ class SlideOut {
   ComponentId component_;
   Vec3 center_;
   double radius_, way_out_;
+  std::size_t most_effort_;
   const GoOn& go_on_;
   std::vector<SlideMove> moves_;
   std::vector<Place> places_;
@@ -161,11 +164,12 @@ class SlideOut {
 }  // namespace
 
 WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-                    std::size_t places, const GoOn& go_on) {
+                    const GoOn& go_on) {
   WaySearch search;
   Explorer explorer(maker, component);
-  search.step = SlideOut(explorer, table, component, moves, go_on).find(places);
+  search.step = SlideOut(explorer, table, component, moves, go_on).find();
   search.met = explorer.met();
+  search.exhausted = !search.step && explorer.effort() < moves.most_effort;
   return search;
 }
 

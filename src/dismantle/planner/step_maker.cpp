@@ -13,6 +13,8 @@ constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 
 /// A way that was stopped goes on if a new start makes at least this share of the tolerance.
 constexpr double kNewStartShare = 0.1;
 constexpr int kMostStarts = 8;
+/// A sweep costs as much as so many tests, and one for so many pairs of its front.
+constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
 
 }  // namespace
 
@@ -62,6 +64,13 @@ void StepMaker::put_back() {
   engine_.jump(poses_);
 }
 
+StepResult StepMaker::step(const Pose& target, ResponseKind response) {
+  StepResult made = engine_.step(target, response);
+  effort_ += made.sizes.elementary_tests +
+             (kSweepEffort + made.sizes.front / kFrontShare) * static_cast<std::size_t>(made.sweeps);
+  return made;
+}
+
 StepResult StepMaker::go_straight(const Vec3& direction, double way) {
   const Pose from = pose();
   StepResult made;
@@ -76,7 +85,7 @@ StepResult StepMaker::go_straight(const Vec3& direction, double way) {
 StepResult StepMaker::go_part(const Pose& target, const Vec3& direction) {
   for (int starts = 1;; ++starts) {
     const Vec3 before = pose().position;
-    StepResult made = engine_.step(target, ResponseKind::Touch);
+    StepResult made = step(target, ResponseKind::Touch);
     // Where one start stops, a new one may go on: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
     if (made.reached || starts == kMostStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;

@@ -30,13 +30,15 @@ class StepMaker {
   /// What touches a component where it was assembled: the engine with it in hand.
   const CertificateEngine& hold(ComponentId component);
   const CertificateEngine& engine() const { return engine_; }
+  /// What all motions have cost until now, in tests of two triangles: the same for the same input, whatever the clock.
+  std::size_t effort() const { return effort_; }
 
   /// Takes one component in hand where it was assembled, to look for its way out.
   void take(ComponentId component);
   /// Where the one in hand is.
   const Pose& pose() const { return engine_.poses()[held_.value]; }
   /// Goes on towards `target`, sliding along what is in the way.
-  StepResult slide(const Pose& target) { return engine_.step(target, ResponseKind::Slide); }
+  StepResult slide(const Pose& target) { return step(target, ResponseKind::Slide); }
   /// Puts what is in hand back where it has been.
   void go_back(const Pose& pose);
   /// Whether what is in hand can go straight on from where it is by `way` [mm]; it stays where it is.
@@ -45,6 +47,7 @@ class StepMaker {
   void put_back();
 
  private:
+  StepResult step(const Pose& target, ResponseKind response);
   /// From where the set in hand is.
   StepResult go_straight(const Vec3& direction, double way);
   StepResult go_part(const Pose& target, const Vec3& direction);
@@ -60,6 +63,7 @@ class StepMaker {
   std::vector<Pose> poses_;
   ComponentId held_;                     ///< One of the set in hand.
   std::vector<ComponentPair> embedded_;  ///< When it was taken in hand.
+  std::size_t effort_ = 0;
 };
 
 }  // namespace dismantle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/thread_fit.h"
+#include "dismantle/geometry/thread_fit.h"
 
 #include "tests/support/large_scenes.h"
 
@@ -30,9 +30,9 @@ TEST(ThreadFit, FindsAxisPitchAndHandInAnyOrientation) {
       const auto thread = fit_thread(samples_of(scenes::moved(bolt(left_handed), pose)));
       ASSERT_TRUE(thread);
       const Vec3 axis = mat3_from_quat(pose.rotation) * Vec3{0, 0, 1};
-      EXPECT_NEAR(std::abs(dot(thread->axis, axis)), 1, 1e-5);
+      EXPECT_NEAR(std::abs(dot(thread->direction, axis)), 1, 1e-5);
       EXPECT_NEAR(length(cross(axis, thread->point - pose.position)), 0, 0.01);
-      EXPECT_NEAR(thread->rise * scenes::kTurn, left_handed ? -1.25 : 1.25, 0.02);
+      EXPECT_NEAR(thread->lead, left_handed ? -1.25 : 1.25, 0.02);
     }
 }
 
@@ -41,7 +41,7 @@ TEST(ThreadFit, FindsItAmongSeatsAndCollars) {
   for (const SurfaceSample& s : samples_of(scenes::tube(4.5, 3, 22, 23, 64))) samples.push_back(s);
   const auto thread = fit_thread(samples);
   ASSERT_TRUE(thread);
-  EXPECT_NEAR(thread->rise * scenes::kTurn, 1.25, 0.02);
+  EXPECT_NEAR(thread->lead, 1.25, 0.02);
 }
 
 TEST(ThreadFit, FindsNoneOnWhatOnlyTurnsOrShifts) {

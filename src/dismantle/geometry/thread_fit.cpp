@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/thread_fit.h"
+#include "dismantle/geometry/thread_fit.h"
 
 #include "dismantle/geometry/adjacency.h"
+#include "dismantle/geometry/axis_frame.h"
 #include "dismantle/math/mat3.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dismantle {
 
 namespace {
 
+constexpr double kTurn = 6.283185307179586;
 /// Faces that meet at a larger cosine are parts of one smooth surface.
 constexpr double kSmooth = 0.85;
 /// Fewer pieces are no thread.
@@ -30,6 +33,10 @@ constexpr double kLeastFlanks = 0.2;
 constexpr double kRise[] = {0.01, 3};
 /// What is added to keep a shift along a plain bore, which costs nothing, out of it.
 constexpr double kRidge = 1e-9;
+
+/// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
+/// and no further apart than this share of the lead.
+constexpr double kSameLead = 5e-3, kSameAxisSine = 0.02, kSameAxisShare = 0.25;
 
 /// Sums of outer products.
 struct Moments {
@@ -107,6 +114,22 @@ bool is_thread(const std::vector<Centred>& samples, const Twist& twist, double r
   return on > kLeastShare * all && flanks > kLeastFlanks * all && slope > kRise[0] && slope < kRise[1];
 }
 
+/// Where the samples that are on the thread are.
+void add_extent(ThreadAxis& thread, Span<const SurfaceSample> samples, const std::vector<Centred>& centred,
+                const Twist& twist) {
+  const AxisFrame frame(thread.point, thread.direction);
+  thread.begin = thread.least = std::numeric_limits<double>::infinity();
+  thread.end = -thread.begin;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (off(centred[i], twist) > kOnThread) continue;
+    const double along = frame.along(samples[i].point), distance = length(frame.across(samples[i].point));
+    thread.begin = std::min(thread.begin, along);
+    thread.end = std::max(thread.end, along);
+    thread.least = std::min(thread.least, distance);
+    thread.most = std::max(thread.most, distance);
+  }
+}
+
 }  // namespace
 
 std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const std::uint8_t> of_interest) {
@@ -122,7 +145,7 @@ std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const s
   return samples;
 }
 
-std::optional<Thread> fit_thread(Span<const SurfaceSample> samples) {
+std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples) {
   Vec3 middle;
   double area = 0, square = 0;
   for (const SurfaceSample& s : samples) {
@@ -154,7 +177,19 @@ std::optional<Thread> fit_thread(Span<const SurfaceSample> samples) {
   for (const Centred& s : centred) radius += s.weight * length(cross(twist.w, s.point - foot));
   const double rise = dot(twist.w, twist.v);
   if (!is_thread(centred, twist, rise, radius)) return std::nullopt;
-  return Thread{middle + size * foot, twist.w, size * rise, size * radius};
+  ThreadAxis thread;
+  thread.point = middle + size * foot;
+  thread.direction = twist.w;
+  thread.lead = kTurn * size * rise;
+  add_extent(thread, samples, centred, twist);
+  return thread;
+}
+
+bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
+  const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
+  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kSameLead * lead &&
+         length(cross(x.direction, y.direction)) <= kSameAxisSine &&
+         length(AxisFrame(y.point, y.direction).across(x.point)) <= kSameAxisShare * lead;
 }
 
 }  // namespace dismantle

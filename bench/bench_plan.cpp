@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the planner takes apart, by which tier, in what time; every path audited.
+//   bench_plan cases [--shapes N] [--poses M] [KIND...]   N shapes of each kind of generated case, each as it is and in
+//                                                         M random orientations, scales and tessellations
+//   bench_plan files [--time-limit S] ASSEMBLY...         assemblies
+// One row a case or an assembly, tab-separated. `good`: exactly what is known to come out does, and the audit holds;
+// for assemblies: all comes out or is explained, and the audit holds. Times are of one thread and do not include
+// reading.
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/io/load_assembly.h"
+#include "dismantle/planner/plan_path.h"
+#include "tests/planner/plan_scenes.h"
+#include "tests/support/disassembly_cases.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace dismantle {
+namespace {
+
+using namespace scenes;
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+}
+
+/// What was planned, and what it cost.
+struct Planned {
+  Plan plan;
+  bool audited = false;
+  double classify_ms = 0, plan_ms = 0;
+};
+
+Planned plan_and_audit(const Assembly& assembly, double tolerance, const PlanOptions& options) {
+  Planned planned;
+  const Clock::time_point start = Clock::now();
+  ClassifyOptions classify;
+  classify.tolerance = tolerance;
+  const PairStates pairs = classify_pairs(assembly, classify).value();
+  planned.classify_ms = milliseconds_since(start);
+  const Clock::time_point classified = Clock::now();
+  planned.plan = plan_disassembly(assembly, pairs, options);
+  const Path path = plan_path(assembly, pairs, planned.plan);
+  planned.plan_ms = milliseconds_since(classified);
+  planned.audited = audit_path(assembly, path).holds();
+  return planned;
+}
+
+/// The components that some step takes out by themselves.
+std::size_t taken_out(const Plan& plan) {
+  return static_cast<std::size_t>(std::count_if(plan.steps.begin(), plan.steps.end(),
+                                                [](const PlanStep& step) { return step.components.size() == 1; }));
+}
+
+/// How many steps each tier made: as a row has it.
+std::string tiers(const Plan& plan) {
+  std::string row;
+  for (const PlanTier tier : {PlanTier::Straight, PlanTier::Helical, PlanTier::Sliding, PlanTier::StraightTogether})
+    row += '\t' + std::to_string(std::count_if(plan.steps.begin(), plan.steps.end(),
+                                               [tier](const PlanStep& step) { return step.tier == tier; }));
+  return row;
+}
+
+constexpr const char* kTierColumns = "straight\thelical\tsliding\ttogether";
+
+/// What came of all the cases of one kind.
+struct Tally {
+  std::size_t plans = 0, good = 0, false_free = 0;
+  std::vector<double> ms;
+};
+
+struct Settings {
+  int shapes = 3, poses = 1;
+  double time_limit = 60;
+  std::vector<std::string> names;
+};
+
+void run_case(CaseKind kind, int shape, const DisassemblyCase& made, double scale, Tally& tally) {
+  PlanOptions options;
+  for (std::uint32_t c = 0; c < made.fixed; ++c) options.fixed.emplace_back(c);
+  const std::size_t others = made.assembly.components.size() - made.fixed;
+  const Planned planned = plan_and_audit(made.assembly, 0.01 * scale, options);
+  const std::size_t out = taken_out(planned.plan);
+  const bool good = out == (comes_apart(kind) ? others : 0) && planned.audited;
+  ++tally.plans;
+  tally.good += good;
+  tally.false_free += !comes_apart(kind) && out > 0;
+  tally.ms.push_back(planned.plan_ms);
+  std::printf("%s\t%d\t%g\t%zu\t%zu%s\t%.1f\t%.1f\t%s\t%s\n", std::string(name_of(kind)).c_str(), shape, scale, others,
+              out, tiers(planned.plan).c_str(), planned.classify_ms, planned.plan_ms,
+              planned.audited ? "holds" : "BROKEN", good ? "yes" : "NO");
+  std::fflush(stdout);
+}
+
+bool run_cases(const Settings& settings) {
+  std::printf("kind\tshape\tscale\tcomponents\tout\t%s\tclassify_ms\tplan_ms\taudit\tgood\n", kTierColumns);
+  bool all_good = true;
+  std::vector<std::pair<CaseKind, Tally>> tallies;
+  for (const CaseKind kind : kCaseKinds) {
+    const std::string name(name_of(kind));
+    if (!settings.names.empty() &&
+        std::find(settings.names.begin(), settings.names.end(), name) == settings.names.end())
+      continue;
+    std::mt19937_64 random(1);
+    Tally tally;
+    for (int shape = 0; shape < settings.shapes; ++shape) {
+      const CaseShape drawn = random_shape(random);
+      const DisassemblyCase made = disassembly_case(kind, drawn);
+      run_case(kind, shape, made, 1, tally);
+      for (int pose = 0; pose < settings.poses; ++pose) {
+        const double scale = std::array{0.01, 1.0, 1000.0}[static_cast<std::size_t>(pose) % 3];
+        const Pose turned = random_pose(random, 50, 3);
+        run_case(kind, shape, {placed(refined(made.assembly, random), turned, scale), made.fixed}, scale, tally);
+      }
+    }
+    all_good = all_good && tally.good == tally.plans;
+    tallies.emplace_back(kind, std::move(tally));
+  }
+  std::printf("\nkind\tplans\tgood\tfalse free\tmedian_ms\tp99_ms\tmost_ms\n");
+  for (const auto& [kind, tally] : tallies)
+    std::printf("%s\t%zu\t%zu\t%zu\t%.1f\t%.1f\t%.1f\n", std::string(name_of(kind)).c_str(), tally.plans, tally.good,
+                tally.false_free, quantile(tally.ms, 0.5), quantile(tally.ms, 0.99), quantile(tally.ms, 1));
+  return all_good;
+}
+
+bool run_file(const std::string& file, double time_limit) {
+  const Result<Assembly> assembly = load_assembly(file);
+  if (!assembly) {
+    std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
+    return false;
+  }
+  PlanOptions options;
+  options.time_limit = time_limit;
+  const Planned planned = plan_and_audit(*assembly, 0, options);
+  const bool good = planned.audited && !planned.plan.out_of_time;
+  std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", assembly->source_file.c_str(),
+              assembly->components.size(), triangle_count(*assembly), taken_out(planned.plan),
+              tiers(planned.plan).c_str(), planned.plan.staying.size(), 1e-3 * planned.classify_ms,
+              1e-3 * planned.plan_ms, planned.audited ? "holds" : "BROKEN", good ? "yes" : "NO");
+  std::fflush(stdout);
+  return good;
+}
+
+bool run_files(const Settings& settings) {
+  std::printf("assembly\tcomponents\ttriangles\tout\t%s\tstaying\tclassify_s\tplan_s\taudit\tgood\n", kTierColumns);
+  bool good = true;
+  for (const std::string& file : settings.names) good = run_file(file, settings.time_limit) && good;
+  return good;
+}
+
+bool parse(int argc, char** argv, Settings& settings) {
+  for (int i = 2; i < argc; ++i) {
+    const std::string option = argv[i];
+    const bool has_value = i + 1 < argc;
+    if (option == "--shapes" && has_value) {
+      settings.shapes = std::atoi(argv[++i]);
+    } else if (option == "--poses" && has_value) {
+      settings.poses = std::atoi(argv[++i]);
+    } else if (option == "--time-limit" && has_value) {
+      settings.time_limit = std::atof(argv[++i]);
+    } else if (option.rfind("--", 0) == 0) {
+      return false;
+    } else {
+      settings.names.push_back(option);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+}  // namespace dismantle
+
+int main(int argc, char** argv) {
+  using namespace dismantle;
+  const std::string what = argc > 1 ? argv[1] : "";
+  Settings settings;
+  if ((what != "cases" && what != "files") || !parse(argc, argv, settings)) {
+    std::fprintf(stderr,
+                 "usage: bench_plan cases [--shapes N] [--poses M] [KIND...]\n"
+                 "       bench_plan files [--time-limit S] ASSEMBLY...\n");
+    return 2;
+  }
+  return (what == "cases" ? run_cases(settings) : run_files(settings)) ? 0 : 1;
+}

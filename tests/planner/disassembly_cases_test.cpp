@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/disassembly_cases.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/geometry/adjacency.h"
+#include "dismantle/planner/plan_path.h"
+#include "tests/planner/plan_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+using scenes::CaseKind;
+using scenes::DisassemblyCase;
+
+/// Whether exactly what is known to come out does, along ways that pass the audit.
+void expect_right(CaseKind kind, const DisassemblyCase& made, double scale) {
+  SCOPED_TRACE(testing::Message() << name_of(kind) << " at scale " << scale);
+  const scenes::PlanScene scene = scenes::plan_scene(made.assembly, 0.01 * scale);
+  PlanOptions options;
+  options.slide_effort = scenes::kSlideEffort;
+  for (std::uint32_t c = 0; c < made.fixed; ++c) options.fixed.emplace_back(c);
+  const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
+  EXPECT_EQ(plan.complete(), scenes::comes_apart(kind));
+  EXPECT_EQ(plan.steps.size(), scenes::comes_apart(kind) ? made.assembly.components.size() - made.fixed : 0);
+  const AuditReport report = audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan), {});
+  EXPECT_TRUE(report.holds()) << (report.violations.empty() ? "" : report.violations[0].message);
+}
+
+TEST(DisassemblyCases, AreClosedSolids) {
+  std::mt19937_64 random(2);
+  for (const CaseKind kind : scenes::kCaseKinds) {
+    const DisassemblyCase made = scenes::disassembly_case(kind, scenes::random_shape(random));
+    for (const Assembly& assembly : {made.assembly, scenes::refined(made.assembly, random)})
+      for (const Component& c : assembly.components) {
+        const EdgeFaults faults = edge_faults(*c.mesh);
+        EXPECT_EQ(faults.boundary + faults.misoriented, 0u) << name_of(kind) << ' ' << c.name;
+      }
+  }
+}
+
+TEST(DisassemblyCases, ComeApartOrDoNotInAnyOrientationSizeAndTessellation) {
+  const double scales[] = {0.01, 1, 1000};
+  int next = 0;
+  for (const CaseKind kind : scenes::kCaseKinds) {
+    std::mt19937_64 random(1);
+    const DisassemblyCase made = scenes::disassembly_case(kind, scenes::random_shape(random));
+    const double scale = scales[next++ % 3];
+    const Pose pose = scenes::random_pose(random, 50, 3);
+    expect_right(kind, {scenes::placed(scenes::refined(made.assembly, random), pose, scale), made.fixed}, scale);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
