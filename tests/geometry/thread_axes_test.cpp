@@ -72,6 +72,19 @@ TEST(ThreadAxes, AreNotFoundWhereNothingWinds) {
     EXPECT_TRUE(threads_of(mesh).empty()) << mesh.faces.size();
 }
 
+TEST(ThreadAxes, MateWhereOneIsTheScrewAndTheOtherItsNut) {
+  const auto thread_of = [](const TriangleMesh& mesh) { return threads_of(mesh).at(0); };
+  const TriangleMesh bolt = scenes::wound_solid(winding(24, 6));
+  const ThreadAxis screw = thread_of(bolt), nut = thread_of(scenes::wound_hole(winding(24, 4), 7));
+  EXPECT_TRUE(threads_mate(screw, nut));
+  EXPECT_TRUE(threads_mate(nut, screw));
+  EXPECT_TRUE(threads_mate(thread_of(scenes::moved(bolt, {{0.2, 0, 9}, {}})), nut));
+  EXPECT_FALSE(threads_mate(screw, screw));
+  EXPECT_FALSE(threads_mate(thread_of(mirrored(bolt)), nut));
+  EXPECT_FALSE(threads_mate(thread_of(scenes::moved(bolt, {{0.4, 0, 0}, {}})), nut));
+  EXPECT_FALSE(threads_mate(thread_of(scenes::moved(bolt, {{}, quat_about({1, 0, 0}, 0.05)})), nut));
+}
+
 TEST(ThreadParts, AreNarrowBandsOfTheProfile) {
   const TriangleMesh mesh = scenes::wound_solid(winding(64, 8));
   const std::vector<ThreadAxis> threads = threads_of(mesh);

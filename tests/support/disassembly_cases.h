@@ -116,9 +116,11 @@ inline std::vector<Component> interlocked_burr(double clearance) {
   return frames;
 }
 
-/// A short bolt through a nut of two turns, `clearance` between their flanks.
+/// A short bolt through a nut of two turns, at least `clearance` between their flanks however the bolt is turned.
 inline std::vector<Component> short_screw(double clearance, std::uint32_t sides) {
-  Winding bolt = thread(0, 0.5), nut = thread(2 * clearance, 0.5);
+  constexpr double kRadius = 4, kWhole = 2;  // edges are not cut
+  const double sagitta = kRadius * (1 - std::cos(kTurn / 2 / sides));
+  Winding bolt = thread(0, kWhole), nut = thread(2 * clearance + sagitta, kWhole);
   bolt.sides = nut.sides = sides;
   bolt.turns = 3;
   bolt.start = -bolt.pitch;

@@ -10,25 +10,13 @@ namespace dismantle {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
-/// Threads fit whose leads differ by no more than this share,
-constexpr double kSameLead = 5e-3;
-/// and whose axes are no further apart than this share of the lead, and no more at an angle than this [sine].
+/// Nothing is gained where the axes are further apart than this share of the period, or more at an angle than this
+/// [sine].
 constexpr double kMostOff = 0.25, kMostSine = 0.02;
 /// The share of the distance from the axis that the way between two points is taken to keep to at least.
 constexpr double kKeptDistance = 0.75;
 /// Lifts of nodes that take more periods than that say nothing.
 constexpr double kMostPeriods = 8;
-
-Vec3 across(Vec3 v, Vec3 direction) {
-  return v - dot(v, direction) * direction;
-}
-
-bool fit(const ThreadAxis& x, const ThreadAxis& y) {
-  const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
-  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kSameLead * lead &&
-         length(cross(x.direction, y.direction)) <= kMostSine &&
-         length(across(x.point - y.point, y.direction)) <= kMostOff * lead;
-}
 
 ThreadMatch::Side side_of(const ThreadFrame& frame, const RoundShape& shape, Vec3 origin) {
   return {frame.axis.point - origin, frame.axis.direction, frame.axis.first,
@@ -41,7 +29,7 @@ std::vector<ThreadMatch> match_threads(const RoundShape& a, Vec3 origin_a, const
   std::vector<ThreadMatch> matches;
   for (const ThreadAxis& x : a.threads())
     for (const ThreadAxis& y : b.threads()) {
-      if (!fit(x, y)) continue;
+      if (!threads_mate(x, y)) continue;
       // The longer one tells its lead better.
       const ThreadAxis& longer = x.end - x.begin >= y.end - y.begin ? x : y;
       ThreadFrame frame;

@@ -26,6 +26,9 @@ constexpr double kLeastAngle = 1e-3, kMostAngle = 1.3;
 constexpr double kLeastLead = 0.03, kMostLead = 6;
 /// Leads agree that differ by no more than this share.
 constexpr double kSameLead = 1e-3;
+/// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
+/// and no further apart than this share of the lead.
+constexpr double kMatingLead = 5e-3, kMatingSine = 0.02, kMatingShare = 0.25;
 /// So many axes of a mesh are looked at, those with the longest turns,
 constexpr std::size_t kMostAxes = 16;
 /// and so many leads of each, those with the longest edges [rad],
@@ -414,6 +417,13 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
     if (const std::optional<Profile> profile = best_profile(vertices, faces, axes[i], stride))
       threads.push_back(profile->thread);
   return threads;
+}
+
+bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
+  const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
+  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kMatingLead * lead &&
+         length(cross(x.direction, y.direction)) <= kMatingSine &&
+         length(AxisFrame(y.point, y.direction).across(x.point)) <= kMatingShare * lead;
 }
 
 std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Face> faces,

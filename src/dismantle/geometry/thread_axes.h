@@ -42,6 +42,10 @@ struct ThreadAxis {
 /// is given is only where to look: one may be missing.
 std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes);
 
+/// Whether two threads are those of a screw and its nut: one outer, one inner, of nearly the same lead, as many starts
+/// and nearly the same axis.
+bool threads_mate(const ThreadAxis& x, const ThreadAxis& y);
+
 /// Which part of a thread's profile each face belongs to: a number for each flank, crest and root of each thread; 0 for
 /// the rest. Faces of one number lie in a small piece of a profile, wherever they are around the axis. Shape
 /// [face_count]; empty where there are no threads.

@@ -34,10 +34,6 @@ constexpr double kRise[] = {0.01, 3};
 /// What is added to keep a shift along a plain bore, which costs nothing, out of it.
 constexpr double kRidge = 1e-9;
 
-/// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
-/// and no further apart than this share of the lead.
-constexpr double kSameLead = 5e-3, kSameAxisSine = 0.02, kSameAxisShare = 0.25;
-
 /// Sums of outer products.
 struct Moments {
   Mat3 nn{{{}, {}, {}}}, nm{{{}, {}, {}}}, mm{{{}, {}, {}}};  // of normals n and moments m = p x n
@@ -183,13 +179,6 @@ std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples) {
   thread.lead = kTurn * size * rise;
   add_extent(thread, samples, centred, twist);
   return thread;
-}
-
-bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
-  const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
-  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kSameLead * lead &&
-         length(cross(x.direction, y.direction)) <= kSameAxisSine &&
-         length(AxisFrame(y.point, y.direction).across(x.point)) <= kSameAxisShare * lead;
 }
 
 }  // namespace dismantle

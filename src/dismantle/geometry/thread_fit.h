@@ -30,8 +30,4 @@ std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const s
 /// engineering). Nothing where a plain turn or shift does it as well.
 std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples);
 
-/// Whether threads that thread_axes found are those of a screw and its nut: one outer, one inner, of the same lead and
-/// starts, about nearly the same axis.
-bool threads_mate(const ThreadAxis& x, const ThreadAxis& y);
-
 }  // namespace dismantle
