@@ -78,5 +78,34 @@ TEST(RoundShape, KnowsWhichWayFacesLook) {
   EXPECT_NEAR(outermost, 6, 1e-5);
 }
 
+/// The spread of the node that is all of the mesh.
+float spread_of(const TriangleMesh& mesh) {
+  const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
+  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
+  return shape.about(0)[0].spread;
+}
+
+TEST(RoundShape, KnowsAWholeCylinderWithItsEnds) {
+  for (const std::uint32_t sides : {8u, 24u, 200u}) {
+    const double sagitta = 10 * (1 - std::cos(std::acos(-1.0) / sides));
+    EXPECT_NEAR(spread_of(scenes::tube(10, 0, -20, 20, sides, 3)), sagitta, 1e-5) << sides;
+  }
+  EXPECT_GT(spread_of(scenes::tube(10, 9, -20, 20, 200)), 1e9) << "wall and bore";
+}
+
+TEST(RoundShape, TellsACylinderWithAGapFromAWholeOne) {
+  std::mt19937_64 random(9);
+  for (int trial = 0; trial < 40; ++trial) {
+    TriangleMesh mesh = scenes::moved(scenes::tube(10, 0, -20, 20, 48, 5), scenes::random_pose(random, 5, 3));
+    ASSERT_LT(spread_of(mesh), 0.1);
+    std::size_t face = random() % mesh.faces.size();
+    while (std::abs(dot(normalized(normal_unscaled(mesh.triangle(static_cast<std::uint32_t>(face)))),
+                        round_axes(mesh.vertices, mesh.faces)[0].direction)) > 0.5)
+      face = (face + 1) % mesh.faces.size();
+    mesh.faces.erase(mesh.faces.begin() + static_cast<std::ptrdiff_t>(face));
+    EXPECT_GT(spread_of(mesh), 1e9) << "face " << face;
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -7,6 +7,7 @@
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/slide_scenes.h"
+#include "tests/support/swept_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,84 @@ TEST(CertificateEngine, SlidesAlongTheFloorAndSaysWhatItTouches) {
     EXPECT_LE(std::abs(c.gap), kTolerance);
     EXPECT_NEAR(c.point.z, 0, kTolerance);
   }
+}
+
+/// A shaft in a bush, both fine, and the smallest of the two in hand or the largest.
+Assembly shaft_in_bush(double clearance) {
+  return scenes::assembly({component("shaft", tube(5 - clearance, 0, -20, 20, 128, 2)),
+                           component("bush", scenes::extruded_band(scenes::square_around(12, 128),
+                                                                   scenes::circle(5, 128), true, -10, 10, 2))});
+}
+
+TEST(CertificateEngine, SlidesAWholeCylinderAlongItsBoreAsOne) {
+  const Assembly assembly = shaft_in_bush(0.005);
+  const PairStates states = states_of(assembly);
+  for (const std::uint32_t moving : {0u, 1u}) {
+    Held h(assembly, states, moving);
+    std::mt19937_64 random(8);
+    std::size_t looked_at = 0;
+    for (int step = 1; step <= 30; ++step) {
+      const Vec3 press = 0.2 * normalized(scenes::random_vector(random, 1));
+      const StepResult r =
+          h.engine.step({{press.x, press.y, 0.2 * step}, quat_about({0, 0, 1}, 0.03 * step)}, ResponseKind::Slide);
+      EXPECT_NEAR(r.pose.position.z, 0.2 * step, 0.02) << step;
+      EXPECT_LT(std::hypot(r.pose.position.x, r.pose.position.y), 0.005 + kTolerance) << step;
+      if (step <= 4) continue;  // its triangles found that it is one
+      looked_at += r.sizes.elementary_tests;
+      ASSERT_FALSE(r.contacts.empty());
+      ASSERT_FALSE(r.touching.empty());
+      for (const ContactPoint& c : r.touching) {
+        EXPECT_EQ(c.moving, ComponentId(moving));
+        EXPECT_NEAR(std::hypot(c.point.x, c.point.y), 5, 3 * kTolerance);
+        const double outwards = (c.point.x * c.normal.x + c.point.y * c.normal.y) / 5;
+        EXPECT_NEAR(outwards, moving == 0 ? -1 : 1, 0.01);
+        EXPECT_LT(std::abs(c.gap), kTolerance);
+        const Triangle own = assembly[c.moving].mesh->triangle(c.face_moving.value);
+        EXPECT_LT(std::abs(normalized(normal_unscaled(own)).z), 0.01) << "it is the cylinder that touches";
+      }
+    }
+    EXPECT_LT(looked_at, 26 * 8u) << "but for some of the rims";
+  }
+}
+
+TEST(CertificateEngine, ReachesWhatTrianglesAllowAndTheirCylinderDoesNot) {
+  // Corners of the shaft in corners of the bore: up to its flats there is less room.
+  const Assembly assembly = shaft_in_bush(0.004);
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  h.engine.step({{0.2, 0, 0}, {}}, ResponseKind::Slide);
+  int allowed = 0;
+  for (double off = 0.006; off < 0.016; off += 0.0005) {
+    const Pose target{{off, 0, 0}, {}};
+    Held fresh(assembly, states, 0);
+    if (!fresh.engine.step(target, ResponseKind::Stop).reached) continue;
+    ++allowed;
+    EXPECT_TRUE(h.engine.step(target, ResponseKind::Slide).reached) << off;
+  }
+  EXPECT_GT(allowed, 5);
+}
+
+TEST(CertificateEngine, LeavesABoreWhereItIsOpenToOneSide) {
+  // A ring, and on it half a ring that goes on in the same bore.
+  const std::uint32_t sides = 96;
+  TriangleMesh seat = scenes::extruded_band(scenes::circle(9, sides), scenes::circle(5, sides), true, 0, 10);
+  scenes::Profile outer = scenes::circle(9, sides), inner = scenes::circle(5, sides);
+  outer.resize(sides / 2 + 1);
+  inner.resize(sides / 2 + 1);
+  const TriangleMesh half = scenes::extruded_band(outer, inner, false, 10, 20);
+  const auto first = static_cast<std::uint32_t>(seat.vertices.size());
+  seat.vertices.insert(seat.vertices.end(), half.vertices.begin(), half.vertices.end());
+  for (const Face& f : half.faces) seat.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
+  const Assembly assembly =
+      scenes::assembly({component("shaft", tube(4.99, 0, 0, 30, sides)), component("seat", std::move(seat))});
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  for (int step = 1; step <= 22; ++step)
+    h.engine.step({{0.1 * (step % 3), 0.1 * (step % 2), 0.5 * step}, {}}, ResponseKind::Slide);
+  ASSERT_GT(h.engine.poses()[0].position.z, 10.5) << "out of the ring";
+  StepResult r;
+  for (int step = 1; step <= 20; ++step) r = h.engine.step({{0.2, -1.0 * step, 11}, {}}, ResponseKind::Slide);
+  EXPECT_LT(r.pose.position.y, -19);
 }
 
 TEST(CertificateEngine, RestsWithoutAnyMotion) {

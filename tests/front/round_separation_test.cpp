@@ -115,6 +115,34 @@ TEST(RoundSweep, PartsAWholeShaftFromItsBore) {
   }
 }
 
+TEST(RoundSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
+  // The bore's wall alone: a node of the bush has its outside, too.
+  TriangleMesh wall = scenes::tube(14, 10, -10, 10, 64, 2);
+  std::erase_if(wall.faces, [&](const Face& f) {
+    const Vec3 v = wall.vertices[f.v[0]], n = normal_unscaled({{v, wall.vertices[f.v[1]], wall.vertices[f.v[2]]}});
+    return n.x * v.x + n.y * v.y >= 0;
+  });
+  const Body bore(std::move(wall)), shaft(scenes::tube(9.9, 0, -15, 15, 48, 1));
+  const double sagitta_of_bore = 10 * (1 - std::cos(std::acos(-1.0) / 64));
+  const double sagitta_of_shaft = 9.9 * (1 - std::cos(std::acos(-1.0) / 48));
+  for (const bool bore_moves : {false, true}) {
+    const Body &moving = bore_moves ? bore : shaft, &fixed = bore_moves ? shaft : bore;
+    const RoundSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
+                             motion_of(moving, fixed, {}, {{0.3, 0, 0}, {}}));
+    ASSERT_EQ(sweeps.get().size(), 1u);
+    const double together = sagitta_of_bore + sagitta_of_shaft;
+    EXPECT_FALSE(sweeps.get()[0].fit(0, 0, 0.99 * together));
+    const std::optional<RoundFit> fit = sweeps.get()[0].fit(0, 0, 1.01 * together);
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->moving_inside, !bore_moves);
+    EXPECT_NEAR(fit->radius, 9.9, 1e-5);
+    EXPECT_NEAR(fit->room, 0.1 - sagitta_of_bore, 1e-5);
+    EXPECT_NEAR(fit->spread, together, 1e-5);
+    EXPECT_NEAR(fit->inner_end - fit->inner_begin, 30, 1e-4);
+    EXPECT_NEAR(fit->outer_end - fit->outer_begin, 20, 1e-4);
+  }
+}
+
 TEST(RoundSweeps, LookOnlyAtAxesThatAreNear) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const Pose& away : {Pose{{5, 0, 0}, {}}, Pose{{}, quat_about({1, 0, 0}, 0.3)}}) {

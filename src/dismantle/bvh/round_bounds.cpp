@@ -41,6 +41,8 @@ double least_distance(const Corner (&c)[3], Vec3 axis) {
 }
 
 constexpr double kHalfTurn = 3.14159265358979;
+/// A third of the spread is what prisms lack; the rest is for what rounding takes.
+constexpr double kWallShare = 0.4;
 /// What the angles of a sector may be off by [rad].
 constexpr double kAngleRounding = 1e-6;
 
@@ -69,7 +71,28 @@ Sector sector_of(const Corner (&corners)[3], const AxisFrame& axis) {
   return sector;
 }
 
-RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector) {
+/// What does not lie across the axis.
+struct Wall {
+  float least = std::numeric_limits<float>::infinity(), most = 0;  // distances [mm]
+  double area = 0;                                                 // [mm^2]
+};
+
+Wall both(const Wall& x, const Wall& y) {
+  return {std::min(x.least, y.least), std::max(x.most, y.most), x.area + y.area};
+}
+
+/// RoundNode::spread of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the cylinder's
+/// area, and distances that differ by r pi^2 / 2n^2: what has less area than that has gaps, what has more than the
+/// cylinder is not one.
+float spread_of(const Wall& wall, const RoundNode& node) {
+  const double spread = static_cast<double>(wall.most) - static_cast<double>(wall.least);
+  const double height = static_cast<double>(node.end) - static_cast<double>(node.begin);
+  const double most = static_cast<double>(wall.most), turned = wall.area / (2 * kHalfTurn * height);
+  const bool whole = turned >= most - kWallShare * spread && turned <= most * (1 + kAngleRounding);
+  return whole ? rounded_up(spread) : std::numeric_limits<float>::infinity();
+}
+
+RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector, Wall& wall) {
   Corner corners[3];
   double size = 0;
   for (int i = 0; i < 3; ++i) {
@@ -100,6 +123,7 @@ RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& se
   node.most = rounded_up(most + rounding);
   node.begin = -rounded_up(rounding - begin);
   node.end = rounded_up(end + rounding);
+  if (!lies_across) wall = {node.least, node.most, length(normal) / 2};
   return node;
 }
 
@@ -159,18 +183,21 @@ const RoundNodes& RoundShape::about(std::size_t axis) const {
     known.nodes.nodes_.assign(1 + large_count_, unknown);
     std::vector<RoundNode> nodes(nodes_.size());
     std::vector<Sector> sectors(nodes_.size());
+    std::vector<Wall> walls(nodes_.size());
     for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
       const ObbNode& node = nodes_[*i];
       if (node.leaf()) {
         const Face& f = faces_[node.child];
         const Triangle triangle{{vertices_[f.v[0]], vertices_[f.v[1]], vertices_[f.v[2]]}};
-        nodes[*i] = about_axis(frame, triangle, sectors[*i]);
+        nodes[*i] = about_axis(frame, triangle, sectors[*i], walls[*i]);
         continue;
       }
       nodes[*i] = both(nodes[node.child], nodes[node.child + 1]);
       sectors[*i] = both(sectors[node.child], sectors[node.child + 1]);
+      walls[*i] = both(walls[node.child], walls[node.child + 1]);
       if (places_[*i] == 0) continue;
       set_sector(nodes[*i], sectors[*i], frame);
+      nodes[*i].spread = spread_of(walls[*i], nodes[*i]);
       known.nodes.nodes_[places_[*i]] = nodes[*i];
     }
   });

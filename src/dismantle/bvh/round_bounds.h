@@ -5,6 +5,7 @@
 #include "dismantle/geometry/round_axes.h"
 #include "dismantle/geometry/thread_axes.h"
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -23,6 +24,9 @@ struct RoundNode {
   bool faces_in = false;   ///< or to it.
   bool clear_out = false;  ///< All are, but for those of faces that lie across the axis: a shaft with its ends;
   bool clear_in = false;   ///< or to it: a bore with the faces that it opens in.
+  /// Of one whole cylinder, without gaps, and perhaps its ends: how much its distances differ [mm]. Infinite for all
+  /// else.
+  float spread = std::numeric_limits<float>::infinity();
 };
 
 /// The nodes of a tree about one axis. Of small nodes nothing is known: their distances are from 0 to without end.

@@ -207,6 +207,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   contacts_.drop_vertices();
   bool fresh = contacts_.empty();  // the contacts' axes are those of the motion that is wanted from here
   bool on_course = false;          // the last motion was on the screw to the target
+  Effort effort = Effort::Fits;    // while what it tells is new
   for (int tries = 0; tries < kMostTries;) {
     const SlideContacts::Twist wanted = twist_to(target);
     const SlideContacts::Twist tried = shortened(wanted, reach_);
@@ -219,7 +220,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
 
     const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
     const CertificateSweep found =
-        sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), Effort::Quick, result);
+        sweep(end, std::max(kContactWindow, kContactReach * tolerance / travel), effort, result);
     result.clearance = found.clearance;
     if (!found.free) report(found, result);
     tries += !found.free || twist.bounded;
@@ -244,7 +245,12 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       news |= contacts_.add(pair);
       part = std::min(part, contacts_.part_within_reserve(pair));
     }
+    for (const BlockedFit& fit : found.fits) news |= contacts_.add_fit(fit);
     if (news) continue;
+    if (!found.fits.empty()) {
+      effort = Effort::Quick;
+      continue;
+    }
     if (!found.complete) {
       // Others may block before: as far as these allow, all have to be looked at.
       reach_ = part * travel;
@@ -256,8 +262,16 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (!take_guarded(result) && !made) break;
     fresh = on_course = false;
   }
+  const double left = sweeper_.travel(target);
+  if (left > 0 && left <= contacts_.withheld() && sweep(target, kContactWindow, Effort::Quick, result).free)
+    advance(target, 1, result, Guarded::Whole);
   contacts_.drop_beyond(kContactReach * tolerance);
   result.touching = contacts_.points(tolerance);
+  if (result.contacts.empty())
+    for (const ContactPoint& c : result.touching)
+      result.contacts.push_back({std::min(c.moving, c.fixed), std::max(c.moving, c.fixed),
+                                 c.moving < c.fixed ? c.face_moving : c.face_fixed,
+                                 c.moving < c.fixed ? c.face_fixed : c.face_moving, 0});
 }
 
 bool CertificateResponse::take_guarded(StepResult& result) {

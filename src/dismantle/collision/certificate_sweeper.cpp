@@ -171,7 +171,7 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                                          Effort effort) const {
   const Pose& frame = poses_[fixed.value];
   LeafRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
-  if (effort == Effort::Quick) {
+  if (effort == Effort::Quick || effort == Effort::Fits) {
     rules.limits.steps = kQuickSteps;
     rules.limits.least_progress = std::max(rules.limits.least_progress, kQuickShare * tolerance() / travel(start, end));
   }
@@ -253,7 +253,7 @@ void CertificateSweeper::finish(CertificateSweep& result, double window) {
   std::sort(result.blocked.begin(), result.blocked.end(), before);
   for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
   std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
-  result.free = result.blocked.empty();
+  result.free = result.blocked.empty() && result.fits.empty();
   result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
 
@@ -266,6 +266,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
     if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
+    if (effort == Effort::Fits) motion.fit_spread = tolerance();
     active.push_back({moving, fixed, &front, leaves, front.begin_sweep(motion), allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
@@ -292,6 +293,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
       result.touching.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
+    for (const RoundFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
   }
   for (const ActivePair& pair : active) {
     pair.front->end_sweep(pair.sweep, pair.free);

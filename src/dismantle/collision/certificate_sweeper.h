@@ -22,6 +22,12 @@ struct BlockedPair {
       axis;  ///< Unit, from the moving to the fixed one [assembled frame of the fixed one]; zero where none parts them.
 };
 
+/// A cylinder that its bore holds back, of the set in hand and something else.
+struct BlockedFit {
+  ComponentId moving, fixed;
+  RoundFit fit;
+};
+
 /// What a sweep of the set in hand found.
 struct CertificateSweep {
   double toi = 1;
@@ -30,6 +36,7 @@ struct CertificateSweep {
   /// complete.
   bool complete = true;
   std::vector<BlockedPair> blocked;  ///< Those within the window of the first; by components and faces.
+  std::vector<BlockedFit> fits;      ///< With Effort::Fits: what was not looked into any further.
   double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
   std::size_t front = 0;             ///< Node pairs of the fronts looked at.
   std::size_t leaf_tests = 0;
@@ -42,6 +49,7 @@ enum class Effort {
   Full,   ///< Each triangle pair until nothing is gained any more; all that are blocked.
   Some,   ///< The same for some that are blocked, from all over.
   Quick,  ///< Some, each in a few steps, none smaller than what matters.
+  Fits,   ///< The same, but cylinders that their bores hold back are told whole.
 };
 
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2

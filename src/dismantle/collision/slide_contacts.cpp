@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/slide_contacts.h"
 
+#include "dismantle/collision/solid_tree_query.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -15,6 +19,21 @@ constexpr double kTouching = 1e-2;
 
 /// Of a motion on which a pair uses the reserve, this share of what the certificates allow is made.
 constexpr double kShareBeyondReserve = 0.5;
+
+/// The same of a cylinder in its bore, whose rows leave nothing out but what bends.
+constexpr double kFitReserve = 0.45;
+/// A twist is bounded anew where it takes a cylinder further, so many times.
+constexpr int kFitCuts = 6;
+/// By less than this share of the tolerance it may.
+constexpr double kFitSlack = 1e-2;
+
+/// Cylinders that may be off their bores by less than this share of the tolerance are held by their triangles.
+constexpr double kLeastOff = 0.1;
+
+/// The face that touches is looked for so far from the end of what touches [of its length].
+constexpr double kInside = 1e-3;
+/// The cosine of the angle between a cylinder and its bore, up to its sign, is at least this.
+constexpr double kLeastAhead = 0.99;
 
 bool same_faces(const BlockedPair& x, const BlockedPair& y) {
   return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
@@ -39,6 +58,16 @@ bool SlideContacts::add_vertex(const BlockedPair& pair) {
     if (same_faces(known, pair)) return false;
   vertices_.push_back(pair);
   return stand(pair).patch.count > 0;
+}
+
+bool SlideContacts::add_fit(const BlockedFit& fit) {
+  const auto same = [&](const BlockedFit& known) {
+    return known.moving == fit.moving && known.fixed == fit.fixed && known.fit == fit.fit;
+  };
+  if (std::any_of(fits_.begin(), fits_.end(), same)) return false;
+  if (most_off(fit) < kLeastOff * sweeper_.tolerance()) return false;
+  fits_.push_back(fit);
+  return !ends(fit).empty();
 }
 
 void SlideContacts::drop_vertices() {
@@ -86,6 +115,62 @@ SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
 
 void SlideContacts::drop_beyond(double reach) {
   std::erase_if(pairs_, [&](const BlockedPair& pair) { return stand(pair).gap > reach; });
+  std::erase_if(fits_, [&](const BlockedFit& fit) {
+    const std::vector<FitEnd> both = ends(fit);
+    return std::all_of(both.begin(), both.end(), [reach](const FitEnd& end) { return end.gap > reach; });
+  });
+}
+
+std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked) const {
+  const RoundFit& fit = blocked.fit;
+  const RigidTransform moving = transform_from_pose(sweeper_.pose());
+  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[blocked.fixed.value]);
+  const RigidTransform &of_inner = fit.moving_inside ? moving : fixed, &of_outer = fit.moving_inside ? fixed : moving;
+  const Vec3 point = of_inner * fit.inner.point, direction = of_inner.rotation * fit.inner.direction;
+  const Vec3 middle = of_outer * fit.outer.point, along = of_outer.rotation * fit.outer.direction;
+  // The bore's ends, as places along the cylinder's axis.
+  const double ahead = dot(direction, along), start = dot(point - middle, along);
+  if (std::abs(ahead) < kLeastAhead) return {};
+  double begin = (fit.outer_begin - start) / ahead, end = (fit.outer_end - start) / ahead;
+  if (ahead < 0) std::swap(begin, end);
+  begin = std::max(begin, fit.inner_begin);
+  end = std::min(end, fit.inner_end);
+  if (!(begin <= end)) return {};
+  std::vector<FitEnd> both;
+  for (const bool at_end : {false, true}) {
+    const double at = at_end ? end : begin;
+    const Vec3 place = point + at * direction, from = place - middle;
+    const Vec3 off = from - dot(from, along) * along;
+    both.push_back({place, fit.moving_inside ? off : -off, along, (at_end ? begin - end : end - begin) * direction,
+                    fit.room - length(off)});
+  }
+  return both;
+}
+
+double SlideContacts::withheld() const {
+  double most = 0;
+  for (const BlockedFit& fit : fits_) most = std::max(most, fit.fit.spread);
+  return most;
+}
+
+double SlideContacts::most_off(const BlockedFit& fit) const {
+  return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
+}
+
+bool SlideContacts::bound(const BlockedFit& fit, const Twist& twist, double lever,
+                          std::vector<HalfSpace>& bounds) const {
+  const double tolerance = sweeper_.tolerance(), most = most_off(fit);
+  bool bounded = false;
+  for (const FitEnd& end : ends(fit)) {
+    const Vec3 lever_arm = end.place - sweeper_.center();
+    const Vec3 way = twist.velocity + cross(twist.rotation, lever_arm);
+    const Vec3 off = end.off + way - dot(way, end.along) * end.along;
+    if (length(off) <= std::max(most, length(end.off)) + kFitSlack * tolerance) continue;
+    const Vec3 out = normalized(off), turn = (1 / lever) * cross(lever_arm, out);
+    bounds.push_back({{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - most)});
+    bounded = true;
+  }
+  return bounded;
 }
 
 void SlideContacts::bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const {
@@ -108,12 +193,39 @@ SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) c
   for (const BlockedPair& pair : pairs_) bound(pair, sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
   for (const BlockedPair& pair : vertices_)
     bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  Twist found = solve(wanted, lever, bounds);
+  for (int cuts = 0; cuts < kFitCuts; ++cuts) {
+    bool news = false;
+    for (const BlockedFit& fit : fits_) news |= bound(fit, found, lever, bounds);
+    if (!news) break;
+    found = solve(wanted, lever, bounds);
+  }
+  return found;
+}
+
+SlideContacts::Twist SlideContacts::solve(const Twist& wanted, double lever,
+                                          const std::vector<HalfSpace>& bounds) const {
   const Vec3 turned = lever * wanted.rotation;
   const NearestTwist found =
       nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds);
   return {{found.x[0], found.x[1], found.x[2]},
           {found.x[3] / lever, found.x[4] / lever, found.x[5] / lever},
           found.active_count > 0};
+}
+
+ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) const {
+  const Vec3 out = normalized(end.off);
+  const double side = fit.fit.moving_inside ? 1 : -1;
+  ContactPoint contact{fit.moving, fit.fixed, {}, {}, end.place + side * fit.fit.radius * out, -out, end.gap};
+  // Just inside: on the rim the faces that the bore opens in are as near.
+  const Vec3 inside = contact.point + kInside * end.inwards;
+  const auto face = [&inside](const SolidTree& solid, const Pose& pose) {
+    const Vec3 seen = inverse(transform_from_pose(pose)) * inside;
+    return FaceId(nearest_face(solid, seen, NearestFace::kNone).face);
+  };
+  contact.face_moving = face(sweeper_.solid(fit.moving), sweeper_.pose());
+  contact.face_fixed = face(sweeper_.solid(fit.fixed), sweeper_.poses()[fit.fixed.value]);
+  return contact;
 }
 
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
@@ -133,6 +245,9 @@ std::vector<ContactPoint> SlideContacts::points(double reach) const {
     points.push_back(
         {pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, (1.0 / count) * sum, s.normal, s.gap});
   }
+  for (const BlockedFit& fit : fits_)
+    for (const FitEnd& end : ends(fit))
+      if (end.gap <= reach && length_squared(end.off) > 0) points.push_back(point(fit, end));
   std::sort(points.begin(), points.end(), [](const ContactPoint& x, const ContactPoint& y) {
     if (x.moving != y.moving) return x.moving < y.moving;
     if (x.fixed != y.fixed) return x.fixed < y.fixed;

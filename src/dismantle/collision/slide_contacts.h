@@ -19,10 +19,15 @@ class SlideContacts {
   void clear() {
     pairs_.clear();
     vertices_.clear();
+    fits_.clear();
   }
   bool empty() const { return pairs_.empty(); }
   /// Takes up the pair, or gives it its new axis. True where it bounds the twist in a way that it did not before.
   bool add(const BlockedPair& pair);
+  /// The same for a cylinder in its bore: one row a place along its axis instead of dozens of triangles.
+  bool add_fit(const BlockedFit& fit);
+  /// The most that cylinders taken whole keep from a motion that their triangles would allow [mm].
+  double withheld() const;
   /// The same for a vertex that would get too deep behind a face, which the pair of a face of its own and that face
   /// stands for until the step ends: no test of triangles knows of it.
   bool add_vertex(const BlockedPair& pair);
@@ -60,9 +65,28 @@ class SlideContacts {
   /// @param allowed how deep it may be [mm]
   void bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const;
 
+  /// An end of what of a cylinder is in its bore.
+  struct FitEnd {
+    Vec3 place;    ///< On the cylinder's axis [mm, world].
+    Vec3 off;      ///< What has the moving one's axis there off the fixed one's, across the bore [mm, world].
+    Vec3 along;    ///< The bore's direction [unit, world].
+    Vec3 inwards;  ///< To the other end [mm, world].
+    double gap;    ///< Of the two surfaces on that side [mm].
+  };
+  /// None where the cylinder is not in the bore any more.
+  std::vector<FitEnd> ends(const BlockedFit& fit) const;
+  /// How far off its bore's axis a cylinder may be [mm].
+  double most_off(const BlockedFit& fit) const;
+  /// What the bore forbids the twist where `twist` would take the cylinder.
+  /// @return false where the twist keeps within it
+  bool bound(const BlockedFit& fit, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const;
+  ContactPoint point(const BlockedFit& fit, const FitEnd& end) const;
+  Twist solve(const Twist& wanted, double lever, const std::vector<HalfSpace>& bounds) const;
+
   const CertificateSweeper& sweeper_;
   std::vector<BlockedPair> pairs_;
   std::vector<BlockedPair> vertices_;
+  std::vector<BlockedFit> fits_;
 };
 
 /// Response Slide keeps this share of the tolerance from every allowance: room for what a twist leaves out to first

@@ -121,6 +121,7 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
   for (int i = 0; i < 3; ++i) sweep.middle[i] = to_float(motion.middle.row[i]);
   sweep.enough_blocked = static_cast<std::uint32_t>(
       std::clamp<std::size_t>(motion.enough_blocked / parts_.size(), kEnoughOfPair, sweep.enough_blocked));
+  sweep.fit_spread = motion.fit_spread;
   sweep.judged = judges(motion.middle);
   const double size = std::max(length(motion.t0.translation), length(motion.t1.translation)) + reach(*a_) + reach(*b_);
   const double error = kGapRoundings * 0x1p-24 * size;
@@ -241,6 +242,9 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (parts_round(a, b, sweep, result)) {
       work.prove(work.items[i], Certificate::of_round());
+    } else if (std::optional<RoundFit> held = fit(a, b, sweep)) {
+      result.fits.push_back(*held);
+      result.complete = false;
     } else if (nearest.size() + opened.size() - k >= kRoundStarts || (a_->nodes[a].leaf() && b_->nodes[b].leaf())) {
       nearest.emplace_back(round_gap(a, b, sweep), i);
     } else {
@@ -324,6 +328,15 @@ double CertificateFront::round_gap(std::uint32_t a, std::uint32_t b, const Prepa
   for (const RoundSweep& round : sweep.rounds->get())
     most = std::max(most, (b_moves_ ? round.gap(b, a, most) : round.gap(a, b, most)).gap);
   return most;
+}
+
+std::optional<RoundFit> CertificateFront::fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
+  if (sweep.fit_spread < 0 || !sweep.rounds) return std::nullopt;
+  for (const RoundSweep& round : sweep.rounds->get())
+    if (std::optional<RoundFit> found =
+            b_moves_ ? round.fit(b, a, sweep.fit_spread) : round.fit(a, b, sweep.fit_spread))
+      return found;
+  return std::nullopt;
 }
 
 void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t f
 /// A motion as a front takes it.
 struct PreparedSweep : LinearSweep {
   std::unique_ptr<const RoundSweeps> rounds;  ///< Null where there are none.
+  double fit_spread = -1;                     ///< As PairMotion has it.
   std::vector<ThreadSweep> threads;
 };
 
@@ -39,6 +41,8 @@ struct FrontSweep {
   std::size_t leaf_tests = 0;  ///< Calls of the LeafTest.
   std::size_t blocked = 0;     ///< Those that were not free.
   bool complete = true;        ///< Nothing was left unlooked at.
+  /// Cylinders that their bores hold back, which were not opened: the motion is not free.
+  std::vector<RoundFit> fits;
   /// Some pair was not certainly apart all the time, nor lay face on face: only such pairs can hide a deep vertex, as a
   /// triangle is never deeper across its own plane than it is thin.
   bool touching = false;
@@ -157,6 +161,8 @@ class CertificateFront {
   bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
   /// The most that any pair of axes leaves between two nodes [mm].
   double round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
+  /// The two as a cylinder in a bore, if the sweep asks for that and they are.
+  std::optional<RoundFit> fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// Keeps what certifies the item; false where it does not.
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
             FrontSweep& result) const;

@@ -78,6 +78,24 @@ double RoundSweep::Off::toward(const RoundNode& inner, const RoundNode& outer, d
   return most;
 }
 
+std::optional<RoundFit> RoundSweep::fit(std::uint32_t moving, std::uint32_t fixed, double spread) const {
+  const RoundNode &m = (*moving_)[moving], &f = (*fixed_)[fixed];
+  const bool moving_inside = m.clear_out && f.clear_in, fixed_inside = f.clear_out && m.clear_in;
+  const double together = static_cast<double>(m.spread) + static_cast<double>(f.spread);
+  if (moving_inside == fixed_inside || together > spread) return std::nullopt;
+  const RoundNode &inner = moving_inside ? m : f, &outer = moving_inside ? f : m;
+  return RoundFit{moving_inside,
+                  moving_inside ? *moving_axis_ : *fixed_axis_,
+                  moving_inside ? *fixed_axis_ : *moving_axis_,
+                  inner.begin,
+                  inner.end,
+                  outer.begin,
+                  outer.end,
+                  inner.most,
+                  static_cast<double>(outer.least) - static_cast<double>(inner.most),
+                  together};
+}
+
 std::vector<RoundSweeps::AxisPair> RoundSweeps::nearest_pairs() const {
   std::vector<AxisPair> pairs;
   const double most = kMostOff * std::min(moving_->size(), fixed_->size());
@@ -102,6 +120,8 @@ RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
   RoundSweep sweep;
   sweep.moving_ = &moving_->about(pair.moving);
   sweep.fixed_ = &fixed_->about(pair.fixed);
+  sweep.moving_axis_ = &moving_->axes()[pair.moving];
+  sweep.fixed_axis_ = &fixed_->axes()[pair.fixed];
   const Line own = line_of(moving_->axes()[pair.moving], moving_origin_);
   const Line other = line_of(fixed_->axes()[pair.fixed], fixed_origin_);
   for (int end = 0; end < 2; ++end) {

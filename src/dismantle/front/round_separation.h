@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,22 @@ struct PairMotion {
   double deviation = 0;
   double kept = 0;     ///< What `allowed` leaves out for arcs [mm].
   double allowed = 0;  ///< How deep triangles may be in each other on the true paths [mm].
+  /// Cylinders in bores that are cylindrical to this [mm] and are not apart are told as fits; below 0: none are.
+  double fit_spread = -1;
   /// So many blocked pairs are enough, or two of each part of the front; the rest may be left unlooked at.
   std::size_t enough_blocked = static_cast<std::size_t>(-1);
+};
+
+/// A whole cylinder in a whole bore: what keeps the one's axis within some distance of the other's.
+struct RoundFit {
+  bool moving_inside = true;              ///< The cylinder is of the moving component, the bore of the fixed one.
+  RoundAxis inner, outer;                 ///< [mm, assembled]
+  double inner_begin = 0, inner_end = 0;  ///< The cylinder between places along its axis, from the axis' point [mm],
+  double outer_begin = 0, outer_end = 0;  ///< and the bore.
+  double radius = 0;                      ///< Of the cylinder [mm].
+  double room = 0;    ///< The two are apart while no place of the cylinder's axis in the bore is further off [mm].
+  double spread = 0;  ///< Triangles may allow so much more [mm].
+  friend bool operator==(const RoundFit&, const RoundFit&) = default;
 };
 
 /// A certificate of surfaces that turn about nearly the same axis: what is within some distance of the one axis is
@@ -60,6 +75,10 @@ class RoundSweep {
     return {fixed_inside - fixed_off_.most(f, m, fixed_inside), m.clear_in && f.clear_out, m.faces_in && f.faces_out};
   }
 
+  /// What two nodes are to each other as a whole cylinder in a whole bore, if they are cylindrical to `spread` together
+  /// [mm].
+  std::optional<RoundFit> fit(std::uint32_t moving, std::uint32_t fixed, double spread) const;
+
  private:
   friend class RoundSweeps;
   /// How far the points of one axis are off the other, at both ends of the motion.
@@ -84,6 +103,8 @@ class RoundSweep {
 
   const RoundNodes* moving_ = nullptr;
   const RoundNodes* fixed_ = nullptr;
+  const RoundAxis* moving_axis_ = nullptr;
+  const RoundAxis* fixed_axis_ = nullptr;
   Off moving_off_, fixed_off_;
   double most_off_ = 0;    ///< No point of one axis that a node is at is further off the other [mm].
   double fixed_bend_ = 0;  ///< What arcs of the fixed component, as the moving one sees it, may take more [mm].

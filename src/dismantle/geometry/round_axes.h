@@ -16,6 +16,7 @@ struct RoundAxis {
   /// By how much the surface turns about it, summed over the edges along it [rad]: a bore cut n times along its length
   /// has 2 pi (n + 1).
   double turn = 0;
+  friend bool operator==(const RoundAxis&, const RoundAxis&) = default;
 };
 
 /// The axes that a mesh's surface turns about by at least a quarter of a turn, those of the largest turn first; at most
