@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <memory>
 
 namespace dismantle::server {
@@ -52,6 +53,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void read() {
     head_.emplace();
     head_->header_limit(kHeaderLimit);
+    head_->body_limit(std::numeric_limits<std::uint64_t>::max());  // what its body is for sets the limit: see receive()
     stream_.expires_after(kIdle);
     http::async_read_header(stream_, buffer_, *head_,
                             [self = shared_from_this()](ErrorCode error, std::size_t) { self->on_head(error); });
@@ -118,7 +120,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (auto* refusal = std::get_if<HttpAnswer>(&place)) return send(*refusal, Keep::No);
     upload_ = {target, client, std::get<Site::UploadPlace>(place).file};
     body_.emplace(std::move(*head_));
-    body_->body_limit(std::get<Site::UploadPlace>(place).limit);
+    const std::uint64_t limit = std::get<Site::UploadPlace>(place).limit;
+    if (body_->content_length().value_or(0) > limit) return refuse_size();
+    body_->body_limit(limit);
     ErrorCode error;
     body_->get().body().open(upload_.file.c_str(), beast::file_mode::write, error);
     if (error)
@@ -131,13 +135,16 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void on_body(ErrorCode error) {
     body_->get().body().close();
     if (error) {
-      if (error != http::error::body_limit) return;
-      return send(error_answer(413, "the file is too large for an upload; put it below a root of the server"),
-                  Keep::No);
+      if (error == http::error::body_limit) refuse_size();
+      return;
     }
     Upload whole;
     std::swap(whole, upload_);
     site_.finish_upload(whole, [self = shared_from_this()](const HttpAnswer& answer) { self->send(answer, Keep::No); });
+  }
+
+  void refuse_size() {
+    send(error_answer(413, "the file is too large for an upload; put it below a root of the server"), Keep::No);
   }
 
   enum class Keep { Yes, No };

@@ -57,6 +57,7 @@ class Server::Body final : public Site, private EngineListener {
  public:
   Body(ServerOptions options, Roots roots)
       : pages_(options.web_folder),
+        idle_time_(options.idle_time),
         jobs_([this](const JobNews& news) { tell_of(news); }),
         engine_(*this, roots, journal_folder(options), jobs_),
         files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), jobs_,
@@ -106,6 +107,7 @@ class Server::Body final : public Site, private EngineListener {
 
   const AccessRules& rules() const override { return *rules_; }
   Hub& hub() override { return hub_; }
+  std::chrono::milliseconds idle_time() const override { return idle_time_; }
   FileCommands& files() { return files_; }
   /// Of the model that comes first. @pre before anything is opened
   void follow(const fs::path& guide) { first_guide_ = guide; }
@@ -276,6 +278,7 @@ class Server::Body final : public Site, private EngineListener {
   std::shared_ptr<const int> connections_ = std::make_shared<const int>(0);  ///< Its other holders are connections.
   asio::io_context io_{1};
   StaticFiles pages_;
+  const std::chrono::milliseconds idle_time_;
   std::optional<AccessRules> rules_;
   std::mutex pose_mutex_;
   std::optional<std::string> pose_;  ///< The newest that the network's thread has not taken yet.

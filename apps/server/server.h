@@ -3,6 +3,7 @@
 
 #include "apps/server/model_loader.h"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,8 @@ struct ServerOptions {
   ModelOptions model;
   std::optional<std::filesystem::path> state_folder;  ///< For the sessions' journals and the list of recent files.
   std::optional<std::filesystem::path> web_folder;    ///< The page's files are there, not in the program.
+  /// A socket that says nothing is pinged after half of this, and dropped where it does not answer in the other half.
+  std::chrono::milliseconds idle_time{20'000};
 };
 
 /// The viewer's server (UI.md, "Server"; docs/wire.md): on the loopback addresses only, with a token that is new each

@@ -6,6 +6,7 @@
 #include "apps/server/hub.h"
 #include "apps/server/url.h"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -41,6 +42,8 @@ class Site {
   virtual ~Site() = default;
   virtual const AccessRules& rules() const = 0;
   virtual Hub& hub() = 0;
+  /// ServerOptions::idle_time.
+  virtual std::chrono::milliseconds idle_time() const = 0;
   /// Answers GET, now or later on the same thread.
   virtual void get(const RequestTarget& target, Reply reply) = 0;
   /// Where the body of a POST of at most how many bytes goes; or why it is refused.

@@ -22,7 +22,6 @@ using ErrorCode = boost::system::error_code;
 constexpr std::size_t kLargestMessage = std::size_t{1} << 20;
 constexpr std::size_t kMostUnread = std::size_t{16} << 20;  // queued for a client that does not read [bytes]
 constexpr std::chrono::seconds kHandshakeTime{10};
-constexpr std::chrono::seconds kIdleTime{20};  // it is pinged after half of it
 
 /// A connected socket. It lives as long as something is read or written; the hub knows it from its handshake to its
 /// end.
@@ -32,7 +31,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
       : stream_(std::move(stream)), count_(std::move(owner.count)), key_(std::move(owner.key)), site_(site) {}
 
   void accept(const http::request<http::string_body>& upgrade) {
-    websocket::stream_base::timeout times{kHandshakeTime, kIdleTime, true};
+    websocket::stream_base::timeout times{kHandshakeTime, site_.idle_time(), /*keep_alive_pings=*/true};
     beast::get_lowest_layer(stream_).expires_never();
     beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
     stream_.set_option(times);

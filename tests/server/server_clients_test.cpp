@@ -14,6 +14,17 @@ class ServerClients : public ServerScene {
   void SetUp() override { start_with_block_and_wall(); }
 };
 
+constexpr std::chrono::milliseconds kShortPatience{400};
+
+class ServerPatience : public ServerScene {
+ protected:
+  void SetUp() override {
+    ServerOptions options;
+    options.idle_time = kShortPatience;
+    start_with_block_and_wall(std::move(options));
+  }
+};
+
 TEST_F(ServerClients, LetsOneControlAndTheOthersWatch) {
   Client first(door());
   first.state();
@@ -120,6 +131,20 @@ TEST_F(ServerClients, ReplacesASocketOfTheSameClient) {
   old.wait_for_end();
   EXPECT_TRUE(fresh.command("check")["ok"]);
   EXPECT_TRUE(fresh.command("reset")["ok"]);
+}
+
+TEST_F(ServerPatience, PingsWhoSaysNothingAndDropsWhoDoesNotAnswer) {
+  Client listener(door());
+  listener.state();
+  Client deaf(door(), kOtherKey);
+  deaf.state();
+  listener.event_where("control", [](const Json& c) { return c["clients"] == 2; });
+  listener.event_where("control", [](const Json& c) { return c["clients"] == 1; });  // deaf reads nothing meanwhile
+  listener.idle(2 * kShortPatience);
+  EXPECT_TRUE(listener.is_open());
+  EXPECT_GE(listener.pings(), 2);
+  EXPECT_TRUE(listener.command("check")["ok"]);
+  deaf.wait_for_end();
 }
 
 TEST_F(ServerClients, SaysGoodbyeWhenItStops) {

@@ -4,6 +4,7 @@
 #include "samples/bundled/bundled_sample.h"
 #include "tests/server/server_scene.h"
 
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -20,7 +21,11 @@ using testing_client::request;
 
 class ServerRobustness : public ServerScene {
  protected:
-  void SetUp() override { start_with_block_and_wall(); }
+  void SetUp() override {
+    ServerOptions options;
+    options.idle_time = std::chrono::minutes(10);  // nobody is dropped for silence
+    start_with_block_and_wall(std::move(options));
+  }
   void TearDown() override { expect_alive(); }
 
   /// A new client drags, and everything is as it should be.
@@ -133,13 +138,17 @@ TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
 }
 
 TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {
+  // A folder whose list is 200 kB long.
+  fs::create_directories(root() / "many");
+  for (int i = 1000; i < 1800; ++i)
+    std::ofstream(root() / "many" / (std::to_string(i) + std::string(200, 'x') + ".obj"));
   Client slow(door(), kClientKey);
   slow.state();
-  // Each check is answered; nobody reads the answers, and the server must not keep them all.
   Client watcher(door(), "cccccccccccccccccccccccccccccccc");
   watcher.state();
-  const std::string long_name(200000, 'x');
-  for (int i = 1; i <= 400 && slow.is_open(); ++i) slow.send_text(text_of(Json{{"id", i}, {"command", long_name}}));
+  // Each is answered; hardly anything of the answers is read, and the server must not keep them all.
+  for (int i = 1; i <= 2000 && slow.is_open(); ++i)
+    slow.send_text(text_of(Json{{"id", i}, {"command", "files"}, {"root", 0}, {"folder", "many"}}));
   const auto left = [](const Json& c) { return c["clients"] == 1; };
   EXPECT_EQ(watcher.event_where("control", left)["clients"], 1);
 }
@@ -207,6 +216,25 @@ TEST_F(ServerRobustness, OpensAnUploadAndCleansUpBehindIt) {
   EXPECT_EQ(client.event_where("model", [](const Json& m) { return m["number"] == 2; })["name"], "uploaded parts.obj");
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path()))
     EXPECT_FALSE(fs::exists(entry.path() / "uploaded parts.obj"));
+}
+
+TEST_F(ServerRobustness, TakesAnUploadOfMegabytes) {
+  Client client(door(), kClientKey);
+  client.state();
+  const std::string obj = *read_file(root() / "block.obj", 1 << 20) + std::string(std::size_t{3} << 20, '\n');
+  EXPECT_EQ(upload(client, "large.obj", obj)["status"], "done");
+}
+
+TEST_F(ServerRobustness, RefusesAnUploadThatIsTooLargeBeforeItHasCome) {
+  Client client(door(), kClientKey);
+  client.state();
+  const std::string head = " HTTP/1.1\r\nHost: " + door().host() + "\r\nAuthorization: Bearer " + door().token +
+                           "\r\nX-Client: " + kClientKey + "\r\nContent-Length: ";
+  for (const std::string target : {"/api/open?name=a.obj", "/api/guide?name=a.path.json"})
+    for (const std::string length : {"1073741825", "9999999999999"}) {
+      const std::string request = "POST " + target + head + length + "\r\n\r\nv 0 0 0";
+      EXPECT_EQ(testing_client::exchange(door(), request).substr(0, 12), "HTTP/1.1 413") << target << " " << length;
+    }
 }
 
 TEST_F(ServerRobustness, RefusesUploadsOfOthersAndWithoutAName) {

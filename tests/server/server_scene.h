@@ -24,8 +24,7 @@ inline std::string target_at(std::uint32_t grip, std::uint32_t number, const Vec
 
 class ServerScene : public testing::Test {
  protected:
-  void start() {
-    ServerOptions options;
+  void start(ServerOptions options = {}) {
     std::filesystem::create_directories(root());
     options.roots = {root()};
     options.state_folder = folder_ / "state";
@@ -36,9 +35,9 @@ class ServerScene : public testing::Test {
   }
   std::filesystem::path root() const { return folder_ / "root"; }
   /// Writes block.obj into the root: a block of 10 mm, 10.5 mm in front of a wall; and opens it.
-  void start_with_block_and_wall() {
+  void start_with_block_and_wall(ServerOptions options = {}) {
     write_block_and_wall();
-    start();
+    start(std::move(options));
     ASSERT_TRUE(server_->open_file(root() / "block.obj").ok());
   }
   void write_block_and_wall() const {

@@ -147,6 +147,8 @@ class Client::Body {
       return;
     }
     stream_.read_message_max(std::size_t{256} << 20);
+    stream_.control_callback(
+        [this](websocket::frame_type kind, beast::string_view) { pings_ += kind == websocket::frame_type::ping; });
     read();
   }
 
@@ -214,6 +216,7 @@ class Client::Body {
   unsigned status_ = 0;
   std::string protocol_;
   bool ended_ = false;
+  int pings_ = 0;
   std::uint64_t last_id_ = 0;
 };
 
@@ -232,6 +235,10 @@ const std::string& Client::protocol() const {
 
 bool Client::is_open() const {
   return !body_->ended_;
+}
+
+int Client::pings() const {
+  return body_->pings_;
 }
 
 unsigned Client::close_code() const {

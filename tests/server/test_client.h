@@ -66,6 +66,8 @@ class Client {
   unsigned status() const;
   const std::string& protocol() const;
   bool is_open() const;
+  /// How often the server has asked whether this side is there.
+  int pings() const;
   /// Why the server closed it.
   unsigned close_code() const;
 
