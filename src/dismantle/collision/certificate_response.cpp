@@ -39,6 +39,13 @@ int cut_count(double deviation, double limit) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(deviation / limit))));
 }
 
+/// @param pair of a moving and a fixed component, and a face of each
+template <class Pair>
+CollisionContact contact_of(const Pair& pair, double toi) {
+  if (pair.moving < pair.fixed) return {pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, toi};
+  return {pair.fixed, pair.moving, pair.face_fixed, pair.face_moving, toi};
+}
+
 }  // namespace
 
 CertificateResponse::CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs)
@@ -142,11 +149,7 @@ void CertificateResponse::report(const CertificateSweep& sweep, StepResult& resu
   result.contacts.clear();
   for (const BlockedPair& b : sweep.blocked) {
     if (b.toi > sweep.toi + kContactWindow) continue;
-    if (b.moving < b.fixed) {
-      result.contacts.push_back({b.moving, b.fixed, b.face_moving, b.face_fixed, b.toi});
-    } else {
-      result.contacts.push_back({b.fixed, b.moving, b.face_fixed, b.face_moving, b.toi});
-    }
+    result.contacts.push_back(contact_of(b, b.toi));
   }
 }
 
@@ -262,16 +265,21 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (!take_guarded(result) && !made) break;
     fresh = on_course = false;
   }
-  const double left = sweeper_.travel(target);
-  if (left > 0 && left <= contacts_.withheld() && sweep(target, kContactWindow, Effort::Quick, result).free)
-    advance(target, 1, result, Guarded::Whole);
+  end_slide(target, result);
+}
+
+void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
+  const double left = sweeper_.travel(target), tolerance = sweeper_.tolerance();
+  if (left > 0 && left <= contacts_.withheld()) {
+    const CertificateSweep found = sweep(target, kContactWindow, Effort::Quick, result);
+    if (found.free && advance(target, 1, result, Guarded::Whole) > 0)
+      result.clearance = std::min(result.clearance, found.clearance);
+  }
   contacts_.drop_beyond(kContactReach * tolerance);
   result.touching = contacts_.points(tolerance);
-  if (result.contacts.empty())
-    for (const ContactPoint& c : result.touching)
-      result.contacts.push_back({std::min(c.moving, c.fixed), std::max(c.moving, c.fixed),
-                                 c.moving < c.fixed ? c.face_moving : c.face_fixed,
-                                 c.moving < c.fixed ? c.face_fixed : c.face_moving, 0});
+  // What a cylinder is held by was not told by any triangles.
+  if (!result.contacts.empty()) return;
+  for (const ContactPoint& c : result.touching) result.contacts.push_back(contact_of(c, 0));
 }
 
 bool CertificateResponse::take_guarded(StepResult& result) {

@@ -38,6 +38,8 @@ class CertificateResponse {
   /// or nothing where not `touch`.
   double free_part(const Pose& end, bool touch, StepResult& result);
   void slide(const Pose& target, StepResult& result);
+  /// Goes what cylinders held as one may have kept from it, and tells the contacts.
+  void end_slide(const Pose& target, StepResult& result);
   /// Takes up what the guard stopped the last motion for; true where that bounds the twist in a new way.
   bool take_guarded(StepResult& result);
   /// The twist, shortened where contacts bound it and its second-order part would take points too far.
