@@ -235,7 +235,24 @@ TEST(CertificateEngine, MeasuresTheClearanceExactly) {
     const Clearance clearance = h.engine.clearance();
     EXPECT_NEAR(clearance.distance, least, 1e-9);
     EXPECT_NEAR(length(clearance.point_moving - clearance.point_fixed), clearance.distance, 1e-9);
+    EXPECT_FALSE(h.engine.clearance(clearance.distance).fixed.valid()) << "nothing is below it";
+    EXPECT_EQ(h.engine.clearance(clearance.distance + 0.1).fixed, clearance.fixed);
   }
+}
+
+TEST(CertificateEngine, NamesTheFirstOfComponentsThatAreEquallyNear) {
+  // The box around the wedge is nearer than the posts, the wedge is not.
+  const Assembly assembly = scenes::assembly(
+      {component("block", box({-1, -1, -1}, {1, 1, 1})), component("post", box({-9, -1, -1}, {-4, 1, 1})),
+       component("wedge", scenes::moved(box({-4, -4, -1}, {4, 4, 1}), {{0, 9.8, 0}, quat_about({0, 0, 1}, 0.8)})),
+       component("other post", box({4, -1, -1}, {9, 1, 1}))});
+  const PairStates states = states_of(assembly);
+  Held h(assembly, states, 0);
+  EXPECT_EQ(h.engine.clearance().distance, 3);
+  EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
+  const Pose aside{{0, 0, 1}, {}};
+  h.engine.jump(std::vector<Pose>{aside, {}, {}, aside});
+  EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
 }
 
 TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {

@@ -32,6 +32,18 @@ TEST(WayClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
   EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
 }
 
+TEST(WayClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
+  const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({0, 0, 0}, {10, 0.1, 0.1})),
+                                       scenes::component("near", scenes::box({0, 0, -5}, {10, 1, -1.9})),
+                                       scenes::component("far", scenes::box({0, 2.2, 0}, {10, 9, 1}))});
+  const PairStates pairs{0.01, {}};
+  RemovalFacts facts(a, pairs, {});
+  const WorkStep step{{{{ComponentId(0)}, {{}, {{0, 0, 100}, {}}}}}, std::vector<Pose>(3)};
+  EXPECT_EQ(facts.clearance(step, step.removals[0]).nearest, ComponentId(1));
+  const WorkStep up{{{{ComponentId(0)}, {{{0, 0, 1}, {}}, {{0, 0, 100}, {}}}}}, std::vector<Pose>(3)};
+  EXPECT_FALSE(facts.clearance(up, up.removals[0]).nearest.valid());
+}
+
 TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
   // A shelf under a cup: the shelf goes sideways. The cup's neighbour, a wall, is no help.
   const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-10, -50, -50}, {0, 50, 50})),

@@ -52,8 +52,8 @@ std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
   return contacts_within(body_->sweeper, reach);
 }
 
-Clearance CertificateEngine::clearance() const {
-  return least_clearance(body_->sweeper);
+Clearance CertificateEngine::clearance(double limit) const {
+  return least_clearance(body_->sweeper, limit);
 }
 
 std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> targets) const {

@@ -4,6 +4,7 @@
 #include "dismantle/collision/motion_engine.h"
 #include "dismantle/math/lane_dispatch.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,7 +13,7 @@ namespace dismantle {
 
 /// The least distance between the set in hand and the rest, and where it is.
 struct Clearance {
-  double distance = 0;             ///< [mm]; 0 where surfaces meet, infinite where there is nothing else.
+  double distance = 0;             ///< [mm]; 0 where surfaces meet, infinite where nothing else is near enough.
   ComponentId moving, fixed;       ///< The two components.
   FaceId face_moving, face_fixed;  ///< Of the components' own meshes.
   Vec3 point_moving, point_fixed;  ///< [mm, world]
@@ -67,8 +68,9 @@ class CertificateEngine final : public MotionEngine {
   /// What the set in hand touches where it is: the triangle pairs nearer than `reach` [mm]. Ordered by components and
   /// faces.
   std::vector<ContactPoint> contacts(double reach) const;
-  /// The exact least distance from the set in hand to everything that it may not overlap.
-  Clearance clearance() const;
+  /// The exact least distance from the set in hand to everything that it may not overlap, if it is below `limit` [mm];
+  /// of components that are equally near the first.
+  Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
   /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
   /// `targets[i]`; embedded pairs are free all the way. Nothing moves. Candidates are looked at side by side.
   std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;

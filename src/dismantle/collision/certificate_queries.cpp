@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/collision/certificate_queries.h"
 
+#include "dismantle/collision/solid_distance.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 
@@ -12,22 +13,39 @@ namespace dismantle {
 
 namespace {
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
 Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId face) {
   const RigidTransform t = transform_from_pose(sweeper.poses()[component.value]);
   const Triangle own = sweeper.solid(component).triangle(face.value);
   return {{t * own[0], t * own[1], t * own[2]}};
 }
 
-/// No two components are further apart than this.
-double largest_distance(const CertificateSweeper& sweeper) {
-  double reach = 0;
-  for (std::uint32_t c = 0; c < sweeper.poses().size(); ++c) {
-    const Aabb box = assembled_bounds(sweeper.assembly()[ComponentId(c)]);
-    if (box.empty()) continue;
-    const Vec3 far = max(max(box.lower, box.upper), max(-box.lower, -box.upper));
-    reach = std::max(reach, length(far) + length(sweeper.poses()[c].position));
+/// A component in hand and one that is not, and a lower bound of their distance [mm].
+struct ApartPair {
+  ComponentId moving, fixed;
+  PlacedSolid moving_solid, fixed_solid;
+  double bound = 0;
+};
+
+/// The pairs that may be nearer than `limit`, the nearest bounds first.
+std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double limit) {
+  std::vector<ApartPair> pairs;
+  const RigidTransform held_at = transform_from_pose(sweeper.pose());
+  for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
+    const ComponentId fixed(k);
+    if (sweeper.holds(fixed) || sweeper.solid(fixed).tree.empty()) continue;
+    const PlacedSolid fixed_solid{&sweeper.solid(fixed), transform_from_pose(sweeper.poses()[k])};
+    for (const ComponentId moving : sweeper.held()) {
+      if (sweeper.solid(moving).tree.empty() || sweeper.allowed(moving, fixed) < 0) continue;
+      const PlacedSolid moving_solid{&sweeper.solid(moving), held_at};
+      const double bound = bounds_distance(moving_solid, fixed_solid);
+      if (bound < limit) pairs.push_back({moving, fixed, moving_solid, fixed_solid, bound});
+    }
   }
-  return 2 * reach;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const ApartPair& x, const ApartPair& y) { return x.bound < y.bound; });
+  return pairs;
 }
 
 /// One candidate motion, cut so that its arcs stay near their chords.
@@ -67,18 +85,16 @@ std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, dou
   return contacts;
 }
 
-Clearance least_clearance(const CertificateSweeper& sweeper) {
+Clearance least_clearance(const CertificateSweeper& sweeper, double limit) {
   Clearance least;
-  least.distance = std::numeric_limits<double>::infinity();
-  const double furthest = largest_distance(sweeper);
-  for (double reach = sweeper.tolerance(); least.distance > reach; reach *= 4) {
-    for (const BlockedPair& pair : sweeper.near_pairs(reach)) {
-      const TriangleDistance d = distance_triangle_triangle(placed(sweeper, pair.moving, pair.face_moving),
-                                                            placed(sweeper, pair.fixed, pair.face_fixed));
-      if (d.distance >= least.distance) continue;
-      least = {d.distance, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, d.point_a, d.point_b};
-    }
-    if (reach > furthest) break;
+  least.distance = kInfinite;
+  for (const ApartPair& pair : apart_pairs(sweeper, limit)) {
+    // Of components that are equally near the first counts, in whatever order they are looked at.
+    const bool is_first = std::pair(pair.moving, pair.fixed) < std::pair(least.moving, least.fixed);
+    const double beyond = is_first ? std::nextafter(least.distance, kInfinite) : least.distance;
+    const SolidDistance d = solid_distance(pair.moving_solid, pair.fixed_solid, std::min(limit, beyond));
+    if (std::isinf(d.distance)) continue;
+    least = {d.distance, pair.moving, pair.fixed, d.face_a, d.face_b, d.point_a, d.point_b};
   }
   return least;
 }

@@ -105,24 +105,6 @@ class MovesTable {
   bool is_reversed_;
 };
 
-/// A sphere around an assembled set.
-struct Ball {
-  Vec3 center;
-  double radius = 0;
-};
-
-Ball ball_around(const Assembly& assembly, Span<const ComponentId> components) {
-  Aabb box;
-  for (const ComponentId c : components) box.extend(assembled_bounds(assembly[c]));
-  return {box.center(), length(box.size()) / 2};
-}
-
-/// No point of what is in the ball goes further than this from one pose to the next [mm].
-double furthest_way(const Pose& from, const Pose& to, const Ball& ball) {
-  const Screw screw = screw_between(from, to);
-  return screw_path_length(screw, screw_radius(screw, transform_from_pose(from) * ball.center, ball.radius));
-}
-
 }  // namespace
 
 std::optional<std::vector<MoveClearance>> move_clearances(const Assembly& assembly, const PairStates& pairs,
@@ -133,21 +115,15 @@ std::optional<std::vector<MoveClearance>> move_clearances(const Assembly& assemb
   std::vector<MoveClearance> all;
   for (const TimelineMove& move : timeline.moves()) {
     MoveClearance least{std::numeric_limits<double>::infinity(), 0, {}};
-    const Ball ball = ball_around(assembly, move.components);
-    double at_least = 0;  // a lower bound of the clearance
-    for (std::size_t k = 0; k < move.frames.size(); ++k) {
-      const Frame& frame = move.frames[k];
+    for (const Frame& frame : move.frames) {
       const double done = timeline.duration() > 0 ? (move.start + frame.time) / timeline.duration() : 1;
       if (!report_progress(progress, "measuring clearances", done)) return {};
-      if (k > 0) at_least -= furthest_way(move.frames[k - 1].pose, frame.pose, ball);
-      if (k > 0 && at_least >= least.distance) continue;
       for (const ComponentId c : move.components) poses[c.value] = frame.pose;
       engine.jump(poses);
       engine.hold(move.components);
-      const Clearance now = engine.clearance();
+      const Clearance now = engine.clearance(least.distance);
       if (now.distance < least.distance) least = {now.distance, frame.time, now.fixed};
       if (!(least.distance > 0)) break;  // no frame is nearer
-      at_least = now.distance;
     }
     for (const ComponentId c : move.components) poses[c.value] = move.frames.back().pose;
     all.push_back(least);

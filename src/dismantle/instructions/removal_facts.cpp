@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/removal_facts.h"
 
-#include "dismantle/math/screw.h"
 #include "dismantle/session/session_path.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace dismantle {
 
@@ -27,30 +25,23 @@ RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, co
 
 WayClearance RemovalFacts::clearance(const WorkStep& step, const Removal& removal) {
   const Aabb box = bounds_of(assembly_, removal.components);
-  const Vec3 middle = box.center();
+  const double near = kNearShare * diagonal(box);
   const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
-  const std::vector<WayPlace> places = places_along(removal, middle, pieces);
+  const std::vector<WayPlace> places = places_along(removal, box.center(), pieces);
   const std::size_t stride = 1 + places.size() / kMostPlaces;
   std::vector<Pose> poses = step.before;
-  WayClearance found{0, {}, std::numeric_limits<double>::infinity(), {}};
-  double at_least = 0;  // a lower bound of the clearance
+  WayClearance found;
   for (std::size_t i = 0; i < places.size(); i += stride) {
-    if (i > 0) {
-      const Screw screw = screw_between(places[i - stride].pose, places[i].pose);
-      const Vec3 center = transform_from_pose(places[i - stride].pose) * middle;
-      at_least -= screw_path_length(screw, screw_radius(screw, center, length(box.size()) / 2));
-    }
-    // Neither touched nor nearer than what is known: far away there is most to look at.
-    if (at_least > pairs_.tolerance && at_least >= found.least) continue;
     for (const ComponentId c : removal.components) poses[c.value] = places[i].pose;
     engine_.jump(poses);
     engine_.hold(removal.components);
-    const Clearance now = engine_.clearance();
-    at_least = now.distance;
-    if (!now.fixed.valid()) continue;
+    const double least = std::min(found.least, near);
+    const Clearance now = engine_.clearance(std::max(least, 2 * pairs_.tolerance));
     if (now.distance <= pairs_.tolerance) {
-      found = {places[i].distance, now.fixed, std::numeric_limits<double>::infinity(), {}};
-    } else if (now.distance < found.least && now.fixed != found.touched) {
+      found = WayClearance{};
+      found.touching = places[i].distance;
+      found.touched = now.fixed;
+    } else if (now.distance < least && now.fixed != found.touched) {
       found.least = now.distance;
       found.nearest = now.fixed;
     }

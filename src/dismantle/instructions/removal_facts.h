@@ -4,7 +4,7 @@
 #include "dismantle/collision/certificate_engine.h"
 #include "dismantle/instructions/work_steps.h"
 
-#include <optional>
+#include <limits>
 
 namespace dismantle {
 
@@ -13,8 +13,8 @@ struct WayClearance {
   double touching = 0;  ///< It touches something until it has gone so far [mm]; all of the way where it never leaves.
   ComponentId touched;  ///< What it touches last; invalid where it touches nothing.
   /// After that, the least clearance where something else than what it touched last is nearest [mm]; infinite where
-  /// nothing is.
-  double least = 0;
+  /// nothing comes nearer than kNearShare of the set's size.
+  double least = std::numeric_limits<double>::infinity();
   ComponentId nearest;  ///< To which; invalid where there is nothing.
 };
 
@@ -43,6 +43,7 @@ class RemovalFacts {
 
 inline constexpr int kWayPieces = 12;
 inline constexpr double kFall = 0.1;
+inline constexpr double kNearShare = 0.2;
 
 /// The components that stay: those that no step moves, the largest first.
 std::vector<ComponentId> staying_components(const Assembly& assembly, Span<const WorkStep> steps);

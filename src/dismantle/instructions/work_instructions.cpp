@@ -222,15 +222,14 @@ class Writer {
     }
     std::string text;
     if (least.touched.valid() && least.touching > 0) {
-      text = "Slides on " + assembly_[least.touched].name + (is_forward_ ? " for the first " : " for the last ") +
-             number_text(least.touching) + " mm.";
+      text = "Slides on " + assembly_[least.touched].name +
+             (is_forward_ ? " for about the first " : " for about the last ") + number_text(least.touching) + " mm.";
     } else if (least.touched.valid()) {
-      text =
-          "Touches " + assembly_[least.touched].name + (is_forward_ ? " only before it moves." : " only in the end.");
+      text = "Touches " + assembly_[least.touched].name + (is_forward_ ? " at the beginning." : " in the end.");
     }
     if (least.nearest.valid())
-      text += std::string(text.empty() ? "" : " ") + "Passes " + assembly_[least.nearest].name + " at " +
-              number_text(least.least) + " mm or more.";
+      text += std::string(text.empty() ? "" : " ") + "Comes within " + number_text(least.least) + " mm of " +
+              assembly_[least.nearest].name + ".";
     if (!text.empty()) instruction.notes.push_back({Kind::Clearance, text});
   }
 

@@ -82,7 +82,8 @@ std::string summary_text(const WorkInstructions& instructions);
 
 /// What the last page says of how the instructions were made.
 inline constexpr const char* kInstructionsFooter =
-    "Tools and warnings are derived from shapes and motions alone; up is +Z. Clearances are exact at places along the "
-    "way. Friction, weight, glue and what is not drawn are not known. Written by dismantle.";
+    "Tools and warnings are derived from shapes and motions alone; up is +Z. Clearances are measured at places along "
+    "the way: between them it may come nearer. Friction, weight, glue and what is not drawn are not known. Written by "
+    "dismantle.";
 
 }  // namespace dismantle
