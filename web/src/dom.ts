@@ -104,6 +104,13 @@ export function button(options: ButtonOptions): HTMLButtonElement {
   );
 }
 
+/// Another label for a button that shows its label and has no key.
+export function relabel(made: HTMLButtonElement, label: string): void {
+  setText(made.lastElementChild!, label);
+  made.title = label;
+  made.setAttribute("aria-label", label);
+}
+
 /// Sets a text only where it changed, so that a screen reader does not repeat itself.
 export function setText(node: Node, text: string): void {
   if (node.textContent !== text) node.textContent = text;

@@ -77,15 +77,14 @@ export class PointerInput {
     const { rig } = viewport;
     const view = viewport.pickCube(at.x, at.y);
     if (view) return rig.lookFrom(view);
-    const arrow = viewport.directions.pick(rig, at.x, at.y);
+    const arrow = this.arrowAt(at);
     this.gesture = this.gestureFor(event, at);
     if (arrow >= 0 && this.gesture.kind !== "drag") this.gesture = { kind: "arrow", arrow, below: this.gesture };
   }
 
   private gestureFor(event: PointerEvent, at: { x: number; y: number }): Gesture {
     const { viewport, store } = this.session;
-    const { rig } = viewport;
-    const mode = this.gizmo.pick(rig, at.x, at.y);
+    const mode = this.handleAt(at);
     if (mode && store.selection.length > 0)
       return { kind: "drag", mode, ready: this.drag.begin(store.selection, this.selectionCenter()) };
     const pick = viewport.pick(at.x, at.y);
@@ -230,10 +229,20 @@ export class PointerInput {
     if (!this.gesture) this.session.hover(null);
   }
 
-  /// Of the gizmo, or an arrow of a free direction.
-  private isOnHandle({ x, y }: { x: number; y: number }): boolean {
-    const { rig, directions } = this.session.viewport;
-    return directions.pick(rig, x, y) >= 0 || this.gizmo.pick(rig, x, y) !== null;
+  /// Of the arrows of free directions, or -1. Where one measures, a click takes a point, whatever is drawn over it.
+  private arrowAt({ x, y }: { x: number; y: number }): number {
+    const { viewport, store } = this.session;
+    return store.measuring ? -1 : viewport.directions.pick(viewport.rig, x, y);
+  }
+
+  /// What a drag from a handle of the gizmo would do.
+  private handleAt({ x, y }: { x: number; y: number }): DragMode | null {
+    const { viewport, store } = this.session;
+    return store.measuring ? null : this.gizmo.pick(viewport.rig, x, y);
+  }
+
+  private isOnHandle(at: { x: number; y: number }): boolean {
+    return this.arrowAt(at) >= 0 || this.handleAt(at) !== null;
   }
 
   private showHover(): boolean {

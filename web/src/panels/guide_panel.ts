@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Matrix4 } from "three";
-import { button, element, setText } from "../dom.ts";
+import { button, element, relabel, setText } from "../dom.ts";
 import {
   type ComponentNow,
   type GuideStep,
@@ -163,7 +163,7 @@ export class GuidePanel {
       this.score,
       this.practice.checked ? text("guide.score", { points: pointsOf(this.points), ...this.points }) : "",
     );
-    setText(this.show.lastElementChild!, text(this.practice.checked ? "guide.hint" : "guide.show"));
+    relabel(this.show, text(this.practice.checked ? "guide.hint" : "guide.show"));
     this.show.disabled = this.skip.disabled = !step;
   }
 

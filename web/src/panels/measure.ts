@@ -8,9 +8,10 @@ import type { Pick } from "../scene/model_view.ts";
 import type { Session } from "../session.ts";
 import { lengthText, text } from "../strings.ts";
 
-/// The distance between two points that are clicked.
+/// The distance between two points that are clicked, or taken by the keyboard: Enter takes what is in the middle of the view.
 export class Measure {
-  readonly node = element("div", { id: "measure-label", class: "floating label", role: "status", hidden: true });
+  private readonly label = element("div", { id: "measure-label", class: "floating label", role: "status" });
+  readonly node = element("div", { hidden: true }, this.label, element("div", { id: "measure-middle" }));
   private points: Vector3[] = [];
   private readonly line = new LineSegments2(
     new LineSegmentsGeometry(),
@@ -23,6 +24,12 @@ export class Measure {
     this.line.renderOrder = 8;
     session.viewport.scene.add(this.line);
     session.viewport.beforePicture.push(() => this.place());
+    session.viewport.canvas.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" || !session.store.measuring) return;
+      event.preventDefault();
+      const { x, y } = session.viewport.rig.size;
+      this.click(session.viewport.pick(x / 2, y / 2));
+    });
   }
 
   toggle(): void {
@@ -31,6 +38,7 @@ export class Measure {
     this.session.change(() => {
       store.measuring = !store.measuring;
     });
+    if (store.measuring) this.session.viewport.canvas.focus({ preventScroll: true });
     this.session.viewport.invalidate();
   }
 
@@ -51,15 +59,15 @@ export class Measure {
     this.line.visible = store.measuring && this.points.length === 2;
     if (!store.measuring) return false;
     const [a, b] = this.points;
-    setText(this.node, this.words(a, b));
+    setText(this.label, this.words(a, b));
     if (a && b) {
       this.line.geometry.setPositions([...a.toArray(), ...b.toArray()]);
       this.line.material.color.set(viewport.palette.measure);
     }
     const at =
       a && b ? viewport.rig.project(a.clone().add(b).multiplyScalar(0.5)) : new Vector3(viewport.rig.size.x / 2, 40, 0);
-    this.node.style.left = `${at.x}px`;
-    this.node.style.top = `${at.y}px`;
+    this.label.style.left = `${at.x}px`;
+    this.label.style.top = `${at.y}px`;
     return false;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element, setText } from "../dom.ts";
+import { button, element, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { directionText, text } from "../strings.ts";
 import type { Search } from "../wire/messages.ts";
@@ -76,7 +76,7 @@ export class PlanPanel {
         ? text("plan.fixed", { names: this.session.namesOf(this.fixed) })
         : text("plan.fixed.largest"),
     );
-    setText(this.fix.lastElementChild!, text(this.fixed.length > 0 ? "plan.unfix" : "plan.fix"));
+    relabel(this.fix, text(this.fixed.length > 0 ? "plan.unfix" : "plan.fix"));
     this.fix.disabled = this.fixed.length === 0 && selection.length === 0;
     this.find.disabled = !control || !state || jobs.size > 0;
     this.showFound(state?.search?.kind === "plan" ? state.search : null);

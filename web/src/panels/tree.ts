@@ -41,6 +41,7 @@ export class TreePanel {
 
   constructor(private readonly session: Session) {
     this.search.oninput = () => this.filter();
+    this.search.onkeydown = (event) => this.goToFound(event);
     this.list.onkeydown = (event) => this.key(event);
     this.node = element(
       "section",
@@ -114,7 +115,6 @@ export class TreePanel {
       leaves.set(node, [...(leaves.get(node) ?? []), i]);
     });
     this.addNode(0, [], { model, children, leaves });
-    if (this.rows.length > 0) this.rows[0].item.tabIndex = 0;
     this.filter();
   }
 
@@ -223,6 +223,17 @@ export class TreePanel {
       wanted === "" ? String(leaves.length || "") : text("tree.count", { shown: seen, all: leaves.length }),
     );
     this.none.hidden = this.rows.length === 0 || shown.size > 0;
+    // Tab must find a row that is there.
+    const stop = this.rows.find(({ item }) => item.tabIndex === 0);
+    if (stop?.item.hidden !== false) this.makeStop(this.rows.find(({ item }) => !item.hidden));
+  }
+
+  /// From the search to the first component that it found.
+  private goToFound(event: KeyboardEvent): void {
+    if (event.key !== "ArrowDown" && event.key !== "Enter") return;
+    event.preventDefault();
+    const found = this.rows.find((row) => row.component !== null && !row.item.hidden);
+    if (found) this.setFocus(found);
   }
 
   private reveal(selection: number[]): void {
@@ -237,7 +248,7 @@ export class TreePanel {
     const shown = this.rows.filter((row) => !row.item.hidden);
     const at = shown.findIndex((row) => row.item === document.activeElement);
     const row = shown[at];
-    if (!row || event.ctrlKey) return;
+    if (!row || (event.ctrlKey && event.key !== "Enter")) return;
     const moves: Record<string, () => void> = {
       ArrowDown: () => this.setFocus(shown[Math.min(at + 1, shown.length - 1)]),
       ArrowUp: () => this.setFocus(shown[Math.max(at - 1, 0)]),
@@ -246,7 +257,7 @@ export class TreePanel {
       ArrowRight: () => row.component === null && this.toggleOpen(row, true),
       ArrowLeft: () =>
         row.component === null && row.open ? this.toggleOpen(row, false) : this.setFocus(row.parents[0] ?? row),
-      Enter: () => this.select(row, event.shiftKey, row.item),
+      Enter: () => this.select(row, event.shiftKey || event.ctrlKey, row.item),
       " ": () => this.toggleShown(row),
     };
     if (!moves[event.key]) return;
@@ -256,7 +267,11 @@ export class TreePanel {
   }
 
   private setFocus(row: Row): void {
-    for (const other of this.rows) other.item.tabIndex = other === row ? 0 : -1;
+    this.makeStop(row);
     row.item.focus();
+  }
+
+  private makeStop(row: Row | undefined): void {
+    for (const other of this.rows) other.item.tabIndex = other === row ? 0 : -1;
   }
 }

@@ -191,7 +191,7 @@ export class ComponentView {
   private applyLook(): void {
     const { look, palette } = this;
     const material = this.body.material;
-    const opacity = look.xray && !look.selected ? Math.min(kXrayOpacity, this.opacity) : this.opacity;
+    const opacity = look.xray ? Math.min(kXrayOpacity, this.opacity) : this.opacity;
     material.uniforms.uOpacity.value = opacity;
     material.transparent = opacity < 1;
     material.depthWrite = opacity === 1;
@@ -201,7 +201,7 @@ export class ComponentView {
     const edge: Color = this.edges.material.uniforms.uColor.value.set(look.hovered ? palette.accent : palette.edge);
     this.batch.paint(this.index, material.uniforms.uColor.value.clone().lerp(tint, standout?.tint ?? 0), edge);
     this.choose();
-    this.edges.material.uniforms.uOpacity.value = look.xray && !look.selected ? 0.35 : 1;
+    this.edges.material.uniforms.uOpacity.value = look.xray ? 0.35 : 1;
     this.edges.material.transparent = look.xray;
     if (this.cut) this.cut.material.transparent = material.transparent;
     this.setOutline(standout ? { color: standout.color, width: standout.width } : null);

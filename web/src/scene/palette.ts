@@ -40,7 +40,7 @@ export const kPalettes: Record<"light" | "dark", Palette> = {
     accent: "#56b4e9",
     selection: "#56b4e9",
     blocking: "#ff9a2e",
-    contact: "#f08cc0",
+    contact: "#e0559b",
     ghost: "#7cc8f5",
     free: "#56b4e9",
     next: "#b79cff",

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a killed server leaves, and what is gone on with.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { closeBrowser, Server, Viewer } from "../support/page.ts";
-import { audit, kSlide } from "../support/scene.ts";
+import { test } from "node:test";
+import { audit, kSlide, restart, useMicroscope, viewer } from "../support/scene.ts";
 
-const kSample = ["--sample", "microscope"];
-let server: Server;
-let viewer: Viewer;
-
-before(async () => {
-  server = await Server.start(...kSample);
-  viewer = await Viewer.open(server, { view: "1" });
-});
-after(async () => {
-  await closeBrowser();
-  await server.stop();
-});
-
-async function startAgain(): Promise<void> {
-  server = await Server.startIn(server.home, ...kSample);
-  viewer = await Viewer.open(server, { view: "1" });
-}
+const kOptions = { view: "1" };
+useMicroscope(kOptions);
+const startAgain = (signal: "SIGTERM" | "SIGKILL") => restart(signal, ["--sample", "microscope"], kOptions);
 
 test("killed in mid-drag, the server goes on where the drag was: nothing is lost, and all of it passes the audit", async () => {
   await viewer.grab("foot", 0, 20);
@@ -29,11 +14,7 @@ test("killed in mid-drag, the server goes on where the drag was: nothing is lost
   await viewer.grab(kSlide, 60, 0);
   const [slide, foot] = [await viewer.drawnShift(kSlide), await viewer.drawnShift("foot")];
   assert.ok(slide[0] > 10 && foot[2] < -3, `${slide} ${foot}`);
-  await server.end("SIGKILL");
-  await viewer.page.locator("[data-banner=lost]").waitFor();
-  await viewer.close();
-
-  await startAgain();
+  await startAgain("SIGKILL");
   const state = await viewer.state();
   assert.equal(state.resumed, true);
   assert.equal(state.hand, null);
@@ -43,7 +24,7 @@ test("killed in mid-drag, the server goes on where the drag was: nothing is lost
   await viewer.grab(kSlide, 30, 0);
   await viewer.letGo();
   assert.ok((await viewer.shift(kSlide))[0] > slide[0]);
-  await audit(viewer, server);
+  await audit();
   await viewer.press("Control+z", "Control+z", "Control+z");
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
@@ -52,15 +33,12 @@ test("killed in mid-drag, the server goes on where the drag was: nothing is lost
 
 test("a session that was ended in order is offered, and gone on with when one wants it", async () => {
   const foot = await viewer.shift("foot");
-  await viewer.close();
-  await server.end("SIGTERM");
-  await startAgain();
+  await startAgain("SIGTERM");
   assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
   await viewer.click("[data-banner=resume] button");
   assert.deepEqual(await viewer.drawnShift("foot"), foot);
   assert.equal((await viewer.state()).moves.length, 1);
   assert.equal(await viewer.page.locator("[data-banner=resume]").count(), 0);
-  await audit(viewer, server);
 });
 
 test("the page had no errors", () => {

@@ -27,13 +27,32 @@ const drag = () =>
     };
   });
 
+/// How many pixels of the picture have nearly a colour of the theme.
+const pixelsLike = (name: "blocking" | "contact") =>
+  viewer.page.evaluate((color) => {
+    const { canvas, palette } = window.dismantle!.app.viewport;
+    const wanted = [1, 3, 5].map((at) => Number.parseInt(palette[color].slice(at, at + 2), 16));
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const brush = copy.getContext("2d")!;
+    brush.drawImage(canvas, 0, 0);
+    const { data } = brush.getImageData(0, 0, copy.width, copy.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4)
+      if (wanted.every((value, k) => Math.abs(data[i + k] - value) < 24)) ++count;
+    return count;
+  }, name);
+
 /// Where the hand wants the grabbed point.
 const wanted = () => viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
 
 test("a component pressed into a wall stops there: contacts are drawn and the wall is named", async () => {
+  const plain = [await pixelsLike("blocking"), await pixelsLike("contact")];
   await viewer.grab(kSlide, 0, 60);
   const seen = await drag();
   assert.deepEqual([seen.ghost, seen.band], [true, true]);
+  assert.ok((await pixelsLike("blocking")) > plain[0] + 100, "the edges of what blocks are orange");
+  assert.ok((await pixelsLike("contact")) > plain[1] + 20, "the contacts are drawn");
   assert.ok(seen.contacts > 0);
   assert.ok(seen.blocking.includes("stage plate"), String(seen.blocking));
   assert.ok((await blocking()) > 0);
@@ -46,6 +65,21 @@ test("a component pressed into a wall stops there: contacts are drawn and the wa
   await status("tolerance", /\d (µm|mm)/);
   const frame = await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!);
   assert.ok(Math.abs(frame.position[2]) < 0.1, `${frame.position}`);
+  const arrows = await viewer.page.evaluate(() =>
+    window.dismantle!.app.viewport.contacts.arrows.map(({ point, direction }) => [
+      point.toArray(),
+      direction.toArray(),
+    ]),
+  );
+  for (const [point, normal] of arrows)
+    assert.ok(
+      frame.contacts.some((c) => String([c.point, c.normal]) === String([point, normal])),
+      "an arrow is a contact's point and normal",
+    );
+  assert.ok(
+    frame.contacts.some(({ normal }) => normal[2] > 0.99),
+    "the stage pushes up",
+  );
   await viewer.letGo();
   assert.equal((await drag()).ghost, false);
   assert.equal(await blocking(), 0);
@@ -59,14 +93,17 @@ test("pressed down and pulled aside it slides along", async () => {
   assert.ok(Math.abs(z) < 0.1, `${z}`);
 });
 
-test("with the response Stop it does not slide", async () => {
-  await viewer.page.check("#response-stop");
-  await viewer.idle();
-  assert.equal((await viewer.state()).response, "stop");
-  await viewer.grab(kSlide, 90, 25);
-  await viewer.letGo();
-  const [x] = await viewer.shift(kSlide);
-  assert.ok(x < 5, `${x}`);
+test("with the responses Stop and Touch it does not slide", async () => {
+  for (const response of ["stop", "touch"]) {
+    await viewer.page.check(`#response-${response}`);
+    await viewer.idle();
+    assert.equal((await viewer.state()).response, response);
+    await viewer.grab(kSlide, 90, 25, 3);
+    await viewer.letGo();
+    const [x, , z] = await viewer.shift(kSlide);
+    assert.ok(x < 5 && Math.abs(z) < 0.1, `${response} ${x} ${z}`);
+    if ((await viewer.state()).undo) await viewer.press("Control+z");
+  }
   await viewer.page.check("#response-slide");
   await viewer.idle();
 });
@@ -88,6 +125,38 @@ test("the mesh is drawn where the engine is, never where the hand is", async () 
   }
   await viewer.letGo();
   assert.deepEqual(await viewer.drawnShift(kSlide), await viewer.shift(kSlide));
+});
+
+test("a picture sends one target at most, the newest; and the grabbed point stays under the pointer", async () => {
+  const { x, y } = await viewer.placeOf(kSlide);
+  await viewer.grab(kSlide, 10, 0, 2);
+  const counted = await viewer.page.evaluate(
+    async ([left, top]) => {
+      const { viewport, session, drag: hand } = window.dismantle!.app;
+      const { connection } = session;
+      let [sent, pictures] = [0, 0];
+      const send = connection.sendStruct.bind(connection);
+      connection.sendStruct = (bytes) => {
+        ++sent;
+        send(bytes);
+      };
+      const count = () => ++pictures;
+      viewport.afterPicture.add(count);
+      for (let i = 1; i <= 40; ++i) {
+        const options = { clientX: left + 10 + i, clientY: top, pointerId: 1, bubbles: true };
+        viewport.canvas.dispatchEvent(new PointerEvent("pointermove", options));
+      }
+      await window.dismantle!.idle();
+      viewport.afterPicture.delete(count);
+      connection.sendStruct = send;
+      return { sent, pictures, point: window.dismantle!.project(hand.anchor.toArray()) };
+    },
+    [x, y],
+  );
+  assert.ok(counted.sent >= 1 && counted.sent <= counted.pictures && counted.sent < 10, JSON.stringify(counted));
+  assert.ok(Math.hypot(counted.point.x - x - 50, counted.point.y - y) < 1, `${JSON.stringify(counted)} ${x} ${y}`);
+  await viewer.press("Escape");
+  await viewer.letGo();
 });
 
 test("Ctrl+Z in mid-drag goes back to its start, and leaves no entry", async () => {
@@ -125,44 +194,77 @@ test("a drag is one entry of undo; redo brings it back", async () => {
   assert.deepEqual(await viewer.shift(kSlide), there);
 });
 
-test("Z keeps a drag to the axis, Alt turns, Shift goes deeper", async () => {
-  await viewer.press("x");
-  await viewer.grab(kSlide, 40, -40);
-  await viewer.press("x");
+test("what is selected moves as one rigid set, and is one entry of undo", async () => {
+  const feet = ["foot", "foot#2"];
+  await viewer.press("Escape", "f");
+  await viewer.select(...feet);
+  await viewer.grab("foot", 0, 25);
   await viewer.letGo();
-  const [x, y, z] = await viewer.shift(kSlide);
-  assert.ok(x > 5 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
-  await reset();
-
-  await viewer.page.keyboard.down("Shift");
-  const { x: right, y: down } = await viewer.placeOf(kSlide);
-  await viewer.page.mouse.move(right, down);
-  await viewer.page.mouse.down();
-  await viewer.page.mouse.move(right, down - 5);
-  const near = await wanted();
-  await viewer.page.mouse.move(right, down - 30);
-  const deep = await wanted();
-  assert.ok(deep[1] - near[1] > 5, `${near} ${deep}`);
-  assert.ok(Math.abs(deep[0] - near[0]) < 0.1 * (deep[1] - near[1]), `${near} ${deep}`);
-  await viewer.idle();
-  await viewer.page.keyboard.up("Shift");
-  assert.match(await viewer.page.locator("#status .hint").innerText(), /depth/);
-  await viewer.press("Escape");
-  await viewer.letGo();
+  const [one, other] = [await viewer.shift(feet[0]), await viewer.shift(feet[1])];
+  assert.ok(one[2] < -3, `${one}`);
+  assert.deepEqual(other, one);
+  assert.deepEqual(await viewer.drawnShift(feet[1]), one);
+  await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift(feet[1]), [0, 0, 0]);
+  assert.equal((await viewer.state()).moves.length, 0);
 });
 
-test("Alt turns what is held", async () => {
+/// The key of a view in which an axis lies across the line of sight, what is free along it, and a way of the pointer.
+const kLocks = [
+  { key: "x", view: "1", name: kSlide, way: [40, -40] },
+  { key: "y", view: "3", name: kSlide, way: [30, 40] },
+  { key: "z", view: "1", name: "foot", way: [30, 40] },
+] as const;
+
+for (const [axis, { key, view, name, way }] of kLocks.entries())
+  test(`${key.toUpperCase()} keeps a drag to its axis`, async () => {
+    await viewer.press("Escape", view, "f", key);
+    await viewer.grab(name, way[0], way[1]);
+    assert.match(await viewer.page.locator("#status .hint").innerText(), new RegExp(key.toUpperCase()));
+    await viewer.press(key);
+    await viewer.letGo();
+    const shift = await viewer.shift(name);
+    const across = shift.filter((_, k) => k !== axis);
+    assert.ok(Math.abs(shift[axis]) > 2 && across.every((value) => Math.abs(value) < 0.2), `${shift}`);
+    assert.deepEqual(await viewer.drawnShift(name), shift);
+  });
+
+test("Shift takes it deeper", async () => {
+  await viewer.press("Escape", "2", "f");
+  await viewer.page.keyboard.down("Shift");
+  await viewer.grab(kSlide, 5, -30);
+  await viewer.page.keyboard.up("Shift");
+  assert.match(await viewer.page.locator("#status .hint").innerText(), /depth/);
+  await viewer.letGo();
+  const [x, y, z] = await viewer.shift(kSlide);
+  // Seen from the right, away from the eye is to the left.
+  assert.ok(x < -3 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
+  assert.deepEqual(await viewer.drawnShift(kSlide), [x, y, z]);
+});
+
+test("Alt turns what is held; with an axis, about it", async () => {
+  await viewer.press("Escape", "3", "f");
   await viewer.page.keyboard.down("Alt");
   await viewer.grab(kSlide, 0, -40);
   assert.match(await viewer.page.locator("#status .hint").innerText(), /turning/);
   assert.ok((await wanted()).every(Number.isFinite));
-  await viewer.page.keyboard.up("Alt");
   await viewer.letGo();
-  const pose = (await viewer.state()).components[await viewer.index(kSlide)].pose!;
-  assert.ok(Math.abs(pose[3]) < 1 - 1e-6, `${pose}`);
+  const pose = async () => (await viewer.state()).components[await viewer.index(kSlide)].pose ?? [0, 0, 0, 1, 0, 0, 0];
+  assert.ok(Math.abs((await pose())[3]) < 1 - 1e-6, `${await pose()}`);
+  await viewer.page.keyboard.up("Alt");
+  await reset();
+  await viewer.press("z");
+  await viewer.page.keyboard.down("Alt");
+  await viewer.grab(kSlide, 3, -6, 3);
+  await viewer.page.keyboard.up("Alt");
+  await viewer.press("z");
+  await viewer.letGo();
+  const [, , , w, qx, qy, qz] = await pose();
+  assert.ok(w < 1 - 1e-7 && Math.hypot(qx, qy) < 0.1 * Math.abs(qz), `${await pose()}`);
 });
 
 test("blocked for a second, the hand is told what is free; the least clearance of the drag is kept", async () => {
+  await viewer.press("1");
   await viewer.grab(kSlide, 0, 60);
   await viewer.page.locator("[data-banner=stuck]", { hasText: /Blocked by stage plate; free: .*X/ }).waitFor();
   assert.ok((await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length)) > 0);

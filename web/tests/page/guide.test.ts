@@ -70,10 +70,25 @@ test("the guide plays by itself", async () => {
   await viewer.click("#play-stop");
 });
 
-test("closed, the guide is gone", async () => {
+test("a step can be passed over", async () => {
+  await viewer.page.uncheck("#guide-practice");
+  await viewer.idle();
+  await viewer.click("#guide-skip");
+  assert.match(await step(), /Step 2 of 2/);
+  assert.deepEqual(await glowing(), ["foot"]);
+});
+
+test("closed, the guide is gone; a path file that is opened is followed again", async () => {
+  const path = await viewer.page.evaluate(async () =>
+    (await window.dismantle!.app.session.connection.request("/api/guide.json")).text(),
+  );
   await viewer.click("#guide-close");
   assert.equal((await viewer.state()).guide, null);
   assert.equal(await viewer.page.isVisible("#guide-panel"), false);
+  const file = { name: "mine.path.json", mimeType: "application/json", buffer: Buffer.from(path) };
+  await viewer.page.setInputFiles("#file-picker", file);
+  await viewer.page.locator("#guide-step", { hasText: /Step 1 of 2/ }).waitFor();
+  assert.equal((await viewer.state()).guide!.name, "mine.path.json");
 });
 
 test("the page had no errors", () => {

@@ -9,7 +9,7 @@ type Place = { x: number; y: number; z: number };
 useMicroscope({ before: wearHeadset });
 
 /// Some pictures in the headset.
-const frames = (count = 6) =>
+const frames = (count = 3) =>
   viewer.page.evaluate(async (n) => {
     for (let i = 0; i < n; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
   }, count);
@@ -70,7 +70,7 @@ async function carry(side: "left" | "right", from: Place, by: Place, aim: Place)
     const part = { x: (by.x * i) / 8, y: (by.y * i) / 8, z: (by.z * i) / 8 };
     const at = plus(from, part);
     await aimHand(viewer.page, side, at, plus(at, aim));
-    await frames(3);
+    await frames(2);
   }
   await viewer.idle();
 }
@@ -98,6 +98,18 @@ test("the scene comes to stand before the eyes, in a room in metres", async () =
   assert.ok(Math.abs(place.x) < 0.5 && place.y > 0.5 && place.y < 2.2 && place.z < -0.2, JSON.stringify(place));
   const per = await scale();
   assert.ok(per > 0.0005 && per < 0.01, `${per}`);
+});
+
+test("the head moves the eyes", async () => {
+  const eye = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.rig.eye!.toArray());
+  const before = await eye();
+  await viewer.page.evaluate(() => window.headset.position.set(0.2, 1.5, 0.1));
+  await frames();
+  const after = await eye();
+  const [moved, per] = [after.map((value, k) => value - before[k]), await scale()];
+  assert.ok(Math.abs(Math.hypot(...moved) * per - Math.hypot(0.2, 0.1, 0.1)) < 0.01, `${moved} ${per}`);
+  await viewer.page.evaluate(() => window.headset.position.set(0, 1.6, 0));
+  await frames();
 });
 
 test("one hand takes a component: it goes with the hand, and stops at what is in its way", async () => {
@@ -163,20 +175,52 @@ test("two hands take two components, and each goes with its own", async () => {
   assert.deepEqual(await viewer.shift(kSlide), start);
 });
 
-test("the wrist panel undoes, in reach of the other hand's ray", async () => {
-  const { moves } = await viewer.state();
+/// Points with the right hand at a button of the panel on the left wrist, and presses the trigger.
+async function pressOnWrist(id: string): Promise<void> {
   await aimHand(viewer.page, "left", { x: -0.25, y: 1.2, z: -0.3 }, { x: -0.25, y: 1.2, z: -1 });
   await frames();
-  const there = await button("undo");
+  const there = await button(id);
   await aimHand(viewer.page, "right", plus(there, { x: 0.1, y: 0.1, z: 0.25 }), there);
   await frames();
   await press(viewer.page, "right", "trigger", 1);
   await frames();
   await press(viewer.page, "right", "trigger", 0);
-  await viewer.page.waitForFunction(
-    (count) => window.dismantle!.app.session.store.state!.moves.length === count,
-    moves.length - 1,
-  );
+  await frames();
+}
+
+test("the wrist panel undoes and redoes, in reach of the other hand's ray", async () => {
+  const { moves } = await viewer.state();
+  const count = (wanted: number) =>
+    viewer.page.waitForFunction((n) => window.dismantle!.app.session.store.state!.moves.length === n, wanted);
+  await pressOnWrist("undo");
+  await count(moves.length - 1);
+  await viewer.idle();
+  await pressOnWrist("redo");
+  await count(moves.length);
+});
+
+test("the wrist panel takes out, puts back, and says what contact does", async () => {
+  await viewer.idle();
+  await viewer.select("foot");
+  const foot = await viewer.index("foot");
+  const isRemoved = (removed: boolean) =>
+    viewer.page.waitForFunction(
+      ([c, wanted]) => {
+        const { components, automatic } = window.dismantle!.app.session.store.state!;
+        return automatic === null && Boolean(components[c as number].removed) === wanted;
+      },
+      [foot, removed] as const,
+    );
+  await pressOnWrist("takeOut");
+  await isRemoved(true);
+  await viewer.idle();
+  await pressOnWrist("putBack");
+  await isRemoved(false);
+  assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
+  for (const response of ["stop", "slide"]) {
+    await pressOnWrist(response);
+    await viewer.page.waitForFunction((r) => window.dismantle!.app.session.store.state!.response === r, response);
+  }
 });
 
 test("both grips pulled apart make the room larger", async () => {
@@ -201,11 +245,7 @@ test("both grips pulled apart make the room larger", async () => {
 });
 
 test("leaving the headset gives the page back as it was", async () => {
-  const there = await button("leave");
-  await aimHand(viewer.page, "right", plus(there, { x: 0.1, y: 0.1, z: 0.25 }), there);
-  await frames();
-  await press(viewer.page, "right", "trigger", 1);
-  await frames();
+  await pressOnWrist("leave");
   await viewer.page.waitForFunction(() => !window.dismantle!.app.headset.active);
   await viewer.press("1");
   await viewer.placeOf("base");

@@ -2,17 +2,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Viewer } from "../support/page.ts";
-import { kSlide, server, useMicroscope, viewer } from "../support/scene.ts";
+import { kSlide, loseConnection, server, useMicroscope, viewer } from "../support/scene.ts";
 import { slowLine } from "../support/slow_line.ts";
 
 useMicroscope({ view: "1" });
-
-/// Cuts the page's socket, as a lost network does.
-async function loseConnection(): Promise<void> {
-  await viewer.page.evaluate(() => window.dismantle!.app.session.connection.reconnect());
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.link === "open");
-  await viewer.idle();
-}
 
 test("a lost connection comes back with the state and the control", async () => {
   await viewer.grab(kSlide, 40, 0);

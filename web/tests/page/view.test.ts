@@ -97,12 +97,18 @@ test("what the pointer is on is named in the status line and stands out in the l
   assert.equal(await viewer.page.locator("#tree-panel .row.hovered .name").innerText(), "head");
 });
 
-test("two fingers pan and zoom, one on empty space orbits", async () => {
+type Touch = (
+  type: "touchStart" | "touchMove" | "touchEnd",
+  ...touchPoints: { x: number; y: number; id: number }[]
+) => Promise<unknown>;
+
+async function fingers(): Promise<Touch> {
   const touches = await viewer.page.context().newCDPSession(viewer.page);
-  const touch = (
-    type: "touchStart" | "touchMove" | "touchEnd",
-    ...touchPoints: { x: number; y: number; id: number }[]
-  ) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
+  return (type, ...touchPoints) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
+}
+
+test("two fingers pan and zoom, one on empty space orbits", async () => {
+  const touch = await fingers();
   const start = await camera();
   const place = (x: number, id: number) => ({ x, y: 250, id });
   await touch("touchStart", place(350, 0), place(450, 1));
@@ -119,6 +125,21 @@ test("two fingers pan and zoom, one on empty space orbits", async () => {
   await viewer.idle();
   assert.notDeepEqual((await camera()).back, start.back);
   assert.equal((await viewer.state()).moves.length, 0);
+});
+
+test("a finger on a component moves it, with contact", async () => {
+  const touch = await fingers();
+  const { x, y } = await viewer.placeOf("foot");
+  await touch("touchStart", { x, y, id: 0 });
+  for (const down of [8, 16, 24]) await touch("touchMove", { x: x + 3, y: y + down, id: 0 });
+  await viewer.idle();
+  await touch("touchEnd");
+  await viewer.idle();
+  const shift = await viewer.shift("foot");
+  assert.ok(shift[2] < -3, `${shift}`);
+  assert.deepEqual(await viewer.drawnShift("foot"), shift);
+  await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift("foot"), [0, 0, 0]);
 });
 
 test("the wheel zooms to the cursor", async () => {
