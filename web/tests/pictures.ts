@@ -39,13 +39,21 @@ async function lookAt(viewer: Viewer, name: string, room: number): Promise<void>
   await viewer.idle();
 }
 
-async function startPage(): Promise<void> {
-  const server = await Server.start();
-  const viewer = await open(server);
+/// A server for some pictures; it ends with them, however they end.
+async function withServer(arguments_: string[], makePictures: (viewer: Viewer) => Promise<void>): Promise<void> {
+  const server = await Server.start(...arguments_);
+  try {
+    const viewer = await open(server);
+    await makePictures(viewer);
+    await viewer.close();
+  } finally {
+    await server.stop();
+  }
+}
+
+async function startPage(viewer: Viewer): Promise<void> {
   await viewer.page.locator("#samples .card").first().waitFor();
   await shoot(viewer, "start");
-  await viewer.close();
-  await server.stop();
 }
 
 async function contact(viewer: Viewer): Promise<void> {
@@ -127,9 +135,7 @@ async function offlinePage(file: string): Promise<void> {
 
 /// What somebody who has never seen it does after ./run: three components are taken out, and the page is exported, by
 /// clicks alone.
-async function firstMinutes(): Promise<void> {
-  const server = await Server.start("--sample", "microscope");
-  const viewer = await open(server);
+async function firstMinutes(viewer: Viewer): Promise<void> {
   await viewer.model();
   const begin = performance.now();
   for (const [i, name] of [kSlide, "foot", "foot#2"].entries()) {
@@ -148,22 +154,25 @@ async function firstMinutes(): Promise<void> {
   const seconds = (performance.now() - begin) / 1000;
   console.log(`three components taken out, and the page exported, in ${seconds.toFixed(1)} s`);
   if (seconds > 120) throw new Error("a newcomer's first steps take more than two minutes");
-  await viewer.close();
   await offlinePage(page);
-  await server.stop();
 }
 
+async function workshop(viewer: Viewer): Promise<void> {
+  await viewer.model();
+  await viewer.page.mouse.move(300, 600);
+  await shoot(viewer, "model");
+  await contact(viewer);
+  await tools(viewer);
+  await plan(viewer);
+  await guide(viewer);
+}
+
+const kMicroscope = ["--sample", "microscope"];
 mkdirSync(kFolder, { recursive: true });
-await firstMinutes();
-await startPage();
-const server = await Server.start("--sample", "microscope");
-const viewer = await open(server);
-await viewer.model();
-await viewer.page.mouse.move(300, 600);
-await shoot(viewer, "model");
-await contact(viewer);
-await tools(viewer);
-await plan(viewer);
-await guide(viewer);
-await closeBrowser();
-await server.stop();
+try {
+  await withServer(kMicroscope, firstMinutes);
+  await withServer([], startPage);
+  await withServer(kMicroscope, workshop);
+} finally {
+  await closeBrowser();
+}
