@@ -5,14 +5,17 @@
 
 #include "dismantle/export/exported_file.h"
 #include "dismantle/export/step_scene.h"
+#include "dismantle/export/swept_volume.h"
 #include "dismantle/instructions/instructions_page.h"
 #include "dismantle/instructions/instructions_pdf.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/path_file.h"
+#include "dismantle/io/write_mesh.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -32,7 +35,8 @@ struct ExportCommand {
   std::optional<ExportFormat> format;
   bool reverse = false;
   bool clearance = false;
-  std::size_t step = 0;  ///< From 1; 0: the assembly as it is at the beginning.
+  std::size_t step = 0;  ///< From 1; 0: none in particular.
+  double within = 0;     ///< [mm]; 0: by the size.
   PictureOptions picture;
 };
 
@@ -49,7 +53,7 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  command.output +
                      " cannot be written (its name tells no format); end it with .glb, .html, .pdf, .png, "
-                     ".csv, bom.csv, bom.json or .path.json, or give --format"};
+                     ".stl, .csv, bom.csv, bom.json or .path.json, or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
                  "there is no path to export (only an assembly is given, and this format is about "
@@ -61,10 +65,15 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  "--clearance has no place in this format (only the table of moves tells it); "
                  "leave it out, or write a .csv"};
-  if (command.step > 0 && (*format != ExportFormat::Png || command.path_file.empty()))
+  const bool is_swept = *format == ExportFormat::SweptStl;
+  if (command.step > 0 && ((*format != ExportFormat::Png && !is_swept) || command.path_file.empty()))
     return Error{ErrorKind::Usage,
-                 "--step has no step to show (only a picture shows one, and only of a path); "
-                 "leave it out, or write a .png of a path"};
+                 "--step has no step to show (only a picture or a swept volume is of one, and only of a path); "
+                 "leave it out, or write a .png or .stl of a path"};
+  if (command.within > 0 && !is_swept)
+    return Error{ErrorKind::Usage,
+                 "--within has no place in this format (only a swept volume is made up to a distance); "
+                 "leave it out, or write an .stl"};
   return *format;
 }
 
@@ -97,12 +106,14 @@ PathDirection direction(const ExportCommand& command) {
   return command.reverse ? PathDirection::Reversed : PathDirection::Forward;
 }
 
+Error no_such_step(std::size_t step, std::size_t count) {
+  return {ErrorKind::Usage, fmt::format("there is no step {} (the path has {}); give one that it has", step, count)};
+}
+
 Result<std::string> png(const Exported& exported, const ExportCommand& command) {
   const Executor executor = make_executor(command.common);
   const std::size_t count = exported.timeline.moves().size();
-  if (command.step > count)
-    return Error{ErrorKind::Usage,
-                 fmt::format("there is no step {} (the path has {}); give one that it has", command.step, count)};
+  if (command.step > count) return no_such_step(command.step, count);
   AssemblySceneOptions options;
   if (command.reverse)
     options.poses = exported.timeline.poses_at(exported.timeline.end(), exported.assembly.components.size());
@@ -154,11 +165,46 @@ Result<std::string> content(ExportFormat format, const Exported& exported, const
   return exported_file(format, exported.assembly, exported.path.value_or(Path{}), options);
 }
 
+Result<SweptVolume> swept(const Exported& exported, const ExportCommand& command) {
+  const std::size_t count = exported.timeline.moves().size();
+  if (command.step == 0 && count != 1)
+    return Error{ErrorKind::Usage,
+                 fmt::format("there is no one move to sweep (the path has {}); give --step N, from 1", count)};
+  if (command.step > count) return no_such_step(command.step, count);
+  const TimelineMove& move = exported.timeline.moves()[std::max<std::size_t>(command.step, 1) - 1];
+  return swept_volume(exported.assembly, move, {command.within, progress_printer(command.common)});
+}
+
+/// Writes what a move passes, and tells how near to that it is.
+Result<Done> write_swept(const Exported& exported, const ExportCommand& command) {
+  Result<SweptVolume> volume = swept(exported, command);
+  if (!volume) return volume.error();
+  const std::size_t triangles = volume->mesh.faces.size();
+  Assembly solid;
+  solid.components.push_back(
+      {"swept volume", std::make_shared<const TriangleMesh>(std::move(volume->mesh)), {}, {}, 0, {}});
+  const Result<Done> written = write_stl(command.output, solid, StlForm::Binary);
+  if (!written) return written.error();
+
+  if (command.common.json) {
+    using Json = nlohmann::ordered_json;
+    const Json report{{"format", "dismantle-export"},           {"version", 1}, {"file", command.output},
+                      {"bytes", fs::file_size(command.output)}, {"moves", 1},   {"triangles", triangles},
+                      {"within_mm", volume->tolerance}};
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("wrote {}: {} triangles, nowhere further than {:.3g} mm from what the move passes\n", command.output,
+               triangles, volume->tolerance);
+  }
+  return Done{};
+}
+
 Result<Done> run(const ExportCommand& command) {
   const Result<ExportFormat> format = check(command);
   if (!format) return format.error();
   const Result<Exported> exported = read(command);
   if (!exported) return exported.error();
+  if (*format == ExportFormat::SweptStl) return write_swept(*exported, command);
   const Result<std::string> bytes = content(*format, *exported, command);
   if (!bytes) return bytes.error();
   const Result<Done> written = write_file(command.output, *bytes);
@@ -192,6 +238,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   static const std::map<std::string, ExportFormat> kFormats{{"glb", ExportFormat::Glb},
                                                             {"html", ExportFormat::Html},
                                                             {"png", ExportFormat::Png},
+                                                            {"swept", ExportFormat::SweptStl},
                                                             {"moves", ExportFormat::Moves},
                                                             {"bom-csv", ExportFormat::BillCsv},
                                                             {"bom-json", ExportFormat::BillJson},
@@ -209,20 +256,25 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("-o,--output", options->output,
                    "File to write: .glb (animated), .html (a page that plays it), .pdf or instructions.html (work "
-                   "instructions), .png (a picture), .csv (a row a "
-                   "move), bom.csv or "
+                   "instructions), .png (a picture), .stl (all that a move "
+                   "passes), .csv (a row a move), bom.csv or "
                    "bom.json (bill of materials), "
                    ".path.json")
       ->required()
       ->type_name("FILE");
   command->add_option("--format", options->format, "Format of the file (default: by its name)")
       ->transform(CLI::CheckedTransformer(kFormats))
-      ->type_name("glb|html|png|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
+      ->type_name("glb|html|png|swept|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
   command->add_flag("--reverse", options->reverse,
                     "The assembly: moves the other way, last first (.path.json: apart and together again)");
   command->add_flag("--clearance", options->clearance, "Table of moves: measure the least clearance of each");
-  command->add_option("--step", options->step, "Picture: of step N, with what moves, where to, and how")
+  command->add_option("--step", options->step, "Picture, swept volume: of step N, with what moves, where to, and how")
       ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--within", options->within,
+                   "Swept volume: at most so far beyond what is passed [mm] (default: 2% of its diagonal)")
+      ->type_name("MM")
       ->check(CLI::PositiveNumber);
   add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);

@@ -63,6 +63,22 @@ TEST_F(CliExport, TakesPicturesOfTheAssemblyAndOfAStep) {
   expect_error("export parts -o parts.png --size 0x7", 2, "is no picture size");
 }
 
+TEST_F(CliExport, WritesTheVolumeThatAMoveSweeps) {
+  const Outcome o = export_to("swept.stl --within 1 --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json report = Json::parse(o.out);
+  EXPECT_EQ(report["within_mm"], 1);
+  EXPECT_EQ(read_all(in("swept.stl")).size(), 84 + 50 * report["triangles"].get<std::size_t>());
+  const Outcome read = run("info swept.stl --json");
+  EXPECT_EQ(Json::parse(read.out)["assembly"]["triangles"], report["triangles"]);
+
+  EXPECT_NE(export_to("swept.stl --step 1").out.find("nowhere further than"), std::string::npos);
+  expect_error("export parts pull.path.json -o swept.stl --step 2", 2, "there is no step 2 (the path has 1)");
+  expect_error("export parts pull.path.json -o swept.stl --within 1e-6", 2, "too fine");
+  expect_error("export parts pull.path.json -o pull.csv --within 1", 2, "--within has no place");
+  expect_error("export parts -o swept.stl", 2, "there is no path to export");
+}
+
 TEST_F(CliExport, WritesATableOfTheMoves) {
   ASSERT_EQ(export_to("pull.csv").exit_code, 0);
   const std::string csv = read_all(in("pull.csv"));

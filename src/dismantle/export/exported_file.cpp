@@ -27,7 +27,7 @@ std::optional<ExportFormat> export_format_of(std::string_view file) {
       {"bom.csv", ExportFormat::BillCsv}, {".csv", ExportFormat::Moves},
       {".glb", ExportFormat::Glb},        {"instructions.html", ExportFormat::InstructionsHtml},
       {".html", ExportFormat::Html},      {".pdf", ExportFormat::InstructionsPdf},
-      {".png", ExportFormat::Png}};
+      {".png", ExportFormat::Png},        {".stl", ExportFormat::SweptStl}};
   for (const auto& [ending, format] : kEndings)
     if (file.size() >= ending.size() && file.substr(file.size() - ending.size()) == ending) return format;
   return {};
@@ -35,16 +35,16 @@ std::optional<ExportFormat> export_format_of(std::string_view file) {
 
 bool is_made_elsewhere(ExportFormat format) {
   return format == ExportFormat::Png || format == ExportFormat::InstructionsHtml ||
-         format == ExportFormat::InstructionsPdf;
+         format == ExportFormat::InstructionsPdf || format == ExportFormat::SweptStl;
 }
 
 bool needs_path(ExportFormat format) {
   return format == ExportFormat::Moves || format == ExportFormat::Path || format == ExportFormat::InstructionsHtml ||
-         format == ExportFormat::InstructionsPdf;
+         format == ExportFormat::InstructionsPdf || format == ExportFormat::SweptStl;
 }
 
 bool knows_direction(ExportFormat format) {
-  return format != ExportFormat::BillCsv && format != ExportFormat::BillJson;
+  return format != ExportFormat::BillCsv && format != ExportFormat::BillJson && format != ExportFormat::SweptStl;
 }
 
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
@@ -67,6 +67,7 @@ Result<std::string> exported_file(ExportFormat format, const Assembly& assembly,
     case ExportFormat::Png:
     case ExportFormat::InstructionsHtml:
     case ExportFormat::InstructionsPdf:
+    case ExportFormat::SweptStl:
       break;
   }
   return path_text(options.direction == PathDirection::Forward ? path : there_and_back(path));

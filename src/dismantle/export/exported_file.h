@@ -11,9 +11,10 @@
 namespace dismantle {
 
 /// What an assembly and its path are written as; docs/export.md.
-enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path, InstructionsHtml, InstructionsPdf };
+enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path, InstructionsHtml, InstructionsPdf, SweptStl };
 
-/// Whether a format is made elsewhere: pictures (step_scene.h) and work instructions (instructions/).
+/// Whether a format is made elsewhere: pictures (step_scene.h), swept volumes (swept_volume.h) and work instructions
+/// (instructions/).
 bool is_made_elsewhere(ExportFormat format);
 
 /// The format that a file's name tells by how it ends; nothing where it tells none.
