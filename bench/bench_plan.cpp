@@ -2,7 +2,7 @@
 // What the planner takes apart, by which tier, in what time; every path audited.
 //   bench_plan cases [--shapes N] [--poses M] [KIND...]   N shapes of each kind of generated case, each as it is and in
 //                                                         M random orientations, scales and tessellations
-//   bench_plan files [--time-limit S] ASSEMBLY...         assemblies
+//   bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...         assemblies
 // One row a case or an assembly, tab-separated. `good`: exactly what is known to come out does, and the audit holds;
 // for assemblies: all comes out or is explained, and the audit holds. Times, the limit's too, are processor times of
 // one thread and do not include reading.
@@ -81,7 +81,7 @@ struct Tally {
 
 struct Settings {
   int shapes = 3, poses = 1;
-  double time_limit = 60;
+  double time_limit = 60, tolerance = 0;
   std::vector<std::string> names;
 };
 
@@ -133,16 +133,16 @@ bool run_cases(const Settings& settings) {
   return all_good;
 }
 
-bool run_file(const std::string& file, double time_limit) {
+bool run_file(const std::string& file, const Settings& settings) {
   const Result<Assembly> assembly = load_assembly(file);
   if (!assembly) {
     std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
     return false;
   }
   PlanOptions options;
-  const double end = processor_seconds() + time_limit;
+  const double end = processor_seconds() + settings.time_limit;
   options.progress = [end](std::string_view, double) { return processor_seconds() < end; };
-  const Planned planned = plan_and_audit(*assembly, 0, options);
+  const Planned planned = plan_and_audit(*assembly, settings.tolerance, options);
   const bool good = planned.audited && !planned.plan.out_of_time;
   std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", assembly->source_file.c_str(),
               assembly->components.size(), triangle_count(*assembly), taken_out(planned.plan),
@@ -155,7 +155,7 @@ bool run_file(const std::string& file, double time_limit) {
 bool run_files(const Settings& settings) {
   std::printf("assembly\tcomponents\ttriangles\tout\t%s\tstaying\tclassify_s\tplan_s\taudit\tgood\n", kTierColumns);
   bool good = true;
-  for (const std::string& file : settings.names) good = run_file(file, settings.time_limit) && good;
+  for (const std::string& file : settings.names) good = run_file(file, settings) && good;
   return good;
 }
 
@@ -169,6 +169,8 @@ bool parse(int argc, char** argv, Settings& settings) {
       settings.poses = std::atoi(argv[++i]);
     } else if (option == "--time-limit" && has_value) {
       settings.time_limit = std::atof(argv[++i]);
+    } else if (option == "--tolerance" && has_value) {
+      settings.tolerance = std::atof(argv[++i]);
     } else if (option.rfind("--", 0) == 0) {
       return false;
     } else {
@@ -188,7 +190,7 @@ int main(int argc, char** argv) {
   if ((what != "cases" && what != "files") || !parse(argc, argv, settings)) {
     std::fprintf(stderr,
                  "usage: bench_plan cases [--shapes N] [--poses M] [KIND...]\n"
-                 "       bench_plan files [--time-limit S] ASSEMBLY...\n");
+                 "       bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...\n");
     return 2;
   }
   return (what == "cases" ? run_cases(settings) : run_files(settings)) ? 0 : 1;

@@ -47,6 +47,7 @@ TEST_F(BlockingTableTest, IsSymmetricBetweenADirectionAndItsOpposite) {
 
 TEST_F(BlockingTableTest, FindsABlockerAsLongAsThereIsOne) {
   EXPECT_EQ(table_.blockers(kLow, up(), all_), (std::vector{kMiddle, kHigh}));
+  EXPECT_EQ(table_.blockers(kLow, up(), all_, 1).size(), 1u);
   ComponentSet left = all_;
   left.erase(*table_.any_blocker(kLow, up(), left));
   left.erase(*table_.any_blocker(kLow, up(), left));

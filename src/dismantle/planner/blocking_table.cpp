@@ -98,10 +98,13 @@ bool BlockingTable::expects_blocker(ComponentId moving, DirectionId d, const Com
                      [&](ComponentId other) { return present.has(other) && known.known[other.value] != Known::Free; });
 }
 
-std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId d, const ComponentSet& present) {
+std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId d, const ComponentSet& present,
+                                                 std::size_t enough) {
   std::vector<ComponentId> found;
-  for (const ComponentId other : others_[moving.value])
+  for (const ComponentId other : others_[moving.value]) {
+    if (found.size() >= enough) break;
     if (present.has(other) && blocks(moving, d, other)) found.push_back(other);
+  }
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -113,19 +116,40 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
 
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                                         const ComponentSet& never, std::size_t most) {
-  ComponentSet together(features_.size(), {&moving, 1});
-  std::vector<ComponentId> waiting{moving};
-  while (!waiting.empty()) {
-    const ComponentId next = waiting.back();
-    waiting.pop_back();
-    for (const ComponentId other : others_[next.value]) {
-      if (!present.has(other) || together.has(other) || !blocks(next, d, other)) continue;
-      together.insert(other);
-      if (never.has(other) || together.size() > most) return {};
-      waiting.push_back(other);
+  ComponentSet together(features_.size());
+  std::vector<ComponentId> unfollowed{moving},
+      unasked;  // members whose known facts, whose other facts are not seen yet
+  while (!unfollowed.empty() || !unasked.empty()) {
+    if (unfollowed.empty()) {
+      const auto next = another_blocker(unasked.back(), d, present, together, never);
+      if (next) {
+        unfollowed.push_back(*next);
+      } else {
+        unasked.pop_back();
+      }
+      continue;
     }
+    const ComponentId member = unfollowed.back();
+    unfollowed.pop_back();
+    if (together.has(member)) continue;
+    together.insert(member);
+    if (never.has(member) || together.size() > most) return {};
+    unasked.push_back(member);
+    const std::vector<Known>& known = row(member, d).known;
+    for (const ComponentId other : others_[member.value])
+      if (known[other.value] == Known::Blocks && present.has(other)) unfollowed.push_back(other);
   }
   return together.members();
+}
+
+std::optional<ComponentId> BlockingTable::another_blocker(ComponentId moving, DirectionId d,
+                                                          const ComponentSet& present, const ComponentSet& together,
+                                                          const ComponentSet& never) {
+  for (const bool ends_it : {true, false})
+    for (const ComponentId other : others_[moving.value])
+      if (never.has(other) == ends_it && present.has(other) && !together.has(other) && blocks(moving, d, other))
+        return other;
+  return std::nullopt;
 }
 
 void BlockingTable::add_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {

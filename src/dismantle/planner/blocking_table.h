@@ -6,6 +6,8 @@
 #include "dismantle/planner/go_on.h"
 #include "dismantle/planner/shape_features.h"
 
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -41,8 +43,9 @@ class BlockingTable {
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
   /// One of `present` that blocks, if there is one; the same again while it is present.
   std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// All of `present` that block.
-  std::vector<ComponentId> blockers(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// Those of `present` that block, ordered; where there are more than `enough`, so many of them.
+  std::vector<ComponentId> blockers(ComponentId moving, DirectionId d, const ComponentSet& present,
+                                    std::size_t enough = std::numeric_limits<std::size_t>::max());
   /// The fewest of `present` that can go along `d` together with `moving`: it, what blocks it, what blocks that, ...
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
   /// The same, given up (nothing) once it would hold one of `never`, or more than `most`.
@@ -67,6 +70,9 @@ class BlockingTable {
     std::vector<ComponentId> expected;
   };
   Row& row(ComponentId moving, DirectionId d);
+  /// One of `present` that blocks and is not in `together`; those of `never` are asked first.
+  std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
+                                             const ComponentSet& together, const ComponentSet& never);
   /// How far `moving` has to go along `d` to be past `fixed`; nothing where it never comes near it [mm].
   double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
 

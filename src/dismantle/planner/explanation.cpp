@@ -47,7 +47,8 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
   std::vector<ComponentId> fewest;
   double furthest = 0;
   for (const DirectionId d : directions) {
-    std::vector<ComponentId> blockers = table.blockers(component, d, present);
+    const std::size_t enough = best.valid() ? fewest.size() + 1 : present.size();
+    std::vector<ComponentId> blockers = table.blockers(component, d, present, enough);
     if (best.valid() && blockers.size() > fewest.size()) continue;
     const double free_way = way_to_first(table, component, d, blockers);
     if (best.valid() && blockers.size() == fewest.size() && free_way <= kClearlyFurther * furthest) continue;

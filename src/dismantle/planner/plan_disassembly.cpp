@@ -51,7 +51,7 @@ class Planner {
         count_(assembly.components.size()),
         features_(features_of(assembly, options.engine.executor)),
         maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
-               [this] { return in_time(); }),
+               [this] { return go_on(); }),
         table_(maker_.engine(), features_, [this] { return in_time(); }),
         directions_(count_),
         tolerance_(pairs.tolerance),
@@ -185,7 +185,7 @@ class Planner {
         if (!body.has(neighbour)) continue;
         std::vector<ComponentId>& met = met_[{c, neighbour}];
         if (!met.empty() && body.has_all(met)) continue;
-        WaySearch search = screw_out(maker_, table_, c, thread, [this] { return in_time(); });
+        WaySearch search = screw_out(maker_, table_, c, thread, [this] { return go_on(); });
         if (search.step) return std::move(search.step);
         met = std::move(search.met);
       }
@@ -204,7 +204,7 @@ class Planner {
         SlideMoves moves = slide_moves(c, body);
         moves.most_effort = std::min(effort, left);
         const std::size_t begun = maker_.effort();
-        WaySearch search = slide_out(maker_, table_, c, moves, [this] { return in_time(); });
+        WaySearch search = slide_out(maker_, table_, c, moves, [this] { return go_on(); });
         slide_effort_ += maker_.effort() - begun;
         if (search.step) return std::move(search.step);
         before = {search.exhausted ? std::numeric_limits<std::size_t>::max() : effort, std::move(search.met)};
