@@ -24,7 +24,7 @@ struct PlanCommand {
   CommonOptions common;
   std::string output, graph;
   std::vector<std::string> targets, fixed;
-  double time_limit = 0;
+  double time_limit = 0, effort = 1;
 };
 
 bool ends_with(const std::string& text, std::string_view ending) {
@@ -91,9 +91,10 @@ Result<ExitCode> run(const PlanCommand& command) {
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
                                          "' cannot come out (it is a target, and fixed); leave out one of the two"};
 
-  const Plan plan = plan_disassembly(
-      *assembly, *states,
-      {*targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)});
+  PlanOptions options{
+      *targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)};
+  options.search_longer(command.effort);
+  const Plan plan = plan_disassembly(*assembly, *states, options);
   const Path path = plan_path(*assembly, *states, plan);
   const Result<Done> written = write_path(command.output, path);
   if (!written) return written.error();
@@ -132,6 +133,11 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--time-limit", options->time_limit, "End the search after so long, with what it has found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--effort", options->effort,
+                   "Search so many times as long for ways that are not straight (default: 1, some seconds)")
+      ->type_name("TIMES")
+      ->check(CLI::Range(0.0, 1e6));
   add_common_options(*command, options->common);
   command->footer("Exit code 0: all that was asked for comes out; 1: not all, and why.");
   command->callback([options, &exit_code] {

@@ -267,6 +267,7 @@ def plan(
     targets: Optional[_Keys] = None,
     fixed: Optional[_Keys] = None,
     time_limit: float = 0.0,
+    effort: float = 1.0,
     threads: int = 0,
     progress: _Progress = None,
 ) -> Plan: ...

@@ -32,7 +32,7 @@ struct StepOfPlan {
 };
 
 PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed, double time_limit,
-              int threads, const py::object& progress) {
+              double effort, int threads, const py::object& progress) {
   PythonProgress watched(progress);
   PlanOptions options;
   options.targets = components_of(*states->assembly, targets);
@@ -41,6 +41,9 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
   options.engine.executor = executor_of(threads);
   options.progress = watched.callback();
   if (!(time_limit >= 0)) raise_usage("the plan cannot be made (the time limit is negative); give 0 for none");
+  if (!(effort >= 0 && effort <= 1e6))
+    raise_usage("the plan cannot be made (the effort is not from 0 to 1e6); give 1 for the usual one");
+  options.search_longer(effort);
   for (const ComponentId c : options.targets)
     if (std::find(options.fixed.begin(), options.fixed.end(), c) != options.fixed.end())
       raise_usage("'" + (*states->assembly)[c].name +
@@ -157,8 +160,9 @@ void bind_plan(py::module_& module) {
                              })
       .def_readonly("seconds", &AuditReport::seconds);
   module.def("plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(),
-             py::arg("fixed") = py::none(), py::arg("time_limit") = 0.0, py::arg("threads") = 0,
-             py::arg("progress") = py::none(), "How the assembly comes apart, or how the targets get out.");
+             py::arg("fixed") = py::none(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0,
+             py::arg("threads") = 0, py::arg("progress") = py::none(),
+             "How the assembly comes apart, or how the targets get out.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0);
   module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
              py::arg("progress") = py::none(), "Checks a path by means that share nothing with what made it.");

@@ -87,7 +87,13 @@ TEST_F(CliPlan, RefusesWhatMakesNoSense) {
   expect_error("plan missing.step -o x.path.json", 3, "missing.step");
   EXPECT_EQ(run("plan parts").exit_code, 2);
   EXPECT_EQ(run("plan parts -o x.path.json --time-limit 0").exit_code, 2);
+  EXPECT_EQ(run("plan parts -o x.path.json --effort -1").exit_code, 2);
   EXPECT_FALSE(fs::exists(in("x.path.json")));
+}
+
+TEST_F(CliPlan, SearchesNoLongerThanItIsTold) {
+  EXPECT_EQ(run("plan parts -o straight.path.json --effort 0").exit_code, 0);
+  EXPECT_EQ(run("audit parts straight.path.json").exit_code, 0);
 }
 
 TEST_F(CliPlan, WritesWhatItHasWhereTimeIsUp) {

@@ -20,6 +20,7 @@ void expect_right(CaseKind kind, const DisassemblyCase& made, double scale) {
   const scenes::PlanScene scene = scenes::plan_scene(made.assembly, 0.01 * scale);
   PlanOptions options;
   options.slide_effort = scenes::kSlideEffort;
+  options.sample_effort = 0;
   for (std::uint32_t c = 0; c < made.fixed; ++c) options.fixed.emplace_back(c);
   const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
   EXPECT_EQ(plan.complete(), scenes::comes_apart(kind));

@@ -16,6 +16,7 @@ using scenes::PlanScene;
 Plan plan_of(const Assembly& assembly, PlanOptions options = {}) {
   const PlanScene scene = plan_scene(assembly);
   options.slide_effort = scenes::kSlideEffort;
+  options.sample_effort = 0;
   return plan_disassembly(scene.assembly, scene.pairs, options);
 }
 

@@ -25,6 +25,7 @@ std::vector<Puzzle> puzzles() {
 Plan plan_for_last(const scenes::PlanScene& scene) {
   PlanOptions options;
   options.slide_effort = scenes::kSlideEffort;
+  options.sample_effort = 0;
   const auto count = static_cast<std::uint32_t>(scene.assembly.components.size());
   for (std::uint32_t c = 0; c + 1 < count; ++c) options.fixed.emplace_back(c);
   return plan_disassembly(scene.assembly, scene.pairs, options);

@@ -30,6 +30,13 @@ def test_says_why_something_stays(states):
     assert dismantle.why(states, "front").blocked_by == []
 
 
+def test_takes_an_effort(states):
+    for effort in (0, 0.5, 2):
+        assert [s.components for s in dismantle.plan(states, targets="back", fixed=WALLS, effort=effort).steps]
+    with pytest.raises(dismantle.Error, match="effort"):
+        dismantle.plan(states, effort=-1)
+
+
 def test_ends_early_where_it_is_told(states):
     assert dismantle.plan(states, time_limit=1e-6).out_of_time
     assert dismantle.plan(states, progress=lambda stage, fraction: False).out_of_time

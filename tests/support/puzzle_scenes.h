@@ -97,6 +97,49 @@ inline std::vector<Component> chain_links() {
   return {component("link", link), component("next link", moved(link, through))};
 }
 
+/// A round rod bent along a line of points, closed at its ends.
+inline TriangleMesh bent_rod(const std::vector<Vec3>& line, double radius, std::uint32_t sides) {
+  TriangleMesh m;
+  Vec3 aside;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const Vec3 along = normalized(line[std::min(k + 1, line.size() - 1)] - line[k == 0 ? 0 : k - 1]);
+    if (k == 0) aside = cross(along, std::abs(along.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0});
+    aside = normalized(aside - dot(aside, along) * along);
+    const Vec3 other = cross(along, aside);
+    for (std::uint32_t i = 0; i < sides; ++i)
+      m.vertices.push_back(line[k] +
+                           radius * (std::cos(kTurn * i / sides) * aside + std::sin(kTurn * i / sides) * other));
+  }
+  const auto last = static_cast<std::uint32_t>((line.size() - 1) * sides);
+  for (std::uint32_t k = 0; k < last; k += sides)
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const std::uint32_t j = (i + 1) % sides;
+      add_quad(m, k + i, k + j, k + sides + j, k + sides + i);
+    }
+  for (std::uint32_t i = 1; i + 1 < sides; ++i) {
+    m.faces.push_back({{0, i + 1, i}});
+    m.faces.push_back({{last, last + i, last + i + 1}});
+  }
+  return m;
+}
+
+/// Two open rings of round rod through each other, the gap of each turned away from the other: a rod has to be led
+/// through a gap. Their rods are 3 mm thick, the gaps `gap` wide along the rods' middle lines [mm].
+inline std::vector<Component> open_rings(double gap) {
+  const double ring = 10, rod = 1.5;
+  const auto open_ring = [&](double toward) {
+    const double half = std::asin(gap / 2 / ring);
+    std::vector<Vec3> line;
+    for (int k = 0; k <= 48; ++k) {
+      const double angle = toward + half + (kTurn - 2 * half) * k / 48;
+      line.push_back({ring * std::cos(angle), ring * std::sin(angle), 0});
+    }
+    return bent_rod(line, rod, 12);
+  };
+  const Pose through{{ring, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)};
+  return {component("ring", open_ring(kTurn / 2)), component("other ring", moved(open_ring(0), through))};
+}
+
 /// A pin in an L-shaped tunnel of a block: along x, then out along y. `clearance` on every side [mm].
 inline std::vector<Component> l_slot(double clearance) {
   const double c = clearance, wide = 6 + 2 * c;

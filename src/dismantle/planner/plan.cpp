@@ -11,6 +11,8 @@ std::string_view name_of(PlanTier tier) {
       return "helical";
     case PlanTier::Sliding:
       return "sliding";
+    case PlanTier::Sampled:
+      return "sampled";
     case PlanTier::StraightTogether:
       return "straight together";
   }

@@ -14,10 +14,11 @@ enum class PlanTier {
   Straight,          ///< One component goes straight out.
   Helical,           ///< One component is screwed out along a thread.
   Sliding,           ///< One component is pushed and turned out, along what is in its way.
+  Sampled,           ///< One component is moved out by a way that was found at random.
   StraightTogether,  ///< Several go straight out as one body.
 };
 
-/// "straight", "helical", "sliding", "straight together": as reports have it.
+/// "straight", "helical", "sliding", "sampled", "straight together": as reports have it.
 std::string_view name_of(PlanTier tier);
 
 /// A set of components leaves what it is part of, rigidly together.

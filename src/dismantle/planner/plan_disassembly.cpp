@@ -6,6 +6,7 @@
 #include "dismantle/planner/candidate_directions.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/removal_search.h"
+#include "dismantle/planner/sample_search.h"
 #include "dismantle/planner/screw_search.h"
 #include "dismantle/planner/slide_search.h"
 #include "dismantle/planner/step_maker.h"
@@ -27,11 +28,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kShared = 8;
 /// How much less each next one of a component's directions counts for that.
 constexpr double kRankWeight = 0.9;
-/// A sliding component is pushed along so many of its directions and turned about so many axes at most. The search may
-/// cost so much for each component, little for all of them first.
+/// A sliding component is pushed along so many of its directions and turned about so many axes at most.
 constexpr std::size_t kMostPushes = 12;
 constexpr std::size_t kMostTurns = 4;
-constexpr std::size_t kSlideEfforts[] = {40'000, 160'000};
+/// The search for a way that is not straight may cost so much for each component, little for all of them first.
+constexpr std::size_t kFirstEffort = 40'000, kEffortGrowth = 4;
 /// What was taken away stands so many diameters of the assembly off.
 constexpr double kFarAway = 100;
 
@@ -58,7 +59,9 @@ class Planner {
         contacts_(count_),
         threads_(count_),
         modelled_(count_),
-        round_(count_) {
+        round_(count_),
+        sliding_{options.slide_effort, 0, {}},
+        sampling_{options.sample_effort, 0, {}} {
     find_directions(pairs.tolerance);
   }
 
@@ -174,7 +177,8 @@ class Planner {
     const auto ask = [this] { return go_on(); };
     while (const auto removal = smallest_body(table_, directions_, body, staying, ask))
       if (auto step = try_removal(*removal, body)) return step;
-    return find_sliding(body, staying);
+    if (auto step = find_sliding(body, staying)) return step;
+    return find_sampled(body, staying);
   }
 
   /// One component that is screwed out, the smallest first.
@@ -193,23 +197,50 @@ class Planner {
     return std::nullopt;
   }
 
-  /// One component that is slid out, the smallest first; the longer one is searched for, the fewer have come out.
-  std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
-    for (const std::size_t effort : kSlideEfforts)
+  /// Searches that cost a lot, and what they found out.
+  struct LongSearches {
+    struct InVain {
+      std::size_t effort = 0;
+      std::vector<ComponentId> met;
+    };
+    std::size_t most;                       ///< That all of them may cost,
+    std::size_t spent = 0;                  ///< and have cost.
+    std::map<ComponentId, InVain> in_vain;  ///< As long as what a component met is there, no less effort helps it.
+  };
+
+  /// One component that `search` finds a way out for, the smallest first; the longer one is searched for, the fewer
+  /// have come out.
+  /// @param search (component, effort) -> WaySearch
+  template <class Search>
+  std::optional<PlanStep> find_long(const ComponentSet& body, const ComponentSet& staying, LongSearches& searches,
+                                    const Search& search) {
+    for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * searches.most; effort *= kEffortGrowth)
       for (const ComponentId c : smallest_first(body, staying)) {
-        SlidInVain& before = slid_[c];
+        LongSearches::InVain& before = searches.in_vain[c];
         if (before.effort >= effort && body.has_all(before.met)) continue;
-        const std::size_t left = options_.slide_effort - std::min(slide_effort_, options_.slide_effort);
+        const std::size_t left = searches.most - std::min(searches.spent, searches.most);
         if (left == 0 || !go_on()) return std::nullopt;
-        SlideMoves moves = slide_moves(c, body);
-        moves.most_effort = std::min(effort, left);
         const std::size_t begun = maker_.effort();
-        WaySearch search = slide_out(maker_, table_, c, moves, [this] { return go_on(); });
-        slide_effort_ += maker_.effort() - begun;
-        if (search.step) return std::move(search.step);
-        before = {search.exhausted ? std::numeric_limits<std::size_t>::max() : effort, std::move(search.met)};
+        WaySearch found = search(c, std::min(effort, left));
+        searches.spent += maker_.effort() - begun;
+        if (found.step) return std::move(found.step);
+        before = {found.exhausted ? std::numeric_limits<std::size_t>::max() : effort, std::move(found.met)};
       }
     return std::nullopt;
+  }
+
+  std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
+    return find_long(body, staying, sliding_, [&](ComponentId c, std::size_t effort) {
+      SlideMoves moves = slide_moves(c, body);
+      moves.most_effort = effort;
+      return slide_out(maker_, table_, c, moves, [this] { return go_on(); });
+    });
+  }
+
+  std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying) {
+    return find_long(body, staying, sampling_, [&](ComponentId c, std::size_t effort) {
+      return sample_out(maker_, table_, c, effort, [this] { return go_on(); });
+    });
   }
 
   /// The directions of a component, and the axes that it or what is about it is round about.
@@ -400,13 +431,7 @@ class Planner {
   std::vector<std::optional<std::vector<NeighbourThread>>> threads_;
   std::vector<std::optional<std::vector<ThreadAxis>>> modelled_;
   std::vector<std::optional<std::vector<RoundAxis>>> round_;
-  /// What a search for a sliding way that found none cost at most, and what was in the way.
-  struct SlidInVain {
-    std::size_t effort = 0;
-    std::vector<ComponentId> met;
-  };
-  std::map<ComponentId, SlidInVain> slid_;
-  std::size_t slide_effort_ = 0;                                                 // of all searches for sliding ways
+  LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by those screwed apart in vain
   Plan plan_;
 };

@@ -19,6 +19,14 @@ struct PlanOptions {
   ProgressCallback progress;
   /// What all searches for sliding ways may cost together: see StepMaker::effort; some 10 us each.
   std::size_t slide_effort = 400'000;
+  /// The same for all searches for ways at random, which come after them.
+  std::size_t sample_effort = 200'000;
+
+  /// Lets these searches cost `times` as much. @pre not negative
+  void search_longer(double times) {
+    slide_effort = static_cast<std::size_t>(times * static_cast<double>(slide_effort));
+    sample_effort = static_cast<std::size_t>(times * static_cast<double>(sample_effort));
+  }
 };
 
 /// How the assembly comes apart. Every step's motion was tried with the engine: it holds the guarantee. Ends with what

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/sample_search.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/geometry/adjacency.h"
+#include "dismantle/planner/plan_path.h"
+#include "tests/planner/plan_scenes.h"
+#include "tests/support/puzzle_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+Plan plan_by_chance(const scenes::PlanScene& scene, std::size_t effort) {
+  PlanOptions options;
+  options.slide_effort = 0;
+  options.sample_effort = effort;
+  const auto count = static_cast<std::uint32_t>(scene.assembly.components.size());
+  for (std::uint32_t c = 0; c + 1 < count; ++c) options.fixed.emplace_back(c);
+  return plan_disassembly(scene.assembly, scene.pairs, options);
+}
+
+TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
+  const std::vector<Component> rings = scenes::open_rings(4);
+  for (const Component& c : rings) EXPECT_EQ(edge_faults(*c.mesh).open, 0u);
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(rings));
+  const Plan plan = plan_by_chance(scene, 400'000);
+  ASSERT_TRUE(plan.complete());
+  ASSERT_EQ(plan.steps.size(), 1u);
+  EXPECT_EQ(plan.steps[0].tier, PlanTier::Sampled);
+  const AuditReport report = audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan), {});
+  EXPECT_TRUE(report.holds());
+}
+
+TEST(SampleSearch, GivesTheSameWayForTheSameInput) {
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
+  const Plan first = plan_by_chance(scene, 100'000), second = plan_by_chance(scene, 100'000);
+  ASSERT_EQ(first.steps.size(), 1u);
+  EXPECT_EQ(first.steps[0].tier, PlanTier::Sampled);
+  ASSERT_EQ(second.steps.size(), 1u);
+  EXPECT_EQ(first.steps[0].way, second.steps[0].way);
+}
+
+TEST(SampleSearch, FindsNoWayOutOfAClosedShellAndEnds) {
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::closed_shell());
+  EXPECT_TRUE(plan_by_chance(scene, 20'000).steps.empty());
+  const scenes::PlanScene links = scenes::plan_scene(scenes::assembly(scenes::chain_links()));
+  EXPECT_TRUE(plan_by_chance(links, 20'000).steps.empty());
+}
+
+}  // namespace
+}  // namespace dismantle
