@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/sample_search.h"
 
-#include "dismantle/math/screw.h"
+#include "dismantle/planner/place_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -35,14 +35,6 @@ constexpr double kMemory = 200;
 constexpr int kMostInVain = 400;
 /// The way is made shorter in so many tries.
 constexpr int kShortenTries = 64;
-
-/// Where a component has been.
-struct Place {
-  Pose pose;
-  std::size_t from = 0;   ///< Index of the place that it came from; of the first one itself.
-  std::vector<Pose> way;  ///< From there.
-  double out = 0;         ///< How far its center is from where it was assembled [mm].
-};
 
 /// Where the next motion starts and aims.
 enum class Aim {
@@ -96,14 +88,13 @@ class SampleOut {
             const GoOn& go_on)
       : explorer_(explorer),
         component_(component),
-        center_(table.center(component)),
         radius_(table.radius(component)),
         way_out_(table.way_length(component)),
         most_effort_(most_effort),
         go_on_(go_on),
-        random_(most_effort) {  // a longer search is not the same search again
-    places_.emplace_back();
-  }
+        random_(most_effort),  // a longer search is not the same search again
+        places_(table.center(component), radius_),
+        out_(1) {}
 
   /// Nothing new is found any more.
   bool saturated() const { return in_vain_ > kMostInVain; }
@@ -118,7 +109,7 @@ class SampleOut {
       StepResult made = explorer_.slide(target);
       double gain = 0;
       if (!made.way.empty()) {
-        const double novelty = nearest(made.pose).second;
+        const double novelty = places_.nearest(made.pose).second;
         gain = std::min(1.0, novelty / (kReaches[1] * radius_));
         if (novelty > kSamePlace * radius_)
           if (auto step = reach_place(from, std::move(made.way))) return step;
@@ -140,42 +131,24 @@ class SampleOut {
   }
   double random_share() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
-  Vec3 center_at(const Pose& pose) const { return transform_from_pose(pose) * center_; }
-
   /// The pose turned by `angle` about its center, which goes by `shift`.
   Pose displaced(const Pose& pose, const Vec3& shift, const Vec3& axis, double angle) const {
-    const Vec3 center = center_at(pose);
+    const Vec3 center = places_.center_at(pose);
     const Pose turn{center + shift, quat_about(axis, angle)};
     return turn * Pose{-center, {}} * pose;
-  }
-
-  /// How far apart two poses are [mm].
-  double distance(const Pose& a, const Pose& b) const {
-    return length(center_at(a) - center_at(b)) + radius_ * screw_between(a, b).angle;
-  }
-
-  std::pair<std::size_t, double> nearest(const Pose& pose) const {
-    std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      // Turning is dear to work out: the centers alone often tell.
-      if (length(center_at(places_[k].pose) - center_at(pose)) >= best.second) continue;
-      const double apart = distance(places_[k].pose, pose);
-      if (apart < best.second) best = {k, apart};
-    }
-    return best;
   }
 
   std::pair<std::size_t, Pose> next_motion(Aim aim, double reach) {
     if (aim == Aim::Anywhere) {
       const Vec3 shift = kRegion * radius_ * std::cbrt(random_share()) * random_direction();
       const Pose goal = displaced({}, shift, random_direction(), kHalfTurn * random_share());
-      const auto [from, apart] = nearest(goal);
+      const auto [from, apart] = places_.nearest(goal);
       return {from, pose_between(places_[from].pose, goal, std::min(1.0, reach / apart))};
     }
     std::size_t from = random_() % places_.size();
     for (int k = 1; k < kOutermostOf; ++k) {
       const std::size_t other = random_() % places_.size();
-      if (places_[other].out > places_[from].out) from = other;
+      if (out_[other] > out_[from]) from = other;
     }
     const Vec3 direction = random_direction();
     const bool turns = aim == Aim::Turn;
@@ -186,29 +159,21 @@ class SampleOut {
   /// Takes up a new place; the step where it is out, or goes straight out from it.
   std::optional<PlanStep> reach_place(std::size_t from, std::vector<Pose> way) {
     const Pose pose = way.back();
-    const Vec3 gone = center_at(pose) - center_;
-    places_.push_back({pose, from, std::move(way), length(gone)});
+    const Vec3 gone = places_.center_at(pose) - places_.center_at({});
+    places_.add({pose, from, std::move(way)});
+    out_.push_back(length(gone));
     in_vain_ = 0;
-    const bool is_out = places_.back().out > way_out_;
-    const bool further = places_.back().out > outermost_ + kFurtherOut * radius_;
-    if (further) outermost_ = places_.back().out;
+    const bool is_out = out_.back() > way_out_;
+    const bool further = out_.back() > outermost_ + kFurtherOut * radius_;
+    if (further) outermost_ = out_.back();
     if (!is_out && !further && places_.size() % kExitPeriod != 0) return std::nullopt;
     const Vec3 outwards = length(gone) > kSamePlace * radius_ ? normalized(gone) : random_direction();
     for (const Vec3& exit : {outwards, random_direction()}) {
       if (!is_out && !explorer_.exits(exit, 2 * way_out_)) continue;
-      return PlanStep{{component_}, PlanTier::Sampled, PlanStep::kWhole, shortened(whole_way()), exit};
+      return PlanStep{
+          {component_}, PlanTier::Sampled, PlanStep::kWhole, shortened(places_.way_to(places_.size() - 1)), exit};
     }
     return std::nullopt;
-  }
-
-  /// From where it was assembled to the last place.
-  std::vector<Pose> whole_way() const {
-    std::vector<std::size_t> back;
-    for (std::size_t k = places_.size() - 1; k != 0; k = places_[k].from) back.push_back(k);
-    std::vector<Pose> whole;
-    for (auto k = back.rbegin(); k != back.rend(); ++k)
-      whole.insert(whole.end(), places_[*k].way.begin(), places_[*k].way.end());
-    return whole;
   }
 
   /// Replaces parts of the way by motions that go there at once.
@@ -218,12 +183,12 @@ class SampleOut {
       if (first > last) std::swap(first, last);
       if (last - first < 2) continue;
       double as_it_is = 0;
-      for (std::size_t k = first; k < last; ++k) as_it_is += distance(way[k], way[k + 1]);
+      for (std::size_t k = first; k < last; ++k) as_it_is += places_.distance(way[k], way[k + 1]);
       explorer_.go_back(way[first]);
       const StepResult made = explorer_.slide(way[last]);
       if (!made.reached) continue;
-      double at_once = distance(way[first], made.way.front());
-      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += distance(made.way[k - 1], made.way[k]);
+      double at_once = places_.distance(way[first], made.way.front());
+      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += places_.distance(made.way[k - 1], made.way[k]);
       if (at_once >= as_it_is) continue;
       const auto begin = way.begin() + static_cast<std::ptrdiff_t>(first) + 1;
       const auto at = way.erase(begin, way.begin() + static_cast<std::ptrdiff_t>(last) + 1);
@@ -234,13 +199,13 @@ class SampleOut {
 
   Explorer& explorer_;
   ComponentId component_;
-  Vec3 center_;
   double radius_, way_out_;
   std::size_t most_effort_;
   const GoOn& go_on_;
   std::mt19937_64 random_;
   Bandit bandit_;
-  std::vector<Place> places_;
+  PlaceTree places_;
+  std::vector<double> out_;  ///< How far the center is from where it was assembled, at each place [mm].
   double outermost_ = 0;
   int in_vain_ = 0;  ///< Motions since the last new place.
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/slide_search.h"
 
-#include "dismantle/math/screw.h"
+#include "dismantle/planner/place_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,13 +32,10 @@ struct SlideMove {
   TurnAxis axis;  ///< Where not pushed.
 };
 
-/// Where a component has been.
-struct Place {
-  Pose pose;
-  std::size_t from = 0;   ///< Index of the place that it came from; of the first one itself.
-  std::vector<Pose> way;  ///< From there.
-  double promise = 0;
-  double depth = 0;
+/// What a place promises.
+struct Promise {
+  double worth = 0;
+  double depth = 0;   ///< Places before it.
   bool left = false;  ///< All was tried from here.
 };
 
@@ -48,25 +45,25 @@ class SlideOut {
            const GoOn& go_on)
       : explorer_(explorer),
         component_(component),
-        center_(table.center(component)),
         radius_(table.radius(component)),
         way_out_(table.way_length(component)),
         most_effort_(moves.most_effort),
-        go_on_(go_on) {
+        go_on_(go_on),
+        places_(table.center(component), radius_),
+        promises_(1) {
     for (const Vec3& d : moves.directions) moves_.push_back({d, {}});
     for (const TurnAxis& axis : moves.axes)
       for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
-    places_.emplace_back();
   }
 
   std::optional<PlanStep> find() {
     for (;;) {
-      const auto best = std::max_element(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-        return a.left != b.left ? a.left : a.promise < b.promise;
+      const auto best = std::max_element(promises_.begin(), promises_.end(), [](const Promise& a, const Promise& b) {
+        return a.left != b.left ? a.left : a.worth < b.worth;
       });
       if (best->left) return std::nullopt;
       best->left = true;
-      const auto index = static_cast<std::size_t>(best - places_.begin());
+      const auto index = static_cast<std::size_t>(best - promises_.begin());
       for (const SlideMove& move : moves_) {
         if (!goes_on()) return std::nullopt;
         explorer_.go_back(places_[index].pose);
@@ -88,12 +85,12 @@ class SlideOut {
       const Pose before = explorer_.pose();
       const StepResult made = explorer_.slide(target(before, move));
       way.insert(way.end(), made.way.begin(), made.way.end());
-      stuck = distance(before, made.pose) < kStuckShare * kHandShare * radius_;
+      stuck = places_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
       if (made.way.empty()) break;
       ends.push_back(way.size());
       turned += pushed ? 0 : hand_turn(move.axis);
-      if (pushed && dot(transform_from_pose(made.pose) * center_ - center_, move.push) > way_out_)
-        return step_out(from, std::move(way), move.push);
+      if (pushed && dot(places_.center_at(made.pose) - places_.center_at({}), move.push) > way_out_)
+        return step_out(from, way, move.push);
     }
     for (std::size_t k = 0; k < ends.size(); ++k)
       reach(from, {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(ends[k])}, k + 1 == ends.size());
@@ -110,34 +107,25 @@ class SlideOut {
   }
 
   double hand_turn(const TurnAxis& axis) const {
-    const double arm = length(cross(axis.direction, center_ - axis.point)) + radius_;
+    const double arm = length(cross(axis.direction, places_.center_at({}) - axis.point)) + radius_;
     return std::min(0.5, kHandShare * radius_ / arm);
-  }
-
-  /// How far apart two poses are [mm].
-  double distance(const Pose& a, const Pose& b) const {
-    const Screw turn = screw_between(a, b);
-    return length(transform_from_pose(a) * center_ - transform_from_pose(b) * center_) + radius_ * turn.angle;
   }
 
   /// Takes up a place, if it is new.
   void reach(std::size_t from, std::vector<Pose> way, bool is_end) {
-    const Pose& pose = way.back();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Place& place : places_) nearest = std::min(nearest, distance(place.pose, pose));
+    const Pose pose = way.back();
+    const double nearest = places_.nearest(pose).second;
     if (nearest < kSamePlace * radius_) return;
-    Place place{pose, from, std::move(way), 0, places_[from].depth + 1, false};
-    place.promise = (is_end ? 1 : kOnTheWay) * (nearest + distance(Pose{}, pose)) / radius_ - kDepthShare * place.depth;
-    places_.push_back(std::move(place));
+    const double depth = promises_[from].depth + 1;
+    const double apart = nearest + places_.distance({}, pose);
+    promises_.push_back({(is_end ? 1 : kOnTheWay) * apart / radius_ - kDepthShare * depth, depth, false});
+    places_.add({pose, from, std::move(way)});
   }
 
   /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
-  PlanStep step_out(std::size_t from, std::vector<Pose> way, const Vec3& exit) {
-    std::vector<std::vector<Pose>> parts{std::move(way)};
-    for (std::size_t k = from; k != 0; k = places_[k].from) parts.push_back(places_[k].way);
-    std::vector<Pose> whole;
-    for (auto part = parts.rbegin(); part != parts.rend(); ++part)
-      whole.insert(whole.end(), part->begin(), part->end());
+  PlanStep step_out(std::size_t from, const std::vector<Pose>& way, const Vec3& exit) {
+    std::vector<Pose> whole = places_.way_to(from);
+    whole.insert(whole.end(), way.begin(), way.end());
 
     const Pose last = whole.back();
     std::size_t first = whole.size() - 1;
@@ -153,12 +141,12 @@ class SlideOut {
 
   Explorer& explorer_;
   ComponentId component_;
-  Vec3 center_;
   double radius_, way_out_;
   std::size_t most_effort_;
   const GoOn& go_on_;
   std::vector<SlideMove> moves_;
-  std::vector<Place> places_;
+  PlaceTree places_;
+  std::vector<Promise> promises_;  ///< Of each place.
 };
 
 }  // namespace

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/math/screw.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace dismantle {
+
+/// Where a component has been.
+struct Place {
+  Pose pose;
+  std::size_t from = 0;   ///< Index of the place that it came from; of the first one itself.
+  std::vector<Pose> way;  ///< From there, this pose last.
+};
+
+/// The places that a search has been to, a tree that begins where the component was assembled.
+class PlaceTree {
+ public:
+  /// @param center, radius of the assembled component [mm]
+  PlaceTree(const Vec3& center, double radius) : center_(center), radius_(radius), places_(1) {}
+
+  std::size_t size() const { return places_.size(); }
+  const Place& operator[](std::size_t place) const { return places_[place]; }
+  void add(Place place) { places_.push_back(std::move(place)); }
+
+  /// Where the component's center is at a pose [mm].
+  Vec3 center_at(const Pose& pose) const { return transform_from_pose(pose) * center_; }
+  /// How far apart two poses are: what the center goes and what the rim turns [mm].
+  double distance(const Pose& a, const Pose& b) const;
+  /// The place nearest to a pose, and how far that is [mm].
+  std::pair<std::size_t, double> nearest(const Pose& pose) const;
+  /// From where it was assembled to a place.
+  std::vector<Pose> way_to(std::size_t place) const;
+
+ private:
+  Vec3 center_;
+  double radius_;
+  std::vector<Place> places_;
+};
+
+}  // namespace dismantle

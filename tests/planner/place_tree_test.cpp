@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/place_tree.h"
+
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+TEST(PlaceTree, FindsTheNearestPlaceAndTheWayToIt) {
+  std::mt19937_64 random(4);
+  PlaceTree tree({1, 2, 3}, 5);
+  std::vector<std::vector<Pose>> ways(1);
+  for (int k = 0; k < 60; ++k) {
+    const std::size_t from = random() % tree.size();
+    std::vector<Pose> part;
+    for (int i = 0; i <= k % 3; ++i) part.push_back(scenes::random_pose(random, 20, 3));
+    std::vector<Pose> way = ways[from];
+    way.insert(way.end(), part.begin(), part.end());
+    ways.push_back(way);
+    tree.add({part.back(), from, part});
+  }
+  for (std::size_t k = 0; k < tree.size(); ++k) EXPECT_EQ(tree.way_to(k), ways[k]);
+  for (int k = 0; k < 100; ++k) {
+    const Pose pose = scenes::random_pose(random, 20, 3);
+    const auto [place, apart] = tree.nearest(pose);
+    EXPECT_EQ(tree.distance(tree[place].pose, pose), apart);
+    for (std::size_t i = 0; i < tree.size(); ++i) EXPECT_LE(apart, tree.distance(tree[i].pose, pose));
+  }
+}
+
+TEST(PlaceTree, CountsWhatTheCenterGoesAndTheRimTurns) {
+  const PlaceTree tree({1, 0, 0}, 5);
+  EXPECT_NEAR(tree.distance({}, {{3, 4, 0}, {}}), 5, 1e-12);
+  const Pose turned{{1, 0, 0}, quat_about({0, 0, 1}, 0.2)};
+  EXPECT_NEAR(tree.distance({}, turned * Pose{{-1, 0, 0}, {}}), 5 * 0.2, 1e-12) << "about its center";
+}
+
+}  // namespace
+}  // namespace dismantle
