@@ -157,17 +157,17 @@ double SlideContacts::most_off(const BlockedFit& fit) const {
   return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
 }
 
-bool SlideContacts::bound(const BlockedFit& fit, const Twist& twist, double lever,
-                          std::vector<HalfSpace>& bounds) const {
-  const double tolerance = sweeper_.tolerance(), most = most_off(fit);
+bool SlideContacts::bound(const HeldFit& held, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const {
+  const double slack = kFitSlack * sweeper_.tolerance();
   bool bounded = false;
-  for (const FitEnd& end : ends(fit)) {
+  for (const FitEnd& end : held.ends) {
     const Vec3 lever_arm = end.place - sweeper_.center();
     const Vec3 way = twist.velocity + cross(twist.rotation, lever_arm);
     const Vec3 off = end.off + way - dot(way, end.along) * end.along;
-    if (length(off) <= std::max(most, length(end.off)) + kFitSlack * tolerance) continue;
+    if (length(off) <= std::max(held.most_off, length(end.off)) + slack) continue;
     const Vec3 out = normalized(off), turn = (1 / lever) * cross(lever_arm, out);
-    bounds.push_back({{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - most)});
+    bounds.push_back(
+        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - held.most_off)});
     bounded = true;
   }
   return bounded;
@@ -193,10 +193,12 @@ SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) c
   for (const BlockedPair& pair : pairs_) bound(pair, sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
   for (const BlockedPair& pair : vertices_)
     bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  std::vector<HeldFit> held;
+  for (const BlockedFit& fit : fits_) held.push_back({most_off(fit), ends(fit)});
   Twist found = solve(wanted, lever, bounds);
   for (int cuts = 0; cuts < kFitCuts; ++cuts) {
     bool news = false;
-    for (const BlockedFit& fit : fits_) news |= bound(fit, found, lever, bounds);
+    for (const HeldFit& fit : held) news |= bound(fit, found, lever, bounds);
     if (!news) break;
     found = solve(wanted, lever, bounds);
   }
