@@ -125,11 +125,13 @@ Result<Done> prepare(const BatchJob& job, const BatchRunOptions& options) {
 
 /// Until every worker has ended.
 Result<Done> supervise(const BatchJob& job, const BatchRunOptions& options) {
-  std::vector<bool> reported(job.items.size(), false);
-  const auto report_once = [&](std::uint32_t item, BatchProgress progress) {
+  std::vector<bool> reported(job.items.size(), false), was_there;
+  for (const BatchItem& item : job.items) was_there.push_back(find_result(job, item).has_value());
+  const auto report_once = [&](std::uint32_t item, BatchProgress) {
     if (reported[item]) return;
     reported[item] = true;
-    if (options.report) options.report(item, progress);
+    // A worker finds what another has just made: to the run that is made.
+    if (options.report) options.report(item, was_there[item] ? BatchProgress::Found : BatchProgress::Made);
   };
   Workers workers(job);
   const auto wanted = std::min<std::size_t>(static_cast<std::size_t>(options.workers), job.items.size());

@@ -10,7 +10,7 @@ namespace dismantle::batch {
 struct BatchRunOptions {
   int workers = 1;            ///< Processes that work here.
   bool retry_failed = false;  ///< Do again what failed before.
-  BatchReport report;         ///< Called once an item.
+  BatchReport report;         ///< Called once an item; Found: it was there before the run.
 };
 
 /// Has a batch worked through by processes of this machine, together with whoever else works on the same output

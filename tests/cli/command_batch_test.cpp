@@ -65,7 +65,7 @@ TEST_F(CliBatch, DoesAgainOnlyWhatChanged) {
   const Outcome changed = run("batch products -o out --only 'deep/*' --check-only");
   EXPECT_NE(changed.out.find("] deep/five: 2 components"), std::string::npos) << changed.out;
   EXPECT_NE(changed.out.find("] deep/four: (was done)"), std::string::npos) << changed.out;
-  const Outcome options = run("batch products -o out --only 'deep/*' --check-only --tolerance 0.5 --workers 1");
+  const Outcome options = run("batch products -o out --only 'deep/*' --check-only --tolerance 0.5");
   EXPECT_EQ(options.out.find("(was done)"), std::string::npos) << options.out;
 }
 
