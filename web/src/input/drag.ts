@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Matrix4, Vector3 } from "three";
-import type { CameraRig } from "../scene/camera_rig.ts";
-import type { Arrow } from "../scene/marks.ts";
 import { setMatrixFromPose } from "../scene/model_view.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import { type PoseFrame, targetMessage, type WirePose } from "../wire/structs.ts";
 import { type DragMode, DragMotion, type PointerStep } from "./drag_motion.ts";
+import { Feedback } from "./feedback.ts";
 
 const kAssembled: WirePose = { position: [0, 0, 0], rotation: [1, 0, 0, 0] };
 /// How long a let-go set may take to its last target.
 const kSettle = 400;
-/// Blocked for so long, the hand is told what is free.
-const kStuck = 1000;
 /// A ghost nearer than this to the component is not shown [px].
 const kGhostGap = 3;
-/// Contacts nearer than this to each other on screen share an arrow, which is so long [px].
-const kArrowGap = 22;
-const kArrowLength = 30;
 
 /// A drag: the page sends targets, at most one a picture and the newest only; the engine answers with poses.
 export class Drag {
@@ -32,12 +26,12 @@ export class Drag {
   private answered = 0;
   private unsent = false;
   private ending = false;
-  private stuckSince = 0;
-  private stuckAsked = false;
+  private readonly feedback: Feedback;
 
   constructor(private readonly session: Session) {
+    this.feedback = new Feedback(session);
     session.onFrame.push((frame) => this.takeFrame(frame));
-    session.viewport.beforePicture.push((now) => this.beforePicture(now));
+    session.viewport.beforePicture.push(() => this.beforePicture());
   }
 
   get active(): boolean {
@@ -68,7 +62,7 @@ export class Drag {
   /// Takes components in hand at a point of the world. Gives whether they could be.
   async begin(components: number[], grabbed: Vector3): Promise<boolean> {
     if (this.active || !this.allowed) return false;
-    const { viewport, store } = this.session;
+    const { viewport } = this.session;
     this.components = components;
     this.grabbed = grabbed.clone();
     this.startPose = this.session.poseOf(components[0]) ?? kAssembled;
@@ -76,9 +70,6 @@ export class Drag {
     const center = viewport.model!.boundsOf(components).getCenter(new Vector3());
     this.motion = new DragMotion(this.startPose, center, grabbed);
     [this.grip, this.number, this.answered, this.unsent, this.ending] = [null, 0, 0, false, false];
-    [this.stuckSince, this.stuckAsked] = [0, false];
-    store.leastClearance = Number.NaN;
-    store.stuck = null;
     viewport.ghost.show(views);
 
     const answer = await this.session.ask("hold", { components });
@@ -129,8 +120,7 @@ export class Drag {
       await new Promise((resolve) => setTimeout(resolve, 4));
     if (!this.motion) return;
     const { store } = this.session;
-    const blocking = [...store.blocking];
-    const stuck = this.stuckAsked && blocking.length > 0 ? { components: this.components, blocking } : null;
+    const stuck = this.feedback.stuck ? { components: this.components, blocking: [...store.blocking] } : null;
     await this.session.ask("release", {});
     store.stuck = stuck;
     this.clear();
@@ -156,51 +146,31 @@ export class Drag {
     if (this.session.store.state?.hand) void this.session.ask("release", {});
   }
 
-  /// What was found for a set that was stuck goes when it is not.
-  private forgetStuck(): void {
-    if (this.stuckAsked)
-      this.session.change(() => {
-        this.session.store.directions = null;
-      });
-    [this.stuckSince, this.stuckAsked] = [0, false];
-  }
-
   private clear(): void {
-    this.forgetStuck();
     this.motion = null;
     this.grip = null;
     this.mode = { kind: "plane", axis: null };
     this.session.viewport.ghost.clear();
-    this.session.viewport.contacts.arrows = [];
-    this.session.block(new Set());
+    this.feedback.clear();
     this.session.change(() => {
       this.session.store.dragHint = "";
     });
     this.session.viewport.invalidate();
   }
 
-  private beforePicture(now: number): boolean {
+  private beforePicture(): boolean {
     if (!this.motion) return false;
     if (this.unsent && this.grip !== null) {
       this.unsent = false;
       this.session.connection.sendStruct(targetMessage(this.grip, ++this.number, this.motion.target()));
     }
     this.showGhost();
-    this.watchStuck(now);
-    return this.stuckSince > 0 && !this.stuckAsked;
+    return false;
   }
 
   private takeFrame(frame: PoseFrame): void {
-    const { store, viewport } = this.session;
-    const shown = this.motion !== null || frame.automatic || frame.playback;
-    viewport.contacts.arrows = shown ? contactArrows(frame, viewport.rig) : [];
     if (!this.motion || frame.grip !== this.grip) return;
     if (frame.number === this.number && (frame.reached || frame.blocked)) this.answered = frame.number;
-    if (!Number.isNaN(frame.clearance) && !(store.leastClearance <= frame.clearance))
-      store.leastClearance = frame.clearance;
-    this.session.block(new Set(frame.blocked ? frame.contacts.map(({ fixed }) => fixed) : []));
-    if (!frame.blocked) this.forgetStuck();
-    else if (this.stuckSince === 0) this.stuckSince = performance.now();
   }
 
   private showGhost(): void {
@@ -216,21 +186,6 @@ export class Drag {
     else viewport.ghost.hide();
   }
 
-  private watchStuck(now: number): void {
-    if (this.stuckSince === 0 || this.stuckAsked || now - this.stuckSince < kStuck) return;
-    this.stuckAsked = true;
-    const { store } = this.session;
-    void this.session.connection.command("free_directions", { components: this.components }).then(
-      ({ directions }) => {
-        if (this.motion)
-          this.session.change(() => {
-            store.directions = { components: this.components, directions };
-          });
-      },
-      () => {},
-    );
-  }
-
   private hint(): void {
     const { kind, axis } = this.mode;
     const words = [
@@ -243,24 +198,6 @@ export class Drag {
         this.session.store.dragHint = hint;
       });
   }
-}
-
-/// The contacts as arrows; of those that would cover each other on screen, the one with the least gap.
-function contactArrows(frame: PoseFrame, rig: CameraRig): Arrow[] {
-  const arrows: Arrow[] = [];
-  const places: Vector3[] = [];
-  for (const contact of frame.contacts) {
-    const point = new Vector3(...contact.point);
-    const direction = new Vector3(...contact.normal);
-    const place = rig.project(point).setZ(0);
-    const covered = arrows.some(
-      (other, i) => places[i].distanceTo(place) < kArrowGap && other.direction.dot(direction) > 0.9,
-    );
-    if (covered) continue;
-    arrows.push({ point, direction, length: kArrowLength });
-    places.push(place);
-  }
-  return arrows;
 }
 
 function turnBetween(a: WirePose, b: WirePose): number {

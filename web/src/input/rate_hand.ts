@@ -28,7 +28,7 @@ export class RateHand {
   private grip: number | null = null;
   private number = 0;
   private taking = false;
-  /// What was refused or cancelled is not taken again until the device has been at rest.
+  /// What was refused, cancelled or taken out of the hand is not taken again until the device has been at rest.
   private awaitsRest = false;
 
   constructor(
@@ -75,7 +75,7 @@ export class RateHand {
       if (!this.resting && !this.taking && !this.awaitsRest) void this.take();
       return;
     }
-    if (this.session.store.state?.hand === null) this.grip = null;
+    if (this.session.store.state?.hand === null) [this.grip, this.awaitsRest] = [null, !this.resting];
     else if (now - this.lastMotion > kRest) void this.letGo();
     else this.send(this.grip);
   }

@@ -1,56 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { connectDevices, deflect, pushStick } from "../support/devices.ts";
 import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
-import { kSpaceMouse } from "../support/space_mouse.ts";
 
-useMicroscope({
-  view: "1",
-  before: async (page) => {
-    await page.addInitScript(fakeMouse, kSpaceMouse);
-    await page.addInitScript(fakePad);
-  },
-});
-
-/// A 3D mouse whose reports the test writes.
-function fakeMouse(collections: object): void {
-  const device = Object.assign(new EventTarget(), {
-    opened: false,
-    productName: "SpaceMouse",
-    collections,
-    async open() {
-      device.opened = true;
-    },
-  });
-  const hid = Object.assign(new EventTarget(), {
-    getDevices: async () => [device],
-    requestDevice: async () => [device],
-  });
-  Object.defineProperty(navigator, "hid", { value: hid });
-  Object.assign(window, {
-    sendReport: (...axes: number[]) => {
-      const data = new DataView(Int16Array.from(axes).buffer);
-      device.dispatchEvent(Object.assign(new Event("inputreport"), { reportId: 1, data }));
-    },
-  });
-}
-
-/// A gamepad whose left stick is as far to the right as the test says.
-function fakePad(): void {
-  const buttons = Array.from({ length: 17 }, () => ({ value: 0 }));
-  const pad = () => ({
-    mapping: "standard",
-    axes: [(window as unknown as { pushed: number }).pushed ?? 0, 0, 0, 0],
-    buttons,
-  });
-  Object.defineProperty(navigator, "getGamepads", { value: () => [pad()] });
-}
-
-const deflect = (...axes: number[]) =>
-  viewer.page.evaluate(
-    (values) => (window as unknown as { sendReport: (...v: number[]) => void }).sendReport(...values),
-    axes,
-  );
+useMicroscope({ view: "1", before: connectDevices });
 
 test("with nothing selected the 3D mouse moves the view", async () => {
   const distance = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.rig.current.distance);
@@ -74,19 +28,42 @@ test("what is selected moves with it, stops at contact, and is one entry of undo
   assert.equal((await viewer.state()).moves.length, 1);
 });
 
+test("pressed into a wall by a device, it is told what is in the way and what is free, and N finds a path", async () => {
+  await deflect(0, 0, 200, 0, 0, 0);
+  await viewer.page
+    .locator("[data-banner=stuck]", { hasText: /Blocked by stage plate; free: .*N: find a path/ })
+    .waitFor();
+  assert.ok((await viewer.page.locator("#tree-panel .badge.blocks").count()) > 0);
+  const marks = await viewer.page.evaluate(() => {
+    const { contacts, directions } = window.dismantle!.app.viewport;
+    return [contacts.arrows.length, directions.arrows.length];
+  });
+  assert.ok(
+    marks.every((count) => count > 0),
+    `${marks}`,
+  );
+  await viewer.page.keyboard.press("n");
+  await viewer.page.waitForFunction(
+    (c) => {
+      const { components, automatic } = window.dismantle!.app.session.store.state!;
+      return automatic === null && components[c].removed;
+    },
+    await viewer.index(kSlide),
+  );
+  await deflect(0, 0, 0, 0, 0, 0);
+  await viewer.idle();
+  while ((await viewer.state()).moves.length > 1) await viewer.press("Control+z");
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.app.viewport.contacts.arrows.length), 0);
+});
+
 test("a gamepad moves it, too", async () => {
   const start = await viewer.shift(kSlide);
-  const push = (x: number) =>
-    viewer.page.evaluate((value) => {
-      Object.assign(window, { pushed: value });
-      window.dispatchEvent(new Event("gamepadconnected"));
-    }, x);
-  await push(-0.5);
+  await pushStick(-0.5);
   await viewer.page.waitForFunction(
     ([name, x]) => window.dismantle!.drawnMatrix(name as string)[12] < (x as number) - 5,
     [kSlide, start[0]],
   );
-  await push(0);
+  await pushStick(0);
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
   await viewer.idle();
   assert.equal((await viewer.state()).moves.length, 2);
