@@ -20,7 +20,7 @@ export interface TestDoor<Page extends Tested = App> {
   /// Where the component called `name` is drawn: the matrix from its assembled position, by columns.
   drawnMatrix(name: string): number[];
   drawn(name: string): boolean;
-  /// A place on screen where the component is in front, or null.
+  /// A place in the view where the component is in front, with no panel over it; or null.
   placeOf(name: string): { x: number; y: number } | null;
   project(point: Triple): { x: number; y: number };
   /// What is in front at a place on screen.
@@ -58,7 +58,7 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
     drawnMatrix: (name) => view(name)?.worldFromAssembled.toArray() ?? [],
     drawn: (name) => view(name)?.visible ?? false,
     placeOf(name) {
-      const { rig } = app.viewport;
+      const { rig, canvas } = app.viewport;
       const bounds = view(name)?.bounds();
       if (!bounds) return null;
       const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
@@ -70,15 +70,19 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
           ),
         ),
       );
-      const [xs, ys] = [corners.map(({ x }) => x), corners.map(({ y }) => y)];
+      const xs = corners.map(({ x }) => Math.min(Math.max(x, 0), rig.size.x));
+      const ys = corners.map(({ y }) => Math.min(Math.max(y, 0), rig.size.y));
+      const isShown = (x: number, y: number) => {
+        const there = onPage(x, y);
+        return nameAt(x, y) === name && document.elementFromPoint(there.x, there.y) === canvas;
+      };
       const place = (values: number[], k: number) =>
         Math.min(...values) + ((k + 0.5) / kGrid) * (Math.max(...values) - Math.min(...values));
       const order = Array.from({ length: kGrid }, (_, k) => k).sort(
         (a, b) => Math.abs(a - kGrid / 2) - Math.abs(b - kGrid / 2),
       );
       for (const i of order)
-        for (const j of order)
-          if (nameAt(place(xs, i), place(ys, j)) === name) return onPage(place(xs, i), place(ys, j));
+        for (const j of order) if (isShown(place(xs, i), place(ys, j))) return onPage(place(xs, i), place(ys, j));
       return null;
     },
     project(point) {

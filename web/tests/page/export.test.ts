@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { validateBytes } from "gltf-validator";
 import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
-
-/// Presses a button of the dialog and gives the file that the browser saves.
-async function saved(button: string): Promise<{ name: string; bytes: Buffer }> {
-  const coming = viewer.page.waitForEvent("download");
-  await viewer.page.click(button);
-  const download = await coming;
-  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
-}
 
 const open = () => viewer.page.click("#export");
 
@@ -21,7 +12,7 @@ test("before anything was moved there are the assembly's files only", async () =
   await open();
   assert.equal(await viewer.page.isDisabled("#export-moves-csv"), true);
   assert.equal(await viewer.page.isDisabled("#export-video"), true);
-  const { name, bytes } = await saved("#export-bom-csv");
+  const { name, bytes } = await viewer.saved("#export-bom-csv");
   assert.equal(name, "microscope-bom.csv");
   assert.match(bytes.toString(), /,foot,4,/);
   await viewer.press("Escape");
@@ -31,19 +22,19 @@ test("what was done is saved as an animation, a page, tables and a path", async 
   await viewer.grab(kSlide, 40, 0);
   await viewer.letGo();
   await open();
-  const glb = await saved("#export-animation-glb");
+  const glb = await viewer.saved("#export-animation-glb");
   assert.equal(glb.name, "microscope.glb");
   assert.equal(glb.bytes.toString("latin1", 0, 4), "glTF");
   const json = JSON.parse(glb.bytes.toString("utf8", 20, 20 + glb.bytes.readUInt32LE(12)));
   assert.equal(json.animations.length, 4);
 
-  const page = await saved("#export-page-html");
+  const page = await viewer.saved("#export-page-html");
   assert.equal(page.name, "microscope.html");
   assert.match(page.bytes.toString(), /^<!DOCTYPE html>[\s\S]*offline-model/);
 
-  assert.match((await saved("#export-moves-csv")).bytes.toString(), /\r\n1,[^,]*,specimen slide,0,/);
-  assert.equal(JSON.parse((await saved("#export-bom-json")).bytes.toString()).format, "dismantle-bill");
-  assert.equal(JSON.parse((await saved("#export-path-json")).bytes.toString()).moves.length, 1);
+  assert.match((await viewer.saved("#export-moves-csv")).bytes.toString(), /\r\n1,[^,]*,specimen slide,0,/);
+  assert.equal(JSON.parse((await viewer.saved("#export-bom-json")).bytes.toString()).format, "dismantle-bill");
+  assert.equal(JSON.parse((await viewer.saved("#export-path-json")).bytes.toString()).moves.length, 1);
 });
 
 test("Khronos' validator finds nothing in the animation, nor in the model that the page itself reads", async () => {
@@ -51,7 +42,7 @@ test("Khronos' validator finds nothing in the animation, nor in the model that t
     const answer = await window.dismantle!.app.session.connection.request("/api/model.glb");
     return [...new Uint8Array(await answer.arrayBuffer())];
   });
-  for (const bytes of [new Uint8Array((await saved("#export-animation-glb")).bytes), Uint8Array.from(model)]) {
+  for (const bytes of [new Uint8Array((await viewer.saved("#export-animation-glb")).bytes), Uint8Array.from(model)]) {
     const { issues } = await validateBytes(bytes);
     assert.equal(issues.numErrors + issues.numWarnings, 0, JSON.stringify(issues.messages));
   }
@@ -59,16 +50,16 @@ test("Khronos' validator finds nothing in the animation, nor in the model that t
 
 test("reversed, the path comes back", async () => {
   await viewer.page.check("#export-reverse");
-  assert.equal(JSON.parse((await saved("#export-path-json")).bytes.toString()).moves.length, 2);
+  assert.equal(JSON.parse((await viewer.saved("#export-path-json")).bytes.toString()).moves.length, 2);
 });
 
 test("the picture is a PNG", async () => {
-  assert.equal((await saved("#export-png")).bytes.toString("latin1", 1, 4), "PNG");
+  assert.equal((await viewer.saved("#export-png")).bytes.toString("latin1", 1, 4), "PNG");
 });
 
 test("the playback becomes a video", async () => {
   await viewer.page.uncheck("#export-reverse");
-  const { name, bytes } = await saved("#export-video");
+  const { name, bytes } = await viewer.saved("#export-video");
   assert.equal(name, "microscope.webm");
   assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3);
   assert.ok(bytes.length > 5000, String(bytes.length));

@@ -1,94 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { aimHand, press, wearHeadset } from "../support/headset.ts";
+import {
+  aimHand,
+  carry,
+  frames,
+  handsEmpty,
+  inRoom,
+  kAhead,
+  kFront,
+  letGo,
+  plus,
+  press,
+  pressOnWrist,
+  scale,
+  take,
+  wearHeadset,
+} from "../support/headset.ts";
 import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
-
-type Place = { x: number; y: number; z: number };
 
 useMicroscope({ before: wearHeadset });
 
-/// Some pictures in the headset.
-const frames = (count = 3) =>
-  viewer.page.evaluate(async (n) => {
-    for (let i = 0; i < n; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
-  }, count);
-
-/// A place in the room: of a component's upper side, one that a hand that is `from` away from it sees.
-const inRoom = (name: string, from: Place): Promise<Place> =>
-  viewer.page.evaluate(
-    ([n, offset]) => {
-      const { headset, viewport } = window.dismantle!.app;
-      const { index, bounds } = viewport
-        .model!.components.map((view) => ({ index: view.index, name: view.raw.name, bounds: view.bounds() }))
-        .find((candidate) => candidate.name === n)!;
-      const roomFromWorld = headset.stage.matrix;
-      const { ray } = headset.hands[0];
-      for (let part = 0.05; part < 1; part += 0.05) {
-        const point = bounds.min.clone().lerp(bounds.max, 0.5);
-        point.x = bounds.min.x + part * (bounds.max.x - bounds.min.x);
-        point.z = bounds.max.z;
-        const { x, y, z } = point.applyMatrix4(roomFromWorld);
-        ray.origin.copy(point).add(offset as Place);
-        ray.direction.copy(point).sub(ray.origin).normalize();
-        const hit = viewport.castWorld(ray.clone().applyMatrix4(roomFromWorld.clone().invert()));
-        if (hit?.component === index) return { x, y, z };
-      }
-      throw new Error(`${n} cannot be seen from there`);
-    },
-    [name, from] as const,
-  );
-
-const button = (id: string): Promise<Place> =>
-  viewer.page.evaluate((name) => {
-    const { x, y, z } = window.dismantle!.app.headset.panel.centerOf(name)!;
-    return { x, y, z };
-  }, id);
-
-/// Metres of the room for a millimetre of the world.
-const scale = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.getMaxScaleOnAxis());
-
 /// It is free to the right.
 const kOther = "coarse knob#2";
-const kFront = { x: 0, y: 0.07, z: 0.25 };
-const plus = (a: Place, b: Place): Place => ({ x: a.x + b.x, y: a.y + b.y, z: a.z + b.z });
-
-/// Points from above with one hand and presses the trigger. Gives where the hand is.
-async function take(side: "left" | "right", name: string, from = kFront): Promise<Place> {
-  const there = await inRoom(name, from);
-  const hand = plus(there, from);
-  await aimHand(viewer.page, side, hand, there);
-  await frames();
-  await press(viewer.page, side, "trigger", 1);
-  await frames();
-  return hand;
-}
-
-/// Moves a hand that points as before.
-async function carry(side: "left" | "right", from: Place, by: Place, aim: Place): Promise<void> {
-  for (let i = 1; i <= 8; ++i) {
-    const part = { x: (by.x * i) / 8, y: (by.y * i) / 8, z: (by.z * i) / 8 };
-    const at = plus(from, part);
-    await aimHand(viewer.page, side, at, plus(at, aim));
-    await frames(2);
-  }
-  await viewer.idle();
-}
-
-/// Until nothing is in hand any more.
-const handsEmpty = () =>
-  viewer.page.waitForFunction(() => {
-    const { drag, session } = window.dismantle!.app;
-    return !drag.active && session.store.state!.hand === null;
-  });
-
-async function letGo(side: "left" | "right"): Promise<void> {
-  await press(viewer.page, side, "trigger", 0);
-  await handsEmpty();
-  await viewer.idle();
-}
-
-const kAhead = { x: -kFront.x, y: -kFront.y, z: -kFront.z };
 
 test("the scene comes to stand before the eyes, in a room in metres", async () => {
   await viewer.page.click("#headset");
@@ -175,19 +109,6 @@ test("two hands take two components, and each goes with its own", async () => {
   assert.deepEqual(await viewer.shift(kSlide), start);
 });
 
-/// Points with the right hand at a button of the panel on the left wrist, and presses the trigger.
-async function pressOnWrist(id: string): Promise<void> {
-  await aimHand(viewer.page, "left", { x: -0.25, y: 1.2, z: -0.3 }, { x: -0.25, y: 1.2, z: -1 });
-  await frames();
-  const there = await button(id);
-  await aimHand(viewer.page, "right", plus(there, { x: 0.1, y: 0.1, z: 0.25 }), there);
-  await frames();
-  await press(viewer.page, "right", "trigger", 1);
-  await frames();
-  await press(viewer.page, "right", "trigger", 0);
-  await frames();
-}
-
 test("the wrist panel undoes and redoes, in reach of the other hand's ray", async () => {
   const { moves } = await viewer.state();
   const count = (wanted: number) =>
@@ -221,6 +142,43 @@ test("the wrist panel takes out, puts back, and says what contact does", async (
     await pressOnWrist(response);
     await viewer.page.waitForFunction((r) => window.dismantle!.app.session.store.state!.response === r, response);
   }
+});
+
+test("the wrist panel finds a path: what is selected comes out, and first what is in its way", async () => {
+  await viewer.idle();
+  await viewer.select("pinion shaft");
+  await frames();
+  const { moves } = await viewer.state();
+  await pressOnWrist("findPath");
+  const shaft = await viewer.index("pinion shaft");
+  await viewer.page.waitForFunction((c) => {
+    const { components, automatic } = window.dismantle!.app.session.store.state!;
+    return automatic === null && components[c].removed;
+  }, shaft);
+  await viewer.idle();
+  const after = await viewer.state();
+  assert.ok(after.moves.length > moves.length + 1, `${after.moves.length}`);
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion shaft")), false);
+  while ((await viewer.state()).moves.length > moves.length) await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift("pinion shaft"), [0, 0, 0]);
+});
+
+test("the wrist panel places the scene anew, before the eyes", async () => {
+  const stage = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.toArray());
+  const before = await stage();
+  await viewer.page.evaluate(() => window.headset.position.set(0.5, 1.5, 0.2));
+  await frames();
+  assert.deepEqual(await stage(), before, "the scene stays while the head moves");
+  await pressOnWrist("place");
+  await frames();
+  const after = await stage();
+  const moved = [12, 13, 14].map((k) => after[k] - before[k]);
+  // What was taken out is not shown, and the middle of what is may differ by as much.
+  assert.ok(Math.hypot(moved[0] - 0.5, moved[1] + 0.1, moved[2] - 0.2) < 0.2, `${moved}`);
+  assert.equal((await viewer.state()).hand, null);
+  await viewer.page.evaluate(() => window.headset.position.set(0, 1.6, 0));
+  await frames();
+  await pressOnWrist("place");
 });
 
 test("both grips pulled apart make the room larger", async () => {

@@ -1,99 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assemblies that come as STEP files of the user's: what other tests do in the microscope is done here with a component of each.
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync } from "node:fs";
-import { basename, join } from "node:path";
 import { test } from "node:test";
 import { Viewer } from "../support/page.ts";
 import { loseConnection, restart, server, useViewer, viewer } from "../support/scene.ts";
-import { sourceFolder } from "../support/tree.ts";
+import {
+  chosen,
+  drawnAsInEngine,
+  gone,
+  grab,
+  isDrawn,
+  isRemoved,
+  isThere,
+  kOfOthers,
+  lookAt,
+  pointerWay,
+  send,
+  type Way,
+} from "../support/step.ts";
 
 useViewer([], { waits: false });
 
 const kMine = "samples/microscope.step";
-const kOfOthers = "../shared/data/assemblies/as1_oc_214/original/as1-oc-214.stp";
-
-type Way = [number, number, number];
-
-/// A component that can be taken hold of from one side: a way that is free for it, and across it one that is blocked at once.
-interface Case {
-  name: string;
-  free: Way;
-  blocked: Way;
-}
-
-let chosen: Case;
-/// What blocked it when it was pressed.
-let neighbour = "";
 /// A component that is blocked at once has no more play than this [mm].
 const kSnug = 0.5;
+/// What blocked the chosen component when it was pressed.
+let neighbour = "";
 
-async function upload(file: string): Promise<void> {
-  await viewer.page.setInputFiles("#file-picker", file);
-  await viewer.page.waitForFunction((name) => window.dismantle!.app.session.store.model?.name === name, basename(file));
-  await viewer.model();
-}
-
-/// What is free for a component and what is not; looks at it from where both ways lie across the line of sight.
-function lookAt(name: string): Promise<Case> {
-  return viewer.page.evaluate(async (wanted) => {
-    const { session, viewport } = window.dismantle!.app;
-    const { components } = session.store.model!;
-    const index = components.findIndex((component) => component.name === wanted);
-    const ways = (await session.ask("free_directions", { components: [index] }))!.directions;
-    const axis = (way: number[]) => way.findIndex((value) => Math.abs(value) > 0.9999);
-    const free = ways.find((way) => way.free && axis(way.direction) >= 0)?.direction;
-    const isWay = (at: number) => ways.some(({ direction }) => axis(direction) === at);
-    for (const across of [0, 1, 2].filter((k) => free && k !== axis(free) && !isWay(k))) {
-      const third = [0, 1, 2].find((k) => k !== axis(free!) && k !== across)!;
-      for (const sign of [-1, 1]) {
-        const box = viewport.model!.components[index].bounds();
-        viewport.rig.fit(box.expandByScalar(0.6 * box.max.distanceTo(box.min)));
-        viewport.rig.lookFrom(viewport.rig.axis("back").set(0, 0, 0).setComponent(third, sign));
-        await window.dismantle!.idle();
-        const blocked: Way = [0, 0, 0];
-        blocked[across] = 1;
-        if (window.dismantle!.placeOf(wanted)) return { name: wanted, free: free!, blocked };
-      }
-    }
-    throw new Error(`${wanted} cannot be taken hold of: ${JSON.stringify(ways)}`);
-  }, name);
-}
-
-/// The way of the pointer for ways of the chosen component along what is free and what is blocked [px].
-function pointerWay(along: number, across: number): Promise<[number, number]> {
-  return viewer.page.evaluate(
-    ([{ name, free, blocked }, a, b]) => {
-      const { rig, model } = window.dismantle!.app.viewport;
-      const { min, max } = model!.components.find(({ raw }) => raw.name === name)!.bounds();
-      const center = min.clone().lerp(max, 0.5);
-      const pixel = rig.pixelSize(center);
-      const [from, to] = [
-        center.toArray(),
-        center.toArray().map((value, k) => value + pixel * (a * free[k] + b * blocked[k])),
-      ];
-      const [p, q] = [window.dismantle!.project(from as Way), window.dismantle!.project(to as Way)];
-      return [q.x - p.x, q.y - p.y];
-    },
-    [chosen, along, across] as const,
-  );
-}
-
-const grab = async (along: number, across: number) => viewer.grab(chosen.name, ...(await pointerWay(along, across)));
-/// How far the engine has the component along a way [mm].
-const gone = async (way: Way) => (await viewer.shift(chosen.name)).reduce((sum, value, k) => sum + value * way[k], 0);
-const drawnAsInEngine = async () =>
-  assert.deepEqual(await viewer.drawnShift(chosen.name), await viewer.shift(chosen.name));
-const isRemoved = (removed: boolean) =>
-  viewer.page.waitForFunction(
-    ([name, wanted]) => {
-      const { model, state } = window.dismantle!.app.session.store;
-      const index = model!.components.findIndex((c) => c.name === name);
-      return state!.automatic === null && Boolean(state!.components[index].removed) === wanted;
-    },
-    [chosen.name, removed] as const,
-  );
-const isDrawn = () => viewer.page.evaluate((n) => window.dismantle!.drawn(n), chosen.name);
+const freeAxis = () => chosen.free.findIndex((value) => Math.abs(value) > 0.9);
 
 async function press(): Promise<void> {
   await grab(0, 60);
@@ -132,12 +66,115 @@ async function slide(): Promise<void> {
   assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
   await viewer.press("Control+y");
   assert.equal(await gone(chosen.free), reached);
-  const axis = chosen.free.findIndex((value) => Math.abs(value) > 0.9);
-  await viewer.press("xyz"[axis]);
+  const key = "xyz"[freeAxis()];
+  await viewer.press(key);
   await grab(20, -30);
-  await viewer.press("xyz"[axis]);
+  await viewer.press(key);
   await viewer.letGo();
   assert.ok((await gone(chosen.free)) > reached && (await viewer.state()).moves.length === 2);
+}
+
+/// Two clicks: the distance between what they hit, as one with the drawn components has it.
+async function measure(): Promise<void> {
+  await viewer.page.focus("#view");
+  const moves = (await viewer.state()).moves.length;
+  await viewer.press("f", "m");
+  const label = viewer.page.locator("#measure-label");
+  const points: Way[] = [];
+  for (const name of [chosen.name, neighbour]) {
+    const { x, y } = await viewer.placeOf(name);
+    points.push(
+      await viewer.page.evaluate(
+        ([left, top]) => {
+          const { viewport } = window.dismantle!.app;
+          const box = viewport.canvas.getBoundingClientRect();
+          return viewport.pick(left - box.left, top - box.top)!.point.toArray();
+        },
+        [x, y],
+      ),
+    );
+    await viewer.page.mouse.click(x, y);
+    await viewer.idle();
+    if (points.length === 1) assert.match(await label.innerText(), /second point/);
+  }
+  const [from, to] = points;
+  const distance = Math.hypot(...from.map((value, k) => value - to[k]));
+  const shown = Number(/([\d.]+) mm/.exec(await label.innerText())![1]);
+  assert.ok(distance > 1 && Math.abs(shown - distance) < 0.06, `${shown} ${distance}`);
+  await viewer.press("m");
+  assert.equal(await label.isVisible(), false);
+  assert.equal((await viewer.state()).moves.length, moves);
+}
+
+async function allUndone(): Promise<void> {
+  await viewer.page.focus("#view");
+  while ((await viewer.state()).undo) await viewer.press("Control+z");
+}
+
+/// In mid-drag: it is drawn where the last frame has it.
+const drawnInFrame = async () =>
+  assert.deepEqual(
+    await viewer.drawnShift(chosen.name),
+    await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!.position),
+  );
+
+/// Deeper with Shift, about with Alt, and back with Esc in mid-drag.
+async function deeperAndAbout(): Promise<void> {
+  await allUndone();
+  for (const [key, words] of [
+    ["Shift", /depth/],
+    ["Alt", /turning/],
+  ] as const) {
+    await viewer.page.keyboard.down(key);
+    await grab(12, -30);
+    await viewer.page.keyboard.up(key);
+    assert.match(await viewer.page.locator("#status .hint").innerText(), words);
+    assert.equal((await viewer.state()).hand?.components.length, 1);
+    await drawnInFrame();
+    await viewer.press("Escape");
+    await viewer.letGo();
+    assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
+  }
+  assert.equal((await viewer.state()).undo, null);
+}
+
+/// An arrow of the gizmo takes the component along its axis only; a ring turns it.
+async function handles(): Promise<void> {
+  await viewer.select(chosen.name);
+  await viewer.page.focus("#view");
+  await viewer.press("g");
+  const pull = async (...places: [number, number][]) => {
+    const center = await viewer.page.evaluate((name) => {
+      const { model } = window.dismantle!.app.viewport;
+      const { min, max } = model!.components.find(({ raw }) => raw.name === name)!.bounds();
+      return window.dismantle!.project(min.clone().lerp(max, 0.5).toArray());
+    }, chosen.name);
+    const [first, ...others] = places.map(([x, y]) => [center.x + x, center.y + y] as const);
+    await viewer.page.mouse.move(...first);
+    await viewer.page.mouse.down();
+    for (const place of others) await viewer.page.mouse.move(...place);
+    await viewer.idle();
+    await viewer.letGo();
+  };
+  const sign = Math.sign(chosen.free[freeAxis()]);
+  await pull(
+    await pointerWay(70 * sign, 0),
+    await pointerWay(70 * sign + 30, 10),
+    await pointerWay(70 * sign + 60, 25),
+  );
+  assert.ok((await gone(chosen.free)) > 1 && Math.abs(await gone(chosen.blocked)) < kSnug);
+  await drawnAsInEngine();
+
+  await viewer.page.evaluate((way) => {
+    const { rig } = window.dismantle!.app.viewport;
+    rig.lookFrom(rig.axis("back").fromArray(way));
+  }, chosen.free);
+  const onRing = (angle: number): [number, number] => [58 * Math.cos(angle), -58 * Math.sin(angle)];
+  await pull(...[0.7, 0.75, 0.8, 0.85, 0.9].map(onRing));
+  const turn = (await viewer.state()).components[await viewer.index(chosen.name)].pose!.slice(4);
+  const about = turn.splice(freeAxis(), 1)[0];
+  assert.ok(sign * about > Math.sin(0.05) && Math.hypot(...turn) < 0.1 * Math.abs(about), `${about} ${turn}`);
+  await viewer.press("g");
 }
 
 async function moveByNumbers(): Promise<void> {
@@ -149,8 +186,8 @@ async function moveByNumbers(): Promise<void> {
 }
 
 async function takeOutAndBack(): Promise<void> {
-  await viewer.page.focus("#view");
-  while ((await viewer.state()).undo) await viewer.press("Control+z");
+  await allUndone();
+  await lookAt(chosen.name);
   await viewer.press("d");
   const tip = await viewer.page.evaluate((free) => {
     const { directions, rig } = window.dismantle!.app.viewport;
@@ -258,16 +295,6 @@ async function lose(file: string): Promise<void> {
   assert.deepEqual(await viewer.drawnShift(chosen.name), reached);
 }
 
-/// Sends a file of the tree or beside it, and looks at one of its components. Gives where the server finds it.
-async function send(from: string, components: number, name: string): Promise<string> {
-  const file = join(server.home, basename(from));
-  copyFileSync(join(sourceFolder(), from), file);
-  await upload(file);
-  assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), components);
-  chosen = await lookAt(name);
-  return file;
-}
-
 test("a STEP file that is sent is taken apart by hand", async (t) => {
   await send(kMine, 41, "coarse knob#2");
   await t.test("pressed into its neighbour it stops, and goes back in mid-drag", press);
@@ -275,10 +302,13 @@ test("a STEP file that is sent is taken apart by hand", async (t) => {
 });
 
 test("so is one that nobody of the project wrote, with all that can be done", async (t) => {
-  if (!existsSync(join(sourceFolder(), kOfOthers))) return t.skip(`${kOfOthers} is not here`);
+  if (!isThere(kOfOthers)) return t.skip(`${kOfOthers} is not here`);
   const file = await send(kOfOthers, 18, "nut");
   await t.test("pressed into its neighbour it stops, and goes back in mid-drag", press);
   await t.test("it slides along, and keeps to an axis", slide);
+  await t.test("it is taken deeper, and turned", deeperAndAbout);
+  await t.test("the gizmo takes it along an axis and about one", handles);
+  await t.test("two clicks measure", measure);
   await t.test("it moves by numbers", moveByNumbers);
   await t.test("it goes out along an arrow that is clicked, and comes back", takeOutAndBack);
   await t.test("what was done is played backward to the assembled state, and exploded", replay);

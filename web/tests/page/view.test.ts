@@ -97,18 +97,8 @@ test("what the pointer is on is named in the status line and stands out in the l
   assert.equal(await viewer.page.locator("#tree-panel .row.hovered .name").innerText(), "head");
 });
 
-type Touch = (
-  type: "touchStart" | "touchMove" | "touchEnd",
-  ...touchPoints: { x: number; y: number; id: number }[]
-) => Promise<unknown>;
-
-async function fingers(): Promise<Touch> {
-  const touches = await viewer.page.context().newCDPSession(viewer.page);
-  return (type, ...touchPoints) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
-}
-
 test("two fingers pan and zoom, one on empty space orbits", async () => {
-  const touch = await fingers();
+  const touch = await viewer.fingers();
   const start = await camera();
   const place = (x: number, id: number) => ({ x, y: 250, id });
   await touch("touchStart", place(350, 0), place(450, 1));
@@ -128,7 +118,7 @@ test("two fingers pan and zoom, one on empty space orbits", async () => {
 });
 
 test("a finger on a component moves it, with contact", async () => {
-  const touch = await fingers();
+  const touch = await viewer.fingers();
   const { x, y } = await viewer.placeOf("foot");
   await touch("touchStart", { x, y, id: 0 });
   for (const down of [8, 16, 24]) await touch("touchMove", { x: x + 3, y: y + down, id: 0 });

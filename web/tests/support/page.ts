@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { type Browser, chromium as driver, type Page } from "playwright-core";
@@ -91,6 +91,11 @@ export interface OpenOptions {
   /// What is done with the page before its own script runs.
   before?: (page: Page) => Promise<unknown>;
 }
+
+type Touch = (
+  type: "touchStart" | "touchMove" | "touchEnd",
+  ...touchPoints: { x: number; y: number; id: number }[]
+) => Promise<unknown>;
 
 /// A page as a test drives it.
 export class Viewer {
@@ -241,6 +246,20 @@ export class Viewer {
   async letGo(): Promise<void> {
     await this.page.mouse.up();
     await this.idle();
+  }
+
+  /// Presses a button, and gives the file that the browser saves.
+  async saved(button: string): Promise<{ name: string; bytes: Buffer }> {
+    const coming = this.page.waitForEvent("download");
+    await this.page.click(button);
+    const download = await coming;
+    return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+  }
+
+  /// Fingers on the screen: what they do.
+  async fingers(): Promise<Touch> {
+    const touches = await this.page.context().newCDPSession(this.page);
+    return (type, ...touchPoints) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
   }
 
   /// The picture, without what the page lays over it.
