@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
+import { faultsOf, reachedByTab } from "../support/accessible.ts";
 import { useMicroscope, viewer } from "../support/scene.ts";
-import { sourceFolder } from "../support/tree.ts";
 
-useMicroscope({
-  prepare: () =>
-    viewer.page.evaluate(readFileSync(join(sourceFolder(), "web/node_modules/axe-core/axe.min.js"), "utf8")),
-});
+useMicroscope();
 
-/// What axe-core finds serious or critical.
 async function faults(): Promise<string[]> {
   await viewer.idle();
-  return viewer.page.evaluate(async () => {
-    const { axe } = window as unknown as {
-      axe: { run(): Promise<{ violations: { id: string; impact: string; nodes: { html: string }[] }[] }> };
-    };
-    const { violations } = await axe.run();
-    return violations
-      .filter(({ impact }) => impact === "serious" || impact === "critical")
-      .flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html}`));
-  });
+  return faultsOf(viewer.page);
 }
 
 /// To an element by Tab alone.
@@ -182,12 +168,7 @@ test("nor in the dialogs", async () => {
 
 test("every button is reached by Tab, and has a name", async () => {
   await viewer.select("foot");
-  await viewer.page.evaluate(() => (document.activeElement as HTMLElement).blur());
-  const reached = new Set<string>();
-  for (let i = 0; i < 80; ++i) {
-    await viewer.page.keyboard.press("Tab");
-    reached.add(await viewer.page.evaluate(() => document.activeElement?.id ?? ""));
-  }
+  const reached = await reachedByTab(viewer.page, 80);
   for (const id of [
     "open",
     "response-slide",

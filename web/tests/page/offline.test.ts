@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { faultsOf, reachedByTab } from "../support/accessible.ts";
 import { closeBrowser, Viewer } from "../support/page.ts";
 import { program } from "../support/tree.ts";
 
@@ -154,6 +155,35 @@ test("light and dark are told apart", async () => {
   await press("t");
   assert.notEqual(await theme(), before);
   await press("t");
+});
+
+test("axe-core finds nothing serious: with all that can be opened, in light and dark, and in the help", async () => {
+  const faults = async () => {
+    await idle(page);
+    return faultsOf(page.page);
+  };
+  await page.page.locator("#tree-panel [role=treeitem]").nth(2).focus();
+  await press("Enter");
+  await page.page.focus("#stage canvas");
+  for (const key of ["s", "m", "i", "p"]) await press(key);
+  await stands(page);
+  for (const part of ["section-panel", "measure-label", "banners"])
+    assert.equal(await page.page.isVisible(`#${part}`), true, part);
+  assert.deepEqual(await faults(), []);
+  await press("t");
+  assert.deepEqual(await faults(), []);
+  await page.page.focus("#stage canvas");
+  for (const key of ["t", "i", "m", "s"]) await press(key);
+  await press("h");
+  assert.deepEqual(await faults(), []);
+  await press("Escape");
+});
+
+test("every button is reached by Tab", async () => {
+  const reached = await reachedByTab(page.page, 60);
+  const wanted = ["section", "measure", "fit", "projection", "screenshot", "theme", "help", "tree-search", "view"];
+  for (const id of [...wanted, "play", "play-reverse", "play-start", "play-end", "scrub", "speed"])
+    assert.ok(reached.has(id), `${id}: ${[...reached]}`);
 });
 
 test("reversed, it begins taken apart and ends assembled", async () => {
