@@ -136,17 +136,22 @@ class Aside {
 
   /// A box around the step's way before it goes straight on.
   Aabb way_box(const PlanStep& step, const Pose& base) const {
-    Aabb box = bounds(step, base);
+    Aabb all = bounds(step, base), last = all;
     Pose from = base;
     for (const Pose& pose : step.way) {
       const Pose to = base * pose;
       const Screw screw = screw_between(from, to);
-      box.extend(bounds(step, to));
+      const Aabb next = bounds(step, to);
+      Aabb passed = last;
+      passed.extend(next);
       if (screw.angle > 0)
-        box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), 0.5 * diagonal(box))));
+        passed = inflated(passed,
+                          screw_chord_deviation(screw, screw_radius(screw, passed.center(), 0.5 * diagonal(passed))));
+      all.extend(passed);
+      last = next;
       from = to;
     }
-    return box;
+    return all;
   }
 
   const Assembly& assembly_;
