@@ -37,6 +37,7 @@ struct ExportCommand {
   bool clearance = false;
   std::size_t step = 0;  ///< From 1; 0: none in particular.
   double within = 0;     ///< [mm]; 0: by the size.
+  std::string product;   ///< For the title; empty: by the file.
   PictureOptions picture;
 };
 
@@ -44,7 +45,8 @@ struct ExportCommand {
 struct Exported {
   Assembly assembly;
   std::optional<Path> path;
-  Timeline timeline;  ///< Of the path.
+  Timeline timeline;    ///< Of the path.
+  std::string product;  ///< Its name in titles.
 };
 
 Result<ExportFormat> check(const ExportCommand& command) {
@@ -70,11 +72,24 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  "--step has no step to show (only a picture or a swept volume is of one, and only of a path); "
                  "leave it out, or write a .png or .stl of a path"};
+  if (!command.product.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
+    return Error{ErrorKind::Usage,
+                 "--product has no place in this format (only work instructions name the product); "
+                 "leave it out, or write a .pdf or instructions.html"};
   if (command.within > 0 && !is_swept)
     return Error{ErrorKind::Usage,
                  "--within has no place in this format (only a swept volume is made up to a distance); "
                  "leave it out, or write an .stl"};
   return *format;
+}
+
+/// A file's name; of a folder, which may be called just "parts", with that of the folder it is in.
+std::string product_name(const fs::path& assembly_file) {
+  std::error_code error;
+  const fs::path full = fs::canonical(assembly_file, error);
+  if (error || !fs::is_directory(full, error) || !full.has_relative_path()) return assembly_file.filename().string();
+  const fs::path parent = full.parent_path().filename();
+  return (parent.empty() ? full.filename() : parent / full.filename()).generic_string();
 }
 
 /// Reads what the command names. A path alone is of the assembly beside it.
@@ -90,6 +105,7 @@ Result<Exported> read(ExportCommand command) {
     if (!beside) return beside.error();
     command.common.assembly_file = beside->string();
   }
+  exported.product = command.product.empty() ? product_name(command.common.assembly_file) : command.product;
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   exported.assembly = std::move(*assembly);
@@ -142,6 +158,7 @@ Result<std::string> instructions(ExportFormat format, const Exported& exported, 
   if (!states) return states.error();
   WorkInstructionsOptions options;
   options.direction = direction(command);
+  options.product = exported.product;
   options.engine = {make_executor(command.common), widest_lanes()};
   options.progress = progress_printer(command.common);
   const Result<WorkInstructions> made = work_instructions(exported.assembly, *states, exported.timeline, options);
@@ -276,6 +293,8 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
                    "Swept volume: at most so far beyond what is passed [mm] (default: 2% of its diagonal)")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
+  command->add_option("--product", options->product, "Work instructions: the product's name (default: the file's)")
+      ->type_name("NAME");
   add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {

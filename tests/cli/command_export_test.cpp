@@ -122,7 +122,10 @@ TEST_F(CliExport, WritesWorkInstructions) {
   EXPECT_EQ(read_all(in("pull.pdf")).substr(0, 5), "%PDF-");
   ASSERT_EQ(export_to("pull-instructions.html --reverse").exit_code, 0);
   const std::string page = read_all(in("pull-instructions.html"));
-  EXPECT_NE(page.find("<h1>Assembly of parts</h1>"), std::string::npos);
+  EXPECT_NE(page.find("/parts</h1>"), std::string::npos) << "with the folder that the parts are in";
+  ASSERT_EQ(export_to("pull-instructions.html --product vice").exit_code, 0);
+  EXPECT_NE(read_all(in("pull-instructions.html")).find("<h1>Disassembly of vice</h1>"), std::string::npos);
+  expect_error("export parts pull.path.json -o pull.glb --product vice", 2, "--product has no place");
   EXPECT_NE(page.find("id=\"step-1\""), std::string::npos);
   expect_error("export parts -o parts.pdf", 2, "there is no path to export");
 }

@@ -48,6 +48,15 @@ TEST(HexagonDrives, AreNoCylindersNoOtherPolygonsAndNoBoxes) {
   EXPECT_TRUE(hexagon_drives(scenes::box({-1, -1, -1}, {1, 1, 1}), kAxis).empty());
 }
 
+TEST(HexagonDrives, AreNoSpokesOfAWheel) {
+  // The six sides of three spokes lie in the planes of a hexagon's sides, but reach out to the rim.
+  const TriangleMesh spoke = scenes::box({1, -1, 0}, {20, 1, 4});
+  TriangleMesh wheel = spoke;
+  for (const int k : {1, 2})
+    wheel = both(wheel, scenes::moved(spoke, {{}, quat_about({0, 0, 1}, k * 2 * std::acos(-1.0) / 3)}));
+  EXPECT_TRUE(hexagon_drives(wheel, kAxis).empty());
+}
+
 TEST(HexagonDrives, AreNotSeenAboutAnotherAxis) {
   const TriangleMesh head = scenes::tube(5, 0, 0, 4, 6);
   EXPECT_TRUE(hexagon_drives(head, {{1, 0, 0}, {0, 0, 1}, 0}).empty());

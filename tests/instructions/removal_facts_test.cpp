@@ -32,6 +32,15 @@ TEST(WayClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
   EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
 }
 
+TEST(WayClearance, DoesNotCountWhatWasPutAside) {
+  Lid lid;
+  WorkStep step = lid.steps[0];
+  step.before[3].position = {25, 0, 20};  // the other head, near the way of this one
+  RemovalFacts facts(lid.assembly, lid.pairs, {});
+  const Removal over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{30, 0, 22}, {}}}};
+  EXPECT_FALSE(facts.clearance(step, over).nearest.valid());
+}
+
 TEST(WayClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
   const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({0, 0, 0}, {10, 0.1, 0.1})),
                                        scenes::component("near", scenes::box({0, 0, -5}, {10, 1, -1.9})),

@@ -49,6 +49,19 @@ TEST(StepPicture, ShowsSmallThingsNearAndWhereTheyAre) {
       StepPictureTaker(lid, 160, 120, Executor()).take(pull(lid, 1, {0, 0, 50}), PathDirection::Forward).overview);
 }
 
+TEST(StepPicture, ShowsAWayOnlyAsFarAsItIsToBeSeen) {
+  // However far away the pin is put in the end: the picture is of the same place.
+  const Assembly a = scenes::assembly({scenes::component("plate", scenes::box({-20, -20, -10}, {20, 20, 0})),
+                                       scenes::component("pin", scenes::box({-3, -3, -5}, {3, 3, 8}))});
+  const auto close = [&](double way) {
+    return StepPictureTaker(a, 160, 120, Executor()).take(pull(a, 1, {0, 0, way}), PathDirection::Forward).close;
+  };
+  const std::size_t far = orange_pixels(close(1e5)), near = orange_pixels(close(200));
+  EXPECT_GT(far, 100u);
+  EXPECT_GT(10 * far, 9 * near);
+  EXPECT_LT(10 * far, 11 * near);
+}
+
 TEST(StepPicture, KeepsItsViewWhereAnotherIsNoBetter) {
   const Assembly a = scenes::bolted_lid();
   StepPictureTaker taker(a, 80, 60, Executor());

@@ -62,10 +62,22 @@ TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
   PairStates pairs = scenes::bolted_lid_pairs();
   pairs.pairs[0] = {ComponentId(0), ComponentId(1), PairState::Fit, 0, 0.05, 0.06, 4};
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, path);
-  EXPECT_EQ(made.steps[0].title, "Remove lid, bolt and bolt#2 together");
+  EXPECT_EQ(made.steps[0].title, "Remove lid and 2 \u00d7 bolt together");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "These 3 go as one body: keep them together.\n");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
             "lid in base, 0.05 mm: a close fit, a press fit or a thread.\n");
+}
+
+TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
+  PairStates pairs = scenes::bolted_lid_pairs();
+  for (const std::size_t k : {1, 2})
+    pairs.pairs[k] = {ComponentId(1), ComponentId(static_cast<std::uint32_t>(k + 1)), PairState::Fit, 0, 0.05, 0.06, 4};
+  WorkInstructionsOptions options = small();
+  options.product = "vice";
+  const WorkInstructions made = written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path(), options);
+  EXPECT_EQ(made.title, "Disassembly of vice");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
+            "2 \u00d7 bolt in lid, 0.05 mm: a close fit, a press fit or a thread.\n");
 }
 
 TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {

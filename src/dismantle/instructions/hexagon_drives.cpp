@@ -17,6 +17,8 @@ constexpr double kAlong = 0.02;
 constexpr double kSameDistance = 2e-3;
 /// Normals belong to a face of the hexagon that differ from its own by no more [rad].
 constexpr double kSameFace = 0.02;
+/// A side of a hexagon reaches this share of its distance aside, and no more than by the second share further.
+constexpr double kSideReach = 0.5773502691896258, kSideSlack = 0.02;
 /// The six faces have at least this share of all surface at their distance, and each this share of a sixth.
 constexpr double kLeastShare = 0.95, kLeastSide = 0.6;
 
@@ -27,6 +29,8 @@ struct FlatFace {
   double distance = 0;  ///< Of its plane from the axis, below 0 where it faces it [mm].
   double angle = 0;     ///< Of its normal [rad].
   double area = 0;      ///< [mm^2]
+  double aside =
+      0;  ///< The furthest that it reaches from the foot of the axis' perpendicular on it, across the axis [mm].
 };
 
 std::vector<FlatFace> faces_along(const TriangleMesh& mesh, const AxisFrame& frame) {
@@ -36,8 +40,11 @@ std::vector<FlatFace> faces_along(const TriangleMesh& mesh, const AxisFrame& fra
     const Vec3 scaled = normal_unscaled(triangle);
     const double area = length(scaled) / 2;
     if (!(area > 0) || std::abs(dot(scaled, frame.direction)) > 2 * area * kAlong) continue;
-    const Vec3 normal = normalized(scaled);
-    faces.push_back({dot(triangle[0] - frame.point, normal), frame.angle(frame.across(frame.point + normal)), area});
+    const Vec3 normal = normalized(scaled), tangent = normalized(cross(frame.direction, normal));
+    double aside = 0;
+    for (const Vec3& v : triangle.corner) aside = std::max(aside, std::abs(dot(v - frame.point, tangent)));
+    faces.push_back(
+        {dot(triangle[0] - frame.point, normal), frame.angle(frame.across(frame.point + normal)), area, aside});
   }
   std::sort(faces.begin(), faces.end(), [](const FlatFace& a, const FlatFace& b) { return a.distance < b.distance; });
   return faces;
@@ -54,6 +61,7 @@ bool is_hexagon(Span<const FlatFace> faces) {
     const double turns = (face.angle - first) / kSixth, nearest = std::round(turns);
     all += face.area;
     if (std::abs(turns - nearest) * kSixth > kSameFace) continue;
+    if (face.aside > kSideReach * std::abs(face.distance) * (1 + kSideSlack)) continue;
     on_sides += face.area;
     sides[static_cast<std::size_t>(nearest + 12) % 6] += face.area;
   }

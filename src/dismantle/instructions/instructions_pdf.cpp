@@ -14,7 +14,9 @@ constexpr double kBorder = 40;
 constexpr double kInside = PdfSheet::kWidth - 2 * kBorder;
 constexpr double kBottom = PdfSheet::kHeight - kBorder - 16;  // above the page's number
 constexpr double kPictureWidth = 280, kGap = 12, kTextWidth = kInside - kPictureWidth - kGap;
-constexpr double kOverviewShare = 0.55;  // of the text's width
+constexpr double kOverviewShare = 0.4;  // of the text's width
+constexpr double kNoteGap = 4;
+constexpr double kTitleWidth = kInside - 50;  // beside it is the item's number
 constexpr TextStyle kTitle{20, true}, kHeading{12, true}, kSmallHeading{8.5, true}, kText{9}, kNumber{9, false, true};
 
 /// A column of the parts list.
@@ -79,7 +81,10 @@ class PdfWriter {
       y_ += kGap;
     }
     write_parts();
-    begin_page();
+    if (page_ == 0)
+      begin_page();
+    else
+      y_ += kGap;
   }
 
   void write_parts() {
@@ -120,12 +125,15 @@ class PdfWriter {
       y += ink == Ink::Put ? sheet_.put_text(text, x, y, kTextWidth, style)
                            : sheet_.text_height(text, kTextWidth, style);
     };
-    add("Parts", kSmallHeading);
-    for (const CountedPart& part : step.parts) add(part_text(instructions_, part), kText);
+    if (step.parts.size() > 1) {
+      add("Parts", kSmallHeading);
+      for (const CountedPart& part : step.parts) add(part_text(instructions_, part), kText);
+      y += kNoteGap;
+    }
     for (std::size_t i = 0; i < step.notes.size(); ++i) {
       const InstructionNote& note = step.notes[i];
       if (i == 0 || step.notes[i - 1].kind != note.kind) {
-        y += 4;
+        if (i > 0) y += kNoteGap;
         add(heading_of(note.kind), kSmallHeading);
       }
       add((note.kind == InstructionNote::Kind::Warning ? "\u26a0 " : "") + note.text, kText);
@@ -142,12 +150,14 @@ class PdfWriter {
   void write_step(std::size_t index) {
     const Instruction& step = instructions_.steps[index];
     const std::string title = std::to_string(index + 1) + "   " + step.title;
-    const double head = 6 + sheet_.text_height(title, kInside, kHeading) + 6;
+    const double head = 6 + sheet_.text_height(title, kTitleWidth, kHeading) + 6;
     const double picture = kPictureWidth * step.picture.height / step.picture.width;
     const double body = std::max(picture, step_text(step, 0, Ink::Measured));
-    need(head + body + kGap);
+    need(head + body);
     sheet_.put_line(kBorder, y_, kBorder + kInside, y_, 1.2);
-    sheet_.put_text(title, kBorder, y_ + 6, kInside, kHeading);
+    sheet_.put_text(title, kBorder, y_ + 6, kTitleWidth, kHeading);
+    if (step.parts.size() == 1)
+      sheet_.put_text("item " + std::to_string(step.parts[0].item + 1), kBorder, y_ + 8, kInside, kNumber);
     y_ += head;
     sheet_.put_picture(step.picture, kBorder, y_, kPictureWidth);
     step_text(step, y_, Ink::Put);
@@ -157,7 +167,7 @@ class PdfWriter {
   const WorkInstructions& instructions_;
   PdfSheet sheet_;
   double y_ = kBorder;
-  std::size_t page_ = 0;
+  std::size_t page_ = 0;  // that are done
 };
 
 }  // namespace

@@ -18,6 +18,15 @@ bool has(Span<const ComponentId> set, ComponentId c) {
   return std::find(set.begin(), set.end(), c) != set.end();
 }
 
+/// What neither moves nor stands to what does as assembled: earlier steps have put it anywhere.
+std::vector<ComponentId> put_aside_before(const WorkStep& step, const Removal& removal) {
+  const std::vector<ComponentId> around = surroundings(step, removal);
+  std::vector<ComponentId> aside;
+  for (std::uint32_t c = 0; c < step.before.size(); ++c)
+    if (!has(around, ComponentId(c)) && !has(removal.components, ComponentId(c))) aside.emplace_back(c);
+  return aside;
+}
+
 }  // namespace
 
 RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
@@ -29,7 +38,7 @@ WayClearance RemovalFacts::clearance(const WorkStep& step, const Removal& remova
   const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
   const std::vector<WayPlace> places = places_along(removal, box.center(), pieces);
   const std::size_t stride = 1 + places.size() / kMostPlaces;
-  std::vector<Pose> poses = step.before;
+  std::vector<Pose> poses = with_gone(step.before, put_aside_before(step, removal));
   WayClearance found;
   for (std::size_t i = 0; i < places.size(); i += stride) {
     for (const ComponentId c : removal.components) poses[c.value] = places[i].pose;
@@ -60,10 +69,15 @@ std::vector<ComponentId> RemovalFacts::neighbours(Span<const ComponentId> set) c
   return found;
 }
 
-bool RemovalFacts::can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> gone) {
+std::vector<Pose> RemovalFacts::with_gone(Span<const Pose> poses, Span<const ComponentId> gone) const {
   const double away = kFarAway * diagonal(assembled_bounds(assembly_));
   std::vector<Pose> now(poses.begin(), poses.end());
   for (const ComponentId g : gone) now[g.value] = {{away, 0, 0}, {}};
+  return now;
+}
+
+bool RemovalFacts::can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> gone) {
+  const std::vector<Pose> now = with_gone(poses, gone);
   engine_.jump(now);
   engine_.hold({&c, 1});
   Pose fallen = now[c.value];

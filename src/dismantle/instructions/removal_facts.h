@@ -24,8 +24,8 @@ class RemovalFacts {
   /// The assembly and the pairs must outlive this.
   RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options);
 
-  /// Exact at places along the way, some kWayPieces for each screw; nothing is told in between. Embedded pairs do not
-  /// count.
+  /// Exact at places along the way, some kWayPieces for each screw; nothing is told in between. Embedded pairs, and
+  /// what earlier steps have put aside, do not count.
   WayClearance clearance(const WorkStep& step, const Removal& removal);
   /// What nothing holds from below once a step's sets are gone, though something did before: it could fall straight
   /// down by kFall of its size. What is in a fit or embedded with anything that is left holds by that. z is up.
@@ -33,6 +33,7 @@ class RemovalFacts {
   std::vector<ComponentId> left_unsupported(const WorkStep& step, ComponentId ground);
 
  private:
+  std::vector<Pose> with_gone(Span<const Pose> poses, Span<const ComponentId> gone) const;
   bool can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> gone);
   std::vector<ComponentId> neighbours(Span<const ComponentId> set) const;
 

@@ -3,6 +3,7 @@
 
 #include "dismantle/geometry/aabb_corners.h"
 #include "dismantle/instructions/way_text.h"
+#include "dismantle/math/screw.h"
 #include "dismantle/render/assembly_scene.h"
 #include "dismantle/render/render.h"
 #include "dismantle/render/visible_pixels.h"
@@ -20,11 +21,14 @@ constexpr Color kMovingColor{0.95f, 0.55f, 0.10f};
 constexpr Color kGhostColor{0.95f, 0.55f, 0.10f, 0.30f};
 constexpr Color kArrowColor{0.05f, 0.35f, 0.65f};
 constexpr int kWayPieces = 24;
-/// A set is shown where it is past the boxes of what is around it by this share of its own size, but no further than so
-/// many of its sizes from home, unless that is less than the share of the surroundings.
-constexpr double kPast = 0.35, kMostSizes = 3, kLeastReach = 0.25;
+/// A set is shown where it is past the boxes of all components around it by this share of its own size, but no further
+/// than so many of its sizes from home, unless that is less than the share of the surroundings; and no nearer than the
+/// share of its size, or its arrow would not be seen.
+constexpr double kPast = 0.35, kMostSizes = 3, kLeastReach = 0.25, kLeastSizes = 0.8;
+/// The place where it is past them is found by so many halvings of a screw.
+constexpr int kHalvings = 24;
 /// A close picture shows this share more around what moves, and at least this share of the surroundings.
-constexpr double kAround = 0.35, kLeastRegion = 0.22;
+constexpr double kAround = 0.35, kLeastRegion = 0.15;
 /// One that would show more than this share of the surroundings shows all of them.
 constexpr double kAlmostAll = 0.6;
 /// Arrows have this share of the picture's diagonal as radius; shorter ways than so many radii have none.
@@ -54,17 +58,31 @@ std::vector<Vec3> candidate_views() {
   return views;
 }
 
-/// What of a removal's way a picture shows: from home to a place where it is seen to be out.
-std::vector<WayPlace> shown_way(const Assembly& assembly, const Removal& removal, const Aabb& around) {
+/// What of a removal's way a picture shows: from home to the first place where it is seen to be out.
+/// @param around boxes of the components around it
+std::vector<WayPlace> shown_way(const Assembly& assembly, const Removal& removal, const std::vector<Aabb>& around) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
   std::vector<WayPlace> places = places_along(removal, middle, removal.way.size() > kWayPieces ? 1 : kWayPieces);
+  Aabb all;
+  for (const Aabb& box : around) all.extend(box);
   const double size = diagonal(bounds_of(assembly, removal.components));
-  const double most = std::max(kMostSizes * size, kLeastReach * diagonal(around));
-  std::size_t last = 0;
-  while (last + 1 < places.size() && places[last].distance < most &&
-         overlaps(inflated(bounds_of(assembly, removal.components, places[last].pose), kPast * size / 2), around))
-    ++last;
-  places.resize(last + 1);
+  const double most = std::max(kMostSizes * size, kLeastReach * diagonal(all));
+  const auto is_out = [&](const WayPlace& place) {
+    if (place.distance >= most) return true;
+    const Aabb own = inflated(bounds_of(assembly, removal.components, place.pose), kPast * size / 2);
+    return place.distance >= kLeastSizes * size &&
+           std::none_of(around.begin(), around.end(), [&](const Aabb& box) { return overlaps(own, box); });
+  };
+  const auto out = std::find_if(places.begin(), places.end(), is_out);
+  if (out == places.end() || out == places.begin()) return places;
+
+  WayPlace before = out[-1];
+  for (int i = 0; i < kHalvings; ++i) {
+    const Pose pose = pose_between(before.pose, out->pose, 0.5);
+    const WayPlace half{pose, (before.distance + out->distance) / 2};
+    (is_out(half) ? *out : before) = half;
+  }
+  places.erase(out + 1, places.end());
   return places;
 }
 
@@ -133,15 +151,17 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
     subject.scene.items.push_back(std::move(item));
     return subject.scene.items.back();
   };
+  std::vector<Aabb> around;
   for (const ComponentId c : surroundings(step, step.removals.front())) {
     if (moves[c.value]) continue;
     add(c, step.before[c.value]);
-    subject.surroundings.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
+    around.push_back(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
+    subject.surroundings.extend(around.back());
   }
   for (const Removal& removal : step.removals) {
     const Aabb home = bounds_of(assembly_, removal.components, removal.way.front());
     const Vec3 middle = bounds_of(assembly_, removal.components).center();
-    const std::vector<WayPlace> way = shown_way(assembly_, removal, subject.surroundings);
+    const std::vector<WayPlace> way = shown_way(assembly_, removal, around);
     const Pose from = is_forward ? way.front().pose : way.back().pose,
                to = is_forward ? way.back().pose : way.front().pose;
     for (const ComponentId c : removal.components) {

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace dismantle {
 
@@ -25,15 +27,19 @@ constexpr std::size_t kMostNames = 6;
 constexpr std::size_t kChecksumDigits = 12;
 
 /// "a, b and c"; of many, the first and how many more.
-std::string names_text(const Assembly& assembly, Span<const ComponentId> components) {
-  const std::size_t named = components.size() <= kMostNames ? components.size() : kMostNames - 1;
+std::string names_text(const std::vector<std::string>& names) {
+  const std::size_t named = names.size() <= kMostNames ? names.size() : kMostNames - 1;
   std::string text;
   for (std::size_t i = 0; i < named; ++i) {
-    if (i > 0) text += i + 1 == components.size() ? " and " : ", ";
-    text += assembly[components[i]].name;
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
   }
-  if (named < components.size()) text += " and " + std::to_string(components.size() - named) + " more";
+  if (named < names.size()) text += " and " + std::to_string(names.size() - named) + " more";
   return text;
+}
+
+std::string tool_text(const std::string& name, double size) {
+  return name + " " + number_text(size) + " mm";
 }
 
 constexpr const char* kTimes = " \u00d7 ";
@@ -43,6 +49,18 @@ std::string counted_name(const WorkInstructions& instructions, const CountedPart
   const std::string& name = instructions.parts[part.item].name;
   return part.count > 1 ? std::to_string(part.count) + kTimes + name : name;
 }
+
+/// An overlap as drawn, of so many equal components that a step takes with as many others.
+struct CountedOverlap {
+  std::size_t own_line = 0, other_line = 0;  ///< Of the bill.
+  std::string depth;                         ///< [mm]
+  PairState state = PairState::Fit;
+  std::vector<ComponentId> own, others;  ///< Each once.
+
+  bool is_like(const CountedOverlap& o) const {
+    return own_line == o.own_line && other_line == o.other_line && depth == o.depth && state == o.state;
+  }
+};
 
 /// Along which line a component is turned or pulled.
 bool lies_along(const Vec3& axis, const Leg& leg) {
@@ -71,10 +89,11 @@ class Writer {
   }
 
   Result<WorkInstructions> write() {
-    result_.title = (is_forward_ ? "Disassembly of " : "Assembly of ") + assembly_.source_file;
+    result_.title = (is_forward_ ? "Disassembly of " : "Assembly of ") +
+                    (options_.product.empty() ? assembly_.source_file : options_.product);
     result_.assembly = assembly_.source_file;
     if (!assembly_.source_sha256.empty())
-      result_.assembly += ", SHA-256 " + assembly_.source_sha256.substr(0, kChecksumDigits) + "...";
+      result_.assembly += ", SHA-256 " + assembly_.source_sha256.substr(0, kChecksumDigits);
     for (const BillItem& item : bill_) result_.parts.push_back({item.name, item.components.size(), item.size, {}});
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (!report_progress(options_.progress, "writing instructions",
@@ -82,6 +101,8 @@ class Writer {
         return Error{ErrorKind::Failed, "the instructions were not written (cancelled); start it again"};
       add(steps_[i]);
     }
+    for (const auto& [name, sizes] : tools_)
+      for (const double size : sizes) result_.tools.push_back(tool_text(name, size));
     result_.cover = pictures_.cover();
     report_progress(options_.progress, "writing instructions", 1);
     return std::move(result_);
@@ -136,7 +157,18 @@ class Writer {
       return assembly_[step.removals[0].components[0]].name;
     if (step.removals.size() > 1) return counted_name(result_, parts.front());
     if (const std::optional<std::string> name = name_of_body(step.removals[0].components)) return *name;
-    return names_text(assembly_, step.removals[0].components) + " together";
+    std::vector<std::string> names;
+    names.reserve(parts.size());
+    for (const CountedPart& part : parts)
+      names.push_back(part.count > 1 ? counted_name(result_, part) : name_of_one(step.removals[0], part.item));
+    return names_text(names) + " together";
+  }
+
+  /// Of the only component of a removal that is of a line of the bill.
+  const std::string& name_of_one(const Removal& removal, std::size_t line) const {
+    return assembly_[*std::find_if(removal.components.begin(), removal.components.end(),
+                                   [&](ComponentId c) { return lines_[c.value] == line; })]
+        .name;
   }
 
   /// Of the node of the product tree that has these components and no others, if there is one.
@@ -162,20 +194,17 @@ class Writer {
     if (removal.components.size() != 1 || legs.empty()) return;
     const Component& c = assembly_[removal.components[0]];
     const Mat3 turned = transform_from_pose(removal.way.front()).rotation * c.assembly_from_mesh.rotation;
-    std::vector<std::string> tools;
+    std::map<std::string, std::set<double>> tools;
     for (const RoundAxis& axis : round_axes(c.mesh->vertices, c.mesh->faces)) {
       if (!lies_along(turned * axis.direction, legs.front())) continue;
       for (const HexagonDrive& drive : hexagon_drives(*c.mesh, axis)) {
         const bool is_head = drive.kind == HexagonDrive::Kind::Head;
-        tools.push_back((is_head ? "Spanner " : "Hexagon key ") + number_text(drive.across_flats) + " mm");
+        tools[is_head ? "Spanner" : "Hexagon key"].insert(std::stod(number_text(drive.across_flats)));
       }
     }
-    std::sort(tools.begin(), tools.end());
-    tools.erase(std::unique(tools.begin(), tools.end()), tools.end());
-    for (const std::string& tool : tools) {
-      instruction.notes.push_back({Kind::Tool, tool});
-      if (std::find(result_.tools.begin(), result_.tools.end(), tool) == result_.tools.end())
-        result_.tools.push_back(tool);
+    for (const auto& [name, sizes] : tools) {
+      for (const double size : sizes) instruction.notes.push_back({Kind::Tool, tool_text(name, size)});
+      tools_[name].insert(sizes.begin(), sizes.end());
     }
     note_thread(c, turned, legs, instruction);
   }
@@ -202,7 +231,10 @@ class Writer {
       warn("It comes out downwards: hold it.");
     const std::vector<ComponentId> falling = facts_.left_unsupported(step, ground_);
     if (falling.empty()) return;
-    const std::string names = names_text(assembly_, falling);
+    std::vector<std::string> each;
+    each.reserve(falling.size());
+    for (const ComponentId c : falling) each.push_back(assembly_[c].name);
+    const std::string names = names_text(each);
     warn(is_forward_ ? "Nothing holds " + names + " from below after this step: support it before."
                      : "Nothing holds " + names + " from below before this step: support it until then.");
   }
@@ -234,6 +266,26 @@ class Writer {
   }
 
   void note_overlaps(const WorkStep& step, Instruction& instruction) const {
+    const std::vector<CountedOverlap> overlaps = overlaps_of(step);
+    const std::size_t told = overlaps.size() <= kMostNames ? overlaps.size() : kMostNames - 1;
+    for (std::size_t i = 0; i < told; ++i) {
+      const CountedOverlap& o = overlaps[i];
+      instruction.notes.push_back(
+          {Kind::Overlap, overlapping_name(o.own, o.own_line) + " in " + overlapping_name(o.others, o.other_line) +
+                              ", " + o.depth + " mm" +
+                              (o.state == PairState::Fit ? ": a close fit, a press fit or a thread."
+                                                         : ": overlaps as drawn, not checked until they are apart.")});
+    }
+    if (told < overlaps.size())
+      instruction.notes.push_back({Kind::Overlap, "And " + std::to_string(overlaps.size() - told) + " more."});
+  }
+
+  std::string overlapping_name(const std::vector<ComponentId>& components, std::size_t line) const {
+    return components.size() == 1 ? assembly_[components[0]].name : counted_name(result_, {line, components.size()});
+  }
+
+  /// Those that a step parts, equal ones counted.
+  std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
     std::vector<ComponentId> set;
     for (const Removal& removal : step.removals)
       set.insert(set.end(), removal.components.begin(), removal.components.end());
@@ -241,22 +293,20 @@ class Writer {
     const auto is_in = [](const std::vector<ComponentId>& in, ComponentId c) {
       return std::find(in.begin(), in.end(), c) != in.end();
     };
-    std::vector<std::string> texts;
+    std::vector<CountedOverlap> found;
     for (const ComponentPair& pair : pairs_.pairs) {
       if (pair.state != PairState::Fit && pair.state != PairState::Embedded) continue;
       if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
       const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
       if (!is_in(around, other)) continue;
-      const std::string meaning = pair.state == PairState::Fit
-                                      ? ": a close fit, a press fit or a thread"
-                                      : ": overlaps as drawn, not checked until they are apart";
-      texts.push_back(assembly_[own].name + " in " + assembly_[other].name + ", " + number_text(pair.penetration) +
-                      " mm" + meaning + ".");
+      const CountedOverlap one{
+          lines_[own.value], lines_[other.value], number_text(pair.penetration), pair.state, {}, {}};
+      auto like = std::find_if(found.begin(), found.end(), [&](const CountedOverlap& o) { return o.is_like(one); });
+      if (like == found.end()) like = found.insert(found.end(), one);
+      if (!is_in(like->own, own)) like->own.push_back(own);
+      if (!is_in(like->others, other)) like->others.push_back(other);
     }
-    const std::size_t told = texts.size() <= kMostNames ? texts.size() : kMostNames - 1;
-    for (std::size_t i = 0; i < told; ++i) instruction.notes.push_back({Kind::Overlap, texts[i]});
-    if (told < texts.size())
-      instruction.notes.push_back({Kind::Overlap, "And " + std::to_string(texts.size() - told) + " more."});
+    return found;
   }
 
   const Assembly& assembly_;
@@ -269,6 +319,7 @@ class Writer {
   RemovalFacts facts_;
   StepPictureTaker pictures_;
   ComponentId ground_;
+  std::map<std::string, std::set<double>> tools_;  // and their sizes [mm]
   WorkInstructions result_;
 };
 
@@ -310,8 +361,9 @@ std::string summary_text(const WorkInstructions& instructions) {
   for (const PartsLine& line : instructions.parts) components += line.count;
   std::string text = std::to_string(instructions.steps.size()) + " steps, " + std::to_string(components) +
                      " components of " + std::to_string(instructions.parts.size()) + " kinds; " +
-                     std::to_string(instructions.staying.size()) + " stay where they are. Made from " +
-                     instructions.assembly + ".";
+                     std::to_string(instructions.staying.size()) +
+                     (instructions.staying.size() == 1 ? " stays where it is." : " stay where they are.") +
+                     " Made from " + instructions.assembly + ".";
   return text;
 }
 

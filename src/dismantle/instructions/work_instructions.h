@@ -47,16 +47,17 @@ struct Instruction {
 /// Work instructions: what a document of any form says.
 struct WorkInstructions {
   std::string title;     ///< "Disassembly of vice.step".
-  std::string assembly;  ///< Its file and the beginning of its checksum.
+  std::string assembly;  ///< Its file and the first digits of its checksum.
   Image cover;
   std::vector<PartsLine> parts;
-  std::vector<std::string> tools;    ///< All that is wanted, once.
+  std::vector<std::string> tools;    ///< All that are wanted, by kind and size.
   std::vector<std::string> staying;  ///< Components that no step moves.
   std::vector<Instruction> steps;
 };
 
 struct WorkInstructionsOptions {
   PathDirection direction = PathDirection::Forward;
+  std::string product;       ///< That titles name; empty: the assembly's file.
   int picture_width = 960;   ///< [pixels]
   int picture_height = 720;  ///< [pixels]
   CertificateOptions engine;
