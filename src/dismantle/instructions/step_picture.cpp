@@ -31,8 +31,9 @@ constexpr int kHalvings = 24;
 constexpr double kAround = 0.35, kLeastRegion = 0.15;
 /// One that would show more than this share of the surroundings shows all of them.
 constexpr double kAlmostAll = 0.6;
-/// Arrows have this share of the picture's diagonal as radius; shorter ways than so many radii have none.
-constexpr double kArrowRadius = 0.006, kShortestArrow = 4;
+/// Arrows have this share of the picture's diagonal as radius, but are so many radii long; ways shorter than so many of
+/// the share have none.
+constexpr double kArrowRadius = 0.006, kSlimmest = 7, kShortestWay = 1;
 /// Samples along a pixel's side: on paper pixels are small.
 constexpr int kSamples = 2;
 /// Views are judged in pictures of so many pixels.
@@ -247,7 +248,8 @@ Image StepPictureTaker::take(const Subject& subject, const Vec3& view, const std
   for (const std::vector<Vec3>& line : subject.lines) {
     double way = 0;
     for (std::size_t i = 1; i < line.size(); ++i) way += length(line[i] - line[i - 1]);
-    if (way > kShortestArrow * radius) scene.items.push_back(make_bent_arrow(line, radius, kArrowColor));
+    if (way > kShortestWay * radius)
+      scene.items.push_back(make_bent_arrow(line, std::min(radius, way / kSlimmest), kArrowColor));
   }
   RenderOptions options = options_;
   options.width /= divisor;
