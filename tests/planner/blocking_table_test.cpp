@@ -57,8 +57,12 @@ TEST_F(BlockingTableTest, FindsABlockerAsLongAsThereIsOne) {
 TEST_F(BlockingTableTest, FindsWhatGoesTogether) {
   EXPECT_EQ(table_.moving_together(kMiddle, up(), all_), (std::vector{kMiddle, kHigh}));
   EXPECT_EQ(table_.moving_together(kMiddle, aside(), all_), (std::vector{kTube, kLow, kMiddle, kHigh}));
-  EXPECT_TRUE(table_.moving_together(kMiddle, up(), all_, ComponentSet(4, {&kHigh, 1}), 4).empty());
-  EXPECT_TRUE(table_.moving_together(kLow, up(), all_, ComponentSet(4), 2).empty());
+  ComponentSet ends(4, {&kHigh, 1});
+  EXPECT_TRUE(table_.moving_together(kMiddle, up(), all_, ends, 4).empty());
+  EXPECT_EQ(ends.members(), (std::vector{kMiddle, kHigh})) << "the middle one cannot go without the high one";
+  ComponentSet large(4);
+  EXPECT_TRUE(table_.moving_together(kLow, up(), all_, large, 2).empty());
+  EXPECT_EQ(large.members(), std::vector{kLow}) << "two of the three can go";
 }
 
 TEST_F(BlockingTableTest, GivesTheFirstContact) {
@@ -75,9 +79,10 @@ TEST_F(BlockingTableTest, LearnsWhatASweepCannotSee) {
 }
 
 TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
-  EXPECT_FALSE(table_.expects_blocker(kLow, up(), all_));
-  table_.expect_blocker(kLow, up(), kTube);
-  table_.expect_blocker(kLow, up(), kHigh);
+  table_.expect_blockers([](ComponentId c, const Vec3& direction) {
+    return c == kLow && direction.z > 0.5 ? std::vector{kTube, kHigh} : std::vector<ComponentId>();
+  });
+  EXPECT_FALSE(table_.expects_blocker(kLow, aside(), all_));
   EXPECT_TRUE(table_.expects_blocker(kLow, up(), all_));
   EXPECT_EQ(table_.any_blocker(kLow, up(), all_), kHigh) << "what is expected is asked first";
   ComponentSet left = all_;

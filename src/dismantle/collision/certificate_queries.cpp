@@ -2,6 +2,8 @@
 #include "dismantle/collision/certificate_queries.h"
 
 #include "dismantle/collision/solid_distance.h"
+#include "dismantle/collision/straight_way.h"
+#include "dismantle/collision/vertex_depth_guard.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 
@@ -140,10 +142,23 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   return contact;
 }
 
+/// Where some vertex would get deeper than any may: no start makes that way free.
+std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const StraightWay& asked) {
+  const auto deep = deep_vertex_on(sweeper.solid(asked.moving), sweeper.solid(asked.fixed), asked.way,
+                                   VertexDepthGuard::kLimit * sweeper.allowed(asked.moving, asked.fixed));
+  if (!deep) return std::nullopt;
+  return StraightContact{deep->share * length(asked.way), FaceId(deep->face_moving), FaceId(deep->face_fixed),
+                         deep->point};
+}
+
 }  // namespace
 
 std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
                                                 StraightSearch search) {
+  if (sweeper.allowed(asked.moving, asked.fixed) < 0) return std::nullopt;
+  if (passes_by(sweeper.solid(asked.moving), sweeper.solid(asked.fixed), asked.way)) return std::nullopt;
+  if (search == StraightSearch::Any)
+    if (const auto deep = deep_contact(sweeper, asked)) return deep;
   if (!sweeper.touched(asked.moving, asked.fixed)) return contact_between(sweeper, asked, 0, 1, search);
   const double whole = length(asked.way);
   double from = 0;

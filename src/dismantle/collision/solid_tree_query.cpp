@@ -64,6 +64,31 @@ bool ray_meets(const ObbNode& node, Vec3 p, Vec3 d) {
   return enter <= leave * (1 + 1e-9);
 }
 
+/// Calls hit(face, triangle about `point`) for every face that the ray crosses; false, and not for all of them, where it
+/// comes too near to an edge to tell.
+template <class Hit>
+bool for_each_hit(const SolidTree& solid, Vec3 point, Vec3 direction, const Hit& hit) {
+  if (solid.tree.empty()) return true;
+  const std::vector<ObbNode>& nodes = solid.tree.nodes;
+  const Vec3 p = point - solid.tree.origin;
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const ObbNode& node = nodes[open.back()];
+    open.pop_back();
+    if (!ray_meets(node, p, direction)) continue;
+    if (!node.leaf()) {
+      open.insert(open.end(), {node.child, node.child + 1});
+      continue;
+    }
+    Triangle t = solid.triangle(node.child);
+    for (int k = 0; k < 3; ++k) t[k] -= point;
+    const RayHit found = ray_hit(direction, t);
+    if (found == RayHit::Unclear) return false;
+    if (found == RayHit::Hit) hit(node.child, t);
+  }
+  return true;
+}
+
 }  // namespace
 
 double distance_to_bounds(const SolidTree& solid, Vec3 point) {
@@ -106,29 +131,22 @@ NearestFace nearest_face(const SolidTree& solid, Vec3 point, std::uint32_t hint,
   return nearest;
 }
 
+std::optional<std::vector<RayCrossing>> crossings_of(const SolidTree& solid, Vec3 point, Vec3 direction) {
+  std::vector<RayCrossing> crossings;
+  const auto add = [&](std::uint32_t face, const Triangle& seen) {
+    const Vec3 normal = normal_unscaled(seen);
+    crossings.push_back({dot(normal, seen[0]) / dot(normal, direction), dot(normal, direction) > 0, face});
+  };
+  if (!for_each_hit(solid, point, direction, add)) return std::nullopt;
+  std::sort(crossings.begin(), crossings.end(),
+            [](const RayCrossing& a, const RayCrossing& b) { return a.distance < b.distance; });
+  return crossings;
+}
+
 bool point_in_solid(const SolidTree& solid, Vec3 point) {
-  if (solid.tree.empty()) return false;
-  const std::vector<ObbNode>& nodes = solid.tree.nodes;
-  const Vec3 p = point - solid.tree.origin;
-  std::vector<std::uint32_t> open;
   for (const Vec3 direction : kRayDirections) {
-    bool inside = false, unclear = false;
-    open.assign(1, 0);
-    while (!open.empty() && !unclear) {
-      const ObbNode& node = nodes[open.back()];
-      open.pop_back();
-      if (!ray_meets(node, p, direction)) continue;
-      if (!node.leaf()) {
-        open.insert(open.end(), {node.child, node.child + 1});
-        continue;
-      }
-      Triangle t = solid.triangle(node.child);
-      for (int k = 0; k < 3; ++k) t[k] -= point;
-      const RayHit hit = ray_hit(direction, t);
-      unclear = hit == RayHit::Unclear;
-      inside = inside != (hit == RayHit::Hit);
-    }
-    if (!unclear) return inside;
+    bool inside = false;
+    if (for_each_hit(solid, point, direction, [&](std::uint32_t, const Triangle&) { inside = !inside; })) return inside;
   }
   return false;
 }

@@ -37,7 +37,10 @@ DirectionId BlockingTable::add_direction(const Vec3& unit) {
 
 BlockingTable::Row& BlockingTable::row(ComponentId moving, DirectionId d) {
   Row& row = rows_[moving.value][d];
-  if (row.known.empty()) row.known.resize(features_.size());
+  if (row.known.empty()) {
+    row.known.resize(features_.size());
+    if (expectation_) row.expected = expectation_(moving, direction(d));
+  }
   return row;
 }
 
@@ -111,18 +114,21 @@ std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId
 
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d,
                                                         const ComponentSet& present) {
-  return moving_together(moving, d, present, ComponentSet(features_.size()), features_.size());
+  ComponentSet ends(features_.size());
+  return moving_together(moving, d, present, ends, features_.size());
 }
 
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                                        const ComponentSet& never, std::size_t most) {
+                                                        ComponentSet& ends, std::size_t most) {
   ComponentSet together(features_.size());
+  std::vector<ComponentId> blocked_by(features_.size());  // who a member moves along for
   std::vector<ComponentId> unfollowed{moving},
       unasked;  // members whose known facts, whose other facts are not seen yet
   while (!unfollowed.empty() || !unasked.empty()) {
     if (unfollowed.empty()) {
-      const auto next = another_blocker(unasked.back(), d, present, together, never);
-      if (next) {
+      const ComponentId member = unasked.back();
+      if (const auto next = another_blocker(member, d, present, together, ends)) {
+        blocked_by[next->value] = member;
         unfollowed.push_back(*next);
       } else {
         unasked.pop_back();
@@ -133,22 +139,34 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
     unfollowed.pop_back();
     if (together.has(member)) continue;
     together.insert(member);
-    if (never.has(member) || together.size() > most) return {};
+    if (ends.has(member)) {
+      for (ComponentId c = member; c.valid(); c = blocked_by[c.value]) ends.insert(c);
+      return {};
+    }
+    if (together.size() > most) {
+      ends.insert(moving);
+      return {};
+    }
     unasked.push_back(member);
     const std::vector<Known>& known = row(member, d).known;
     for (const ComponentId other : others_[member.value])
-      if (known[other.value] == Known::Blocks && present.has(other)) unfollowed.push_back(other);
+      if (known[other.value] == Known::Blocks && present.has(other) && !together.has(other)) {
+        blocked_by[other.value] = member;
+        unfollowed.push_back(other);
+      }
   }
   return together.members();
 }
 
 std::optional<ComponentId> BlockingTable::another_blocker(ComponentId moving, DirectionId d,
                                                           const ComponentSet& present, const ComponentSet& together,
-                                                          const ComponentSet& never) {
+                                                          const ComponentSet& ends) {
+  const auto is_new = [&](ComponentId c) { return present.has(c) && !together.has(c) && blocks(moving, d, c); };
+  for (const ComponentId other : row(moving, d).expected)
+    if (is_new(other)) return other;
   for (const bool ends_it : {true, false})
     for (const ComponentId other : others_[moving.value])
-      if (never.has(other) == ends_it && present.has(other) && !together.has(other) && blocks(moving, d, other))
-        return other;
+      if (ends.has(other) == ends_it && is_new(other)) return other;
   return std::nullopt;
 }
 

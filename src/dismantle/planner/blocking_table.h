@@ -7,6 +7,7 @@
 #include "dismantle/planner/shape_features.h"
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -48,13 +49,14 @@ class BlockingTable {
                                     std::size_t enough = std::numeric_limits<std::size_t>::max());
   /// The fewest of `present` that can go along `d` together with `moving`: it, what blocks it, what blocks that, ...
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// The same, given up (nothing) once it would hold one of `never`, or more than `most`.
+  /// The same, given up (nothing) once it would hold one of `ends`, or more than `most`. Those that cannot go for that
+  /// reason are added to `ends`: with the same `present`, `d` and no larger `most` they need not be followed again.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                           const ComponentSet& never, std::size_t most);
-  /// Says that `fixed` may well block: it is asked first.
-  void expect_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {
-    row(moving, d).expected.push_back(fixed);
-  }
+                                           ComponentSet& ends, std::size_t most);
+  /// Tells who may well block a component along a unit direction: they are asked first.
+  using Expectation = std::function<std::vector<ComponentId>(ComponentId moving, const Vec3& direction)>;
+  /// @pre nothing was asked yet
+  void expect_blockers(Expectation expectation) { expectation_ = std::move(expectation); }
   /// Whether one of `present` is expected to block, or known to.
   bool expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
   /// Makes it known that `fixed` blocks by a rule that one sweep does not see.
@@ -70,15 +72,16 @@ class BlockingTable {
     std::vector<ComponentId> expected;
   };
   Row& row(ComponentId moving, DirectionId d);
-  /// One of `present` that blocks and is not in `together`; those of `never` are asked first.
+  /// One of `present` that blocks and is not in `together`: the expected ones are asked first, then those of `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                             const ComponentSet& together, const ComponentSet& never);
+                                             const ComponentSet& together, const ComponentSet& ends);
   /// How far `moving` has to go along `d` to be past `fixed`; nothing where it never comes near it [mm].
   double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
   GoOn go_on_;
+  Expectation expectation_;
   std::vector<Vec3> directions_;
   std::vector<std::map<DirectionId, Row>>
       rows_;  // of every component: rows of different ones may be asked side by side

@@ -366,12 +366,9 @@ class Planner {
       }
     }
     const std::vector<DirectionId> shared = most_popular(popularity);
-    for (std::uint32_t c = 0; c < count_; ++c) {
-      directions_[c] = in_order(own[c], shared);
-      for (const DirectionId d : directions_[c])
-        for (const ComponentId against : neighbours_against(contacts_[c], table_.direction(d)))
-          table_.expect_blocker(ComponentId(c), d, against);
-    }
+    for (std::uint32_t c = 0; c < count_; ++c) directions_[c] = in_order(own[c], shared);
+    table_.expect_blockers(
+        [this](ComponentId c, const Vec3& direction) { return neighbours_against(contacts_[c.value], direction); });
   }
 
   /// A component's own directions and the shared ones, all but the same ones once: what it has of its own is exact.

@@ -2,6 +2,7 @@
 #include "dismantle/planner/removal_search.h"
 
 #include <algorithm>
+#include <map>
 #include <queue>
 #include <set>
 
@@ -76,14 +77,16 @@ class RemovalSearch {
   /// Every set that holds `needed` and can be taken out takes one of the stuck components first, along some direction:
   /// with what blocks it out before, or together with it.
   void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
+    std::map<DirectionId, ComponentSet> ends;
     for (const ComponentId c : stuck.members()) {
       for (const DirectionId d : directions_[c.value]) {
         if (!go_on_()) return;
         const std::vector<ComponentId> blockers = table_.blockers(c, d, left);
         if (never_.has_any(blockers)) continue;
         if (!stuck.has_any(blockers)) push(with(needed, blockers));
-        const std::vector<ComponentId> together = table_.moving_together(c, d, left, never_, left.size());
-        if (!together.empty() && together.size() < left.size()) push(with(needed, together));
+        const std::vector<ComponentId> together =
+            table_.moving_together(c, d, left, ends.try_emplace(d, never_).first->second, left.size() - 1);
+        if (!together.empty()) push(with(needed, together));
       }
     }
   }
@@ -137,15 +140,19 @@ std::optional<StraightRemoval> smallest_body(BlockingTable& table, const Directi
                                              const ComponentSet& present, const ComponentSet& never,
                                              const GoOn& go_on) {
   std::optional<StraightRemoval> best;
+  std::map<DirectionId, ComponentSet> ends;
   std::size_t most = present.size() - 1;
   for (const ComponentId c : present.members()) {
     if (never.has(c)) continue;
     for (const DirectionId d : directions[c.value]) {
       if (!go_on()) return std::nullopt;
-      std::vector<ComponentId> together = table.moving_together(c, d, present, never, most);
+      ComponentSet& ends_it = ends.try_emplace(d, never).first->second;
+      if (ends_it.has(c)) continue;
+      std::vector<ComponentId> together = table.moving_together(c, d, present, ends_it, most);
       if (together.empty()) continue;
       most = together.size() - 1;
       best = StraightRemoval{std::move(together), d};
+      if (most < 2) return best;
     }
   }
   return best;

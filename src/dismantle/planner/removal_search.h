@@ -25,6 +25,7 @@ std::vector<StraightRemoval> free_components(BlockingTable& table, const Directi
                                              const Executor& executor, const GoOn& go_on);
 
 /// The smallest set without any of `never` that blocks itself only, so that it comes out of `present` as one body.
+/// @pre no single component comes out by itself (free_components)
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never, const GoOn& go_on);
 
