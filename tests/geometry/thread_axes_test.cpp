@@ -54,6 +54,29 @@ TEST(ThreadAxes, FindTheLeadOfAThreadWhereverItIs) {
         }
 }
 
+TEST(ThreadAxes, FindTheLeadOfAThreadThatWasCutAnewWhereverItIs) {
+  std::mt19937_64 random(3);
+  for (const double offset : {0.0, 1e3})
+    for (const bool left : {false, true}) {
+      const scenes::Winding bolt = winding(60, 9), nut = winding(70, 5);
+      const Pose pose = scenes::random_pose(random, offset, 3);
+      std::vector<ThreadAxis> found;
+      for (const bool inner : {false, true}) {
+        const TriangleMesh straight = scenes::cut_anew(inner ? nut : bolt, inner, 14, random);
+        const std::vector<ThreadAxis> threads =
+            threads_of(scenes::moved(left ? mirrored(straight) : straight, pose));
+        ASSERT_EQ(threads.size(), 1u) << offset << ' ' << inner << ' ' << left;
+        EXPECT_NEAR(threads[0].lead, left ? -1.25 : 1.25, 1e-3);
+        EXPECT_EQ(threads[0].starts, 1);
+        const Vec3 axis = mat3_from_quat(pose.rotation) * Vec3{0, 0, 1};
+        EXPECT_LT(length(cross(threads[0].direction, axis)), 2e-3);
+        EXPECT_LT(length(cross(threads[0].point - pose.position, axis)), 0.01);
+        found.push_back(threads[0]);
+      }
+      EXPECT_TRUE(threads_mate(found[0], found[1]));
+    }
+}
+
 TEST(ThreadAxes, TellSeveralStartsFromOne) {
   scenes::Winding w = winding(48, 4);
   const scenes::Profile once = w.profile;

@@ -3,6 +3,8 @@
 
 #include "tests/support/slide_scenes.h"
 
+#include <random>
+
 /// Close fits at any number of triangles, for measuring.
 namespace dismantle::scenes {
 
@@ -57,6 +59,37 @@ inline Winding thread(double wider, double edge_length) {
   w.pitch = pitch;
   w.profile = subdivided(corners, edge_length, false);
   return w;
+}
+
+/// The surface of a winding (an outer one, or an inner one seen from within), open at its ends, as if it had been cut
+/// anew: its vertices lie on it anywhere, so that no edges are along helices. @param rows of vertices a turn
+inline TriangleMesh cut_anew(const Winding& w, bool inner, std::uint32_t rows, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> off(-0.35, 0.35);
+  const auto on_profile = [&](double share) {
+    std::size_t j = 1;
+    while (j + 1 < w.profile.size() && w.profile[j].y < share * w.pitch) ++j;
+    const ProfilePoint a = w.profile[j - 1], b = w.profile[j];
+    return a.x + (b.x - a.x) * (share * w.pitch - a.y) / (b.y - a.y);
+  };
+  TriangleMesh m;
+  const std::uint32_t across = w.turns * rows;  // once around the last column is a turn above the first
+  for (std::uint32_t i = 0; i < w.sides; ++i)
+    for (std::uint32_t j = 0; j <= across; ++j) {
+      const double turn = (i + off(random)) / w.sides, up = (j + off(random)) / rows, whole = std::floor(up);
+      const double r = on_profile(up - whole), angle = kTurn * turn;
+      m.vertices.push_back({r * std::cos(angle), r * std::sin(angle), w.start + w.pitch * (turn + up)});
+    }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    m.faces.push_back(inner ? Face{{a, c, b}} : Face{{a, b, c}});
+  };
+  for (std::uint32_t i = 0; i < w.sides; ++i)
+    for (std::uint32_t j = 0; j + 1 + (i + 1 == w.sides ? rows : 0) <= across; ++j) {
+      const std::uint32_t here = i * (across + 1) + j;
+      const std::uint32_t next = i + 1 < w.sides ? here + across + 1 : j + rows;
+      add(here, next, next + 1);
+      add(here, next + 1, here + 1);
+    }
+  return m;
 }
 
 /// A threaded bolt of 16 turns in a nut of 5, `clearance` between their flanks; the bolt in hand, out by screwing.

@@ -2,6 +2,7 @@
 #include "dismantle/geometry/thread_axes.h"
 
 #include "dismantle/geometry/axis_frame.h"
+#include "dismantle/geometry/thread_fit.h"
 
 #include <algorithm>
 #include <array>
@@ -58,6 +59,15 @@ constexpr double kNearPlace = 0.12;
 constexpr double kOfFlank = 0.85, kOfPlace = 0.02;
 /// And of a crest or a root where the lifts of its corners are no further from theirs, in profiles.
 constexpr double kOfBand = 0.25;
+
+/// A mesh without edges along helices may have a thread if it has so many faces. Its fit is made with no more than so
+/// many of the curved places,
+constexpr std::size_t kFewestFaces = 400, kMostSamples = 40'000;
+/// its lead sought no further from the fit's than this share of it, in steps for which so many parts of a turn add up
+/// along the thread; with no more than so many faces at first, and then with more, so often a third closer.
+constexpr double kLeadRange = 0.12, kLeadStep = 0.05;
+constexpr std::size_t kMostScanned = 2000, kMostFitted = 10'000;
+constexpr int kCloser = 20;
 
 /// A place about an axis.
 struct AxisPlace {
@@ -371,6 +381,91 @@ std::optional<Profile> best_profile(Span<const Vec3> vertices, Span<const Face> 
   return best;
 }
 
+/// How much area of possible flanks agrees about its place in the profile with one lead or another.
+class Agreement {
+ public:
+  /// @param count of the faces at most that are looked at, an even choice
+  Agreement(const std::vector<ProfileFace>& faces, std::size_t count) {
+    const std::size_t stride = 1 + faces.size() / count;
+    Directions directions;
+    for (const ProfileFace& face : faces) {
+      Direction& d = directions[direction_of(face.normal)];
+      d.radial += face.area * face.normal.radial;
+      d.lift += face.area * face.normal.lift;
+    }
+    for (std::size_t i = 0; i < faces.size(); i += stride) {
+      const ProfileFace& face = faces[i];
+      const std::size_t direction = direction_of(face.normal);
+      const ProfileDirection normal = directions[direction].normal();
+      seen_.push_back({direction, normal.radial / normal.lift * face.centroid.distance + face.centroid.along,
+                       std::polar(face.area, -face.centroid.angle)});
+    }
+  }
+
+  double area(double lead) const {
+    std::array<std::complex<double>, kDirections> sums{};
+    for (const Seen& s : seen_) sums[s.direction] += s.turned * std::polar(1.0, kTurn * s.place / lead);
+    double area = 0;
+    for (const std::complex<double>& sum : sums) area += std::abs(sum);
+    return area;
+  }
+
+ private:
+  struct Seen {
+    std::size_t direction;
+    double place;                 // where its plane of the profile meets the axis, angle 0 [mm]
+    std::complex<double> turned;  // its area, turned back by its angle
+  };
+  std::vector<Seen> seen_;
+};
+
+/// The lead near a rough one with which the most area agrees. The peak is narrow: few faces tell about where it is.
+/// @param turns how many turns the thread has
+double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double turns) {
+  const Agreement few(faces, kMostScanned), many(faces, kMostFitted);
+  const double step = kLeadStep / std::max(1.0, turns);
+  double best = rough, most = 0;
+  for (double off = -kLeadRange; off <= kLeadRange; off += step) {
+    const double found = few.area(rough * (1 + off));
+    if (found <= most) continue;
+    most = found;
+    best = rough * (1 + off);
+  }
+  double low = best * (1 - step), high = best * (1 + step);
+  for (int round = 0; round < kCloser; ++round) {
+    const double x = low + (high - low) / 3, y = high - (high - low) / 3;
+    if (many.area(x) < many.area(y)) {
+      low = x;
+    } else {
+      high = y;
+    }
+  }
+  return (low + high) / 2;
+}
+
+/// The thread of a mesh that was cut anew, which has no edges along helices: its surface tells the axis, and about how
+/// far it leads.
+std::optional<Profile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
+  if (faces.size() < kFewestFaces) return std::nullopt;
+  const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMostSamples));
+  if (!rough) return std::nullopt;
+  const AxisFrame frame(rough->point, rough->direction);
+  std::vector<ProfileFace> near;
+  for (const Face& f : faces) {
+    const ProfileFace face = profile_face(frame, Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
+    const AxisPlace& at = face.centroid;
+    if (may_be_flank(face) && at.along >= rough->begin && at.along <= rough->end && at.distance <= rough->most)
+      near.push_back(face);
+  }
+  const double lead = sharpest_lead(near, rough->lead, (rough->end - rough->begin) / std::abs(rough->lead));
+  std::optional<Profile> best;
+  for (int starts = 1; starts <= kMostStarts; ++starts) {
+    std::optional<Profile> found = profile_of(near, {rough->point, rough->direction}, lead, starts);
+    if (found && (!best || found->area > kMuchMore * best->area)) best = std::move(found);
+  }
+  return best;
+}
+
 /// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of
 /// the others.
 double between_crest_and_root(const std::vector<double>& distances) {
@@ -416,6 +511,8 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
   for (std::size_t i = 0; i < count; ++i)
     if (const std::optional<Profile> profile = best_profile(vertices, faces, axes[i], stride))
       threads.push_back(profile->thread);
+  if (threads.empty())
+    if (const std::optional<Profile> profile = recut_profile(vertices, faces)) threads.push_back(profile->thread);
   return threads;
 }
 

@@ -38,8 +38,9 @@ struct ThreadAxis {
 };
 
 /// The threads of a mesh about some of its axes, at most one about each. Found by the edges along helices, as
-/// tessellations of modelled threads have them, and by flanks that keep to their place in the profile all around. What
-/// is given is only where to look: one may be missing.
+/// tessellations of modelled threads have them, and by flanks that keep to their place in the profile all around. Where
+/// there are none, the one whose surface goes along itself by a screw motion (fit_thread), if most of what is curved
+/// does: meshes that were cut anew have no such edges. What is given is only where to look: one may be missing.
 std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes);
 
 /// Whether two threads are those of a screw and its nut: one outer, one inner, of nearly the same lead, as many starts

@@ -17,6 +17,8 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 /// Faces that meet at a larger cosine are parts of one smooth surface.
 constexpr double kSmooth = 0.85;
+/// And at a cosine above this of one plane.
+constexpr double kFlat = 1 - 1e-7;
 /// Fewer pieces are no thread.
 constexpr std::size_t kFewestSamples = 24;
 /// The fit is done anew so often, each time with less weight for what does not go along itself by the last one: the
@@ -126,18 +128,38 @@ void add_extent(ThreadAxis& thread, Span<const SurfaceSample> samples, const std
   }
 }
 
+Triangle triangle_of(Span<const Vec3> vertices, const Face& face) {
+  return {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}};
+}
+
+/// The place at an edge between two faces; none where they meet at a corner, or with a cosine above `flat`.
+std::optional<SurfaceSample> sample_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair,
+                                       double flat) {
+  const Vec3 a = 0.5 * normal_unscaled(triangle_of(vertices, faces[pair.face[0]]));
+  const Vec3 b = 0.5 * normal_unscaled(triangle_of(vertices, faces[pair.face[1]]));
+  const double cosine = dot(a, b), both = length(a) * length(b);
+  if (!(cosine > kSmooth * both) || cosine > flat * both) return std::nullopt;
+  const Vec3 middle = 0.5 * (vertices[pair.edge[0]] + vertices[pair.edge[1]]);
+  return SurfaceSample{middle, normalized(normalized(a) + normalized(b)), std::min(length(a), length(b))};
+}
+
 }  // namespace
 
 std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const std::uint8_t> of_interest) {
   std::vector<SurfaceSample> samples;
   for (const NeighbouringFaces& pair : neighbouring_faces(mesh.faces)) {
     if (of_interest[pair.face[0]] == 0 || of_interest[pair.face[1]] == 0) continue;
-    const Vec3 a = 0.5 * normal_unscaled(mesh.triangle(pair.face[0]));
-    const Vec3 b = 0.5 * normal_unscaled(mesh.triangle(pair.face[1]));
-    if (!(dot(a, b) > kSmooth * length(a) * length(b))) continue;
-    const Vec3 middle = 0.5 * (mesh.vertices[pair.edge[0]] + mesh.vertices[pair.edge[1]]);
-    samples.push_back({middle, normalized(normalized(a) + normalized(b)), std::min(length(a), length(b))});
+    if (const auto sample = sample_of(mesh.vertices, mesh.faces, pair, 2)) samples.push_back(*sample);
   }
+  return samples;
+}
+
+std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t most) {
+  const std::vector<NeighbouringFaces> pairs = neighbouring_faces(faces);
+  const std::size_t stride = 1 + pairs.size() / most;
+  std::vector<SurfaceSample> samples;
+  for (std::size_t i = 0; i < pairs.size(); i += stride)
+    if (const auto sample = sample_of(vertices, faces, pairs[i], kFlat)) samples.push_back(*sample);
   return samples;
 }
 

@@ -22,6 +22,9 @@ struct SurfaceSample {
 /// @param of_interest shape [face_count]
 std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const std::uint8_t> of_interest);
 
+/// The smooth parts of a mesh that are curved, at the edges between their faces; of more than `most` an even choice.
+std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t most);
+
 /// The thread that these pieces of flanks are of, if they are of one: axis, lead and where they are, but no profile,
 /// and one start. Whatever else is among them (seats, ends, chamfers) may be as long as it is less. It needs no edges
 /// along helices, as thread_axes does, so that meshes that were cut anew have it, too; but only flanks, whatever turns
