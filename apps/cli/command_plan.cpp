@@ -5,8 +5,8 @@
 #include "dismantle/instructions/precedence_files.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/path_file.h"
-#include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
+#include "dismantle/planner/step_preference.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +25,7 @@ struct PlanCommand {
   std::string output, graph;
   std::vector<std::string> targets, fixed;
   double time_limit = 0, effort = 1;
+  std::vector<StepPreference> preferences;
 };
 
 bool ends_with(const std::string& text, std::string_view ending) {
@@ -94,6 +95,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   PlanOptions options{
       *targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)};
   options.search_longer(command.effort);
+  options.preferences = command.preferences;
   const Plan plan = plan_disassembly(*assembly, *states, options);
   const Path path = plan_path(*assembly, *states, plan);
   const Result<Done> written = write_path(command.output, path);
@@ -133,6 +135,12 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--time-limit", options->time_limit, "End the search after so long, with what it has found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--prefer", options->preferences,
+                   "Of what can go straight out next, prefer what goes on in the same direction, does not lead down (z "
+                   "is up), is equal to what came out before, or leaves nothing unsupported; the first counts most")
+      ->transform(CLI::CheckedTransformer(step_preferences()))
+      ->type_name("direction|upright|groups|support");
   command
       ->add_option("--effort", options->effort,
                    "Search so many times as long for ways that are not straight (default: 1, some seconds)")

@@ -266,6 +266,7 @@ def plan(
     *,
     targets: Optional[_Keys] = None,
     fixed: Optional[_Keys] = None,
+    prefer: Sequence[str] = (),
     time_limit: float = 0.0,
     effort: float = 1.0,
     threads: int = 0,

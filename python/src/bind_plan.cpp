@@ -4,8 +4,8 @@
 #include "dismantle/export/exported_file.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/planner/explanation.h"
-#include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
+#include "dismantle/planner/step_preference.h"
 #include "python/src/path_object.h"
 
 #include <pybind11/stl/filesystem.h>
@@ -31,10 +31,25 @@ struct StepOfPlan {
   PlanStep step;
 };
 
-PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed, double time_limit,
-              double effort, int threads, const py::object& progress) {
+std::vector<StepPreference> preferences_of(const std::vector<std::string>& names) {
+  std::vector<StepPreference> preferences;
+  for (const std::string& name : names) {
+    const auto& known = step_preferences();
+    const auto found = known.find(name);
+    if (found == known.end())
+      raise_usage("the plan cannot prefer '" + name +
+                  "' (there is no such preference); give 'direction', 'upright', 'groups' or 'support'");
+    preferences.push_back(found->second);
+  }
+  return preferences;
+}
+
+PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed,
+              const std::vector<std::string>& prefer, double time_limit, double effort, int threads,
+              const py::object& progress) {
   PythonProgress watched(progress);
   PlanOptions options;
+  options.preferences = preferences_of(prefer);
   options.targets = components_of(*states->assembly, targets);
   options.fixed = components_of(*states->assembly, fixed);
   options.time_limit = time_limit;
@@ -160,9 +175,10 @@ void bind_plan(py::module_& module) {
                              })
       .def_readonly("seconds", &AuditReport::seconds);
   module.def("plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(),
-             py::arg("fixed") = py::none(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0,
-             py::arg("threads") = 0, py::arg("progress") = py::none(),
-             "How the assembly comes apart, or how the targets get out.");
+             py::arg("fixed") = py::none(), py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0,
+             py::arg("effort") = 1.0, py::arg("threads") = 0, py::arg("progress") = py::none(),
+             "How the assembly comes apart, or how the targets get out. What can come straight out next is chosen by "
+             "`prefer`, of 'direction', 'upright', 'groups' and 'support', the first before the others.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0);
   module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
              py::arg("progress") = py::none(), "Checks a path by means that share nothing with what made it.");

@@ -62,6 +62,14 @@ TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
   EXPECT_EQ(run("audit parts one.path.json").exit_code, 0);
 }
 
+TEST_F(CliPlan, PrefersWhatItIsToldTo) {
+  const Outcome o = run("plan parts -o all.path.json --prefer support groups --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(Json::parse(o.out)["complete"], true);
+  EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+  expect_error("plan parts -o all.path.json --prefer beauty", 2, "beauty");
+}
+
 TEST_F(CliPlan, AnswersOneAndSaysWhyWhereNotAllComesOut) {
   const Outcome o = run("plan parts -o none.path.json --target back --fixed floor roof left right end front");
   EXPECT_EQ(o.exit_code, 1);

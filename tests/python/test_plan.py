@@ -37,6 +37,15 @@ def test_takes_an_effort(states):
         dismantle.plan(states, effort=-1)
 
 
+def test_prefers_what_it_is_told_to(states):
+    usual = [s.components for s in dismantle.plan(states, prefer=[]).steps]
+    assert usual == [s.components for s in dismantle.plan(states).steps]
+    preferred = dismantle.plan(states, prefer=["groups", "support"])
+    assert preferred.complete and len(preferred.steps) == len(usual)
+    with pytest.raises(dismantle.UsageError, match="there is no such preference"):
+        dismantle.plan(states, prefer=["beauty"])
+
+
 def test_ends_early_where_it_is_told(states):
     assert dismantle.plan(states, time_limit=1e-6).out_of_time
     assert dismantle.plan(states, progress=lambda stage, fraction: False).out_of_time

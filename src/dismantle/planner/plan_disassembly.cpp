@@ -10,6 +10,7 @@
 #include "dismantle/planner/screw_search.h"
 #include "dismantle/planner/slide_search.h"
 #include "dismantle/planner/step_maker.h"
+#include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
 #include <atomic>
@@ -163,13 +164,7 @@ class Planner {
   }
 
   std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying) {
-    std::vector<StraightRemoval> single =
-        free_components(table_, directions_, body, staying, options_.engine.executor, [this] { return in_time(); });
-    std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
-      const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
-      if (a_goes_on != b_goes_on) return a_goes_on;
-      return features_[a.components[0].value].radius < features_[b.components[0].value].radius;
-    });
+    const std::vector<StraightRemoval> single = single_removals(body, staying);
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
     if (!single.empty()) return go_on() ? next_step(body, staying) : std::nullopt;
@@ -316,6 +311,24 @@ class Planner {
     return *known;
   }
 
+  /// Components that can go straight out by themselves, those to be tried first in front.
+  std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying) {
+    if (!options_.preferences.empty()) {
+      if (kinds_.empty()) kinds_ = component_kinds(assembly_);
+      StepBefore before;
+      if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
+      return preferred_removals({table_, directions_, kinds_, options_.preferences}, body, staying, before);
+    }
+    std::vector<StraightRemoval> single =
+        free_components(table_, directions_, body, staying, options_.engine.executor, [this] { return in_time(); });
+    std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
+      const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
+      if (a_goes_on != b_goes_on) return a_goes_on;
+      return features_[a.components[0].value].radius < features_[b.components[0].value].radius;
+    });
+    return single;
+  }
+
   /// Tries it with the engine, and learns from it where that refuses.
   std::optional<PlanStep> try_removal(const StraightRemoval& removal, const ComponentSet& body) {
     const Vec3 direction = table_.direction(removal.direction);
@@ -424,6 +437,7 @@ class Planner {
   double tolerance_;
   std::vector<ContactNormals> contacts_;
   DirectionId last_direction_;
+  std::vector<std::uint32_t> kinds_;  // of components, where preferences ask for them
   // Of every component, once they are asked for.
   std::vector<std::optional<std::vector<NeighbourThread>>> threads_;
   std::vector<std::optional<std::vector<ThreadAxis>>> modelled_;

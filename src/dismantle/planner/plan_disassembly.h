@@ -10,6 +10,14 @@
 
 namespace dismantle {
 
+/// What is preferred of several steps that can come next.
+enum class StepPreference {
+  Direction,  ///< It goes on in the direction of the step before.
+  Upright,    ///< It does not lead downwards, so that nothing has to be turned over. z is up.
+  Groups,     ///< What it takes is equal to what the step before took: fasteners of one kind together.
+  Support,    ///< It leaves nothing that nothing holds from below any more, though something did.
+};
+
 /// What is asked of a planner.
 struct PlanOptions {
   std::vector<ComponentId> targets;  ///< These shall come out, with as few others as possible; none: everything.
@@ -21,6 +29,9 @@ struct PlanOptions {
   std::size_t slide_effort = 400'000;
   /// The same for all searches for ways at random, which come after them.
   std::size_t sample_effort = 200'000;
+  /// Of single components that can go straight out next: the first counts most. None: the first that are found, those
+  /// in the direction of the step before first, which is faster.
+  std::vector<StepPreference> preferences{};
 
   /// Lets these searches cost `times` as much. @pre not negative
   void search_longer(double times) {

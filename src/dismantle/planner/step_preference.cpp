@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/step_preference.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// Two exits are one direction within this.
+constexpr double kSameExit = 1e-6;
+/// What leads down by more than this sine has to be turned over to come out upwards or sideways.
+constexpr double kDownwards = 0.2;
+
+/// Tells how much speaks against a removal.
+class RemovalJudge {
+ public:
+  RemovalJudge(const RemovalChoice& choice, const ComponentSet& present, const ComponentSet& never,
+               const StepBefore& before)
+      : choice_(choice),
+        present_(present),
+        never_(never),
+        before_(before),
+        down_(choice.table.add_direction({0, 0, -1})) {}
+
+  std::vector<std::size_t> against(const StraightRemoval& removal) {
+    std::vector<std::size_t> counts;
+    counts.reserve(choice_.preferences.size());
+    for (const StepPreference preference : choice_.preferences) counts.push_back(against(removal, preference));
+    return counts;
+  }
+
+ private:
+  std::size_t against(const StraightRemoval& removal, StepPreference preference) {
+    const Vec3 exit = choice_.table.direction(removal.direction);
+    const ComponentId c = removal.components[0];
+    switch (preference) {
+      case StepPreference::Direction:
+        return length(exit - before_.exit) > kSameExit ? 1 : 0;
+      case StepPreference::Upright:
+        return exit.z < -kDownwards ? 1 : 0;
+      case StepPreference::Groups:
+        return before_.component.valid() && choice_.kinds[c.value] == choice_.kinds[before_.component.value] ? 0 : 1;
+      case StepPreference::Support:
+        return left_loose(c);
+    }
+    return 0;
+  }
+
+  /// How many could fall without `gone`, that cannot with it.
+  std::size_t left_loose(ComponentId gone) {
+    ComponentSet left = present_;
+    left.erase(gone);
+    std::size_t loose = 0;
+    for (const ComponentId c : left.members())
+      if (!never_.has(c) && choice_.table.blocks(c, down_, gone) && !choice_.table.any_blocker(c, down_, left)) ++loose;
+    return loose;
+  }
+
+  const RemovalChoice& choice_;
+  const ComponentSet& present_;
+  const ComponentSet& never_;
+  const StepBefore& before_;
+  DirectionId down_;
+};
+
+}  // namespace
+
+const std::map<std::string, StepPreference>& step_preferences() {
+  static const std::map<std::string, StepPreference> kNames{{"direction", StepPreference::Direction},
+                                                            {"upright", StepPreference::Upright},
+                                                            {"groups", StepPreference::Groups},
+                                                            {"support", StepPreference::Support}};
+  return kNames;
+}
+
+std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,
+                                                const ComponentSet& never, const StepBefore& before) {
+  RemovalJudge judge(choice, present, never, before);
+  std::vector<std::pair<std::vector<std::size_t>, StraightRemoval>> found;
+  for (const ComponentId c : present.members()) {
+    if (never.has(c)) continue;
+    for (const DirectionId d : choice.directions[c.value]) {
+      if (choice.table.any_blocker(c, d, present)) continue;
+      StraightRemoval removal{{c}, d};
+      std::vector<std::size_t> against = judge.against(removal);
+      found.emplace_back(std::move(against), std::move(removal));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    return choice.table.radius(a.second.components[0]) < choice.table.radius(b.second.components[0]);
+  });
+  std::vector<StraightRemoval> removals;
+  removals.reserve(found.size());
+  for (auto& [against, removal] : found) removals.push_back(std::move(removal));
+  return removals;
+}
+
+std::vector<std::uint32_t> component_kinds(const Assembly& assembly) {
+  std::vector<std::uint32_t> kinds;
+  kinds.reserve(assembly.components.size());
+  for (std::uint32_t c = 0; c < assembly.components.size(); ++c) {
+    const auto& mesh = assembly.components[c].mesh;
+    std::uint32_t kind = 0;
+    while (kind < c && assembly.components[kind].mesh != mesh && !(*assembly.components[kind].mesh == *mesh)) ++kind;
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/step_preference.h"
+
+#include "dismantle/planner/plan_disassembly.h"
+#include "tests/planner/plan_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+using Preferences = std::vector<StepPreference>;
+
+/// Cubes in cases that are open on some sides only. Cases never move.
+class Cases {
+ public:
+  /// @param shape of the cube, lower corner at the origin; equal for equal cubes
+  void add(const std::shared_ptr<const TriangleMesh>& shape, const std::vector<Vec3>& open) {
+    const Vec3 size = bounds(*shape).size(), place{40.0 * static_cast<double>(cubes_.size()), 0, 0};
+    Component cube = scenes::component("cube", *shape);
+    cube.mesh = shape;
+    cube.assembly_from_mesh.translation = place;
+    cubes_.push_back(std::move(cube));
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {-1.0, 1.0}) {
+        Vec3 outward, lower = place, upper = place + size;
+        outward[axis] = side;
+        if (std::find(open.begin(), open.end(), outward) != open.end()) continue;
+        (side < 0 ? upper : lower)[axis] = side < 0 ? lower[axis] : upper[axis];
+        (side < 0 ? lower : upper)[axis] += 2 * side;
+        walls_.push_back(scenes::component("wall", scenes::box(lower, upper)));
+      }
+    }
+  }
+
+  /// The cubes' numbers in the order in which they come out.
+  std::vector<std::uint32_t> order(const Preferences& preferences) const {
+    std::vector<Component> all = cubes_;
+    all.insert(all.end(), walls_.begin(), walls_.end());
+    const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(std::move(all)));
+    PlanOptions options;
+    options.preferences = preferences;
+    for (std::size_t c = cubes_.size(); c < cubes_.size() + walls_.size(); ++c)
+      options.fixed.emplace_back(static_cast<std::uint32_t>(c));
+    std::vector<std::uint32_t> order;
+    for (const PlanStep& step : plan_disassembly(scene.assembly, scene.pairs, options).steps)
+      order.push_back(step.components[0].value);
+    return order;
+  }
+
+ private:
+  std::vector<Component> cubes_, walls_;
+};
+
+std::shared_ptr<const TriangleMesh> cube(double size) {
+  return std::make_shared<const TriangleMesh>(scenes::box({0, 0, 0}, {size, size, size}));
+}
+
+constexpr Vec3 kUp{0, 0, 1}, kDown{0, 0, -1}, kAside{0, 1, 0};
+using Order = std::vector<std::uint32_t>;
+
+TEST(StepPreference, GoesOnInTheSameDirection) {
+  Cases cases;
+  cases.add(cube(4), {kAside});
+  cases.add(cube(5), {kUp});
+  cases.add(cube(6), {kAside});
+  EXPECT_EQ(cases.order({StepPreference::Support}), (Order{0, 1, 2})) << "small ones first";
+  EXPECT_EQ(cases.order({StepPreference::Direction}), (Order{0, 2, 1}));
+}
+
+TEST(StepPreference, TakesEqualComponentsTogether) {
+  const auto small = cube(4);
+  Cases cases;
+  cases.add(small, {kAside});
+  cases.add(cube(5), {kAside});
+  cases.add(small, {kUp});
+  EXPECT_EQ(cases.order({StepPreference::Direction, StepPreference::Groups}), (Order{0, 1, 2}));
+  EXPECT_EQ(cases.order({StepPreference::Groups, StepPreference::Direction}), (Order{0, 2, 1}));
+}
+
+TEST(StepPreference, TurnsNothingOverWhileSomethingElseCanBeDone) {
+  Cases cases;
+  cases.add(cube(4), {kDown});
+  cases.add(cube(5), {kDown, kAside});
+  EXPECT_EQ(cases.order({StepPreference::Direction}), (Order{0, 1}));
+  EXPECT_EQ(cases.order({StepPreference::Upright}), (Order{1, 0}));
+}
+
+TEST(StepPreference, TakesWhatStandsOnAComponentBeforeIt) {
+  // A shelf in a slot of a wall, and a cup on it.
+  const scenes::PlanScene scene =
+      scenes::plan_scene(scenes::assembly({scenes::component("over", scenes::box({-20, -30, 2}, {0, 30, 40})),
+                                           scenes::component("under", scenes::box({-20, -30, -40}, {0, 30, 0})),
+                                           scenes::component("shelf", scenes::box({-4, -3, 0}, {10, 3, 2})),
+                                           scenes::component("cup", scenes::box({0, -6, 2}, {9, 6, 22}))}));
+  const auto first = [&](const Preferences& preferences) {
+    PlanOptions options;
+    options.preferences = preferences;
+    options.fixed = {ComponentId(0), ComponentId(1)};
+    return plan_disassembly(scene.assembly, scene.pairs, options).steps.at(0).components.at(0);
+  };
+  EXPECT_EQ(first({StepPreference::Direction}), ComponentId(2)) << "the shelf is smaller";
+  EXPECT_EQ(first({StepPreference::Support}), ComponentId(3));
+}
+
+}  // namespace
+}  // namespace dismantle
