@@ -2,6 +2,7 @@
 // What the planner takes apart, by which tier, in what time; every path audited.
 //   bench_plan cases [--shapes N] [--poses M] [KIND...]   N shapes of each kind of generated case, each as it is and in
 //                                                         M random orientations, scales and tessellations
+//   bench_plan products [N...]                            generated products of about N components
 //   bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...         assemblies
 // One row a case or an assembly, tab-separated. `good`: exactly what is known to come out does, and the audit holds;
 // for assemblies: all comes out or is explained, and the audit holds. Times, the limit's too, are processor times of
@@ -133,29 +134,38 @@ bool run_cases(const Settings& settings) {
   return all_good;
 }
 
-bool run_file(const std::string& file, const Settings& settings) {
-  const Result<Assembly> assembly = load_assembly(file);
-  if (!assembly) {
-    std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
-    return false;
-  }
+bool run_assembly(const Assembly& assembly, const Settings& settings) {
   PlanOptions options;
   const double end = processor_seconds() + settings.time_limit;
   options.progress = [end](std::string_view, double) { return processor_seconds() < end; };
-  const Planned planned = plan_and_audit(*assembly, settings.tolerance, options);
+  const Planned planned = plan_and_audit(assembly, settings.tolerance, options);
   const bool good = planned.audited && !planned.plan.out_of_time;
-  std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", assembly->source_file.c_str(),
-              assembly->components.size(), triangle_count(*assembly), taken_out(planned.plan),
+  std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", assembly.source_file.c_str(),
+              assembly.components.size(), triangle_count(assembly), taken_out(planned.plan),
               tiers(planned.plan).c_str(), planned.plan.staying.size(), planned.classify_seconds, planned.plan_seconds,
               planned.audited ? "holds" : "BROKEN", good ? "yes" : "NO");
   std::fflush(stdout);
   return good;
 }
 
-bool run_files(const Settings& settings) {
+bool run_file(const std::string& file, const Settings& settings) {
+  const Result<Assembly> assembly = load_assembly(file);
+  if (assembly) return run_assembly(*assembly, settings);
+  std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
+  return false;
+}
+
+bool run_product(const std::string& count, const Settings& settings) {
+  Assembly product = stations(static_cast<std::uint32_t>(std::max(7, std::atoi(count.c_str()))));
+  product.source_file = "product";
+  return run_assembly(product, settings);
+}
+
+template <class Run>
+bool run_assemblies(const Settings& settings, const Run& run) {
   std::printf("assembly\tcomponents\ttriangles\tout\t%s\tstaying\tclassify_s\tplan_s\taudit\tgood\n", kTierColumns);
   bool good = true;
-  for (const std::string& file : settings.names) good = run_file(file, settings) && good;
+  for (const std::string& name : settings.names) good = run(name, settings) && good;
   return good;
 }
 
@@ -187,11 +197,13 @@ int main(int argc, char** argv) {
   using namespace dismantle;
   const std::string what = argc > 1 ? argv[1] : "";
   Settings settings;
-  if ((what != "cases" && what != "files") || !parse(argc, argv, settings)) {
+  if ((what != "cases" && what != "files" && what != "products") || !parse(argc, argv, settings)) {
     std::fprintf(stderr,
                  "usage: bench_plan cases [--shapes N] [--poses M] [KIND...]\n"
+                 "       bench_plan products [N...]\n"
                  "       bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...\n");
     return 2;
   }
-  return (what == "cases" ? run_cases(settings) : run_files(settings)) ? 0 : 1;
+  if (what == "cases") return run_cases(settings) ? 0 : 1;
+  return run_assemblies(settings, what == "files" ? run_file : run_product) ? 0 : 1;
 }

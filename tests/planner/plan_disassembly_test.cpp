@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/plan_disassembly.h"
 
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/planner/plan_path.h"
 #include "tests/planner/plan_scenes.h"
 
 #include <gtest/gtest.h>
@@ -130,6 +132,18 @@ TEST(PlanDisassembly, GivesTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(a.steps[k].components, b.steps[k].components);
     EXPECT_EQ(a.steps[k].exit, b.steps[k].exit);
   }
+}
+
+TEST(PlanDisassembly, TakesProductsOfManyEqualPartsApart) {
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::stations(22));
+  PlanOptions options;
+  options.fixed = {ComponentId(0)};
+  const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
+  EXPECT_EQ(plan.steps.size(), scene.assembly.components.size() - 1);
+  EXPECT_TRUE(plan.staying.empty());
+  ASSERT_FALSE(plan.steps.empty());
+  EXPECT_EQ(plan.steps[0].components, std::vector{ComponentId(1)}) << "the cover is on all others";
+  EXPECT_TRUE(audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds());
 }
 
 }  // namespace

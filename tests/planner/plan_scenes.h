@@ -73,4 +73,28 @@ inline Assembly framed_dovetail() {
   return assembly(std::move(components));
 }
 
+/// A product of about `count` components: a base, stations of five parts in rows on it that stand for bolted joints
+/// (sleeve, pin with a head in it, two washers and a cap over all), and a cover on all of them. Equal parts share their
+/// meshes. All comes out.
+inline Assembly stations(std::uint32_t count) {
+  constexpr double kApart = 20;
+  const std::uint32_t all = std::max(1u, (count - 2) / 5);
+  const auto rows = static_cast<std::uint32_t>(std::ceil(std::sqrt(all)));
+  const double size = kApart * rows;
+  const std::vector<Component> parts = {
+      component("sleeve", tube(6, 3, 0, 10, 24)),
+      component("pin", revolved({{0, 2}, {2.9, 2}, {2.9, 11}, {5, 11}, {5, 12}, {0, 12}}, 24)),
+      component("lower washer", tube(5, 3, 10, 10.5, 24)), component("upper washer", tube(5, 3, 10.5, 11, 24)),
+      component("cap", revolved({{0, 13}, {7, 13}, {7, 0}, {8, 0}, {8, 14}, {0, 14}}, 24))};
+  std::vector<Component> components{component("base", box({0, 0, -5}, {size, size, 0})),
+                                    component("cover", box({0, 0, 14}, {size, size, 18}))};
+  for (std::uint32_t k = 0; k < all; ++k)
+    for (Component part : parts) {
+      part.name += " " + std::to_string(k);
+      part.assembly_from_mesh.translation = {kApart * (k % rows + 0.5), kApart * (k / rows + 0.5), 0};
+      components.push_back(std::move(part));
+    }
+  return assembly(std::move(components));
+}
+
 }  // namespace dismantle::scenes
