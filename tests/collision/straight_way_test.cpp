@@ -65,7 +65,8 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
       ASSERT_TRUE(in_fixed || in_moving);
       const auto is_corner = [](const SolidTree& solid, std::uint32_t face, const Vec3& p) {
         const Triangle t = solid.triangle(face);
-        return std::any_of(t.corner, t.corner + 3, [&](const Vec3& c) { return length(c - p) < 1e-9 * (1 + length(p)); });
+        return std::any_of(t.corner, t.corner + 3,
+                           [&](const Vec3& c) { return length(c - p) < 1e-9 * (1 + length(p)); });
       };
       ASSERT_TRUE(in_fixed ? is_corner(moving.tree, found->face_moving, of_moving)
                            : is_corner(fixed.tree, found->face_fixed, found->point));

@@ -63,8 +63,7 @@ TEST(ThreadAxes, FindTheLeadOfAThreadThatWasCutAnewWhereverItIs) {
       std::vector<ThreadAxis> found;
       for (const bool inner : {false, true}) {
         const TriangleMesh straight = scenes::cut_anew(inner ? nut : bolt, inner, 14, random);
-        const std::vector<ThreadAxis> threads =
-            threads_of(scenes::moved(left ? mirrored(straight) : straight, pose));
+        const std::vector<ThreadAxis> threads = threads_of(scenes::moved(left ? mirrored(straight) : straight, pose));
         ASSERT_EQ(threads.size(), 1u) << offset << ' ' << inner << ' ' << left;
         EXPECT_NEAR(threads[0].lead, left ? -1.25 : 1.25, 1e-3);
         EXPECT_EQ(threads[0].starts, 1);

@@ -64,8 +64,8 @@ bool ray_meets(const ObbNode& node, Vec3 p, Vec3 d) {
   return enter <= leave * (1 + 1e-9);
 }
 
-/// Calls hit(face, triangle about `point`) for every face that the ray crosses; false, and not for all of them, where it
-/// comes too near to an edge to tell.
+/// Calls hit(face, triangle about `point`) for every face that the ray crosses; false, and not for all of them, where
+/// it comes too near to an edge to tell.
 template <class Hit>
 bool for_each_hit(const SolidTree& solid, Vec3 point, Vec3 direction, const Hit& hit) {
   if (solid.tree.empty()) return true;

@@ -32,7 +32,9 @@ struct BoxShadow {
     half[2] = node.box.half[2] * to_double(node.box.third_axis());
     radius = node.radius;
   }
-  double reach(Vec3 w) const { return std::abs(dot(w, half[0])) + std::abs(dot(w, half[1])) + std::abs(dot(w, half[2])); }
+  double reach(Vec3 w) const {
+    return std::abs(dot(w, half[0])) + std::abs(dot(w, half[1])) + std::abs(dot(w, half[2]));
+  }
 };
 
 /// Tells shadows apart along one way.
@@ -113,8 +115,8 @@ std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way,
 }
 
 /// The first of a few vertices of `from` that the way takes deep into `into`, and its place.
-std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const SolidTree& into, Vec3 way,
-                                                                  double depth) {
+std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const SolidTree& into,
+                                                                  Vec3 way, double depth) {
   const std::size_t count = from.vertices.size(), stride = std::max<std::size_t>(1, count / kVertices);
   for (std::size_t v = 0; v < count; v += stride)
     if (const auto place = deep_place(into, from.vertices[v], way, depth))
