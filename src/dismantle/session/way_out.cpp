@@ -84,7 +84,16 @@ std::vector<FreeDirection> WayOut::find(double contact_reach) const {
   }
   add_direction(directions, sum);
 
-  std::vector<FreeDirection> found = look(directions);
+  // Most lead nowhere: a look as far as that tells, and costs little beside one all the way out.
+  std::vector<Pose> near;
+  for (const Vec3& d : directions)
+    near.push_back({pose_.position + (kNowhereShare * exit_distance(d)) * d, pose_.rotation});
+  const std::vector<FirstContact> contacts = engine_.first_contacts(near);
+  std::vector<Vec3> open;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (contacts[i].free) open.push_back(directions[i]);
+
+  std::vector<FreeDirection> found = look(open);
   std::erase_if(found, [&](const FreeDirection& d) {
     return !d.free && d.distance < kNowhereShare * exit_distance(d.direction);
   });
