@@ -40,8 +40,8 @@ async function lookAt(viewer: Viewer, name: string, room: number): Promise<void>
 }
 
 /// A server for some pictures; it ends with them, however they end.
-async function withServer(arguments_: string[], makePictures: (viewer: Viewer) => Promise<void>): Promise<void> {
-  const server = await Server.start(...arguments_);
+async function withServer(start: Promise<Server>, makePictures: (viewer: Viewer) => Promise<void>): Promise<void> {
+  const server = await start;
   try {
     const viewer = await open(server);
     await makePictures(viewer);
@@ -133,11 +133,11 @@ async function offlinePage(file: string): Promise<void> {
   rmSync(join(file, ".."), { recursive: true });
 }
 
-/// What somebody who has never seen it does after ./run: three components are taken out, and the page is exported, by
+/// What somebody who has never seen it does with the page of ./run: three components are taken out, and the page is exported, by
 /// clicks alone.
 async function firstMinutes(viewer: Viewer): Promise<void> {
-  await viewer.model();
   const begin = performance.now();
+  await viewer.model();
   for (const [i, name] of [kSlide, "foot", "foot#2"].entries()) {
     await viewer.click(`#tree-panel .row .name:text-is("${name}")`);
     await viewer.page.click("#take-out");
@@ -167,12 +167,11 @@ async function workshop(viewer: Viewer): Promise<void> {
   await guide(viewer);
 }
 
-const kMicroscope = ["--sample", "microscope"];
 mkdirSync(kFolder, { recursive: true });
 try {
-  await withServer(kMicroscope, firstMinutes);
-  await withServer([], startPage);
-  await withServer(kMicroscope, workshop);
+  await withServer(Server.startRun(), firstMinutes);
+  await withServer(Server.start(), startPage);
+  await withServer(Server.start("--sample", "microscope"), workshop);
 } finally {
   await closeBrowser();
 }

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { type Browser, chromium as driver, type Page } from "playwright-core";
 import type { StateEvent } from "../../src/wire/messages.ts";
-import { chromium, pageFolder, program } from "./tree.ts";
+import { chromium, pageFolder, program, sourceFolder } from "./tree.ts";
 
 /// Drawn by Mesa on the processor: twice as fast as what the browser itself has for machines without a GPU.
 const kChromiumFlags = ["--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
@@ -27,14 +27,18 @@ export class Server {
 
   /// Starts one where another one was.
   static startIn(home: string, ...arguments_: string[]): Promise<Server> {
-    const environment = {
-      ...process.env,
-      HOME: home,
-      XDG_STATE_HOME: home,
-      XDG_CACHE_HOME: home,
-      XDG_CONFIG_HOME: home,
-    };
-    const child = spawn(program(), ["view", "--no-browser", ...pageFolder(), ...arguments_], { env: environment });
+    const folders = { HOME: home, XDG_STATE_HOME: home, XDG_CACHE_HOME: home, XDG_CONFIG_HOME: home };
+    return Server.spawn(home, program(), ["view", "--no-browser", ...pageFolder(), ...arguments_], folders);
+  }
+
+  /// Starts the one of `./run`, as somebody new does; what is not built yet is built first.
+  static startRun(): Promise<Server> {
+    const home = mkdtempSync(join(tmpdir(), "dismantle-viewer-"));
+    return Server.spawn(home, join(sourceFolder(), "run"), ["--no-browser", "--no-journal"], {});
+  }
+
+  private static spawn(home: string, command: string, arguments_: string[], environment: object): Promise<Server> {
+    const child = spawn(command, arguments_, { env: { ...process.env, ...environment } });
     return new Promise((resolve, reject) => {
       let said = "";
       const listen = (chunk: Buffer) => {
