@@ -68,8 +68,9 @@ TEST_F(WayOutOfTheWall, LeavesOutWhatEndsBeforeAHundredthOfTheWay) {
   const auto leads_to_the_wall_from = [&](double gap) {
     engine_.jump(std::vector<Pose>{{{10.5 - gap, 0, 0}, {}}, {}});
     const std::vector<FreeDirection> ways = out().find(kReach);
-    return std::any_of(ways.begin(), ways.end(),
-                       [](const FreeDirection& w) { return w.direction == Vec3{1, 0, 0} && !w.free; });
+    return std::any_of(ways.begin(), ways.end(), [](const FreeDirection& w) {
+      return w.direction == Vec3{1, 0, 0} && !w.free;
+    });
   };
   EXPECT_FALSE(leads_to_the_wall_from(0.1));
   EXPECT_TRUE(leads_to_the_wall_from(1));
