@@ -42,9 +42,6 @@ class PdfWriter {
   Result<std::string> write() {
     write_cover();
     for (std::size_t i = 0; i < instructions_.steps.size(); ++i) write_step(i);
-    const double height = sheet_.text_height(kInstructionsFooter, kInside, kText);
-    need(height + kGap);
-    sheet_.put_text(kInstructionsFooter, kBorder, y_ + kGap, kInside, kText);
     end_page();
     return sheet_.finish();
   }
@@ -81,6 +78,8 @@ class PdfWriter {
       y_ += kGap;
     }
     write_parts();
+    y_ += kGap / 2;
+    put(kInstructionsFooter, kText);
     if (page_ == 0)
       begin_page();
     else

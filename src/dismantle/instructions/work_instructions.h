@@ -81,7 +81,7 @@ std::string size_text(const Vec3& size);
 /// How much there is to do, and of what file: for the cover.
 std::string summary_text(const WorkInstructions& instructions);
 
-/// What the last page says of how the instructions were made.
+/// What a document says of how the instructions were made.
 inline constexpr const char* kInstructionsFooter =
     "Tools and warnings are derived from shapes and motions alone; up is +Z. Clearances are measured at places along "
     "the way: between them it may come nearer. Friction, weight, glue and what is not drawn are not known. Written by "
