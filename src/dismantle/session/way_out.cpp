@@ -86,6 +86,7 @@ std::vector<FreeDirection> WayOut::find(double contact_reach) const {
 
   // Most lead nowhere: a look as far as that tells, and costs little beside one all the way out.
   std::vector<Pose> near;
+  near.reserve(directions.size());
   for (const Vec3& d : directions)
     near.push_back({pose_.position + (kNowhereShare * exit_distance(d)) * d, pose_.rotation});
   const std::vector<FirstContact> contacts = engine_.first_contacts(near);
