@@ -294,6 +294,39 @@ TEST(CertificateEngine, FindsTheFirstContactOfEachCandidate) {
   EXPECT_EQ(h.engine.poses()[0], Pose{});
 }
 
+TEST(CertificateEngine, TellsHowFarTheSetCanGoStraightWhereverAllAre) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  std::mt19937_64 random(8);
+  int free = 0, blocked = 0;
+  for (int place = 0; place < 40; ++place) {
+    Held h(assembly, states, 0);
+    const Pose all = scenes::random_pose(random, 300, 3);
+    h.engine.jump(std::vector<Pose>{all * Pose{{0, 0, 3}, quat_about({0, 0, 1}, 0.2)}, all});
+    const ComponentId block(0);
+    h.engine.hold({&block, 1});
+    std::vector<Vec3> ways;
+    std::vector<Pose> targets;
+    for (int i = 0; i < 10; ++i) {
+      ways.push_back(scenes::random_vector(random, 30));
+      targets.push_back({h.engine.poses()[0].position + ways.back(), h.engine.poses()[0].rotation});
+    }
+    const std::vector<FirstContact> straight = h.engine.straight_contacts(ways);
+    const std::vector<FirstContact> first = h.engine.first_contacts(targets);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      ASSERT_EQ(straight[i].free, first[i].free) << place << ' ' << i;
+      (straight[i].free ? free : blocked) += 1;
+      const double off = (first[i].toi - straight[i].toi) * length(ways[i]);
+      EXPECT_LE(std::abs(off), 8 * states.tolerance) << place << ' ' << i;
+      if (!straight[i].free) {
+        EXPECT_EQ(straight[i].fixed, first[i].fixed);
+      }
+    }
+  }
+  EXPECT_GT(free, 50);
+  EXPECT_GT(blocked, 50);
+}
+
 TEST(CertificateEngine, GivesTheContactsWithinReach) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);

@@ -19,13 +19,13 @@ struct Solid {
 };
 
 /// The least distance of all triangles at some places of the way.
-double brute_distance(const SolidTree& moving, const SolidTree& fixed, const Vec3& way) {
+double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
   constexpr int kPlaces = 16;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= kPlaces; ++k)
-    for (std::uint32_t a = 0; a < moving.faces.size(); ++a) {
-      Triangle moved = moving.triangle(a);
-      for (Vec3& p : moved.corner) p += k / static_cast<double>(kPlaces) * way;
+    for (std::uint32_t a = 0; a < moving.solid.faces.size(); ++a) {
+      Triangle moved = moving.solid.triangle(a);
+      for (Vec3& p : moved.corner) p = moving.at * p + k / static_cast<double>(kPlaces) * moving.way;
       for (std::uint32_t b = 0; b < fixed.faces.size(); ++b)
         least = std::min(least, distance_triangle_triangle(moved, fixed.triangle(b)).distance);
     }
@@ -41,34 +41,36 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
       const Pose pose = scenes::random_pose(random, offset, 3);
       const Solid fixed(scenes::moved(scenes::tube(3, 1, -2, 2, 9, 1), pose));
       const Vec3 at = assembled_bounds(fixed.assembly.components[0]).center();
-      const Solid moving(scenes::moved(scenes::tube(0.8, 0.3, -1, 1, 7, 1),
-                                       Pose{at + scenes::random_vector(random, 4), pose.rotation}));
-      const Vec3 way = scenes::random_vector(random, 8);
-      const bool passes = passes_by(moving.tree, fixed.tree, way);
-      const auto found = deep_vertex_on(moving.tree, fixed.tree, way, 0.05);
+      // Assembled somewhere else, but brought near.
+      const Pose own = scenes::random_pose(random, offset, 3);
+      const Solid solid(scenes::moved(scenes::tube(0.8, 0.3, -1, 1, 7, 1), own));
+      const Pose near{at + scenes::random_vector(random, 4), pose.rotation};
+      const StraightMover moving{solid.tree, transform_from_pose(near * inverse(own)),
+                                 scenes::random_vector(random, 8)};
+      const bool passes = passes_by(moving, fixed.tree);
+      const auto found = deep_vertex_on(moving, fixed.tree, 0.05);
       ASSERT_FALSE(passes && found);
       free += passes;
       deep += found.has_value();
       unsettled += !passes && !found;
       if (passes) {
-        ASSERT_GT(brute_distance(moving.tree, fixed.tree, way), 0) << i;
+        ASSERT_GT(brute_distance(moving, fixed.tree), 0) << i;
       }
       if (!found) continue;
       ASSERT_GE(found->share, 0);
       ASSERT_LE(found->share, 1);
       // Of one of the two it is a vertex there, in the other one it is deep.
-      const Vec3 of_moving = found->point - found->share * way;
-      const bool in_fixed = point_in_solid(fixed.tree, found->point) &&
-                            nearest_face(fixed.tree, found->point, NearestFace::kNone).distance > 0.05 - 1e-6;
-      const bool in_moving = point_in_solid(moving.tree, of_moving) &&
-                             nearest_face(moving.tree, of_moving, NearestFace::kNone).distance > 0.05 - 1e-6;
-      ASSERT_TRUE(in_fixed || in_moving);
-      const auto is_corner = [](const SolidTree& solid, std::uint32_t face, const Vec3& p) {
-        const Triangle t = solid.triangle(face);
-        return std::any_of(t.corner, t.corner + 3,
-                           [&](const Vec3& c) { return length(c - p) < 1e-9 * (1 + length(p)); });
+      const Vec3 of_moving = inverse(moving.at) * (found->point - found->share * moving.way);
+      const auto is_deep = [](const SolidTree& in, const Vec3& p) {
+        return point_in_solid(in, p) && nearest_face(in, p, NearestFace::kNone).distance > 0.05 - 1e-6;
       };
-      ASSERT_TRUE(in_fixed ? is_corner(moving.tree, found->face_moving, of_moving)
+      const bool in_fixed = is_deep(fixed.tree, found->point), in_moving = is_deep(solid.tree, of_moving);
+      ASSERT_TRUE(in_fixed || in_moving);
+      const auto is_corner = [&](const SolidTree& of, std::uint32_t face, const Vec3& p) {
+        const Triangle t = of.triangle(face);
+        return std::any_of(t.corner, t.corner + 3, [&](const Vec3& c) { return length(c - p) < 1e-9 * (1 + offset); });
+      };
+      ASSERT_TRUE(in_fixed ? is_corner(solid.tree, found->face_moving, of_moving)
                            : is_corner(fixed.tree, found->face_fixed, found->point));
     }
   EXPECT_GT(free, 40);
@@ -79,23 +81,23 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
 TEST(StraightWay, PassesWhatItsShadowMissesByHundredthsOrThatIsBehind) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), plate(scenes::box({1.01, -500, 5}, {500, 500, 6})),
       behind(scenes::box({-5, -5, -2}, {5, 5, -0.01})), beyond(scenes::box({-5, -5, 12.01}, {5, 5, 13}));
-  for (const Solid* other : {&plate, &behind, &beyond}) EXPECT_TRUE(passes_by(bar.tree, other->tree, {0, 0, 10}));
-  EXPECT_FALSE(passes_by(bar.tree, plate.tree, {0.1, 0, 10}));
-  EXPECT_FALSE(passes_by(bar.tree, behind.tree, {0, 0, -10}));
-  EXPECT_FALSE(passes_by(bar.tree, beyond.tree, {0, 0, 10.2}));
+  for (const Solid* other : {&plate, &behind, &beyond}) EXPECT_TRUE(passes_by({bar.tree, {}, {0, 0, 10}}, other->tree));
+  EXPECT_FALSE(passes_by({bar.tree, {}, {0.1, 0, 10}}, plate.tree));
+  EXPECT_FALSE(passes_by({bar.tree, {}, {0, 0, -10}}, behind.tree));
+  EXPECT_FALSE(passes_by({bar.tree, {}, {0, 0, 10.2}}, beyond.tree));
 }
 
 TEST(StraightWay, IsDeepWhereAVertexIsAndNotWhereTheOtherIsThinOrOpen) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), wall(scenes::box({-5, -5, 3}, {5, 5, 4})),
       foil(scenes::box({-5, -5, 3}, {5, 5, 3.05}));
-  EXPECT_TRUE(deep_vertex_on(bar.tree, wall.tree, {0, 0, 10}, 0.1));
-  EXPECT_TRUE(deep_vertex_on(wall.tree, bar.tree, {0, 0, -1.5}, 0.1)) << "the bar's vertices are in the wall";
-  EXPECT_FALSE(deep_vertex_on(bar.tree, wall.tree, {0, 0, 0.9}, 0.1)) << "it does not go that far";
-  EXPECT_FALSE(deep_vertex_on(bar.tree, wall.tree, {0, 0, -10}, 0.1));
-  EXPECT_FALSE(deep_vertex_on(bar.tree, foil.tree, {0, 0, 10}, 0.1)) << "nothing is so deep in a foil";
+  EXPECT_TRUE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, wall.tree, 0.1));
+  EXPECT_TRUE(deep_vertex_on({wall.tree, {}, {0, 0, -1.5}}, bar.tree, 0.1)) << "the bar's vertices are in the wall";
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 0.9}}, wall.tree, 0.1)) << "it does not go that far";
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, -10}}, wall.tree, 0.1));
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, foil.tree, 0.1)) << "nothing is so deep in a foil";
   TriangleMesh open = scenes::box({-5, -5, 3}, {5, 5, 4});
   open.faces.resize(open.faces.size() - 2);
-  EXPECT_FALSE(deep_vertex_on(bar.tree, Solid(open).tree, {0, 0, 10}, 0.1));
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, Solid(open).tree, 0.1));
 }
 
 }  // namespace

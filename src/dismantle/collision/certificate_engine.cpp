@@ -60,9 +60,13 @@ std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> tar
   return dismantle::first_contacts(body_->sweeper, targets);
 }
 
+std::vector<FirstContact> CertificateEngine::straight_contacts(Span<const Vec3> ways) const {
+  return dismantle::straight_contacts(body_->sweeper, ways);
+}
+
 std::optional<StraightContact> CertificateEngine::straight_contact(ComponentId moving, ComponentId fixed,
                                                                    const Vec3& way, StraightSearch search) const {
-  return dismantle::straight_contact(body_->sweeper, {moving, fixed, way}, search);
+  return dismantle::straight_contact(body_->sweeper, {moving, fixed, way, {}, {}}, search);
 }
 
 std::size_t CertificateEngine::front_size() const {

@@ -17,10 +17,13 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId face) {
-  const RigidTransform t = transform_from_pose(sweeper.poses()[component.value]);
-  const Triangle own = sweeper.solid(component).triangle(face.value);
+Triangle at(const Triangle& own, const Pose& pose) {
+  const RigidTransform t = transform_from_pose(pose);
   return {{t * own[0], t * own[1], t * own[2]}};
+}
+
+Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId face) {
+  return at(sweeper.solid(component).triangle(face.value), sweeper.poses()[component.value]);
 }
 
 /// A component in hand and one that is not, and a lower bound of their distance [mm].
@@ -126,15 +129,15 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   double shorter = kShorter * sweeper.tolerance() / length(asked.way);
   // Any contact shortens the way; where that is free the contact was the first.
   while (to > from) {
-    const CertificateSweep found = sweeper.look_straight(asked.moving, asked.fixed, from * asked.way, to * asked.way);
+    const CertificateSweep found = sweeper.look_straight(asked, from, to);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const BlockedPair& a, const BlockedPair& b) { return a.toi < b.toi; });
     to = std::max(from, std::min(from + (to - from) * first->toi, to - shorter));
     shorter *= 2;
-    Triangle moving = sweeper.solid(asked.moving).triangle(first->face_moving.value);
+    Triangle moving = at(sweeper.solid(asked.moving).triangle(first->face_moving.value), asked.moving_at);
     for (Vec3& p : moving.corner) p += to * asked.way;
-    const Triangle fixed = sweeper.solid(asked.fixed).triangle(first->face_fixed.value);
+    const Triangle fixed = at(sweeper.solid(asked.fixed).triangle(first->face_fixed.value), asked.fixed_at);
     contact = {to * length(asked.way), first->face_moving, first->face_fixed,
                distance_triangle_triangle(moving, fixed).point_b};
     if (search == StraightSearch::Any) break;
@@ -142,33 +145,76 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   return contact;
 }
 
+/// The same from the beginning, of what touches there.
+std::optional<StraightContact> contact_from_fit(const CertificateSweeper& sweeper, const StraightWay& asked, double to,
+                                                StraightSearch search) {
+  const double whole = length(asked.way);
+  double from = 0;
+  for (int starts = 1;; ++starts) {
+    const double next = std::min(to, from + kNewStart * sweeper.tolerance() / whole);
+    if (const auto contact = contact_between(sweeper, asked, from, next, search)) return contact;
+    const auto contact = contact_between(sweeper, asked, next, to, StraightSearch::First);
+    if (!contact || starts == kMostStarts) return contact;
+    from = contact->distance / whole;
+  }
+}
+
+/// The way as the fixed one sees it.
+StraightMover mover(const CertificateSweeper& sweeper, const StraightWay& asked) {
+  const RigidTransform back = inverse(transform_from_pose(asked.fixed_at));
+  return {sweeper.solid(asked.moving), back * transform_from_pose(asked.moving_at), back.rotation * asked.way};
+}
+
 /// Where some vertex would get deeper than any may: no start makes that way free.
-std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const StraightWay& asked) {
-  const auto deep = deep_vertex_on(sweeper.solid(asked.moving), sweeper.solid(asked.fixed), asked.way,
+std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+                                            const StraightMover& moving) {
+  const auto deep = deep_vertex_on(moving, sweeper.solid(asked.fixed),
                                    VertexDepthGuard::kLimit * sweeper.allowed(asked.moving, asked.fixed));
   if (!deep) return std::nullopt;
   return StraightContact{deep->share * length(asked.way), FaceId(deep->face_moving), FaceId(deep->face_fixed),
-                         deep->point};
+                         transform_from_pose(asked.fixed_at) * deep->point};
+}
+
+/// The earliest contact of the set in hand on its way: what one component meets shortens it for the others.
+FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 way) {
+  FirstContact first;
+  for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
+    const ComponentId fixed(k);
+    if (sweeper.holds(fixed)) continue;
+    for (const ComponentId moving : sweeper.held()) {
+      const StraightWay asked{moving, fixed, first.toi * way, sweeper.pose(), sweeper.poses()[k]};
+      const auto contact = straight_contact(sweeper, asked, StraightSearch::First);
+      if (!contact) continue;
+      first = {contact->distance / length(way), false, moving, fixed, contact->face_moving, contact->face_fixed};
+      if (first.toi <= 0) return first;
+    }
+  }
+  return first;
 }
 
 }  // namespace
 
+std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> ways) {
+  std::vector<FirstContact> found(ways.size());
+  sweeper.executor().for_each_heavy(ways.size(), [&](std::size_t i) {
+    if (length(ways[i]) > 0) found[i] = straight_contact_of_all(sweeper, ways[i]);
+  });
+  return found;
+}
+
 std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
                                                 StraightSearch search) {
-  if (sweeper.allowed(asked.moving, asked.fixed) < 0) return std::nullopt;
-  if (passes_by(sweeper.solid(asked.moving), sweeper.solid(asked.fixed), asked.way)) return std::nullopt;
-  if (search == StraightSearch::Any)
-    if (const auto deep = deep_contact(sweeper, asked)) return deep;
-  if (!sweeper.touched(asked.moving, asked.fixed)) return contact_between(sweeper, asked, 0, 1, search);
-  const double whole = length(asked.way);
-  double from = 0;
-  for (int starts = 1;; ++starts) {
-    const double next = std::min(1.0, from + kNewStart * sweeper.tolerance() / whole);
-    if (const auto contact = contact_between(sweeper, asked, from, next, search)) return contact;
-    const auto contact = contact_between(sweeper, asked, next, 1, StraightSearch::First);
-    if (!contact || starts == kMostStarts) return contact;
-    from = contact->distance / whole;
-  }
+  const double allowed = sweeper.allowed(asked.moving, asked.fixed);
+  if (allowed < 0 || sweeper.solid(asked.moving).tree.empty() || sweeper.solid(asked.fixed).tree.empty())
+    return std::nullopt;
+  const StraightMover moving = mover(sweeper, asked);
+  if (passes_by(moving, sweeper.solid(asked.fixed))) return std::nullopt;
+  const auto deep = deep_contact(sweeper, asked, moving);
+  if (deep && search == StraightSearch::Any) return deep;
+  const double to = deep ? deep->distance / length(asked.way) : 1;
+  const auto contact = sweeper.touched(asked.moving, asked.fixed) ? contact_from_fit(sweeper, asked, to, search)
+                                                                  : contact_between(sweeper, asked, 0, to, search);
+  return contact ? contact : deep;
 }
 
 }  // namespace dismantle

@@ -17,14 +17,11 @@ Clearance least_clearance(const CertificateSweeper& sweeper, double limit);
 /// The batch of CertificateEngine::first_contacts.
 std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets);
 
-/// One component's way straight past another.
-struct StraightWay {
-  ComponentId moving, fixed;
-  Vec3 way;  ///< [mm]
-};
-
-/// The answer of CertificateEngine::straight_contact.
+/// The answer of CertificateEngine::straight_contact; the distance is along the way.
 std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
                                                 StraightSearch search);
+
+/// The batch of CertificateEngine::straight_contacts.
+std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> ways);
 
 }  // namespace dismantle

@@ -321,12 +321,15 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
   return result;
 }
 
-CertificateSweep CertificateSweeper::look_straight(ComponentId moving, ComponentId fixed, const Vec3& from,
-                                                   const Vec3& to) const {
+CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, double from, double to) const {
+  const ComponentId moving = asked.moving, fixed = asked.fixed;
   CertificateSweep result;
   const double allowance = allowed(moving, fixed);
   if (allowance < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
-  const LeafSweep leaves(solid(moving), solid(fixed), Pose{from, {}}, Pose{to, {}}, 0,
+  const auto at = [&](double share) {
+    return seen_from(asked.fixed_at, {asked.moving_at.position + share * asked.way, asked.moving_at.rotation});
+  };
+  const LeafSweep leaves(solid(moving), solid(fixed), at(from), at(to), 0,
                          {allowance, tolerance(), sides(moving, fixed), {}, false});
   PairMotion motion = leaves.motion();
   motion.enough_blocked = 1;

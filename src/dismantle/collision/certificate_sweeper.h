@@ -52,6 +52,13 @@ enum class Effort {
   Fits,   ///< The same, but cylinders that their bores hold back are told whole.
 };
 
+/// One component's way straight past another, from where they are.
+struct StraightWay {
+  ComponentId moving, fixed;
+  Vec3 way;  ///< [mm]
+  Pose moving_at, fixed_at;
+};
+
 /// The fronts of certificates between the set in hand and everything else, and sweeps along screws (DESIGN sections 2.2
 /// to 5). Knows the poses of all components. Embedded pairs are not its business.
 class CertificateSweeper {
@@ -71,10 +78,10 @@ class CertificateSweeper {
   CertificateSweep sweep(const Pose& end, double window, Effort effort = Effort::Full);
   /// As sweep() for a motion from `start`, leaving the fronts as they are: any number may be looked at side by side.
   CertificateSweep look(const Pose& start, const Pose& end, double window) const;
-  /// One component's way past one other that stands in its assembled pose, straight on from `from` to `to`, as seen
-  /// from its own [mm]: whether it is free, and else some contacts, not the first of all. Nothing of what is in hand or
-  /// was moved matters. Free while the two are embedded.
-  CertificateSweep look_straight(ComponentId moving, ComponentId fixed, const Vec3& from, const Vec3& to) const;
+  /// Part of a component's way straight past another: whether it is free, and else some contacts, not the first of all.
+  /// Nothing of what is in hand or was moved matters. Free while the two are embedded.
+  /// @param from, to shares of the way
+  CertificateSweep look_straight(const StraightWay& asked, double from, double to) const;
   /// The triangle pairs that are nearer than `reach` [mm] where the set in hand is, and perhaps some more.
   std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles, with Effort::Quick: whether it is blocked, and by which axis.

@@ -23,14 +23,18 @@ constexpr double kRounding = 1e-5;
 
 /// A box as the way sees it.
 struct BoxShadow {
-  Vec3 center, half[3];  // [mm, assembled]
+  Vec3 center, half[3];  // [mm]
   double radius;
 
-  BoxShadow(const ObbTree& tree, const ObbNode& node) : center(tree.origin + to_double(node.box.center)) {
+  BoxShadow(const ObbTree& tree, const ObbNode& node)
+      : center(tree.origin + to_double(node.box.center)), radius(node.radius) {
     half[0] = node.box.half[0] * to_double(node.box.axis[0]);
     half[1] = node.box.half[1] * to_double(node.box.axis[1]);
     half[2] = node.box.half[2] * to_double(node.box.third_axis());
-    radius = node.radius;
+  }
+  BoxShadow(const ObbTree& tree, const ObbNode& node, const RigidTransform& at) : BoxShadow(tree, node) {
+    center = at * center;
+    for (Vec3& h : half) h = at.rotation * h;
   }
   double reach(Vec3 w) const {
     return std::abs(dot(w, half[0])) + std::abs(dot(w, half[1])) + std::abs(dot(w, half[2]));
@@ -40,13 +44,13 @@ struct BoxShadow {
 /// Tells shadows apart along one way.
 class Shadows {
  public:
-  Shadows(const SolidTree& moving, const SolidTree& fixed, const Vec3& way)
-      : moving_(moving), fixed_(fixed), whole_(length(way)), ahead_(way / whole_) {}
+  Shadows(const StraightMover& moving, const SolidTree& fixed)
+      : moving_(moving), fixed_(fixed), whole_(length(moving.way)), ahead_(moving.way / whole_) {}
 
   bool apart(std::uint32_t a, std::uint32_t b) const {
-    const ObbNode &node_a = moving_.tree.nodes[a], &node_b = fixed_.tree.nodes[b];
+    const ObbNode &node_a = moving_.solid.tree.nodes[a], &node_b = fixed_.tree.nodes[b];
     if (node_a.leaf() && node_b.leaf() && triangles_apart(node_a.child, node_b.child)) return true;
-    const BoxShadow box_a(moving_.tree, node_a), box_b(fixed_.tree, node_b);
+    const BoxShadow box_a(moving_.solid.tree, node_a, moving_.at), box_b(fixed_.tree, node_b);
     const Vec3 between = box_b.center - box_a.center;
     const double along = dot(ahead_, between), margin = kRounding * (box_a.radius + box_b.radius + length(between));
     const double spheres = box_a.radius + box_b.radius + margin;
@@ -63,7 +67,9 @@ class Shadows {
 
  private:
   bool triangles_apart(std::uint32_t face_a, std::uint32_t face_b) const {
-    const Triangle a = moving_.triangle(face_a), b = fixed_.triangle(face_b);
+    Triangle a = moving_.solid.triangle(face_a);
+    const Triangle b = fixed_.triangle(face_b);
+    for (Vec3& p : a.corner) p = moving_.at * p;
     const double margin = kRounding * (norm_one(a[0]) + norm_one(b[0]));
     const auto span = [](const Triangle& t, Vec3 w) {
       const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]);
@@ -83,7 +89,7 @@ class Shadows {
     return false;
   }
 
-  const SolidTree& moving_;
+  const StraightMover& moving_;
   const SolidTree& fixed_;
   double whole_;
   Vec3 ahead_;
@@ -114,28 +120,29 @@ std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way,
   return std::nullopt;
 }
 
-/// The first of a few vertices of `from` that the way takes deep into `into`, and its place.
-std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const SolidTree& into,
-                                                                  Vec3 way, double depth) {
+/// The first of a few vertices of `from`, which `into` sees at `at`, that the way takes deep into that, and its place.
+std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const RigidTransform& at,
+                                                                  const SolidTree& into, Vec3 way, double depth) {
   const std::size_t count = from.vertices.size(), stride = std::max<std::size_t>(1, count / kVertices);
   for (std::size_t v = 0; v < count; v += stride)
-    if (const auto place = deep_place(into, from.vertices[v], way, depth))
+    if (const auto place = deep_place(into, at * from.vertices[v], way, depth))
       return std::pair(static_cast<std::uint32_t>(v), *place);
   return std::nullopt;
 }
 
 }  // namespace
 
-bool passes_by(const SolidTree& moving, const SolidTree& fixed, const Vec3& way) {
-  if (moving.tree.empty() || fixed.tree.empty()) return true;
-  if (!(length(way) > 0)) return false;
-  const Shadows shadows(moving, fixed, way);
+bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
+  const ObbTree& tree = moving.solid.tree;
+  if (tree.empty() || fixed.tree.empty()) return true;
+  if (!(length(moving.way) > 0)) return false;
+  const Shadows shadows(moving, fixed);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
   for (std::size_t seen = 0; !open.empty(); ++seen) {
     const auto [a, b] = open.back();
     open.pop_back();
     if (shadows.apart(a, b)) continue;
-    const ObbNode &node_a = moving.tree.nodes[a], &node_b = fixed.tree.nodes[b];
+    const ObbNode &node_a = tree.nodes[a], &node_b = fixed.tree.nodes[b];
     if ((node_a.leaf() && node_b.leaf()) || seen == kMostShadows) return false;
     const bool split_a = node_a.size >= node_b.size;
     for (std::uint32_t k = 0; k < 2; ++k)
@@ -144,15 +151,17 @@ bool passes_by(const SolidTree& moving, const SolidTree& fixed, const Vec3& way)
   return true;
 }
 
-std::optional<DeepVertex> deep_vertex_on(const SolidTree& moving, const SolidTree& fixed, const Vec3& way,
-                                         double depth) {
-  if (!moving.has_outside || !fixed.has_outside || !(length(way) > 0)) return std::nullopt;
-  const auto face_at = [](const SolidTree& solid, std::uint32_t v) { return solid.around[solid.around_begin[v]]; };
-  if (const auto found = deep_vertex_of(moving, fixed, way, depth)) {
+std::optional<DeepVertex> deep_vertex_on(const StraightMover& moving, const SolidTree& fixed, double depth) {
+  const SolidTree& solid = moving.solid;
+  if (!solid.has_outside || !fixed.has_outside || !(length(moving.way) > 0)) return std::nullopt;
+  const auto face_at = [](const SolidTree& of, std::uint32_t v) { return of.around[of.around_begin[v]]; };
+  if (const auto found = deep_vertex_of(solid, moving.at, fixed, moving.way, depth)) {
     const auto& [v, place] = *found;
-    return DeepVertex{place.share, face_at(moving, v), place.face, moving.vertices[v] + place.share * way};
+    return DeepVertex{place.share, face_at(solid, v), place.face,
+                      moving.at * solid.vertices[v] + place.share * moving.way};
   }
-  if (const auto found = deep_vertex_of(fixed, moving, -way, depth)) {
+  const RigidTransform back = inverse(moving.at);
+  if (const auto found = deep_vertex_of(fixed, back, solid, -(back.rotation * moving.way), depth)) {
     const auto& [v, place] = *found;
     return DeepVertex{place.share, place.face, face_at(fixed, v), fixed.vertices[v]};
   }

@@ -55,13 +55,13 @@ double WayOut::exit_distance(const Vec3& direction) const {
 }
 
 std::vector<FreeDirection> WayOut::look(Span<const Vec3> directions) const {
-  std::vector<Pose> targets;
+  std::vector<Vec3> ways;
   std::vector<FreeDirection> result;
   for (const Vec3& d : directions) {
     result.push_back({d, false, exit_distance(d), {}});
-    targets.push_back({pose_.position + result.back().distance * d, pose_.rotation});
+    ways.push_back(result.back().distance * d);
   }
-  const std::vector<FirstContact> contacts = engine_.first_contacts(targets);
+  const std::vector<FirstContact> contacts = engine_.straight_contacts(ways);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     result[i].free = contacts[i].free;
     if (contacts[i].free) continue;
@@ -85,11 +85,10 @@ std::vector<FreeDirection> WayOut::find(double contact_reach) const {
   add_direction(directions, sum);
 
   // Most lead nowhere: a look as far as that tells, and costs little beside one all the way out.
-  std::vector<Pose> near;
+  std::vector<Vec3> near;
   near.reserve(directions.size());
-  for (const Vec3& d : directions)
-    near.push_back({pose_.position + (kNowhereShare * exit_distance(d)) * d, pose_.rotation});
-  const std::vector<FirstContact> contacts = engine_.first_contacts(near);
+  for (const Vec3& d : directions) near.push_back((kNowhereShare * exit_distance(d)) * d);
+  const std::vector<FirstContact> contacts = engine_.straight_contacts(near);
   std::vector<Vec3> open;
   for (std::size_t i = 0; i < directions.size(); ++i)
     if (contacts[i].free) open.push_back(directions[i]);
