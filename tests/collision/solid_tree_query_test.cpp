@@ -3,19 +3,14 @@
 
 #include "dismantle/narrowphase/closest_points.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/solid_scene.h"
 
 #include <gtest/gtest.h>
 
 namespace dismantle {
 namespace {
 
-struct Solid {
-  Assembly assembly;
-  SolidTree tree;
-  explicit Solid(TriangleMesh mesh)
-      : assembly(scenes::assembly({scenes::component("solid", std::move(mesh))})),
-        tree(make_solid_tree(assembly.components[0], {})) {}
-};
+using scenes::Solid;
 
 double brute_distance(const SolidTree& solid, Vec3 p) {
   double best = std::numeric_limits<double>::infinity();

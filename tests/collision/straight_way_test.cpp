@@ -4,19 +4,14 @@
 #include "dismantle/collision/solid_tree_query.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/solid_scene.h"
 
 #include <gtest/gtest.h>
 
 namespace dismantle {
 namespace {
 
-struct Solid {
-  Assembly assembly;
-  SolidTree tree;
-  explicit Solid(TriangleMesh mesh)
-      : assembly(scenes::assembly({scenes::component("solid", std::move(mesh))})),
-        tree(make_solid_tree(assembly.components[0], {})) {}
-};
+using scenes::Solid;
 
 /// The least distance of all triangles at some places of the way.
 double brute_distance(const StraightMover& moving, const SolidTree& fixed) {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/collision/solid_tree.h"
+#include "tests/support/meshes.h"
+
+#include <utility>
+
+namespace dismantle::scenes {
+
+/// A mesh as the method `certificates` sees it.
+struct Solid {
+  Assembly assembly;
+  SolidTree tree;
+  explicit Solid(TriangleMesh mesh)
+      : assembly(scenes::assembly({component("solid", std::move(mesh))})),
+        tree(make_solid_tree(assembly.components[0], {})) {}
+};
+
+}  // namespace dismantle::scenes
