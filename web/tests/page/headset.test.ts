@@ -2,7 +2,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-  aimHand,
   carry,
   frames,
   handsEmpty,
@@ -13,7 +12,9 @@ import {
   plus,
   press,
   pressOnWrist,
+  pullApart,
   scale,
+  stage,
   take,
   wearHeadset,
 } from "../support/headset.ts";
@@ -164,7 +165,6 @@ test("the wrist panel finds a path: what is selected comes out, and first what i
 });
 
 test("the wrist panel places the scene anew, before the eyes", async () => {
-  const stage = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.toArray());
   const before = await stage();
   await viewer.page.evaluate(() => window.headset.position.set(0.5, 1.5, 0.2));
   await frames();
@@ -183,22 +183,7 @@ test("the wrist panel places the scene anew, before the eyes", async () => {
 
 test("both grips pulled apart make the room larger", async () => {
   const before = await scale();
-  const [a, b] = [
-    { x: -0.1, y: 1.2, z: -0.3 },
-    { x: 0.1, y: 1.2, z: -0.3 },
-  ];
-  const ahead = { x: 0, y: 0, z: -1 };
-  for (const [side, at] of [
-    ["left", a],
-    ["right", b],
-  ] as const)
-    await aimHand(viewer.page, side, at, plus(at, ahead));
-  await frames();
-  for (const side of ["left", "right"] as const) await press(viewer.page, side, "squeeze", 1);
-  await frames();
-  await aimHand(viewer.page, "right", { x: 0.3, y: 1.2, z: -0.3 }, { x: 0.3, y: 1.2, z: -1 });
-  await frames();
-  for (const side of ["left", "right"] as const) await press(viewer.page, side, "squeeze", 0);
+  await pullApart();
   assert.ok(Math.abs((await scale()) / before - 2) < 0.05, `${(await scale()) / before}`);
 });
 

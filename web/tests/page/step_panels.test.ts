@@ -8,7 +8,20 @@ import { basename, join } from "node:path";
 import { after, test } from "node:test";
 import { validateBytes } from "gltf-validator";
 import { connectDevices, deflect, pushStick } from "../support/devices.ts";
-import { carry, frames, kAhead, letGo, pressOnWrist, scale, take, wearHeadset } from "../support/headset.ts";
+import {
+  carry,
+  frames,
+  handsEmpty,
+  kAhead,
+  letGo,
+  press,
+  pressOnWrist,
+  pullApart,
+  scale,
+  stage,
+  take,
+  wearHeadset,
+} from "../support/headset.ts";
 import { auditPath, reset, server, useViewer, viewer } from "../support/scene.ts";
 import { choose, chosen, gone, grab, isRemoved, isThere, kOfOthers, pointerWay } from "../support/step.ts";
 import { sourceFolder } from "../support/tree.ts";
@@ -368,6 +381,68 @@ test("in a headset a hand takes it along, and the panel at the wrist takes it ou
   await isRemoved(false);
   await viewer.idle();
   assert.deepEqual(await viewer.drawnShift("nut"), [0, 0, 0]);
+});
+
+test("in a headset two hands turn what they hold, or take a component each", { skip }, async () => {
+  const per = await scale();
+  const [x, y, z] = chosen.free.map((value) => 25 * per * value);
+  const out = { x, y: z, z: -y };
+  const first = await take("right", "nut");
+  await carry("right", first, out, kAhead);
+  const other = await take("left", "nut", { x: -0.15, y: 0.07, z: 0.25 });
+  await carry("left", other, { x: 0, y: 0.05, z: 0.05 }, kAhead);
+  const rotation = await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!.rotation);
+  assert.ok(Math.abs(rotation[0]) < 0.9999, `${rotation}`);
+  await press(viewer.page, "left", "trigger", 0);
+  await letGo("right");
+  await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift("nut"), [0, 0, 0]);
+  // The nut at the other end of the rod goes the other way.
+  const right = await take("right", "nut");
+  const left = await take("left", "nut#2");
+  await carry("right", right, out, kAhead);
+  const there = await viewer.drawnShift("nut");
+  await carry("left", left, { x: -out.x, y: -out.y, z: -out.z }, kAhead);
+  await press(viewer.page, "right", "trigger", 0);
+  await press(viewer.page, "left", "trigger", 0);
+  await handsEmpty();
+  await viewer.idle();
+  const along = (shift: number[]) => shift.reduce((sum, value, k) => sum + value * chosen.free[k], 0);
+  assert.ok(along(there) > 10, `${there}`);
+  assert.ok(along(await viewer.shift("nut#2")) < -10, `${await viewer.shift("nut#2")}`);
+  for (let undone = 0; undone < 2; ++undone) await viewer.press("Control+z");
+  assert.deepEqual(await viewer.shift("nut#2"), [0, 0, 0]);
+});
+
+test("in a headset the panel undoes, finds a path and places the scene, and the grips scale it", { skip }, async () => {
+  const count = (wanted: number) =>
+    viewer.page.waitForFunction((n) => window.dismantle!.app.session.store.state!.moves.length === n, wanted);
+  const { moves } = await viewer.state();
+  await viewer.select("nut");
+  await frames();
+  await pressOnWrist("findPath");
+  await isRemoved(true);
+  await viewer.idle();
+  const found = (await viewer.state()).moves.length;
+  assert.ok(found > moves.length);
+  await pressOnWrist("undo");
+  await count(found - 1);
+  await viewer.idle();
+  await pressOnWrist("redo");
+  await count(found);
+  await viewer.idle();
+  while ((await viewer.state()).moves.length > moves.length) await viewer.press("Control+z");
+  await isRemoved(false);
+  const before = await stage();
+  await viewer.page.evaluate(() => window.headset.position.set(0.5, 1.5, 0.2));
+  await frames();
+  await pressOnWrist("place");
+  await frames();
+  assert.ok((await stage())[12] - before[12] > 0.2);
+  await viewer.page.evaluate(() => window.headset.position.set(0, 1.6, 0));
+  const size = await scale();
+  await pullApart();
+  assert.ok(Math.abs((await scale()) / size - 2) < 0.05);
   await pressOnWrist("leave");
   await viewer.page.waitForFunction(() => !window.dismantle!.app.headset.active);
 });

@@ -145,6 +145,22 @@ export async function letGo(side: "left" | "right"): Promise<void> {
 
 export const kAhead = { x: -kFront.x, y: -kFront.y, z: -kFront.z };
 
+/// Both hands grip the room, and are pulled apart to twice as far.
+export async function pullApart(): Promise<void> {
+  const at = (x: number, z: number) => ({ x, y: 1.2, z });
+  await aimHand(viewer.page, "left", at(-0.1, -0.3), at(-0.1, -1.3));
+  await aimHand(viewer.page, "right", at(0.1, -0.3), at(0.1, -1.3));
+  await frames();
+  for (const side of ["left", "right"] as const) await press(viewer.page, side, "squeeze", 1);
+  await frames();
+  await aimHand(viewer.page, "right", at(0.3, -0.3), at(0.3, -1));
+  await frames();
+  for (const side of ["left", "right"] as const) await press(viewer.page, side, "squeeze", 0);
+}
+
+/// Where the scene stands in the room.
+export const stage = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.toArray());
+
 /// Points with the right hand at a button of the panel on the left wrist, and presses the trigger.
 export async function pressOnWrist(id: string): Promise<void> {
   await aimHand(viewer.page, "left", { x: -0.25, y: 1.2, z: -0.3 }, { x: -0.25, y: 1.2, z: -1 });
