@@ -5,6 +5,8 @@ import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { after, test } from "node:test";
 import { useViewer, viewer } from "../support/scene.ts";
+import { isThere } from "../support/step.ts";
+import { sourceFolder } from "../support/tree.ts";
 
 const folder = mkdtempSync(join(tmpdir(), "dismantle-root-"));
 useViewer(["--root", folder], { waits: false });
@@ -80,14 +82,26 @@ test("files below the roots are listed and opened; those opened are recent", asy
   assert.equal(await modelName(), "box.obj");
 });
 
-test("an import that takes long says how far it is, and is cancelled", async () => {
-  await viewer.click("#open");
-  await viewer.page.click("[data-sample=lathe]");
-  await viewer.page.locator("[data-banner=job]", { hasText: "lathe.step" }).waitFor();
+/// Cancels the import of a file that is on its way.
+async function cancelImport(name: string): Promise<void> {
+  await viewer.page.locator("[data-banner=job]", { hasText: name }).waitFor();
   await viewer.page.click("[data-banner=job] button");
   await viewer.page.locator("[data-banner=job]").waitFor({ state: "detached" });
   await viewer.idle();
   assert.equal(await modelName(), "box.obj");
+}
+
+test("an import that takes long says how far it is, and is cancelled", async () => {
+  await viewer.click("#open");
+  await viewer.page.click("[data-sample=lathe]");
+  await cancelImport("lathe.step");
+});
+
+const kLarge = "../shared/data/assemblies/o2ac_fixture/original/fixture_diagonal.step";
+
+test("so is that of an assembly of others", { skip: !isThere(kLarge) && `${kLarge} is not here` }, async () => {
+  await viewer.page.setInputFiles("#file-picker", join(sourceFolder(), kLarge));
+  await cancelImport("fixture_diagonal.step");
 });
 
 test("the page had no errors", () => {
