@@ -95,5 +95,15 @@ TEST(StraightWay, IsDeepWhereAVertexIsAndNotWhereTheOtherIsThinOrOpen) {
   EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, Solid(open).tree, 0.1));
 }
 
+TEST(StraightWay, PassesOverVerticesOfNoFace) {
+  TriangleMesh mesh = scenes::box({-1, -1, 0}, {1, 1, 2});
+  mesh.vertices.push_back({20, 0, 0});
+  Component component = scenes::component("bar", scenes::box({-1, -1, 0}, {1, 1, 2}));
+  component.mesh = std::make_shared<const TriangleMesh>(mesh);
+  const SolidTree bar = make_solid_tree(component, {});
+  const Solid post(scenes::box({15, -5, 3}, {25, 5, 6}));
+  EXPECT_FALSE(deep_vertex_on({bar, {}, {0, 0, 10}}, post.tree, 0.1));
+}
+
 }  // namespace
 }  // namespace dismantle

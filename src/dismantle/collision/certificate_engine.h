@@ -74,9 +74,10 @@ class CertificateEngine final : public MotionEngine {
   /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
   /// `targets[i]`; embedded pairs are free all the way. Nothing moves. Candidates are looked at side by side.
   std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;
-  /// How far the set in hand can go straight on by each of `ways` [mm] from where it is: as first_contacts, in a
-  /// fraction of the time, but that the contact told is one of the first few tolerances, and that what overlaps by a
-  /// fit may begin anew where it would stop, as in a hand that moves on. Nothing moves.
+  /// How far the set in hand can go straight on by each of `ways` [mm] from where it is, in a fraction of the time of
+  /// first_contacts. All up to toi is certainly free; the first contact may be a few tolerances beyond. A pair that
+  /// touches as it begins is looked at anew from where it would stop, up to a few times, so that a fit comes out.
+  /// Nothing moves.
   std::vector<FirstContact> straight_contacts(Span<const Vec3> ways) const;
   /// What blocks one component on its way straight on by `way` [mm] past one other, both in their assembled poses and
   /// whatever was moved since; nothing where it is free, or the two are embedded. The vertices' rule of the guarantee

@@ -124,9 +124,11 @@ std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way,
 std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const RigidTransform& at,
                                                                   const SolidTree& into, Vec3 way, double depth) {
   const std::size_t count = from.vertices.size(), stride = std::max<std::size_t>(1, count / kVertices);
-  for (std::size_t v = 0; v < count; v += stride)
+  for (std::size_t v = 0; v < count; v += stride) {
+    if (from.around_begin[v] == from.around_begin[v + 1]) continue;  // of no face
     if (const auto place = deep_place(into, at * from.vertices[v], way, depth))
       return std::pair(static_cast<std::uint32_t>(v), *place);
+  }
   return std::nullopt;
 }
 

@@ -19,6 +19,8 @@ constexpr double kTurn = 6.283185307179586;
 constexpr double kSmooth = 0.85;
 /// And at a cosine above this of one plane.
 constexpr double kFlat = 1 - 1e-7;
+/// No two faces meet at a larger one: nothing is too flat.
+constexpr double kAnyCosine = 2;
 /// Fewer pieces are no thread.
 constexpr std::size_t kFewestSamples = 24;
 /// The fit is done anew so often, each time with less weight for what does not go along itself by the last one: the
@@ -149,7 +151,7 @@ std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const s
   std::vector<SurfaceSample> samples;
   for (const NeighbouringFaces& pair : neighbouring_faces(mesh.faces)) {
     if (of_interest[pair.face[0]] == 0 || of_interest[pair.face[1]] == 0) continue;
-    if (const auto sample = sample_of(mesh.vertices, mesh.faces, pair, 2)) samples.push_back(*sample);
+    if (const auto sample = sample_of(mesh.vertices, mesh.faces, pair, kAnyCosine)) samples.push_back(*sample);
   }
   return samples;
 }
