@@ -40,6 +40,7 @@ class AuditBody {
   RigidTransform world_from_body(const Pose& pose) const;
   std::size_t vertex_count() const { return mesh_.vertices.size(); }
   Vec3 vertex(std::uint32_t v) const { return mesh_.vertices[v]; }
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(mesh_.faces.size()); }
   const Face& face(std::uint32_t f) const { return mesh_.faces[f]; }
   Triangle triangle(std::uint32_t f) const { return mesh_.triangle(f); }
   bool empty() const { return nodes_.empty(); }

@@ -3,6 +3,7 @@
 
 #include "dismantle/audit/audit_report.h"
 #include "dismantle/audit/motion_span.h"
+#include "dismantle/audit/sweep_helix.h"
 #include "dismantle/audit/sweep_move.h"
 #include "dismantle/audit/sweep_triangles.h"
 #include "dismantle/audit/sweep_vertices.h"
@@ -18,6 +19,7 @@ struct PairTask {
   std::uint32_t a = 0, b = 0;  ///< Components; b moves.
   PairSweep sweep;
   std::vector<std::uint32_t> spans;         ///< Indices of the span trees of b in which it may come near a.
+  std::vector<HelicalPair> helices;         ///< In these runs it is looked at from the axis.
   Breach triangles, vertices;               ///< Of rule 1 and of rule 2.
   double deepest = 0;                       ///< Of its triangles [mm].
   std::vector<CrossingVertex> crossing[2];  ///< Of a against b, of b against a.

@@ -32,12 +32,45 @@ class MoveSweep {
   }
 
  private:
-  /// Every span tree of the moving component `b`, one after another in time.
+  /// Every span tree of the moving component `b`, one after another in time; none holds both a part of a helical run
+  /// and what is not of that run.
   void make_spans(std::uint32_t b) {
-    const auto count = static_cast<std::uint32_t>(times_.segments.size());
-    for (std::uint32_t first = 0; first < count; first += kSpanSegments)
-      spans_[b].push_back(
-          motion_spans(times_.segments, first, std::min(kSpanSegments, count - first), *context_.bodies[b]));
+    const AuditBody& body = *context_.bodies[b];
+    const auto cut = [&](std::uint32_t first, std::uint32_t end) {
+      for (; first < end; first += kSpanSegments)
+        spans_[b].push_back(motion_spans(times_.segments, first, std::min(kSpanSegments, end - first), body));
+    };
+    runs_[b] = helical_runs(times_.segments, body, context_.resolution);
+    std::uint32_t first = 0;
+    for (const SegmentRun& run : runs_[b]) {
+      cut(first, run.first);
+      first = run.first + run.count;
+      cut(run.first, first);
+    }
+    cut(first, static_cast<std::uint32_t>(times_.segments.size()));
+  }
+
+  /// Looks at the pair from the axes of the helical runs in which it may be near.
+  void make_helices(PairTask& task) const {
+    for (const SegmentRun& run : runs_[task.b]) {
+      const auto in_run = [&](std::uint32_t i) {
+        const MotionSpan& root = spans_[task.b][i].front();
+        return root.first >= run.first && root.first < run.first + run.count;
+      };
+      if (std::none_of(task.spans.begin(), task.spans.end(), in_run)) continue;
+      if (auto helical = helical_pair(task.sweep, run)) task.helices.push_back(std::move(*helical));
+    }
+  }
+
+  /// Rule 1 for a span tree of b.
+  static TriangleFindings sweep_span(const PairTask& task, const std::vector<MotionSpan>& spans) {
+    const MotionSpan& root = spans.front();
+    for (const HelicalPair& helical : task.helices) {
+      const SegmentRun& run = helical.motion.run;
+      if (root.first >= run.first && root.first < run.first + run.count)
+        return sweep_helix(task.sweep, helical, {root.first, root.count});
+    }
+    return sweep_triangles(task.sweep, spans);
   }
 
   /// The span trees in which b may come near a.
@@ -60,6 +93,7 @@ class MoveSweep {
   bool find_tasks(double from, double to) {
     const auto count = static_cast<std::uint32_t>(moves_.size());
     spans_.resize(count);
+    runs_.resize(count);
     for (std::uint32_t b = 0; b < count; ++b) {
       if (!moves_[b] || context_.bodies[b]->empty()) continue;
       make_spans(b);
@@ -75,6 +109,7 @@ class MoveSweep {
     sort_by_pair(tasks_);
     const bool go_on = run_batches(context_, tasks_.size(), 64, from, to, [&](std::size_t i) {
       PairTask& task = tasks_[i];
+      make_helices(task);
       if (!context_.ledger.find(task.low(), task.high()).embedded) return;
       task.sweep.first_active = parted_at(task);
       task.parted = task.sweep.first_active < times_.segments.size();
@@ -100,7 +135,7 @@ class MoveSweep {
     std::vector<TriangleFindings> found(pieces.size());
     const bool go_on = run_batches(context_, pieces.size(), 64, from, to, [&](std::size_t i) {
       const PairTask& task = tasks_[pieces[i].first];
-      found[i] = sweep_triangles(task.sweep, spans_[task.b][pieces[i].second]);
+      found[i] = sweep_span(task, spans_[task.b][pieces[i].second]);
     });
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       PairTask& task = tasks_[pieces[i].first];
@@ -149,7 +184,7 @@ class MoveSweep {
       for (int side = 0; side < 2; ++side) {
         std::vector<CrossingVertex>& crossing = tasks_[t].crossing[side];
         std::sort(crossing.begin(), crossing.end(), [](const CrossingVertex& p, const CrossingVertex& q) {
-          return p.vertex != q.vertex ? p.vertex < q.vertex : p.first_segment < q.first_segment;
+          return p.vertex != q.vertex ? p.vertex < q.vertex : p.segment < q.segment;
         });
         const std::size_t before = items.size();
         list_vertices(t, side, items);
@@ -212,6 +247,7 @@ class MoveSweep {
   SweepTimes times_;
   std::vector<bool> moves_;                                  // by component
   std::vector<std::vector<std::vector<MotionSpan>>> spans_;  // by component, by part of the move
+  std::vector<std::vector<SegmentRun>> runs_;                // by component: where it goes along a helix
   std::vector<PairTask> tasks_;
   SweepOutcome outcome_;
 };

@@ -31,11 +31,11 @@ struct Breach {
   void add(const Breach& other);
 };
 
-/// A vertex that may have crossed the other component's surface, and in which segments.
+/// A vertex that may cross the other component's surface, and when.
 struct CrossingVertex {
   std::uint32_t vertex = 0;
-  std::uint32_t first_segment = 0;  ///< Of bit 0.
-  std::uint32_t segments = 0;       ///< Bit k: in segment first_segment + k.
+  std::uint32_t segment = 0;
+  double from = 0, to = 1;  ///< Of the segment: not before, and not after.
 };
 
 /// What the sweep of a pair found about its triangles.
@@ -43,7 +43,8 @@ struct TriangleFindings {
   Breach breach;
   double deepest = 0;                       ///< Deepest triangle pair at all samples [mm].
   std::size_t samples = 0;                  ///< Exact depths evaluated.
-  std::vector<CrossingVertex> crossing[2];  ///< Of a against b, of b against a; only against closed components.
+  std::vector<CrossingVertex> crossing[2];  ///< Of a against b, of b against a; only against closed components. By
+                                            ///< vertex and segment, one for each.
 };
 
 /// Looks at every triangle pair of the sweep within the span, at every instant: rule 1 of the guarantee. Between

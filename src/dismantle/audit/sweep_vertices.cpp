@@ -15,43 +15,60 @@ class VertexWalk {
  public:
   VertexWalk(const VertexSweep& sweep, std::uint32_t vertex) : sweep_(sweep), point_(sweep.points->vertex(vertex)) {}
 
-  /// Follows the vertex through a segment. @return whether it may be inside at the end
-  bool advance(std::uint32_t segment, bool may_cross) {
+  /// Follows the vertex through a segment. @param crossing when it may cross the surface; null: never
+  /// @param tracked whether it may be inside at the start
+  /// @return whether it may be inside at the end
+  bool advance(std::uint32_t segment, const CrossingVertex* crossing, bool tracked) {
     const RelativeMotion& motion = sweep_.motions[segment];
-    const double speed = length(motion.velocity(motion.start * point_));
-    double outside_for = 0;  // the way that it can go before it meets the surface, where it was seen outside
-    for (double s = 0; s < 1;) {
+    const double from = crossing != nullptr ? crossing->from : 0, to = crossing != nullptr ? crossing->to : 0;
+    if (tracked && (crossing == nullptr || from > 0) && surely_outside(motion, 0)) tracked = false;
+    if (!tracked && crossing == nullptr) return false;
+    bool outside = !tracked;             // surely, at this moment
+    bool crosses = crossing != nullptr;  // from now on it may
+    for (double s = tracked ? 0 : from; s < 1;) {
+      if (crosses && s >= to) {
+        if (surely_outside(motion, s)) return false;
+        crosses = false;
+      }
       const Vec3 x = motion.at(s) * point_;
-      const double rest = 1 - s;
+      const double speed = length(motion.velocity(x));
       double step = time_near_surface(motion, x, s);
-      if (step < rest) {
-        ++findings.samples;
-        const SurfacePoint near = sweep_.solid->closest(x, face_);
-        if (near.face != face_) {
-          face_ = near.face;
-          step = time_near_surface(motion, x, s);
-        }
+      if (step < 1 - s) {
+        const SurfacePoint near = closest(x);
+        step = time_near_surface(motion, x, s);
         if (near.distance > breach_depth(sweep_)) {
-          if (!(outside_for > 0) && sweep_.solid->contains(x)) {
+          if (!outside && sweep_.solid->contains(x)) {
             findings.breach.add(segment, s, near.distance);
             return true;
           }
-          if (!may_cross || near.distance > speed * rest) return false;
+          if (!crosses || near.distance > speed * (to - s)) return false;
           step = (near.distance + sweep_.limit + sweep_.resolution / 2) / speed;
-          outside_for = near.distance;
         }
       }
       if (speed > 0) step = std::max(step, sweep_.resolution / speed);
-      outside_for -= step * speed;
-      s += step;
+      outside = false;
+      s = crosses && s + step > to ? to : s + step;
     }
-    return true;
+    return !(crosses && surely_outside(motion, 1));
   }
 
   VertexFindings findings;
 
  private:
   static constexpr int kHalvings = 20;
+
+  SurfacePoint closest(Vec3 x) {
+    ++findings.samples;
+    const SurfacePoint near = sweep_.solid->closest(x, face_);
+    face_ = near.face;
+    return near;
+  }
+
+  /// Whether the vertex is off the surface at time s, and outside.
+  bool surely_outside(const RelativeMotion& motion, double s) {
+    const Vec3 x = motion.at(s) * point_;
+    return closest(x).distance > sweep_.rounding && !sweep_.solid->contains(x);
+  }
 
   /// How long the vertex, at `x` at time s, is certain to stay within the limit of the triangle that it was last seen
   /// closest to, and so no deeper; 0 where it is not within it now. The distance from a triangle is convex along a
@@ -80,14 +97,16 @@ class VertexWalk {
 VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool tracked,
                             Span<const CrossingVertex> crossings) {
   VertexWalk walk(sweep, vertex);
-  std::size_t next = 0;
+  const CrossingVertex* next = crossings.begin();
   for (std::uint32_t k = sweep.first_active; k < sweep.end; ++k) {
-    while (next < crossings.size() && crossings[next].first_segment + kSpanSegments <= k) ++next;
-    if (!tracked && next == crossings.size()) break;
-    const bool listed = next < crossings.size() && crossings[next].first_segment <= k;
-    const bool may_cross = listed && ((crossings[next].segments >> (k - crossings[next].first_segment)) & 1u) != 0;
-    if (!tracked && !may_cross) continue;
-    tracked = walk.advance(k, may_cross);
+    while (next != crossings.end() && next->segment < k) ++next;
+    if (!tracked) {
+      if (next == crossings.end()) break;
+      k = next->segment;
+      if (k >= sweep.end) break;
+    }
+    const bool may_cross = next != crossings.end() && next->segment == k;
+    tracked = walk.advance(k, may_cross ? next : nullptr, tracked);
     if (walk.findings.breach.depth > 0) break;
   }
   walk.findings.tracked = tracked;
