@@ -20,36 +20,40 @@ class VertexWalk {
   /// @return whether it may be inside at the end
   bool advance(std::uint32_t segment, const CrossingVertex* crossing, bool tracked) {
     const RelativeMotion& motion = sweep_.motions[segment];
+    const double speed = length(motion.velocity(motion.start * point_));
     const double from = crossing != nullptr ? crossing->from : 0, to = crossing != nullptr ? crossing->to : 0;
-    if (tracked && (crossing == nullptr || from > 0) && surely_outside(motion, 0)) tracked = false;
+    was_outside_ = tracked ? -1 : 0;
+    if (tracked && (crossing == nullptr || from > 0) && is_outside(motion.start * point_, 0)) tracked = false;
     if (!tracked && crossing == nullptr) return false;
-    bool outside = !tracked;             // surely, at this moment
     bool crosses = crossing != nullptr;  // from now on it may
-    for (double s = tracked ? 0 : from; s < 1;) {
+    double s = tracked ? 0 : from, moved = 0;
+    if (s > 0) was_outside_ = 0;
+    while (s < 1) {
+      const Vec3 x = motion.at(s) * point_;
       if (crosses && s >= to) {
-        if (surely_outside(motion, s)) return false;
+        if (is_outside(x, moved)) return false;
         crosses = false;
       }
-      const Vec3 x = motion.at(s) * point_;
-      const double speed = length(motion.velocity(x));
       double step = time_near_surface(motion, x, s);
       if (step < 1 - s) {
         const SurfacePoint near = closest(x);
         step = time_near_surface(motion, x, s);
         if (near.distance > breach_depth(sweep_)) {
-          if (!outside && sweep_.solid->contains(x)) {
+          if (!is_outside(x, near.distance, moved)) {
             findings.breach.add(segment, s, near.distance);
             return true;
           }
           if (!crosses || near.distance > speed * (to - s)) return false;
-          step = (near.distance + sweep_.limit + sweep_.resolution / 2) / speed;
+          moved = 0;
+          step = (near.distance + sweep_.limit) / speed;
         }
       }
       if (speed > 0) step = std::max(step, sweep_.resolution / speed);
-      outside = false;
-      s = crosses && s + step > to ? to : s + step;
+      if (crosses && s + step > to) step = to - s;
+      s += step;
+      moved += step * speed;
     }
-    return !(crosses && surely_outside(motion, 1));
+    return !(crosses && is_outside(motion.at(1) * point_, moved));
   }
 
   VertexFindings findings;
@@ -64,10 +68,18 @@ class VertexWalk {
     return near;
   }
 
-  /// Whether the vertex is off the surface at time s, and outside.
-  bool surely_outside(const RelativeMotion& motion, double s) {
-    const Vec3 x = motion.at(s) * point_;
-    return closest(x).distance > sweep_.rounding && !sweep_.solid->contains(x);
+  /// Whether the vertex is off the surface at `x`, and outside. @param moved its way since it was last seen outside
+  bool is_outside(Vec3 x, double moved) {
+    const double distance = closest(x).distance;
+    return distance > sweep_.rounding && is_outside(x, distance, moved);
+  }
+  /// The same where it is known to be off the surface, by this distance. It is where it was if the balls around then
+  /// and now that the surface does not enter hold all of the way between; else a ray decides.
+  bool is_outside(Vec3 x, double distance, double moved) {
+    const bool still = was_outside_ >= 0 && moved < was_outside_ + distance - sweep_.rounding;
+    if (!still && sweep_.solid->contains(x)) return false;
+    was_outside_ = distance;
+    return true;
   }
 
   /// How long the vertex, at `x` at time s, is certain to stay within the limit of the triangle that it was last seen
@@ -90,6 +102,7 @@ class VertexWalk {
   const VertexSweep& sweep_;
   const Vec3 point_;
   std::uint32_t face_ = 0;
+  double was_outside_ = -1;  // the distance from the surface where it was last seen outside; negative: it was not
 };
 
 }  // namespace
