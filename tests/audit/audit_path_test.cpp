@@ -206,6 +206,21 @@ TEST(AuditPath, FindsATinyComponentThatPassesThroughInOneFrame) {
   EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
 }
 
+/// In one frame it goes through a plate that is thinner than a vertex may be deep, and then into a block.
+TEST(AuditPath, FollowsAVertexBeyondTheFirstSurfaceThatItCrosses) {
+  const double size = 0.5 * kTolerance;
+  TriangleMesh both = box({-5, -5, 0}, {5, 5, 1.5 * kTolerance});
+  const TriangleMesh block = box({-5, -5, -9}, {5, 5, -4});
+  const auto first = static_cast<std::uint32_t>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), block.vertices.begin(), block.vertices.end());
+  for (const Face& f : block.faces) both.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
+  const Assembly a = assembly(
+      {component("plate and block", both), component("grain", box({0.1, 0.2, 1}, {0.1 + size, 0.2 + size, 1 + size}))});
+  EXPECT_TRUE(audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -3)})}).holds());
+  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -7)})});
+  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
+}
+
 /// A grain of `size` (a part of the tolerance: permeable to rule 1) with its bottom `height` over a large block.
 Assembly grain_over_block(double size, double height) {
   return assembly({component("block", box({-50, -50, -50}, {50, 50, 0})),
