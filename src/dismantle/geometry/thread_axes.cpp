@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/geometry/thread_axes.h"
 
-#include "dismantle/geometry/axis_frame.h"
 #include "dismantle/geometry/thread_fit.h"
+#include "dismantle/geometry/thread_profile.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 /// An edge is along a helix where its ends' distances from the axis differ by no more than this share of them,
 constexpr double kSameDistance = 2e-3;
 /// the angle between them is between these [rad],
@@ -38,27 +37,6 @@ constexpr std::size_t kMostLeads = 3;
 constexpr double kLeastTurn = kTurn, kLeastShare = 0.05;
 /// No more than so many edges are looked at, of all axes together: an even choice of them.
 constexpr std::size_t kMostEdges = 4'000'000;
-constexpr int kMostStarts = 4;
-/// Another lead or number of starts is taken where flanks have so many times the area with it.
-constexpr double kMuchMore = 1.5;
-/// Outward normals in the profile are sorted into so many directions; a flank takes no more than this many of them.
-constexpr int kDirections = 72;
-constexpr int kMostOfFlank = 6;
-/// What has less than this share of the area of the largest flank is none.
-constexpr double kLeastOfLargest = 0.1;
-/// The least share of the normal along the axis that a flank has.
-constexpr double kLeastLift = 0.15;
-/// How well the faces of a flank agree about its place: 1 for all at one, 0 for all over the profile.
-constexpr double kLeastAgreement = 0.75;
-/// How little they agree about the angle around the axis.
-constexpr double kMostOneSided = 0.3;
-/// Faces of which the centroid is no further off a flank, in profiles, tell where it is.
-constexpr double kNearPlace = 0.12;
-/// A face is of a flank where its normal is no further from the flank's [cosine], and its corners are no further off
-/// it, in profiles.
-constexpr double kOfFlank = 0.85, kOfPlace = 0.02;
-/// And of a crest or a root where the lifts of its corners are no further from theirs, in profiles.
-constexpr double kOfBand = 0.25;
 
 /// A mesh without edges along helices may have a thread if it has so many faces. Its fit is made with no more than so
 /// many of the curved places,
@@ -68,38 +46,6 @@ constexpr std::size_t kFewestFaces = 400, kMostSamples = 40'000;
 constexpr double kLeadRange = 0.12, kLeadStep = 0.05;
 constexpr std::size_t kMostScanned = 2000, kMostFitted = 10'000;
 constexpr int kCloser = 20;
-
-/// A place about an axis.
-struct AxisPlace {
-  double distance = 0, angle = 0, along = 0;
-  double lift(double lead) const { return along - lead * angle / kTurn; }
-};
-
-AxisPlace place_of(const AxisFrame& frame, Vec3 p) {
-  const Vec3 across = frame.across(p);
-  return {length(across), frame.angle(across), frame.along(p)};
-}
-
-/// A face about an axis.
-struct ProfileFace {
-  AxisPlace centroid, corner[3];
-  ProfileDirection normal;  ///< Unit, or zero for one that faces around the axis.
-  double area = 0;
-};
-
-ProfileFace profile_face(const AxisFrame& frame, const Triangle& t) {
-  ProfileFace face;
-  const Vec3 normal = normal_unscaled(t), centroid = (t[0] + t[1] + t[2]) / 3;
-  face.centroid = place_of(frame, centroid);
-  for (int i = 0; i < 3; ++i) face.corner[i] = place_of(frame, t[i]);
-  face.area = length(normal) / 2;
-  if (!(face.area > 0) || !(face.centroid.distance > 0)) return face;
-  const double radial = dot(normal, frame.across(centroid)) / face.centroid.distance;
-  const double lift = dot(normal, frame.direction);
-  const double size = std::hypot(radial, lift);
-  face.normal = size > face.area ? ProfileDirection{radial / size, lift / size} : ProfileDirection{0, 0};
-  return face;
-}
 
 /// Edges along helices of one lead.
 struct Helices {
@@ -168,203 +114,10 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
   return found;
 }
 
-/// Faces whose outward normals in the profile are alike.
-struct Direction {
-  double area = 0, radial = 0, lift = 0;  // sums
-  std::complex<double> place, angle;      // where they are in the profile and around the axis
-  std::vector<const ProfileFace*> faces;
-  ProfileDirection normal() const {
-    const double size = std::hypot(radial, lift);
-    return {radial / size, lift / size};
-  }
-};
-
-using Directions = std::array<Direction, kDirections>;
-
-std::size_t direction_of(ProfileDirection normal) {
-  const double turned = std::atan2(normal.lift, normal.radial) / kTurn + 0.5;
-  return std::min<std::size_t>(kDirections - 1, static_cast<std::size_t>(turned * kDirections));
-}
-
-double along(ProfileDirection normal, const AxisPlace& at, double lead) {
-  return normal.radial * at.distance + normal.lift * at.lift(lead);
-}
-
-/// How far the place is off the flank, in profiles: between minus and plus a half.
-double profiles_off(const ThreadAxis::Flank& flank, const AxisPlace& at, double lead, double period) {
-  const double off = (along(flank.normal, at, lead) - flank.place) / (flank.normal.lift * period);
-  return off - std::round(off);
-}
-
-/// The turn that a place along a normal is in the profile.
-std::complex<double> phase(ProfileDirection normal, double place, double period) {
-  return std::polar(1.0, kTurn * place / (normal.lift * period));
-}
-
-bool may_be_flank(const ProfileFace& face) {
-  return std::abs(face.normal.lift) >= kLeastLift;
-}
-
-/// The thread that the faces have with some lead; the more of their area agrees about it the better.
-struct Profile {
-  ThreadAxis thread;
-  double area = 0;
-};
-
-/// The runs of directions in which the faces agree about their place.
-std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
-  std::vector<std::vector<std::size_t>> runs;
-  double all = 0;
-  for (const Direction& d : directions) all += d.area;
-  for (std::size_t i = 0; i < kDirections; ++i) {
-    const Direction& d = directions[i];
-    const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kLeastAgreement * d.area &&
-                        std::abs(d.angle) <= kMostOneSided * d.area;
-    if (!agrees) continue;
-    const bool goes_on = !runs.empty() && runs.back().back() + 1 == i && runs.back().size() < kMostOfFlank &&
-                         directions[i - 1].lift * d.lift > 0;
-    if (goes_on) {
-      runs.back().push_back(i);
-    } else {
-      runs.push_back({i});
-    }
-  }
-  const auto area = [&](const std::vector<std::size_t>& run) {
-    double sum = 0;
-    for (const std::size_t i : run) sum += directions[i].area;
-    return sum;
-  };
-  double most = 0;
-  for (const std::vector<std::size_t>& run : runs) most = std::max(most, area(run));
-  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kLeastOfLargest * most; });
-  return runs;
-}
-
-/// Whether all its corners are, nearly.
-bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period) {
-  return std::all_of(std::begin(face.corner), std::end(face.corner), [&](const AxisPlace& corner) {
-    return std::abs(profiles_off(flank, corner, lead, period)) <= kOfPlace;
-  });
-}
-
-/// The line in the profile that the corners of the flank's faces are nearest to, for the one that is roughly known.
-ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const ProfileFace*>& faces, double lead,
-                         double period) {
-  // About the rough line: how far off it, and how far along it.
-  double sum_off = 0, sum_far = 0, off_off = 0, far_far = 0, off_far = 0, count = 0;
-  for (const ProfileFace* face : faces) {
-    if (std::abs(profiles_off(rough, face->centroid, lead, period)) > kNearPlace) continue;
-    for (const AxisPlace& at : face->corner) {
-      const double off = profiles_off(rough, at, lead, period) * rough.normal.lift * period;
-      // On the line it is where its lift is: off = radial * distance + lift * (lift - that of the period) - place.
-      const double lift = (off + rough.place - rough.normal.radial * at.distance) / rough.normal.lift;
-      const double far = rough.normal.lift * at.distance - rough.normal.radial * lift;
-      sum_off += off;
-      sum_far += far;
-      off_off += off * off;
-      far_far += far * far;
-      off_far += off * far;
-      ++count;
-    }
-  }
-  if (count == 0) return rough;
-  const double mean_off = sum_off / count, mean_far = sum_far / count;
-  const double tilt = std::atan2(2 * (off_far / count - mean_off * mean_far),
-                                 far_far / count - mean_far * mean_far - off_off / count + mean_off * mean_off) /
-                      2;
-  const double cosine = std::cos(tilt), sine = std::sin(tilt);
-  const ProfileDirection n = rough.normal;
-  ThreadAxis::Flank flank;
-  flank.normal = {cosine * n.radial - sine * n.lift, cosine * n.lift + sine * n.radial};
-  flank.place = cosine * (rough.place + mean_off) - sine * mean_far;
-  return flank;
-}
-
-/// @param faces that may be flanks
-Directions by_direction(const std::vector<ProfileFace>& faces, double lead, double period) {
-  Directions directions;
-  for (const ProfileFace& face : faces) {
-    Direction& d = directions[direction_of(face.normal)];
-    d.faces.push_back(&face);
-    d.area += face.area;
-    d.radial += face.area * face.normal.radial;
-    d.lift += face.area * face.normal.lift;
-  }
-  for (Direction& d : directions)
-    for (const ProfileFace* face : d.faces) {
-      d.place += face->area * phase(d.normal(), along(d.normal(), face->centroid, lead), period);
-      d.angle += std::polar(face->area, face->centroid.angle);
-    }
-  return directions;
-}
-
-/// The directions of a run taken together.
-Direction sum_of(const Directions& directions, const std::vector<std::size_t>& run) {
-  Direction sum;
-  for (const std::size_t i : run) {
-    const Direction& d = directions[i];
-    sum.area += std::abs(d.place);
-    sum.radial += d.radial;
-    sum.lift += d.lift;
-    sum.faces.insert(sum.faces.end(), d.faces.begin(), d.faces.end());
-  }
-  return sum;
-}
-
-/// The flank that the faces of one direction are of.
-ThreadAxis::Flank flank_of(const Direction& d, double lead, double period) {
-  ThreadAxis::Flank flank{d.normal(), 0};
-  std::complex<double> place;
-  for (const ProfileFace* face : d.faces)
-    place += face->area * phase(flank.normal, along(flank.normal, face->centroid, lead), period);
-  flank.place = std::arg(place) / kTurn * flank.normal.lift * period;
-  return fitted(flank, d.faces, lead, period);
-}
-
-/// Makes the thread as long and as deep as the faces on its flank.
-void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vector<const ProfileFace*>& faces,
-            double period) {
-  for (const ProfileFace* face : faces) {
-    if (!on_flank(flank, *face, thread.lead, period)) continue;
-    for (const AxisPlace& corner : face->corner) {
-      thread.begin = std::min(thread.begin, corner.along);
-      thread.end = std::max(thread.end, corner.along);
-      thread.least = std::min(thread.least, corner.distance);
-      thread.most = std::max(thread.most, corner.distance);
-    }
-  }
-}
-
-/// @param faces that may be flanks
-std::optional<Profile> profile_of(const std::vector<ProfileFace>& faces, const RoundAxis& axis, double lead,
-                                  int starts) {
-  const double period = std::abs(lead) / starts;
-  const Directions directions = by_direction(faces, lead, period);
-  Profile found;
-  ThreadAxis& thread = found.thread;
-  thread.point = axis.point;
-  thread.direction = axis.direction;
-  thread.lead = lead;
-  thread.starts = starts;
-  thread.begin = thread.least = std::numeric_limits<double>::infinity();
-  thread.end = -thread.begin;
-  bool leads_on = false, leads_back = false;
-  for (const std::vector<std::size_t>& run : agreeing(directions)) {
-    const Direction sum = sum_of(directions, run);
-    const ThreadAxis::Flank flank = flank_of(sum, lead, period);
-    extend(thread, flank, sum.faces, period);
-    thread.flanks.push_back(flank);
-    found.area += sum.area;
-    (flank.normal.lift > 0 ? leads_on : leads_back) = true;
-  }
-  if (!leads_on || !leads_back || thread.least > thread.most) return std::nullopt;
-  return found;
-}
-
-std::optional<Profile> best_profile(Span<const Vec3> vertices, Span<const Face> faces, const RoundAxis& axis,
-                                    std::size_t stride) {
+std::optional<ThreadProfile> best_profile(Span<const Vec3> vertices, Span<const Face> faces, const RoundAxis& axis,
+                                          std::size_t stride) {
   const AxisFrame frame(axis.point, axis.direction);
-  std::optional<Profile> best;
+  std::optional<ThreadProfile> best;
   std::vector<ProfileFace> all;
   for (const Helices& edges : helices(frame, vertices, faces, stride)) {
     if (all.empty())
@@ -373,10 +126,7 @@ std::optional<Profile> best_profile(Span<const Vec3> vertices, Span<const Face> 
     std::vector<ProfileFace> near;
     for (const ProfileFace& face : all)
       if (may_be_flank(face) && edges.reach(face)) near.push_back(face);
-    for (int starts = 1; starts <= kMostStarts; ++starts) {
-      std::optional<Profile> found = profile_of(near, axis, edges.lead, starts);
-      if (found && (!best || found->area > kMuchMore * best->area)) best = std::move(found);
-    }
+    improve_profile(best, near, axis, edges.lead);
   }
   return best;
 }
@@ -387,15 +137,15 @@ class Agreement {
   /// @param count of the faces at most that are looked at, an even choice
   Agreement(const std::vector<ProfileFace>& faces, std::size_t count) {
     const std::size_t stride = 1 + faces.size() / count;
-    Directions directions;
+    std::array<FacesOfDirection, kProfileDirections> directions;
     for (const ProfileFace& face : faces) {
-      Direction& d = directions[direction_of(face.normal)];
+      FacesOfDirection& d = directions[profile_direction(face.normal)];
       d.radial += face.area * face.normal.radial;
       d.lift += face.area * face.normal.lift;
     }
     for (std::size_t i = 0; i < faces.size(); i += stride) {
       const ProfileFace& face = faces[i];
-      const std::size_t direction = direction_of(face.normal);
+      const std::size_t direction = profile_direction(face.normal);
       const ProfileDirection normal = directions[direction].normal();
       seen_.push_back({direction, normal.radial / normal.lift * face.centroid.distance + face.centroid.along,
                        std::polar(face.area, -face.centroid.angle)});
@@ -403,7 +153,7 @@ class Agreement {
   }
 
   double area(double lead) const {
-    std::array<std::complex<double>, kDirections> sums{};
+    std::array<std::complex<double>, kProfileDirections> sums{};
     for (const Seen& s : seen_) sums[s.direction] += s.turned * std::polar(1.0, kTurn * s.place / lead);
     double area = 0;
     for (const std::complex<double>& sum : sums) area += std::abs(sum);
@@ -445,7 +195,7 @@ double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double
 
 /// The thread of a mesh that was cut anew, which has no edges along helices: its surface tells the axis, and about how
 /// far it leads.
-std::optional<Profile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
+std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
   if (faces.size() < kFewestFaces) return std::nullopt;
   const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMostSamples));
   if (!rough) return std::nullopt;
@@ -458,49 +208,9 @@ std::optional<Profile> recut_profile(Span<const Vec3> vertices, Span<const Face>
       near.push_back(face);
   }
   const double lead = sharpest_lead(near, rough->lead, (rough->end - rough->begin) / std::abs(rough->lead));
-  std::optional<Profile> best;
-  for (int starts = 1; starts <= kMostStarts; ++starts) {
-    std::optional<Profile> found = profile_of(near, {rough->point, rough->direction}, lead, starts);
-    if (found && (!best || found->area > kMuchMore * best->area)) best = std::move(found);
-  }
+  std::optional<ThreadProfile> best;
+  improve_profile(best, near, {rough->point, rough->direction}, lead);
   return best;
-}
-
-/// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of
-/// the others.
-double between_crest_and_root(const std::vector<double>& distances) {
-  const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
-  if (least == distances.end()) return 0;
-  double low = *least, high = *most;
-  for (int round = 0; round < 4; ++round) {
-    const double middle = (low + high) / 2;
-    double sums[2] = {0, 0}, counts[2] = {0, 0};
-    for (const double d : distances) {
-      sums[d >= middle] += d;
-      ++counts[d >= middle];
-    }
-    if (counts[0] > 0) low = sums[0] / counts[0];
-    if (counts[1] > 0) high = sums[1] / counts[1];
-  }
-  return (low + high) / 2;
-}
-
-/// The part of the thread's profile that the face belongs to, from 1: a flank, or the next number for crests and roots;
-/// 0 for none.
-std::size_t part_of(const ThreadAxis& thread, const ProfileFace& face) {
-  const double period = std::abs(thread.lead) / thread.starts;
-  const double play = (thread.most - thread.least) / 4;
-  const AxisPlace& at = face.centroid;
-  if (at.along < thread.begin - period || at.along > thread.end + period) return 0;
-  if (at.distance < thread.least - play || at.distance > thread.most + play) return 0;
-  for (std::size_t i = 0; i < thread.flanks.size(); ++i) {
-    const ThreadAxis::Flank& flank = thread.flanks[i];
-    if (flank.normal.radial * face.normal.radial + flank.normal.lift * face.normal.lift < kOfFlank) continue;
-    if (on_flank(flank, face, thread.lead, period)) return 1 + i;
-  }
-  // Crests and roots face the way that both flanks lean to; those of a square thread may face either.
-  const double radial = face.normal.radial, leaning = thread.leaning();
-  return std::abs(radial) < kOfFlank || radial * leaning < 0 ? 0 : thread.flanks.size() + 1;
 }
 
 }  // namespace
@@ -509,10 +219,10 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
   std::vector<ThreadAxis> threads;
   const std::size_t count = std::min(axes.size(), kMostAxes), stride = 1 + 3 * faces.size() * count / kMostEdges;
   for (std::size_t i = 0; i < count; ++i)
-    if (const std::optional<Profile> profile = best_profile(vertices, faces, axes[i], stride))
+    if (const std::optional<ThreadProfile> profile = best_profile(vertices, faces, axes[i], stride))
       threads.push_back(profile->thread);
   if (threads.empty())
-    if (const std::optional<Profile> profile = recut_profile(vertices, faces)) threads.push_back(profile->thread);
+    if (const std::optional<ThreadProfile> profile = recut_profile(vertices, faces)) threads.push_back(profile->thread);
   return threads;
 }
 
@@ -521,51 +231,6 @@ bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
   return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kMatingLead * lead &&
          length(cross(x.direction, y.direction)) <= kMatingSine &&
          length(AxisFrame(y.point, y.direction).across(x.point)) <= kMatingShare * lead;
-}
-
-std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Face> faces,
-                                       Span<const ThreadAxis> threads) {
-  std::vector<std::uint8_t> parts;
-  if (threads.empty()) return parts;
-  parts.assign(faces.size(), 0);
-  std::size_t first = 0;
-  for (const ThreadAxis& thread : threads) {
-    const std::size_t count = thread.flanks.size() + 2;
-    if (first + count > std::numeric_limits<std::uint8_t>::max()) break;
-    const AxisFrame frame(thread.point, thread.direction);
-    std::vector<std::pair<std::size_t, ProfileFace>> round;  // faces of crests and roots
-    std::vector<double> distances;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (parts[f] != 0) continue;
-      const Face& face = faces[f];
-      const ProfileFace seen =
-          profile_face(frame, Triangle{{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
-      const std::size_t part = part_of(thread, seen);
-      if (part > thread.flanks.size()) {
-        round.emplace_back(f, seen);
-        distances.push_back(seen.centroid.distance);
-      } else if (part > 0) {
-        parts[f] = static_cast<std::uint8_t>(first + part);
-      }
-    }
-    const double middle = between_crest_and_root(distances), period = std::abs(thread.lead) / thread.starts;
-    std::complex<double> lifts[2];
-    for (const auto& [f, face] : round)
-      lifts[face.centroid.distance >= middle] +=
-          std::polar(face.area, kTurn * face.centroid.lift(thread.lead) / period);
-    for (const auto& [f, face] : round) {
-      const bool outer = face.centroid.distance >= middle;
-      const auto in_band = [&](const AxisPlace& corner) {
-        const double off = corner.lift(thread.lead) / period - std::arg(lifts[outer]) / kTurn;
-        return std::abs(off - std::round(off)) <= kOfBand;
-      };
-      // What goes on as a plain cylinder is none.
-      if (std::all_of(std::begin(face.corner), std::end(face.corner), in_band))
-        parts[f] = static_cast<std::uint8_t>(first + thread.flanks.size() + (outer ? 2 : 1));
-    }
-    first += count;
-  }
-  return parts;
 }
 
 }  // namespace dismantle

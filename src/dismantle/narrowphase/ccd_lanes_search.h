@@ -51,22 +51,12 @@ std::uint32_t search_list(const double* motions, std::uint32_t* list, std::uint3
   return left;
 }
 
-/// Asks for the memory of the N motions that come kMotionsAhead after some: what the processor fetches ahead by itself
-/// ends with every page of 21 motions.
-template <int N>
-void fetch_ahead(const double* motions) {
-  constexpr int kMotionsAhead = 64, kDoublesPerLine = 8;
-  for (int k = 0; k < N * kMotionDoubles; k += kDoublesPerLine)
-    __builtin_prefetch(motions + kMotionsAhead * kMotionDoubles + k);
-}
-
 /// Tries the guessed axis on up to 64 motions; bit i of the result is set where motion i is not proved free, also where
 /// it is left over from full lanes.
 template <int N, class Feature>
 std::uint64_t left_by_guess(const double* motions, std::uint32_t count) {
   std::uint64_t free = 0;
   for (std::uint32_t i = 0; i + N <= count; i += N) {
-    fetch_ahead<N>(motions + std::size_t{i} * kMotionDoubles);
     const auto points =
         Feature::Rows::template gather<N>(ConsecutiveMotions{motions + std::size_t{i} * kMotionDoubles});
     const LaneGap<N> seen = Feature::gap(points, Feature::guess(points), reach_of(points));
