@@ -238,6 +238,7 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
   for (std::size_t k = 0; k < count; ++k) starts.push_back(plain[(count - 1 - k) * stride % count]);
   std::vector<std::pair<double, std::uint32_t>> nearest;  // their gaps and items
   for (std::size_t k = 0; k < opened.size(); ++k) {
+    fetch_round(work, opened, k, sweep);
     const std::uint32_t i = opened[k];
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (parts_round(a, b, sweep, result)) {
@@ -322,6 +323,21 @@ bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const Prepa
   return false;
 }
 
+void CertificateFront::fetch_round(const Work& work, const std::vector<std::uint32_t>& list, std::size_t k,
+                                   const PreparedSweep& sweep) const {
+  constexpr std::size_t kNear = 6, kFar = 12;
+  for (const ThreadSweep& thread : sweep.threads) {
+    if (k + kFar < list.size()) {
+      const Item& item = work.items[list[k + kFar]];
+      b_moves_ ? thread.fetch_places(item.b, item.a) : thread.fetch_places(item.a, item.b);
+    }
+    if (k + kNear < list.size()) {
+      const Item& item = work.items[list[k + kNear]];
+      b_moves_ ? thread.fetch(item.b, item.a) : thread.fetch(item.a, item.b);
+    }
+  }
+}
+
 double CertificateFront::round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
   double most = -std::numeric_limits<double>::infinity();
   if (!sweep.rounds) return most;
@@ -341,12 +357,17 @@ std::optional<RoundFit> CertificateFront::fit(std::uint32_t a, std::uint32_t b, 
 
 void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
                                      const LeafTest& test, FrontSweep& result) const {
-  std::erase_if(work.batch, [&](std::uint32_t i) {
-    Item& item = work.items[i];
-    if (!parts_round(item.a, item.b, sweep, result)) return false;
-    work.prove(item, Certificate::of_round());
-    return true;
-  });
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < work.batch.size(); ++k) {
+    fetch_round(work, work.batch, k, sweep);
+    Item& item = work.items[work.batch[k]];
+    if (parts_round(item.a, item.b, sweep, result)) {
+      work.prove(item, Certificate::of_round());
+    } else {
+      work.batch[left++] = work.batch[k];
+    }
+  }
+  work.batch.resize(left);
   separate_boxes(work, sweep, kernels);
   work.triangles_asked.clear();
   for (const std::uint32_t i : work.batch)

@@ -159,6 +159,9 @@ class CertificateFront {
   /// Whether the two are apart as surfaces that turn about one axis, or as threads. They get no certificate: what
   /// proves it costs next to nothing, and holds for large nodes.
   bool parts_round(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
+  /// Asks for the memory that parts_round() needs of items list[k + ...], which lies all over the trees.
+  void fetch_round(const Work& work, const std::vector<std::uint32_t>& list, std::size_t k,
+                   const PreparedSweep& sweep) const;
   /// The most that any pair of axes leaves between two nodes [mm].
   double round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// The two as a cylinder in a bore, if the sweep asks for that and they are.

@@ -95,21 +95,21 @@ double ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
   const double most_lift = kMostPeriods * frame.period;
   if (!(least > 0) || !(high(m, 0) - low(m, 0) < most_lift) || !(high(f, 0) - low(f, 0) < most_lift)) return kNone;
   const double off = this->off(m), slope = frame.lead / (kTurn * kKeptDistance * least);
-  const auto apart = [&](int k, double period) {
-    const ProfileDirection d = frame.directions[k];
-    const double shift = d.lift * (lift_ - period);
-    const double difference = std::max(low(f, k) - high(m, k) - shift, low(m, k) + shift - high(f, k));
-    return difference / std::sqrt(d.radial * d.radial + d.lift * d.lift * (1 + slope * slope));
+  const double steepest = std::sqrt(1 + slope * slope);  // no direction has a longer gradient
+  const auto difference = [&](int k, double lift) {
+    const double shift = frame.directions[k].lift * lift;
+    return std::max(low(f, k) - high(m, k) - shift, low(m, k) + shift - high(f, k));
   };
   const double first = std::floor((low(m, 0) + lift_ - high(f, 0)) / frame.period);
   const double last = std::ceil((high(m, 0) + lift_ - low(f, 0)) / frame.period);
   const double beyond = static_cast<double>(std::max(f.least - m.most, m.least - f.most));
   // Further ways around are longer still.
-  double found = std::min(2 * (1 - kKeptDistance) * least, frame.period / std::sqrt(1 + slope * slope));
+  double found = std::min(2 * (1 - kKeptDistance) * least, frame.period / steepest);
   for (double turns = first; turns <= last; ++turns) {
-    double best = beyond;
-    for (int k = 0; k < frame.direction_count; ++k) best = std::max(best, apart(k, turns * frame.period));
-    found = std::min(found, best);
+    double widest = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k < frame.direction_count; ++k)
+      widest = std::max(widest, difference(k, lift_ - turns * frame.period));
+    found = std::min(found, std::max(beyond, widest / steepest));
     if (found <= off) return kNone;
   }
   return found - off;

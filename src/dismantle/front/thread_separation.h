@@ -40,6 +40,15 @@ class ThreadSweep {
 
   /// Whether the axes are near enough for anything to be gained.
   bool useful() const { return useful_; }
+  /// Asks for the memory of two nodes: first for where it is, a while later for itself.
+  void fetch_places(std::uint32_t moving, std::uint32_t fixed) const {
+    match_->sides[moving_].nodes.fetch_place(moving);
+    match_->sides[1 - moving_].nodes.fetch_place(fixed);
+  }
+  void fetch(std::uint32_t moving, std::uint32_t fixed) const {
+    match_->sides[moving_].nodes.fetch(moving);
+    match_->sides[1 - moving_].nodes.fetch(fixed);
+  }
   /// Two nodes' triangles are never nearer to each other than that [mm]; without bounds below where nothing is known.
   double gap(std::uint32_t moving, std::uint32_t fixed) const;
 
