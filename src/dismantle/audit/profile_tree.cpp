@@ -124,13 +124,10 @@ ProfileNode bounds_of(const std::array<Vec3, 3>& p, const ProfileFrame& frame) {
   const double off_r = longest / (6 * nearest), off_theta = off_r / nearest;
   if (!(off_theta < kPi)) {
     node.theta = full_circle(2 * kPi);
-    for (int k = 1; k < ProfileFrame::kDirections; ++k) node.along[k] = full_circle(frame.circumference[k]);
-    if (frame.pitch == 0) {
-      for (int k = 1; k < ProfileFrame::kDirections; ++k) {
-        const double r0 = frame.of_r[k] * node.r.low, r1 = frame.of_r[k] * node.r.high();
-        node.along[k] =
-            make_arc(std::min(r0, r1) + frame.of_u[k] * low_z, std::max(r0, r1) + frame.of_u[k] * high_z, 0);
-      }
+    for (int k = 1; k < ProfileFrame::kDirections; ++k) {
+      const double r0 = frame.of_r[k] * node.r.low, r1 = frame.of_r[k] * node.r.high();
+      const double low = std::min(r0, r1) + frame.of_u[k] * low_z, high = std::max(r0, r1) + frame.of_u[k] * high_z;
+      node.along[k] = frame.pitch == 0 ? make_arc(low, high, 0) : full_circle(frame.circumference[k]);
     }
     return node;
   }
