@@ -56,14 +56,17 @@ Runs run_all(Evaluation& e, const EvaluationOptions& options, const BenchScene& 
     runs[method] = run_method(method, scene, options.cores, options.repeats);
     add_steps(e, scene.name, triangle_count(scene.assembly), runs[method]);
   }
-  std::vector<PaperMethod> same{PaperMethod::FrontBasedRigid, PaperMethod::StreamsElementary};
+  std::map<PaperMethod, PaperMethod> same{{PaperMethod::FrontBasedRigid, PaperMethod::FrontBased},
+                                          {PaperMethod::StreamsElementary, PaperMethod::FrontBased}};
   if (cuda_device_name()) {
-    same.push_back(PaperMethod::StreamsCuda);
-    runs[PaperMethod::StreamsCuda] = run_method(PaperMethod::StreamsCuda, scene, options.cores, options.repeats);
-    add_steps(e, scene.name, triangle_count(scene.assembly), runs[PaperMethod::StreamsCuda]);
+    same[PaperMethod::StreamsCuda] = PaperMethod::FrontBased;
+    same[PaperMethod::CertificatesCuda] = PaperMethod::Certificates;
+    for (const PaperMethod method : {PaperMethod::StreamsCuda, PaperMethod::CertificatesCuda}) {
+      runs[method] = run_method(method, scene, options.cores, options.repeats);
+      add_steps(e, scene.name, triangle_count(scene.assembly), runs[method]);
+    }
   }
-  for (const PaperMethod method : same)
-    e.equal_poses = e.equal_poses && runs[method].poses == runs[PaperMethod::FrontBased].poses;
+  for (const auto& [method, other] : same) e.equal_poses = e.equal_poses && runs[method].poses == runs[other].poses;
   return runs;
 }
 

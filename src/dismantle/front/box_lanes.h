@@ -151,34 +151,37 @@ DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const Box
   }
 }
 
-/// The first `count` pairs, or as many as there are lanes.
+/// As separate_boxes_kernel.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void separate_box_lanes(const BoxPairQuery* queries, std::size_t count, const LinearSweep& sweep,
                                               NodeSeparation* separations) {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
-  const BoxPairs<kLanes> boxes(queries, count);
-  const BoxWay<kLanes> way(boxes, sweep);
-  const FacingLanes<kLanes> facing{rotated<kLanes>(sweep.middle, boxes.cone_a), boxes.cone_b, boxes.ahead_a,
-                                   boxes.ahead_b, F(sweep.allowed)};
-  FurthestAxes<kLanes> furthest{boxes.guard, F(sweep.apart)};
-  consider_all<kLanes>(boxes, way, furthest);
-  V axis = furthest.axis;
-  FacingAxes<kLanes> chosen{facing, boxes.guard, F(sweep.apart)};
-  // Which side is which matters only where they are close.
-  const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
-  if (any(close)) {
-    consider_all<kLanes>(boxes, way, chosen);
-    axis = select_vector<kLanes>(close, chosen.axis, axis);
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t left = count - first;
+    const BoxPairs<kLanes> boxes(queries + first, left);
+    const BoxWay<kLanes> way(boxes, sweep);
+    const FacingLanes<kLanes> facing{rotated<kLanes>(sweep.middle, boxes.cone_a), boxes.cone_b, boxes.ahead_a,
+                                     boxes.ahead_b, F(sweep.allowed)};
+    FurthestAxes<kLanes> furthest{boxes.guard, F(sweep.apart)};
+    consider_all<kLanes>(boxes, way, furthest);
+    V axis = furthest.axis;
+    FacingAxes<kLanes> chosen{facing, boxes.guard, F(sweep.apart)};
+    // Which side is which matters only where they are close.
+    const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
+    if (any(close)) {
+      consider_all<kLanes>(boxes, way, chosen);
+      axis = select_vector<kLanes>(close, chosen.axis, axis);
+    }
+    const Hulls<kLanes> hull{
+        boxes.center_a,
+        {boxes.half_a[0] * boxes.axes_a[0], boxes.half_a[1] * boxes.axes_a[1], boxes.half_a[2] * boxes.axes_a[2]},
+        F(0)};
+    F reach_b(0);
+    for (int k = 0; k < 3; ++k) reach_b = reach_b + abs(dot(axis, boxes.axes_b[k])) * boxes.half_b[k];
+    const F offset = dot(axis, boxes.center_b) - reach_b - facing.taken_off(axis);
+    store_separations<kLanes>(axis, offset, hull, boxes.guard, sweep, separations + first, left);
   }
-  const Hulls<kLanes> hull{
-      boxes.center_a,
-      {boxes.half_a[0] * boxes.axes_a[0], boxes.half_a[1] * boxes.axes_a[1], boxes.half_a[2] * boxes.axes_a[2]},
-      F(0)};
-  F reach_b(0);
-  for (int k = 0; k < 3; ++k) reach_b = reach_b + abs(dot(axis, boxes.axes_b[k])) * boxes.half_b[k];
-  const F offset = dot(axis, boxes.center_b) - reach_b - facing.taken_off(axis);
-  store_separations<kLanes>(axis, offset, hull, boxes.guard, sweep, separations, count);
 }
 
 }  // namespace DISMANTLE_LANES_ISA

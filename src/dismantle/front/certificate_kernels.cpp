@@ -34,9 +34,7 @@ CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const Certifica
 template <>
 void separate_boxes_kernel<DISMANTLE_LANE_COUNT>(const BoxPairQuery* queries, std::size_t count,
                                                  const LinearSweep& sweep, NodeSeparation* separations) {
-  constexpr std::size_t kLanes = DISMANTLE_LANE_COUNT;
-  for (std::size_t first = 0; first < count; first += kLanes)
-    separate_box_lanes<DISMANTLE_LANE_COUNT>(queries + first, count - first, sweep, separations + first);
+  separate_box_lanes<DISMANTLE_LANE_COUNT>(queries, count, sweep, separations);
 }
 
 }  // namespace dismantle

@@ -116,11 +116,7 @@ struct PairSink {
   DISMANTLE_HOST_DEVICE void put(std::uint32_t at, const AskedPair& pair, std::uint32_t part,
                                  std::uint32_t place) const {
     pairs[at] = pair;
-    PairAnswer& answer = answers[at];
-    answer.kind = PairAnswer::None;
-    answer.part = part;
-    answer.place = place;
-    answer.first_child = PairAnswer::kNone;
+    answers[at] = {PairAnswer::None, part, place, PairAnswer::kNone, {}};
   }
 };
 

@@ -54,6 +54,7 @@ class ResidentFronts final : public FrontDevice {
   void enqueue_sweep();
   void enqueue_rounds();
   bool grow();
+  void make_pair_room(std::size_t count);
   void collect();
   template <class T>
   void make_room(MirroredArray<T>& array, std::size_t count);
@@ -94,8 +95,21 @@ ResidentFronts<Queue>::ResidentFronts(Queue queue, std::size_t capacity)
       order_(queue_, 1),
       counters_(queue_, 1),
       least_(queue_, 1),
-      pairs_(queue_, pages_.size()),
-      answers_(queue_, pages_.size()) {}
+      pairs_(queue_, 0),
+      answers_(queue_, 0) {
+  make_pair_room(pages_.size());
+}
+
+/// What is brought down has to be something.
+template <class Queue>
+void ResidentFronts<Queue>::make_pair_room(std::size_t count) {
+  pairs_ = DeviceArray<resident_front::AskedPair>(queue_, count);
+  answers_ = MirroredArray<PairAnswer>(queue_, count);
+  std::fill(answers_.on_host().begin(), answers_.on_host().end(), PairAnswer{});
+  answers_.copy_up(queue_);
+  queue_.wait();
+  recording_.forget();
+}
 
 template <class Queue>
 Span<const PartAnswers> ResidentFronts<Queue>::ask(Span<const AskedFront> fronts, bool to_the_end) {
@@ -254,9 +268,7 @@ bool ResidentFronts<Queue>::grow() {
   const std::size_t most = std::max(kMostPairs, checked_.size() * CertificateBlocks::kBlock);
   if (needed <= pairs_.size() || pairs_.size() >= most) return false;
   const std::size_t room = std::min(needed + needed / 2, most);
-  pairs_ = DeviceArray<resident_front::AskedPair>(queue_, room);
-  answers_ = MirroredArray<PairAnswer>(queue_, room);
-  recording_.forget();
+  make_pair_room(room);
   return true;
 }
 

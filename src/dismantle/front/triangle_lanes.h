@@ -77,57 +77,61 @@ struct TriangleAxes {
     }
     // A zero axis would find no gap and no overlap.
     const F none = select(dot(w, w) < F(0.5f), F(1e30f), F(0));
-    well.consider_side(w, low_b - high_a - none);
-    well.consider_side(-w, low_a - high_b - none);
-    on_edge.consider_side(w, low_b - high_a - none);
-    on_edge.consider_side(-w, low_a - high_b - none);
+    for (int k = 0; k < 2; ++k) {
+      FacingAxes<kLanes>& best = k == 0 ? well : on_edge;
+      best.consider_side(w, low_b - high_a - none);
+      best.consider_side(-w, low_a - high_b - none);
+    }
   }
 };
 
-/// The first `count` pairs, or as many as there are lanes.
+/// As separate_triangles_kernel.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* queries, std::size_t count,
                                                    const LinearSweep& sweep, NodeSeparation* separations) {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
-  const TrianglePairs<kLanes> pairs(queries, count);
-  Hulls<kLanes> hull{pairs.a[0], {pairs.a[1] - pairs.a[0], pairs.a[2] - pairs.a[0], V{}}, F(NodeHull::kTriangle)};
-  const V along_a[3] = {rotated<kLanes>(sweep.middle, hull.span[0]),
-                        rotated<kLanes>(sweep.middle, pairs.a[2] - pairs.a[1]),
-                        rotated<kLanes>(sweep.middle, hull.span[1])};
-  const V along_b[3] = {pairs.b[1] - pairs.b[0], pairs.b[2] - pairs.b[1], pairs.b[2] - pairs.b[0]};
-  const V normal_a = cross(along_a[0], along_a[2]), normal_b = cross(along_b[0], along_b[2]);
-  const auto closed = pairs.facing > F(0);
-  const V unit_a = unit_or_zero<kLanes>(normal_a), unit_b = unit_or_zero<kLanes>(normal_b);
-  const auto facing_by = [&](float least) {
-    const F ahead = select(closed, F(least), F(-2));
-    return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
-  };
-  const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kLeastAhead)),
-                            facing_on_edge = facing_by(kLeastCosine<kLanes>);
-  FacingAxes<kLanes> well{facing_well, pairs.guard, F(sweep.apart)},
-      on_edge{facing_on_edge, pairs.guard, F(sweep.apart)};
-  TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}, well, on_edge};
-  for (int k = 0; k < 3; ++k) {
-    axes.at_t0[k] = transformed<kLanes>(sweep.t0, pairs.a[k]);
-    axes.at_t1[k] = transformed<kLanes>(sweep.t1, pairs.a[k]);
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t left = count - first;
+    const TrianglePairs<kLanes> pairs(queries + first, left);
+    Hulls<kLanes> hull{pairs.a[0], {pairs.a[1] - pairs.a[0], pairs.a[2] - pairs.a[0], V{}}, F(NodeHull::kTriangle)};
+    const V along_a[3] = {rotated<kLanes>(sweep.middle, hull.span[0]),
+                          rotated<kLanes>(sweep.middle, pairs.a[2] - pairs.a[1]),
+                          rotated<kLanes>(sweep.middle, hull.span[1])};
+    const V along_b[3] = {pairs.b[1] - pairs.b[0], pairs.b[2] - pairs.b[1], pairs.b[2] - pairs.b[0]};
+    const V normal_a = cross(along_a[0], along_a[2]), normal_b = cross(along_b[0], along_b[2]);
+    const auto closed = pairs.facing > F(0);
+    const V unit_a = unit_or_zero<kLanes>(normal_a), unit_b = unit_or_zero<kLanes>(normal_b);
+    const auto facing_by = [&](float least) {
+      const F ahead = select(closed, F(least), F(-2));
+      return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
+    };
+    const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kLeastAhead)),
+                              facing_on_edge = facing_by(kLeastCosine<kLanes>);
+    FacingAxes<kLanes> well{facing_well, pairs.guard, F(sweep.apart)},
+        on_edge{facing_on_edge, pairs.guard, F(sweep.apart)};
+    TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}, well, on_edge};
+    for (int k = 0; k < 3; ++k) {
+      axes.at_t0[k] = transformed<kLanes>(sweep.t0, pairs.a[k]);
+      axes.at_t1[k] = transformed<kLanes>(sweep.t1, pairs.a[k]);
+    }
+    axes.consider(normal_a);
+    axes.consider(normal_b);
+    for (int i = 0; i < 3; ++i) {
+      axes.consider(cross(along_a[i], normal_a));
+      axes.consider(cross(along_b[i], normal_b));
+      for (int j = 0; j < 3; ++j) axes.consider(cross(along_a[i], along_b[j]));
+    }
+    // On edge only what cannot be otherwise; the margin is for what rounding does to `well`.
+    const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
+    const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
+    const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
+    hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
+    F least_b(3e38f);
+    for (int k = 0; k < 3; ++k) least_b = min(least_b, dot(axis, pairs.b[k]));
+    const F offset = least_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
+    store_separations<kLanes>(axis, offset, hull, pairs.guard, sweep, separations + first, left);
   }
-  axes.consider(normal_a);
-  axes.consider(normal_b);
-  for (int i = 0; i < 3; ++i) {
-    axes.consider(cross(along_a[i], normal_a));
-    axes.consider(cross(along_b[i], normal_b));
-    for (int j = 0; j < 3; ++j) axes.consider(cross(along_a[i], along_b[j]));
-  }
-  // On edge only what cannot be otherwise; the margin is for what rounding does to `well`.
-  const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
-  const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
-  const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
-  hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
-  F least_b(3e38f);
-  for (int k = 0; k < 3; ++k) least_b = min(least_b, dot(axis, pairs.b[k]));
-  const F offset = least_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
-  store_separations<kLanes>(axis, offset, hull, pairs.guard, sweep, separations, count);
 }
 
 }  // namespace DISMANTLE_LANES_ISA

@@ -36,6 +36,9 @@
 ///     (Lanes themselves do), or takes a Lanes as a template argument (Vec3T<Lanes<8>> and its functions do);
 ///   - nothing of std:: is called, no Span is indexed and no contract is checked: give pointers to the kernel.
 /// The test lanes.kernels_share_no_function looks into the objects and fails where this was forgotten.
+///
+/// The loop over the groups of lanes stands in the function that does the arithmetic. GCC 12 leaves out vzeroupper in a
+/// function of one group that ends by handing Lanes to another, and all scalar code of the program is slower for it.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
