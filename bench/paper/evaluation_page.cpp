@@ -86,7 +86,7 @@ A shaft slides and wobbles in its hole with 0.1 mm of clearance, on {cores} core
 {size_table}
 ## Appending to streams
 The paper appends by atomic additions to global memory and compares with buffers local to a group (Tang, Manocha, Lin, Tong 2011). The same kernel of the front
-over the shaft, on the CPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
+over the shaft, on the CPU and, where there is one, on the GPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
 
 {append_table}
 ## Tunnels

@@ -62,7 +62,7 @@ class ResidentCertificates : public testing::TestWithParam<Device> {
 
   std::unique_ptr<FrontDevice> device(Asked& asked) const {
     auto device = GetParam().played_by ? make_played_front_device(*GetParam().played_by, 1)
-                                       : std::move(make_cuda_front_device().value());
+                                       : std::move(make_cuda_front_device(1).value());
     return std::make_unique<CountedDevice>(std::move(device), asked);
   }
 

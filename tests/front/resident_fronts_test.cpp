@@ -29,7 +29,7 @@ const Device kDevices[] = {{"Serial", Executor(), 1},
                            {"Shuffled", Executor(ExecutorKind::Shuffled), 1},
                            {"Threads2", Executor(ExecutorKind::Threads, 2), 50},
                            {"Threads7", Executor(ExecutorKind::Threads, 7), 1},
-                           {"Cuda", std::nullopt, 0}};
+                           {"Cuda", std::nullopt, 1}};
 
 ObbTree tree_of(const TriangleMesh& mesh) {
   return obb_tree_build(mesh.vertices, mesh.faces, Executor());
@@ -42,7 +42,7 @@ class ResidentFronts : public testing::TestWithParam<Device> {
       device_ = make_played_front_device(*GetParam().played_by, GetParam().capacity);
       return;
     }
-    auto cuda = make_cuda_front_device();
+    auto cuda = make_cuda_front_device(GetParam().capacity);
     if (!cuda) GTEST_SKIP() << "nothing runs on CUDA: " << cuda.error().message;
     device_ = std::move(cuda.value());
   }

@@ -16,8 +16,8 @@ struct ChosenCertificateDevice {
 
 /// What Auto predicts work by. From so many triangles on it takes a CUDA device: fronts of fewer hardly ever grow to as
 /// many pairs as make a sweep worth asking. Sweeps of so many pairs ask: to check them takes a core 0.14 ms (2.1 ns a
-/// pair in lanes of AVX-512), about what a device's launches and copies should. Estimates: no GPU was at hand to measure
-/// them on.
+/// pair in lanes of AVX-512), about what a device's launches and copies should. Estimates: no GPU was at hand to
+/// measure them on.
 inline constexpr std::size_t kCudaWorthCertificateTriangles = 100'000;
 inline constexpr std::size_t kCudaWorthPairs = 65'536;
 

@@ -60,12 +60,16 @@ class FrontDevice {
   virtual Span<const PartAnswers> ask(Span<const AskedFront> fronts, bool to_the_end) = 0;
 };
 
+/// What the buffers of a device have room for at first: the pages and failing pairs of a front of some thousand pairs.
+inline constexpr std::size_t kFrontDeviceCapacity = 1024;
+
 /// On the CUDA device. Errors: Failed with the reason alone where there is none, or this build has no CUDA.
-Result<std::unique_ptr<FrontDevice>> make_cuda_front_device();
+/// @param capacity that its buffers start with; they grow as needed
+Result<std::unique_ptr<FrontDevice>> make_cuda_front_device(std::size_t capacity = kFrontDeviceCapacity);
 
 /// On a device that the threads of an executor play: all that CUDA runs but its copies and launches, where there is no
 /// GPU.
-/// @param capacity that its buffers start with
-std::unique_ptr<FrontDevice> make_played_front_device(const Executor& device, std::size_t capacity);
+std::unique_ptr<FrontDevice> make_played_front_device(const Executor& device,
+                                                      std::size_t capacity = kFrontDeviceCapacity);
 
 }  // namespace dismantle

@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-Result<std::unique_ptr<FrontDevice>> make_cuda_front_device() {
+Result<std::unique_ptr<FrontDevice>> make_cuda_front_device(std::size_t) {
   return cuda_device_name().error();
 }
 

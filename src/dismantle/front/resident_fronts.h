@@ -63,7 +63,7 @@ class ResidentFronts final : public FrontDevice {
   std::map<const ObbTree*, Tree> trees_;
   std::map<const CertificateFront*, PartPages> part_pages_;
   std::vector<std::uint32_t> free_pages_;
-  std::uint32_t page_count_ = 0;
+  std::uint32_t page_count_ = 0, pages_sent_ = 0;
 
   // What the host says of a sweep.
   std::vector<resident_front::FrontOrder> orders_;
@@ -202,7 +202,7 @@ template <class Queue>
 void ResidentFronts<Queue>::send_order() {
   if (page_count_ > pages_.size()) {
     DeviceArray<resident_front::Page> larger(queue_, page_count_ + page_count_ / 2);
-    queue_.copy(larger.view().data(), pages_.view().data(), pages_.size() * sizeof(resident_front::Page));
+    queue_.copy(larger.view().data(), pages_.view().data(), pages_sent_ * sizeof(resident_front::Page));
     queue_.wait();
     pages_ = std::move(larger);
     recording_.forget();
@@ -219,6 +219,7 @@ void ResidentFronts<Queue>::send_order() {
   const Span<resident_front::PageEdit> edits = page_edits_.on_device().subspan(0, edits_.size());
   queue_.copy_up(edits.data(), page_edits_.on_host().data(), edits.size() * sizeof(resident_front::PageEdit));
   queue_.launch(edits.size() * resident_front::EditPages::kItems, resident_front::EditPages{edits, pages_.view()});
+  pages_sent_ = page_count_;
 }
 
 template <class Queue>

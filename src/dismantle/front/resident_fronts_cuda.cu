@@ -4,18 +4,11 @@
 
 namespace dismantle {
 
-namespace {
-
-/// What buffers have room for at first: the pages and pairs of a front of some thousand pairs.
-constexpr std::size_t kFirstCapacity = 1024;
-
-}  // namespace
-
-Result<std::unique_ptr<FrontDevice>> make_cuda_front_device() {
+Result<std::unique_ptr<FrontDevice>> make_cuda_front_device(std::size_t capacity) {
   const Result<std::string> device = cuda_device_name();
   if (!device) return device.error();
   try {
-    return std::unique_ptr<FrontDevice>(std::make_unique<ResidentFronts<CudaQueue>>(CudaQueue(), kFirstCapacity));
+    return std::unique_ptr<FrontDevice>(std::make_unique<ResidentFronts<CudaQueue>>(CudaQueue(), capacity));
   } catch (const CudaError& error) {
     return Error{ErrorKind::Failed, error.what()};
   }
