@@ -329,6 +329,7 @@ bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) cons
 
 Span<const PartAnswers> CertificateSweeper::ask_device(const std::vector<ActivePair>& active, Effort effort) {
   std::vector<AskedFront> fronts;
+  fronts.reserve(active.size());
   for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep});
   return device_.fronts->ask(fronts, effort == Effort::Full);
 }
