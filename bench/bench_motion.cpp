@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time a step of a method as the loop of a host program sees it, over named scenes; where FCL is there, its discrete
 // test at the same poses beside it.
-//   bench_motion [--method certificates|streams]... [--triangles N] [--threads N] [--steps N] [--response
-//   stop|touch|slide]
-//                [--samples FOLDER] [SCENE...]
-// One row a scene and method, tab-separated. Times are processor time with one thread, wall time with more. The first
-// step builds the front and is not among the times, but given by itself. `reached`: the share of the steps that reached
-// their targets; of FCL, of the poses that it finds free. `ratio`: how many times as long as the first method's mean
-// step over the same poses the row's mean step takes.
+//   bench_motion [--method certificates|streams]... [--device cpu|cuda] [--triangles N] [--threads N] [--steps N]
+//                [--response stop|touch|slide] [--samples FOLDER] [SCENE...]
+// One row a scene and method, tab-separated. Times are processor time with one thread, wall time with more or on a GPU.
+// The first step builds the front and is not among the times, but given by itself. `reached`: the share of the steps
+// that reached their targets; of FCL, of the poses that it finds free. `ratio`: how many times as long as the first
+// method's mean step over the same poses the row's mean step takes.
 #include "bench/motion_scenes.h"
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/collision/choose_certificate_device.h"
 #ifdef DISMANTLE_WITH_FCL
 #include "bench/fcl_baseline.h"
 #endif
@@ -28,6 +27,7 @@ namespace {
 struct Settings {
   std::vector<std::string> methods, scenes;
   BenchSize size;
+  DeviceChoice device = DeviceChoice::Cpu;
   int threads = 1;
   std::optional<ResponseKind> response;  // absent: the richest that the method has
   std::string samples_folder = DISMANTLE_SOURCE_DIR "/samples";
@@ -48,11 +48,15 @@ struct Visited {
   std::vector<Pose> poses;
 };
 
-/// Wall time; with one thread that thread's processor time, which other work on the machine does not lengthen.
+/// Wall time; where one thread does all that thread's processor time, which other work on the machine does not
+/// lengthen.
 class Stopwatch {
  public:
-  explicit Stopwatch(int threads = 1)
-      : clock_(threads > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID), start_(now()) {}
+  Stopwatch() : clock_(CLOCK_THREAD_CPUTIME_ID), start_(now()) {}
+  explicit Stopwatch(const Settings& settings)
+      : clock_(settings.threads > 1 || settings.device != DeviceChoice::Cpu ? CLOCK_MONOTONIC
+                                                                            : CLOCK_THREAD_CPUTIME_ID),
+        start_(now()) {}
   double us() const { return now() - start_; }
 
  private:
@@ -66,16 +70,24 @@ class Stopwatch {
   double start_;
 };
 
+void note_cpu(const std::string& why) {
+  if (!why.empty()) std::fprintf(stderr, "bench_motion: on the CPU (%s)\n", why.c_str());
+}
+
 std::unique_ptr<MotionEngine> make_engine(const std::string& method, const BenchScene& scene,
-                                          const Executor& executor) {
+                                          const Settings& settings) {
+  const Executor executor = settings.threads > 1 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
   if (method == "certificates") {
-    CertificateOptions options;
-    options.executor = executor;
-    return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options);
+    ChosenCertificateDevice chosen = choose_certificate_device(scene.assembly, settings.device);
+    note_cpu(chosen.why);
+    const CertificateOptions options{executor, widest_lanes()};
+    return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(chosen.use));
   }
   CollisionOptions options;
   options.executor = executor;
-  return make_streams_motion_engine(scene.assembly, scene.states, options);
+  ChosenStreamsBackend chosen = choose_streams_backend(scene.assembly, options, settings.device);
+  note_cpu(chosen.why);
+  return make_streams_motion_engine(scene.assembly, scene.states, options, std::move(chosen.backend));
 }
 
 ResponseKind response_for(const MotionEngine& engine, const Settings& settings) {
@@ -87,16 +99,15 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
                  std::vector<Visited>& visited) {
   Measured m;
   m.method = method;
-  const Stopwatch building(settings.threads);
-  const Executor executor = settings.threads > 1 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
-  const std::unique_ptr<MotionEngine> engine = make_engine(method, scene, executor);
+  const Stopwatch building(settings);
+  const std::unique_ptr<MotionEngine> engine = make_engine(method, scene, settings);
   m.build_ms = building.us() / 1e3;
   const ResponseKind response = response_for(*engine, settings);
   int steps = 0, reached = 0;
   for (const BenchMove& move : scene.moves) {
     engine->hold(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
-      const Stopwatch stepping(settings.threads);
+      const Stopwatch stepping(settings);
       const StepResult result = engine->step(move.targets[k], response);
       const double us = stepping.us();
       if (k == 0) {
@@ -189,6 +200,8 @@ bool parse(int argc, char** argv, Settings& settings) {
     const std::string value = argv[i];
     if (option == "--method" && std::find(methods.begin(), methods.end(), value) != methods.end()) {
       settings.methods.push_back(value);
+    } else if (option == "--device" && (value == "cpu" || value == "cuda")) {
+      settings.device = value == "cuda" ? DeviceChoice::Cuda : DeviceChoice::Cpu;
     } else if (option == "--triangles") {
       settings.size.triangles = std::strtoull(argv[i], nullptr, 10);
     } else if (option == "--threads") {
@@ -215,9 +228,10 @@ int main(int argc, char** argv) {
   using namespace dismantle;
   Settings settings;
   if (!parse(argc, argv, settings)) {
-    std::fprintf(stderr,
-                 "usage: bench_motion [--method certificates|streams]... [--triangles N] [--threads N] [--steps N]\n"
-                 "                    [--response stop|touch|slide] [--samples FOLDER] [SCENE...]\nscenes:");
+    std::fprintf(
+        stderr,
+        "usage: bench_motion [--method certificates|streams]... [--device cpu|cuda] [--triangles N] [--threads "
+        "N]\n                    [--steps N] [--response stop|touch|slide] [--samples FOLDER] [SCENE...]\nscenes:");
     for (const std::string& name : bench_scene_names()) std::fprintf(stderr, " %s", name.c_str());
     std::fprintf(stderr, "\n");
     return 2;

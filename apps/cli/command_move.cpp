@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/collision/choose_certificate_device.h"
 #include "dismantle/io/atomic_file.h"
 #include "dismantle/io/motion_file.h"
 #include "dismantle/io/path_file.h"
@@ -162,8 +162,12 @@ struct MoveEngine {
 
 MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states) {
   const Executor executor = make_executor(o.common);
-  if (o.method == "certificates")
-    return {std::make_unique<CertificateEngine>(assembly, states, CertificateOptions{executor, widest_lanes()})};
+  if (o.method == "certificates") {
+    ChosenCertificateDevice chosen = choose_certificate_device(assembly, o.common.device);
+    if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
+    const CertificateOptions certificates{executor, widest_lanes()};
+    return {std::make_unique<CertificateEngine>(assembly, states, certificates, std::move(chosen.use)), chosen.device};
+  }
   CollisionOptions collision;
   collision.test = o.test.value_or(ElementaryTest::Certified);
   collision.executor = executor;
@@ -247,7 +251,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("CSV");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
-    options->common.uses_device = options->method == "streams";
+    options->common.uses_device = true;
     const Result<ExitCode> result = run(*options);
     exit_code = result ? *result : report(result.error());
   });

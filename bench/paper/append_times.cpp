@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/paper/append_times.h"
 
+#include "bench/baselines/device_appender.h"
 #include "dismantle/collision/moving_streams.h"
 #include "dismantle/collision/stage_clock.h"
 #include "dismantle/front/front.h"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace dismantle {
 
@@ -15,37 +18,67 @@ namespace {
 
 constexpr std::size_t kCapacity = 1 << 16;  // as the methods have it
 
-std::size_t value_count(const FrontAppender& appender) {
-  std::size_t count = 0;
-  for (const auto stream :
-       {FrontAppender::TrianglePairs, FrontAppender::Kept, FrontAppender::Rested, FrontAppender::Sprouted})
-    count += appender.values(stream).size();
-  return count;
-}
-
-/// The least time of some runs [ms].
-double least_ms(FrontAppender& appender, const FrontSproutKernel& kernel, const Executor& executor, int repeats) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < repeats; ++i) {
-    StageClock clock;
-    appender.run(kernel, executor);
-    least = std::min(least, clock.total());
+/// One variant on whatever it runs on.
+class TimedAppender {
+ public:
+  TimedAppender(AppendVariant variant, const Executor& executor) : on_host_(variant, kCapacity), executor_(executor) {}
+  explicit TimedAppender(std::unique_ptr<DeviceAppender> device)
+      : TimedAppender(AppendVariant::GlobalLock, Executor()) {
+    on_device_ = std::move(device);
   }
-  return least;
+
+  /// The least time of some runs [ms].
+  double least_ms(const FrontSproutKernel& kernel, int repeats) {
+    double least = std::numeric_limits<double>::infinity();
+    if (on_device_) on_device_->set_input(kernel);
+    for (int i = 0; i < repeats; ++i) least = std::min(least, on_device_ ? on_device_->run(kernel.items) : run(kernel));
+    return least;
+  }
+  std::size_t value_count() const {
+    std::size_t count = 0;
+    for (const auto stream :
+         {FrontAppender::TrianglePairs, FrontAppender::Kept, FrontAppender::Rested, FrontAppender::Sprouted})
+      count += on_device_ ? on_device_->values(stream).size() : on_host_.values(stream).size();
+    return count;
+  }
+
+ private:
+  double run(const FrontSproutKernel& kernel) {
+    StageClock clock;
+    on_host_.run(kernel, executor_);
+    return clock.total();
+  }
+
+  FrontAppender on_host_;
+  Executor executor_;
+  std::unique_ptr<DeviceAppender> on_device_;  // instead, if it is there
+};
+
+Result<std::deque<TimedAppender>> make_appenders(const AppendRuns& runs, const Executor& executor) {
+  std::deque<TimedAppender> appenders;  // they cannot be moved
+  for (const AppendVariant variant : runs.variants) {
+    if (!runs.on_device) {
+      appenders.emplace_back(variant, executor);
+      continue;
+    }
+    Result<std::unique_ptr<DeviceAppender>> device = make_device_appender(variant, kCapacity);
+    if (!device) return device.error();
+    appenders.emplace_back(std::move(*device));
+  }
+  return appenders;
 }
 
 }  // namespace
 
-std::vector<AppendTime> time_appends(const BenchScene& scene, int cores, int repeats) {
-  const Executor executor = cores > 1 ? Executor(ExecutorKind::Threads, cores) : Executor();
+Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const AppendRuns& runs) {
+  const Executor executor = runs.cores > 1 ? Executor(ExecutorKind::Threads, runs.cores) : Executor();
+  Result<std::deque<TimedAppender>> made = make_appenders(runs, executor);
+  if (!made) return made.error();
+  std::deque<TimedAppender>& appenders = *made;
   MovingStreams streams(scene.assembly, executor);
   Front front(kCapacity);
   std::vector<AppendTime> times;
-  std::deque<FrontAppender> appenders;  // they cannot be moved
-  for (const AppendVariant variant : kAppendVariants) {
-    times.push_back({variant});
-    appenders.emplace_back(variant, kCapacity);
-  }
+  for (const AppendVariant variant : runs.variants) times.push_back({variant});
   const BenchMove& move = scene.moves.front();
   const NodeIndex root = streams.fixed().bvh.root();
   const std::vector<std::uint64_t> start{pair_key(root, root)};
@@ -58,11 +91,11 @@ std::vector<AppendTime> time_appends(const BenchScene& scene, int cores, int rep
     FrontSproutKernel kernel{input.tree, input.bounds, input.motion_class, start};
     for (std::size_t v = 0; v < times.size() && k > 0; ++v) {  // the first step has no front to keep
       kernel.items = start;
-      times[v].start_ms += least_ms(appenders[v], kernel, executor, repeats);
-      times[v].started = value_count(appenders[v]);
+      times[v].start_ms += appenders[v].least_ms(kernel, runs.repeats);
+      times[v].started = appenders[v].value_count();
       kernel.items = front.active();
-      times[v].update_ms += least_ms(appenders[v], kernel, executor, repeats);
-      times[v].updated = value_count(appenders[v]);
+      times[v].update_ms += appenders[v].least_ms(kernel, runs.repeats);
+      times[v].updated = appenders[v].value_count();
     }
     front.update(input, executor);
     streams.commit();

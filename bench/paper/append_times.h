@@ -4,6 +4,7 @@
 #include "bench/baselines/append_variants.h"
 #include "bench/motion_scenes.h"
 
+#include <iterator>
 #include <vector>
 
 namespace dismantle {
@@ -17,8 +18,16 @@ struct AppendTime {
   std::size_t updated = 0;  ///< Values appended by the last update.
 };
 
+/// What appends, and how often.
+struct AppendRuns {
+  std::vector<AppendVariant> variants{std::begin(kAppendVariants), std::end(kAppendVariants)};
+  bool on_device = false;  ///< On the CUDA device instead of `cores`.
+  int cores = 1;
+  int repeats = 1;  ///< Of each launch; the least time counts.
+};
+
 /// Looks at the front of every step of the scene's first move, a start and an update with each variant, one after the
-/// other; each `repeats` times, of which the least counts.
-std::vector<AppendTime> time_appends(const BenchScene& scene, int cores, int repeats);
+/// other. Errors: Failed where there is no CUDA device to run on.
+Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const AppendRuns& runs);
 
 }  // namespace dismantle

@@ -56,14 +56,17 @@ Runs run_all(Evaluation& e, const EvaluationOptions& options, const BenchScene& 
     runs[method] = run_method(method, scene, options.cores, options.repeats);
     add_steps(e, scene.name, triangle_count(scene.assembly), runs[method]);
   }
-  std::vector<PaperMethod> same{PaperMethod::FrontBasedRigid, PaperMethod::StreamsElementary};
+  std::map<PaperMethod, PaperMethod> same{{PaperMethod::FrontBasedRigid, PaperMethod::FrontBased},
+                                          {PaperMethod::StreamsElementary, PaperMethod::FrontBased}};
   if (cuda_device_name()) {
-    same.push_back(PaperMethod::StreamsCuda);
-    runs[PaperMethod::StreamsCuda] = run_method(PaperMethod::StreamsCuda, scene, options.cores, options.repeats);
-    add_steps(e, scene.name, triangle_count(scene.assembly), runs[PaperMethod::StreamsCuda]);
+    same[PaperMethod::StreamsCuda] = PaperMethod::FrontBased;
+    same[PaperMethod::CertificatesCuda] = PaperMethod::Certificates;
+    for (const PaperMethod method : {PaperMethod::StreamsCuda, PaperMethod::CertificatesCuda}) {
+      runs[method] = run_method(method, scene, options.cores, options.repeats);
+      add_steps(e, scene.name, triangle_count(scene.assembly), runs[method]);
+    }
   }
-  for (const PaperMethod method : same)
-    e.equal_poses = e.equal_poses && runs[method].poses == runs[PaperMethod::FrontBased].poses;
+  for (const auto& [method, other] : same) e.equal_poses = e.equal_poses && runs[method].poses == runs[other].poses;
   return runs;
 }
 
@@ -162,10 +165,19 @@ Result<Done> measure_appends(Evaluation& e, const EvaluationOptions& options) {
   const Result<std::vector<BenchScene>> made = make_bench_scenes("shaft_100um", {kAppendTriangles, kAppendSteps}, "");
   if (!made) return made.error();
   const BenchScene& scene = made->front();
-  for (int cores = 1; cores <= options.cores; ++cores)
-    for (const AppendTime& time : time_appends(scene, cores, 3 * options.repeats))
-      add_row(e.appends, {std::string(name_of(time.variant)), std::to_string(cores), number(time.start_ms),
-                          std::to_string(time.started), number(time.update_ms), std::to_string(time.updated)});
+  const auto measure = [&](const AppendRuns& runs, const std::string& on) {
+    const Result<std::vector<AppendTime>> times = time_appends(scene, runs);
+    for (std::size_t k = 0; times && k < times->size(); ++k) {
+      const AppendTime& time = (*times)[k];
+      add_row(e.appends, {std::string(name_of(time.variant)), on, number(time.start_ms), std::to_string(time.started),
+                          number(time.update_ms), std::to_string(time.updated)});
+    }
+  };
+  AppendRuns runs;
+  runs.repeats = 3 * options.repeats;
+  for (runs.cores = 1; runs.cores <= options.cores; ++runs.cores) measure(runs, std::to_string(runs.cores));
+  runs.on_device = true;
+  if (cuda_device_name()) measure(runs, "CUDA");
   return Done{};
 }
 

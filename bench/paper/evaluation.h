@@ -32,7 +32,8 @@ struct Evaluation {
   double least_speed_up = 1e300, least_speed_up_of_shafts = 1e300;
   BarChart speed_up_chart;
   LineChart core_chart, size_chart;
-  /// After every step of every motion the methods with elementary tests had the set in hand at the same pose.
+  /// After every step of every motion the methods with elementary tests had the set in hand at the same pose, and those
+  /// on a CUDA device where they had it on the CPU.
   bool equal_poses = true;
 };
 

@@ -86,7 +86,7 @@ A shaft slides and wobbles in its hole with 0.1 mm of clearance, on {cores} core
 {size_table}
 ## Appending to streams
 The paper appends by atomic additions to global memory and compares with buffers local to a group (Tang, Manocha, Lin, Tong 2011). The same kernel of the front
-over the shaft, on the CPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
+over the shaft, on the CPU and, where there is one, on the GPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
 
 {append_table}
 ## Tunnels
@@ -102,11 +102,14 @@ that it stops though nothing is on the way.
 constexpr const char* kNoGpu =
     "**No GPU was available: nothing here ran on one**, and nothing is said about when one would win.";
 constexpr const char* kNoGpuTimes =
-    "Not measured: no GPU was available. *streams* is there for CUDA devices ([docs/gpu.md](gpu.md)) and has been "
-    "compiled, not run; `tools/gpu_check` is to compare\nit with the CPU bit by bit on a GPU.";
+    "Not measured: no GPU was available. *streams* and *certificates* are there for CUDA devices "
+    "([docs/gpu.md](gpu.md)) and have been compiled, not run; `tools/gpu_check` is to compare\nthem with the CPU bit "
+    "by "
+    "bit on a GPU.";
 constexpr const char* kGpuTimes =
-    "The rows *streams (elementary, CUDA)* under [All methods](#all-methods) are those of the GPU "
-    "([docs/gpu.md](gpu.md)).";
+    "The rows *streams (elementary, CUDA)* and *certificates (CUDA)* under [All methods](#all-methods) are those of "
+    "the "
+    "GPU ([docs/gpu.md](gpu.md)).";
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -158,7 +161,7 @@ std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
       e.equal_poses
           ? "After every step of every motion *front-based*, *front-based (rigid)* and *streams (elementary)* had the "
             "set in hand at the same pose, bit for bit."
-          : "**The methods with elementary tests did not stop at the same poses: the times cannot be compared.**";
+          : "**Methods that must stop at the same poses did not: the times cannot be compared.**";
   std::string page =
       fmt::format(kIntroduction, arg("command", s.command), arg("date", s.date), arg("processor", s.processor),
                   arg("cores", s.cores), arg("load_before", s.load_before), arg("load_after", s.load_after),

@@ -56,6 +56,8 @@ std::string_view name_of(PaperMethod method) {
       return "streams (elementary, CUDA)";
     case PaperMethod::Certificates:
       return "certificates";
+    case PaperMethod::CertificatesCuda:
+      return "certificates (CUDA)";
     case PaperMethod::ObbDiscrete:
       return "boxes (discrete)";
   }
@@ -86,6 +88,10 @@ std::unique_ptr<MotionEngine> make_method(PaperMethod method, const BenchScene& 
     case PaperMethod::Certificates:
       return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
                                                  CertificateOptions{executor, widest_lanes()});
+    case PaperMethod::CertificatesCuda:
+      return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
+                                                 CertificateOptions{executor, widest_lanes()},
+                                                 CertificateDevice{std::move(make_cuda_front_device().value()), 0});
     case PaperMethod::ObbDiscrete:
       break;
   }

@@ -18,6 +18,7 @@ enum class PaperMethod {
   StreamsCertified,   ///< The same with certified tests: what `--method streams` does, without its guard of vertices.
   StreamsCuda,        ///< The paper's method with the paper's tests on the CUDA device. @pre there is one
   Certificates,       ///< Our own method, as it is.
+  CertificatesCuda,   ///< The same, asking the CUDA device in every sweep. @pre there is one
   ObbDiscrete,        ///< Trees of oriented boxes at discrete steps.
 };
 

@@ -37,16 +37,18 @@ TEST_F(Cli, ComputesOnTheCpuAndSaysWhyWhereThereIsNoDeviceOrNoUseForOne) {
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_NE(check.err.find("note: computing on the CPU"), std::string::npos) << check.err;
   EXPECT_EQ(run("check parts --device auto").err, "");
-  const std::string move = "move parts pull.motion.json --method streams --response touch --json -o ";
-  const Outcome cuda = run(move + "cuda.path.json --device cuda");
-  ASSERT_EQ(cuda.exit_code, 0) << cuda.err;
-  const bool on_cpu = Json::parse(cuda.out)["device"] == "cpu";
-  EXPECT_EQ(cuda.err.find("note: computing on the CPU") != std::string::npos, on_cpu) << cuda.err;
-  const Outcome cpu = run(move + "cpu.path.json --device cpu");
-  ASSERT_EQ(cpu.exit_code, 0) << cpu.err;
-  EXPECT_EQ(cpu.err, "");
-  EXPECT_EQ(Json::parse(cpu.out)["device"], "cpu");
-  EXPECT_EQ(read_all(in("cuda.path.json")), read_all(in("cpu.path.json")));
+  for (const std::string method : {"streams", "certificates"}) {
+    const std::string move = "move parts pull.motion.json --method " + method + " --response touch --json -o ";
+    const Outcome cuda = run(move + "cuda.path.json --device cuda");
+    ASSERT_EQ(cuda.exit_code, 0) << cuda.err;
+    const bool on_cpu = Json::parse(cuda.out)["device"] == "cpu";
+    EXPECT_EQ(cuda.err.find("note: computing on the CPU") != std::string::npos, on_cpu) << cuda.err;
+    const Outcome cpu = run(move + "cpu.path.json --device cpu");
+    ASSERT_EQ(cpu.exit_code, 0) << cpu.err;
+    EXPECT_EQ(cpu.err, "");
+    EXPECT_EQ(Json::parse(cpu.out)["device"], "cpu");
+    EXPECT_EQ(read_all(in("cuda.path.json")), read_all(in("cpu.path.json")));
+  }
 }
 
 TEST_F(Cli, AnswersUnreadableInputWithThreeAndOneSentence) {

@@ -42,8 +42,10 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
     verdict.certificate.offset = kNoCertificate;
     return verdict;
   };
-  for (std::size_t part = 0; part < front.part_count(); ++part)
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    front.merge_part(part, sweep, front_kernels(lanes));
     front.sweep_part(part, sweep, front_kernels(lanes), test);
+  }
   front.end_sweep(sweep, found.empty());
   return found;
 }
@@ -193,6 +195,7 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
     FrontSweep all;
     const PreparedSweep linear = front.begin_sweep(motion);
     for (std::size_t part = 0; part < front.part_count(); ++part) {
+      front.merge_part(part, linear, kernels);
       const FrontSweep found = front.sweep_part(part, linear, kernels, blocks);
       all.blocked += found.blocked;
       all.complete &= found.complete;

@@ -6,21 +6,22 @@
 #include "dismantle/core/contract.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle {
 
 class CertificateEngine::Body {
  public:
-  Body(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
-      : sweeper(assembly, pairs, options), response(sweeper, assembly, pairs) {}
+  Body(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, CertificateDevice device)
+      : sweeper(assembly, pairs, options, std::move(device)), response(sweeper, assembly, pairs) {}
 
   CertificateSweeper sweeper;
   CertificateResponse response;
 };
 
 CertificateEngine::CertificateEngine(const Assembly& assembly, const PairStates& pairs,
-                                     const CertificateOptions& options)
-    : body_(std::make_unique<Body>(assembly, pairs, options)) {}
+                                     const CertificateOptions& options, CertificateDevice device)
+    : body_(std::make_unique<Body>(assembly, pairs, options, std::move(device))) {}
 
 CertificateEngine::~CertificateEngine() = default;
 CertificateEngine::CertificateEngine(CertificateEngine&&) noexcept = default;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/collision/motion_engine.h"
+#include "dismantle/front/front_device.h"
 #include "dismantle/math/lane_dispatch.h"
 
 #include <limits>
@@ -47,13 +48,20 @@ struct CertificateOptions {
   LaneCount lanes = widest_lanes();  ///< Same results for all.
 };
 
+/// A device that keeps copies of fronts, and when sweeps ask it.
+struct CertificateDevice {
+  std::unique_ptr<FrontDevice> fronts;  ///< None: all is computed on the CPU.
+  std::size_t least_pairs = 0;          ///< Sweeps of fewer pairs of nodes do not ask it.
+};
+
 /// The method `certificates` (DESIGN sections 2.2 to 6) with responses Stop, Touch and Slide: a front of separating
-/// certificates over static trees of oriented boxes. Same input, same results: for every executor, thread count and
-/// lane width.
+/// certificates over static trees of oriented boxes. Same input, same results: for every executor, thread count,
+/// lane width and device.
 class CertificateEngine final : public MotionEngine {
  public:
   /// All components in the assembled state. `assembly` must outlive the engine.
-  CertificateEngine(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options = {});
+  CertificateEngine(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options = {},
+                    CertificateDevice device = {});
   ~CertificateEngine() override;
   CertificateEngine(CertificateEngine&&) noexcept;
   CertificateEngine& operator=(CertificateEngine&&) noexcept;

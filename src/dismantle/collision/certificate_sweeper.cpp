@@ -61,13 +61,14 @@ struct CertificateSweeper::PartTask {
 };
 
 CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairStates& pairs,
-                                       const CertificateOptions& options)
+                                       const CertificateOptions& options, CertificateDevice device)
     : assembly_(&assembly),
       options_(options),
       kernels_(front_kernels(options.lanes)),
       rules_(pairs),
       poses_(assembly.components.size()),
-      is_held_(assembly.components.size()) {
+      is_held_(assembly.components.size()),
+      device_(std::move(device)) {
   for (const Component& c : assembly.components) {
     solids_.push_back(make_solid_tree(c, options.executor));
     const Aabb box = assembled_bounds(c);
@@ -273,15 +274,22 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for (std::size_t p = 0; p < active.size(); ++p)
     for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}});
 
-  const auto run = [&](std::size_t i) {
+  const auto merge = [&](std::size_t i) {
     const ActivePair& pair = active[tasks[i].pair];
-    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window));
+    pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
   };
-  if (tasks.size() == 1) {
-    run(0);
-  } else {
-    options_.executor.for_each_heavy(tasks.size(), run);
+  Span<const PartAnswers> answers;
+  const bool asks = asks_device(active);
+  if (asks) {
+    for_each_part(tasks.size(), merge);
+    answers = ask_device(active, effort);
   }
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    if (!asks) merge(i);
+    const ActivePair& pair = active[tasks[i].pair];
+    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window),
+                                            asks ? &answers[i] : nullptr);
+  });
 
   for (PartTask& task : tasks) {
     const LinearSweep& sweep = active[task.pair].sweep;
@@ -301,6 +309,29 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   }
   finish(result, window);
   return result;
+}
+
+template <class Run>
+void CertificateSweeper::for_each_part(std::size_t count, const Run& run) const {
+  if (count == 1) {
+    run(0);
+  } else {
+    options_.executor.for_each_heavy(count, run);
+  }
+}
+
+bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) const {
+  if (!device_.fronts || active.empty()) return false;
+  std::size_t pairs = 0;
+  for (const ActivePair& pair : active) pairs += pair.front->size();
+  return pairs >= device_.least_pairs;
+}
+
+Span<const PartAnswers> CertificateSweeper::ask_device(const std::vector<ActivePair>& active, Effort effort) {
+  std::vector<AskedFront> fronts;
+  fronts.reserve(active.size());
+  for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep});
+  return device_.fronts->ask(fronts, effort == Effort::Full);
 }
 
 CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {

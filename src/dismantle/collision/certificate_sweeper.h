@@ -63,7 +63,8 @@ struct StraightWay {
 /// to 5). Knows the poses of all components. Embedded pairs are not its business.
 class CertificateSweeper {
  public:
-  CertificateSweeper(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options);
+  CertificateSweeper(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
+                     CertificateDevice device = {});
 
   void hold(Span<const ComponentId> components);
   Span<const ComponentId> held() const { return held_; }
@@ -135,6 +136,13 @@ class CertificateSweeper {
   /// Calls visit(moving, fixed) for the pairs that may come nearer to each other than `reach` during a motion.
   template <class Visit>
   void for_each_near(const Pose& start, const Pose& end, double reach, CertificateSweep& result, Visit visit) const;
+  /// Calls run(i) for every i below `count`, on the executor's threads where that is worth it.
+  template <class Run>
+  void for_each_part(std::size_t count, const Run& run) const;
+  /// Whether there is a device, and enough for it to do.
+  bool asks_device(const std::vector<ActivePair>& active) const;
+  /// What the device says of all parts.
+  Span<const PartAnswers> ask_device(const std::vector<ActivePair>& active, Effort effort);
   /// Adds what looking at a pair finds, from a front of theirs.
   void look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const;
   static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window);
@@ -162,6 +170,7 @@ class CertificateSweeper {
   double radius_ = 0;
   std::map<std::pair<ComponentId, ComponentId>, FrontEntry> fronts_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ThreadMatch>> threads_;  ///< Of a < b, where any fit.
+  CertificateDevice device_;
 };
 
 }  // namespace dismantle

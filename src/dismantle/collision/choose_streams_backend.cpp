@@ -5,20 +5,11 @@
 
 namespace dismantle {
 
-namespace {
-
-bool worth_cuda(const Assembly& assembly) {
-  std::size_t triangles = 0;
-  for (const Component& component : assembly.components) triangles += component.mesh->faces.size();
-  return triangles >= kCudaWorthTriangles;
-}
-
-}  // namespace
-
 ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const CollisionOptions& options,
                                             DeviceChoice choice) {
   ChosenStreamsBackend chosen;
-  if (choice == DeviceChoice::Cuda || (choice == DeviceChoice::Auto && worth_cuda(assembly))) {
+  if (choice == DeviceChoice::Cuda ||
+      (choice == DeviceChoice::Auto && triangle_count(assembly) >= kCudaWorthTriangles)) {
     const Result<std::string> name = cuda_device_name();
     Result<std::unique_ptr<StreamsBackend>> backend = make_cuda_streams_backend(assembly, options);
     if (name && backend) return {std::move(*backend), *name, ""};

@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// Where method `streams` is to be computed.
+/// Where a method is to be computed.
 enum class DeviceChoice {
   Cpu,
   Cuda,  ///< The CPU all the same where there is no CUDA device.

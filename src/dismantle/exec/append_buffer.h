@@ -20,16 +20,19 @@ class AppendView {
   /// @param needed counts what is appended, kept or not
   DISMANTLE_HOST_DEVICE AppendView(Span<T> storage, std::uint64_t* needed) : storage_(storage), needed_(needed) {}
 
-  DISMANTLE_HOST_DEVICE void append(const T& value) const {
-    const std::size_t place = atomic_add(needed_, 1);
-    if (place < storage_.size()) storage_[place] = value;
-  }
+  DISMANTLE_HOST_DEVICE void append(const T& value) const { put(take(1), value); }
 
   /// Appends all the values with one addition.
   void append(Span<const T> values) const {
     if (values.empty()) return;
-    const std::size_t place = atomic_add(needed_, values.size());
+    const std::size_t place = take(values.size());
     for (std::size_t i = 0; i < values.size() && place + i < storage_.size(); ++i) storage_[place + i] = values[i];
+  }
+
+  /// Takes places for so many values with one addition, and gives the first; put() fills them.
+  DISMANTLE_HOST_DEVICE std::size_t take(std::size_t count) const { return atomic_add(needed_, count); }
+  DISMANTLE_HOST_DEVICE void put(std::size_t place, const T& value) const {
+    if (place < storage_.size()) storage_[place] = value;
   }
 
  private:

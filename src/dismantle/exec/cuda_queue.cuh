@@ -71,6 +71,9 @@ class CudaQueue {
     check_cuda(cudaGetLastError(), "a kernel's launch");
   }
 
+  /// For what launch() cannot do: blocks that share memory, and CUB.
+  cudaStream_t stream() const { return state_->stream; }
+
   std::size_t sort_scratch_bytes(std::size_t count) const {
     std::size_t bytes = 0;
     const std::uint64_t* from = nullptr;

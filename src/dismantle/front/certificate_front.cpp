@@ -47,15 +47,6 @@ double turn_between(const Mat3& a, const Mat3& b) {
   return std::sqrt(square / 2);
 }
 
-/// The gap of a certificate with A where `t` has it, up to LinearSweep::error.
-float gap_at(const Certificate& c, const RigidTransformF& t) {
-  const Vec3f w = c.axis.x * t.row[0] + c.axis.y * t.row[1] + c.axis.z * t.row[2];
-  const NodeHull& h = c.hull;
-  const float s0 = dot(w, h.span[0]), s1 = dot(w, h.span[1]), s2 = dot(w, h.span[2]);
-  const float reach = h.kind > NodeHull::kBox ? std::max({0.0f, s0, s1}) : std::abs(s0) + std::abs(s1) + std::abs(s2);
-  return c.offset - dot(c.axis, t.translation) - dot(w, h.center) - reach;
-}
-
 /// Whether some of what is blocked are enough.
 bool some(const LinearSweep& sweep) {
   return sweep.enough_blocked < LinearSweep().enough_blocked;
@@ -81,11 +72,36 @@ struct CertificateFront::Work {
   std::vector<std::uint32_t> asked;   // their items
   std::vector<TrianglePairQuery> triangle_queries;
   std::vector<std::uint32_t> triangles_asked;
-  std::vector<NodeSeparation> separations;
+  std::vector<NodeSeparation> separations;  // of what was asked, in order
+  std::vector<NodeSeparation> computed;     // of the queries
+  Span<const PairAnswer> answers;           // of a device, if any was asked
 
   void prove(Item& item, const Certificate& certificate) {
     item.proof = static_cast<std::uint32_t>(proofs.size());
     proofs.push_back(certificate);
+  }
+  PairAnswer::Kind known(const Item& item) const {
+    return item.answer == Item::kNone ? PairAnswer::None : answers[item.answer].kind;
+  }
+  /// Puts together what was computed of the queries and what is known of the rest of what was asked: those whose
+  /// answer is not of this kind were found not to be apart.
+  void join(const std::vector<std::uint32_t>& all_asked, PairAnswer::Kind kind) {
+    if (computed.size() == all_asked.size()) {
+      separations.swap(computed);
+      return;
+    }
+    separations.resize(all_asked.size());
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < all_asked.size(); ++k) {
+      const Item& item = items[all_asked[k]];
+      if (known(item) == PairAnswer::None) {
+        separations[k] = computed[next++];
+      } else if (known(item) == kind) {
+        separations[k] = answers[item.answer].separation;
+      } else {
+        separations[k] = {-3e38f, Certificate::none()};
+      }
+    }
   }
 };
 
@@ -142,16 +158,23 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
   return sweep;
 }
 
-FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
-                                        const LeafTest& test) {
+void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
   CertificatePart& part = parts_[index];
-  FrontSweep result;
   if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1)
     while (merge(part, sweep, kernels) * kMergeShare > part.size()) {
     }
+}
 
+FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
+                                        const LeafTest& test, const PartAnswers* answers) {
+  CertificatePart& part = parts_[index];
+  FrontSweep result;
   Work work;
-  find_failing(part, sweep, kernels, work, result);
+  if (answers) {
+    take_failing(part, sweep, *answers, work, result);
+  } else {
+    find_failing(part, sweep, kernels, work, result);
+  }
   if (work.items.empty()) return result;
 
   resolve(work, sweep, kernels, test, result);
@@ -171,20 +194,35 @@ void CertificateFront::find_failing(const CertificatePart& part, const PreparedS
   }
   result.least_gap = std::min(result.least_gap, check.least_gap);
   result.touching |= sides_ != SideRule::Normals && check.least_gap < sweep.meeting;
-  for (std::size_t k = 0; k < check.failing; ++k) {
-    const std::uint32_t i = work.failing[k];
-    Item item;
-    item.a = part.pair(i).a;
-    item.b = part.pair(i).b;
-    item.place = i;
-    item.origin = static_cast<std::uint32_t>(k);
-    item.hint = hint_of(part, i, sweep);
-    item.round = part.kind(i) == NodeHull::kNone;
-    item.of_triangles = part.kind(i) > NodeHull::kBox;
-    item.on_edge = part.kind(i) == NodeHull::kTriangleOnEdge;
-    work.items.push_back(item);
+  for (std::size_t k = 0; k < check.failing; ++k) add_item(part, work.failing[k], sweep, work);
+  work.of_front = work.items.size();
+}
+
+void CertificateFront::take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartAnswers& answers,
+                                    Work& work, FrontSweep& result) const {
+  DISMANTLE_EXPECT(sweep.judged);
+  result.least_gap = std::min(result.least_gap, answers.least_gap);
+  result.touching |= sides_ != SideRule::Normals && answers.least_gap < sweep.meeting;
+  work.answers = answers.answers;
+  for (const std::uint32_t root : answers.roots) {
+    add_item(part, answers.answers[root].place, sweep, work);
+    work.items.back().answer = root;
   }
   work.of_front = work.items.size();
+}
+
+void CertificateFront::add_item(const CertificatePart& part, std::uint32_t place, const PreparedSweep& sweep,
+                                Work& work) const {
+  Item item;
+  item.a = part.pair(place).a;
+  item.b = part.pair(place).b;
+  item.place = place;
+  item.origin = static_cast<std::uint32_t>(work.items.size());
+  item.hint = hint_of(part, place, sweep);
+  item.round = part.kind(place) == NodeHull::kNone;
+  item.of_triangles = part.kind(place) > NodeHull::kBox;
+  item.on_edge = part.kind(place) == NodeHull::kTriangleOnEdge;
+  work.items.push_back(item);
 }
 
 FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
@@ -198,12 +236,7 @@ FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels
 }
 
 Vec3f CertificateFront::hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const {
-  if (sides_ != SideRule::Memory || !(part.offset(i) > kNoCertificate)) return {};
-  return gap_at(part.certificate(i), sweep.t0) < sweep.error ? part.axis(i) : Vec3f{};
-}
-
-float CertificateFront::limit(Vec3f guard, const LinearSweep& sweep) const {
-  return sides_ == SideRule::Memory && length_squared(guard) == 0 ? sweep.meeting : sweep.limit;
+  return sides_ == SideRule::Memory ? trees().hint_of(part.certificate(i), sweep) : Vec3f{};
 }
 
 void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
@@ -265,40 +298,39 @@ void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, co
   for (const std::uint32_t i : work.batch) {
     const Item& item = work.items[i];
     if (item.of_triangles) continue;
-    work.queries.push_back(query(item.a, item.b, item.hint));
+    work.asked.push_back(i);
+    if (work.known(item) != PairAnswer::None) continue;
+    work.queries.push_back(trees().box_query(item.a, item.b, item.hint));
     // Nodes lie far apart: the kernel would wait for each.
     __builtin_prefetch(work.queries.back().a);
     __builtin_prefetch(work.queries.back().b);
-    work.asked.push_back(i);
   }
-  work.separations.resize(work.queries.size());
+  work.computed.resize(work.queries.size());
   if (!work.queries.empty())
-    kernels.separate_boxes(work.queries.data(), work.queries.size(), sweep, work.separations.data());
+    kernels.separate_boxes(work.queries.data(), work.queries.size(), sweep, work.computed.data());
+  work.join(work.asked, PairAnswer::Boxes);
 }
 
 void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const {
   work.triangle_queries.clear();
   for (const std::uint32_t i : work.triangles_asked) {
     const Item& item = work.items[i];
-    work.triangle_queries.push_back(triangle_query(item.a, item.b, item.hint));
+    if (work.known(item) != PairAnswer::None) continue;
+    work.triangle_queries.push_back(trees().triangle_query(item.a, item.b, item.hint));
     __builtin_prefetch(work.triangle_queries.back().a);
     __builtin_prefetch(work.triangle_queries.back().b);
   }
-  work.separations.resize(work.triangle_queries.size());
+  work.computed.resize(work.triangle_queries.size());
   if (!work.triangle_queries.empty())
-    kernels.separate_triangles(work.triangle_queries.data(), work.triangle_queries.size(), sweep,
-                               work.separations.data());
+    kernels.separate_triangles(work.triangle_queries.data(), work.triangle_queries.size(), sweep, work.computed.data());
+  work.join(work.triangles_asked, PairAnswer::Triangles);
 }
 
 bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
                             FrontSweep& result) const {
-  if (separation.gap < limit(item.hint, sweep)) return false;
-  const bool on_edge = separation.certificate.hull.kind == NodeHull::kTriangleOnEdge;
-  const bool may_meet = separation.gap < sweep.meeting && (on_edge || sides_ != SideRule::Normals);
-  // Moving triangles may be apart although no one axis says so: that has to be found out once.
-  if (may_meet && on_edge && !item.on_edge) return false;
+  if (!trees().certifies(separation, item.hint, item.on_edge, sweep)) return false;
   result.least_gap = std::min(result.least_gap, separation.gap);
-  result.touching |= may_meet;
+  result.touching |= trees().may_meet(separation, sweep);
   work.prove(item, separation.certificate);
   return true;
 }
@@ -375,7 +407,7 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   for (std::size_t k = 0; k < work.asked.size(); ++k) {
     const std::uint32_t i = work.asked[k];
     if (take(work, work.items[i], work.separations[k], sweep, result)) continue;
-    if (work.queries[k].a->leaf() && work.queries[k].b->leaf()) {
+    if (trees().leaves(work.items[i].a, work.items[i].b)) {
       work.triangles_asked.push_back(i);
     } else {
       const std::uint32_t first = split(work, i);
@@ -394,7 +426,8 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
 
 void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
-  const LeafVerdict verdict = test(moving_face(item.a, item.b), fixed_face(item.a, item.b), item.hint);
+  const BoxPairQuery query = trees().box_query(item.a, item.b, {});
+  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint);
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;
@@ -408,9 +441,12 @@ std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {
   const Item parent = work.items[i];
   const auto first = static_cast<std::uint32_t>(work.items.size());
   work.items[i].first_child = first;
-  const bool splits_of_a = splits_a(parent.a, parent.b);
+  const bool splits_of_a = trees().splits_a(parent.a, parent.b);
+  const std::uint32_t known =
+      work.known(parent) == PairAnswer::Split ? work.answers[parent.answer].first_child : PairAnswer::kNone;
   for (std::uint32_t k = 0; k < 2; ++k) {
     Item child = parent;
+    child.answer = known == PairAnswer::kNone ? Item::kNone : known + k;
     // The first takes its parent's place, others come behind all.
     if (k > 0) child.place = Item::kNone;
     if (splits_of_a) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "dismantle/front/certificate_part.h"
+#include "dismantle/front/front_device.h"
+#include "dismantle/front/paired_trees.h"
 #include "dismantle/front/round_separation.h"
 #include "dismantle/front/thread_separation.h"
 #include "dismantle/math/rigid_transform.h"
@@ -48,19 +50,6 @@ struct FrontSweep {
   bool touching = false;
 };
 
-/// What keeps things on their sides of each other that may be in each other by the allowance (DESIGN section 5).
-enum class SideRule {
-  /// Closed solids: an axis that uses the allowance has to agree with the outward normals. Any that does may be taken,
-  /// so the least blocking one is.
-  Normals,
-  /// Open sheets: the side on which they were when last apart is kept while they are in each other by the allowance. An
-  /// axis may only be left for one within a right angle of it, or one that needs no allowance.
-  Memory,
-  /// Closed solids that overlap by design, where normals say little: any axis. Their other faces stop what one pair of
-  /// faces lets through.
-  Free,
-};
-
 /// The front of the tree of node pairs of two components (Li, Chen 1998; DESIGN section 2.2), each pair with a
 /// certificate that proves it apart. A sweep checks every certificate with a dot product, separates those anew that no
 /// longer do, descends where boxes cannot be separated, and now and then merges siblings that their parents can
@@ -84,8 +73,11 @@ class CertificateFront {
   PreparedSweep begin_sweep(const PairMotion& motion);
   /// The same for look(), which leaves the front as it is.
   PreparedSweep begin_look(const PairMotion& motion) const;
-  FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
-                        const LeafTest& test);
+  /// Now and then gathers what went fine: to be called before each sweep_part().
+  void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels);
+  /// @param answers of a device that this sweep was asked of after merging, if any was: the result is the same
+  FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+                        const PartAnswers* answers = nullptr);
   /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
   FrontSweep look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
@@ -99,6 +91,17 @@ class CertificateFront {
   /// Makes all certificates anew with the next sweep: what stands still was moved.
   void forget();
 
+  // For a FrontDevice, which keeps copies of all this.
+  const ObbTree& tree_a() const { return *a_; }
+  const ObbTree& tree_b() const { return *b_; }
+  PairedTrees trees() const {
+    return {{a_->nodes.data(), a_->cones.data(), a_->triangles.data()},
+            {b_->nodes.data(), b_->cones.data(), b_->triangles.data()},
+            sides_,
+            b_moves_};
+  }
+  CertificatePart& part(std::size_t index) { return parts_[index]; }
+
  private:
   /// A pair that has to be looked at, and what comes of it.
   struct Item {
@@ -110,41 +113,24 @@ class CertificateFront {
     std::uint32_t proof = kNone;        ///< Index of its certificate; none for what was left unlooked at.
     std::uint32_t origin = 0;           ///< Index of the pair of the front that it comes from,
     std::uint32_t start = 0;            ///< and of that which the search began with, among all of these.
+    std::uint32_t answer = kNone;       ///< Index of what a device says of it, if it does.
     bool round = false;                 ///< The front's pair was parted as round the last time.
     bool of_triangles = false;          ///< The front tested these triangles before,
     bool on_edge = false;               ///< and found that they are in each other on edge.
   };
   struct Work;
 
-  BoxPairQuery query(std::uint32_t a, std::uint32_t b, Vec3f guard) const {
-    BoxPairQuery query{&a_->nodes[a], &b_->nodes[b], guard};
-    if (sides_ == SideRule::Normals) {
-      query.cone_a = &a_->cones[a];
-      query.cone_b = &b_->cones[b];
-    }
-    if (b_moves_) {
-      std::swap(query.a, query.b);
-      std::swap(query.cone_a, query.cone_b);
-    }
-    return query;
-  }
-  TrianglePairQuery triangle_query(std::uint32_t a, std::uint32_t b, Vec3f guard) const {
-    const TriangleF *face_a = &a_->triangles[a_->nodes[a].child], *face_b = &b_->triangles[b_->nodes[b].child];
-    const bool facing = sides_ == SideRule::Normals;
-    return b_moves_ ? TrianglePairQuery{face_b, face_a, guard, facing}
-                    : TrianglePairQuery{face_a, face_b, guard, facing};
-  }
-  std::uint32_t moving_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).a->child; }
-  std::uint32_t fixed_face(std::uint32_t a, std::uint32_t b) const { return query(a, b, {}).b->child; }
   /// Whether certificates that face along the normals still do with A turned like this.
   bool judges(const Mat3& rotation) const;
   /// The pairs of a part that do not hold, as items to be resolved.
   void find_failing(const CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
+  /// The same from what a device found.
+  void take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartAnswers& answers, Work& work,
+                    FrontSweep& result) const;
+  void add_item(const CertificatePart& part, std::uint32_t place, const PreparedSweep& sweep, Work& work) const;
   /// The axis of pair i where it binds the pair to its side; zero otherwise.
   Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
-  /// The least gap that certifies a pair. One that remembers no side gets it from an axis that needs no allowance.
-  float limit(Vec3f guard, const LinearSweep& sweep) const;
   /// Replaces siblings by their parents where these can be separated; gives how many pairs went.
   std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
@@ -170,8 +156,6 @@ class CertificateFront {
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
             FrontSweep& result) const;
   void test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const;
-  /// Whether of two nodes A's is split: the one that takes more room.
-  bool splits_a(std::uint32_t a, std::uint32_t b) const { return a_->nodes[a].size >= b_->nodes[b].size; }
   /// Replaces an item by the halves of a node; gives the index of the first.
   std::uint32_t split(Work& work, std::uint32_t i) const;
   /// What was parted as round stays whole in a sweep that is not free: the next one is another.

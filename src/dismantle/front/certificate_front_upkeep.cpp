@@ -40,7 +40,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
     // Siblings on different sides of the same thing stay apart; one side is handed on.
     const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
     if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
-    queries.push_back(query(parent.a, parent.b, length_squared(one) > 0 ? one : two));
+    queries.push_back(trees().box_query(parent.a, parent.b, length_squared(one) > 0 ? one : two));
     found.push_back({parent, *other, i});
   };
   for (std::uint32_t i = 0; i < part.size(); ++i) {
@@ -59,7 +59,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Siblings& s = found[k];
     if (merged[s.first] || merged[s.second]) continue;
-    const bool by_boxes = separations[k].gap >= limit(queries[k].guard, sweep);
+    const bool by_boxes = separations[k].gap >= trees().limit(queries[k].guard, sweep);
     if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
     part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::of_round());
     merged[s.first] = merged[s.second] = true;
@@ -109,7 +109,7 @@ void CertificateFront::merge_round(const PreparedSweep& sweep) {
     if (parts_round(pair.a.node, pair.b.node, sweep, unused)) {
       found.push_back(pair);
     } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
-      const bool splits_of_a = splits_a(pair.a.node, pair.b.node);
+      const bool splits_of_a = trees().splits_a(pair.a.node, pair.b.node);
       for (std::uint32_t h = 0; h < 2; ++h)
         tried.push_back(splits_of_a ? Pair{pair.a.half(*a_, h), pair.b} : Pair{pair.a, pair.b.half(*b_, h)});
     }
@@ -146,6 +146,7 @@ void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
     }
     for (std::size_t i = 0; i < part.size(); ++i) before.append(part.pair(i), part.certificate(i));
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
+    for (std::size_t behind = p; behind < parts_.size(); ++behind) parts_[behind].mark_changed();
   }
 }
 

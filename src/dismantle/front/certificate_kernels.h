@@ -18,8 +18,17 @@ struct CertificateBlocks {
   const float* data = nullptr;
 
   /// Where field `k` of certificate `i` is.
-  static constexpr std::size_t place(std::size_t i, std::size_t k) {
+  DISMANTLE_HOST_DEVICE static constexpr std::size_t place(std::size_t i, std::size_t k) {
     return (i / kBlock * kFields + k) * kBlock + i % kBlock;
+  }
+
+  DISMANTLE_HOST_DEVICE Vec3f vector(std::size_t i, std::size_t k) const {
+    const float* from = data + place(i, k);
+    return {from[0], from[kBlock], from[2 * kBlock]};
+  }
+  DISMANTLE_HOST_DEVICE Certificate certificate(std::size_t i) const {
+    const NodeHull hull{vector(i, 4), {vector(i, 7), vector(i, 10), vector(i, 13)}, data[place(i, 16)]};
+    return {vector(i, 0), data[place(i, 3)], hull};
   }
 };
 

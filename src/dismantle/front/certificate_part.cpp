@@ -3,17 +3,13 @@
 
 namespace dismantle {
 
-Certificate CertificatePart::certificate(std::size_t i) const {
-  Certificate c;
-  c.axis = axis(i);
-  c.offset = offset(i);
-  c.hull = {vector(i, 4), {vector(i, 7), vector(i, 10), vector(i, 13)}, kind(i)};
-  return c;
+void CertificatePart::resize_blocks(std::size_t count) {
+  data_.resize(CertificateBlocks::place(count * CertificateBlocks::kBlock, 0));
+  changed_.resize(count, 1);
 }
 
 void CertificatePart::append(const FrontPair& pair, const Certificate& certificate) {
-  if (size() % CertificateBlocks::kBlock == 0)
-    data_.resize(CertificateBlocks::place(size() + CertificateBlocks::kBlock, 0));
+  if (size() % CertificateBlocks::kBlock == 0) resize_blocks(block_count() + 1);
   pairs_.push_back(pair);
   set_certificate(size() - 1, certificate);
 }
@@ -31,12 +27,13 @@ void CertificatePart::set_certificate(std::size_t i, const Certificate& c) {
                                                     h.span[2].z, h.kind};
   float* to = data_.data() + CertificateBlocks::place(i, 0);
   for (std::size_t k = 0; k < CertificateBlocks::kFields; ++k) to[k * CertificateBlocks::kBlock] = values[k];
+  changed_[i / CertificateBlocks::kBlock] = 1;
 }
 
 void CertificatePart::remove(std::size_t i) {
   set(i, pairs_.back(), certificate(size() - 1));
   pairs_.pop_back();
-  if (size() % CertificateBlocks::kBlock == 0) data_.resize(CertificateBlocks::place(size(), 0));
+  if (size() % CertificateBlocks::kBlock == 0) resize_blocks(block_count() - 1);
 }
 
 }  // namespace dismantle

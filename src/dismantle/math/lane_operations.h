@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/core/host_device.h"
+
 #include <cstring>
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -61,27 +63,56 @@ struct PortableLaneOperations {
 template <int kCount>
 struct LaneOperations;
 
-/// A float.
+/// A float: the one count that device code has, too.
 template <>
 struct LaneOperations<1> {
   using Register = float;
   using Mask = bool;
 
-  static Register load(const float* from) { return *from; }
-  static void store(float* to, Register r) { *to = r; }
-  static Register broadcast(float x) { return x; }
-  static Register min(Register a, Register b) { return a < b ? a : b; }
-  static Register max(Register a, Register b) { return a > b ? a : b; }
-  static Register abs(Register a) { return __builtin_fabsf(a); }
-  static Register sqrt(Register a) { return __builtin_sqrtf(a); }
-  static Mask less(Register a, Register b) { return a < b; }
-  static Mask less_or_equal(Register a, Register b) { return a <= b; }
-  static Mask equal(Register a, Register b) { return a == b; }
-  static Register select(Mask m, Register a, Register b) { return m ? a : b; }
-  static Mask both(Mask a, Mask b) { return a && b; }
-  static Mask either(Mask a, Mask b) { return a || b; }
-  static Mask inverse(Mask a) { return !a; }
-  static unsigned bits(Mask m) { return m ? 1u : 0u; }
+  DISMANTLE_HOST_DEVICE static Register load(const float* from) { return *from; }
+  DISMANTLE_HOST_DEVICE static void store(float* to, Register r) { *to = r; }
+  DISMANTLE_HOST_DEVICE static Register broadcast(float x) { return x; }
+  DISMANTLE_HOST_DEVICE static Register min(Register a, Register b) { return a < b ? a : b; }
+  DISMANTLE_HOST_DEVICE static Register max(Register a, Register b) { return a > b ? a : b; }
+#if defined(__CUDA_ARCH__)
+  __device__ static Register abs(Register a) {
+    return ::fabsf(a);
+  }
+  __device__ static Register sqrt(Register a) {
+    return ::sqrtf(a);
+  }
+#else
+  DISMANTLE_HOST_DEVICE static Register abs(Register a) {
+    return __builtin_fabsf(a);
+  }
+  DISMANTLE_HOST_DEVICE static Register sqrt(Register a) {
+    return __builtin_sqrtf(a);
+  }
+#endif
+  DISMANTLE_HOST_DEVICE static Mask less(Register a, Register b) {
+    return a < b;
+  }
+  DISMANTLE_HOST_DEVICE static Mask less_or_equal(Register a, Register b) {
+    return a <= b;
+  }
+  DISMANTLE_HOST_DEVICE static Mask equal(Register a, Register b) {
+    return a == b;
+  }
+  DISMANTLE_HOST_DEVICE static Register select(Mask m, Register a, Register b) {
+    return m ? a : b;
+  }
+  DISMANTLE_HOST_DEVICE static Mask both(Mask a, Mask b) {
+    return a && b;
+  }
+  DISMANTLE_HOST_DEVICE static Mask either(Mask a, Mask b) {
+    return a || b;
+  }
+  DISMANTLE_HOST_DEVICE static Mask inverse(Mask a) {
+    return !a;
+  }
+  DISMANTLE_HOST_DEVICE static unsigned bits(Mask m) {
+    return m ? 1u : 0u;
+  }
 };
 
 #if defined(__x86_64__)

@@ -36,6 +36,9 @@
 ///     (Lanes themselves do), or takes a Lanes as a template argument (Vec3T<Lanes<8>> and its functions do);
 ///   - nothing of std:: is called, no Span is indexed and no contract is checked: give pointers to the kernel.
 /// The test lanes.kernels_share_no_function looks into the objects and fails where this was forgotten.
+///
+/// The loop over the groups of lanes stands in the function that does the arithmetic. GCC 12 leaves out vzeroupper in a
+/// function of one group that ends by handing Lanes to another, and all scalar code of the program is slower for it.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
@@ -44,24 +47,24 @@ template <int kCount, class Operations = LaneOperations<kCount>>
 struct LaneMask {
   typename Operations::Mask m;
 
-  friend LaneMask operator&(LaneMask a, LaneMask b) { return {Operations::both(a.m, b.m)}; }
-  friend LaneMask operator|(LaneMask a, LaneMask b) { return {Operations::either(a.m, b.m)}; }
-  friend LaneMask operator!(LaneMask a) { return {Operations::inverse(a.m)}; }
+  DISMANTLE_HOST_DEVICE friend LaneMask operator&(LaneMask a, LaneMask b) { return {Operations::both(a.m, b.m)}; }
+  DISMANTLE_HOST_DEVICE friend LaneMask operator|(LaneMask a, LaneMask b) { return {Operations::either(a.m, b.m)}; }
+  DISMANTLE_HOST_DEVICE friend LaneMask operator!(LaneMask a) { return {Operations::inverse(a.m)}; }
 };
 
 /// Bit i is set where lane i is true.
 template <int kCount, class Operations>
-unsigned bits(LaneMask<kCount, Operations> a) {
+DISMANTLE_HOST_DEVICE unsigned bits(LaneMask<kCount, Operations> a) {
   return Operations::bits(a.m);
 }
 
 template <int kCount, class Operations>
-bool any(LaneMask<kCount, Operations> a) {
+DISMANTLE_HOST_DEVICE bool any(LaneMask<kCount, Operations> a) {
   return bits(a) != 0;
 }
 
 template <int kCount, class Operations>
-bool all(LaneMask<kCount, Operations> a) {
+DISMANTLE_HOST_DEVICE bool all(LaneMask<kCount, Operations> a) {
   return bits(a) == (1u << kCount) - 1;
 }
 
@@ -74,35 +77,37 @@ struct Lanes {
 
   Lanes() = default;
   /// The same value in every lane.
-  Lanes(float x) : r(Operations::broadcast(x)) {}  // NOLINT: a number is as good as lanes of it
-  explicit Lanes(typename Operations::Register x) requires(kCount > 1) : r(x) {}
+  DISMANTLE_HOST_DEVICE Lanes(float x) : r(Operations::broadcast(x)) {}  // NOLINT: a number is as good as lanes of it
+  DISMANTLE_HOST_DEVICE explicit Lanes(typename Operations::Register x) requires(kCount > 1) : r(x) {}
 
   /// kCount floats from `from` on, of any alignment.
-  static Lanes load(const float* from) { return Lanes(Operations::load(from)); }
+  DISMANTLE_HOST_DEVICE static Lanes load(const float* from) { return Lanes(Operations::load(from)); }
   /// Writes kCount floats from `to` on, of any alignment.
-  void store(float* to) const { Operations::store(to, r); }
+  DISMANTLE_HOST_DEVICE void store(float* to) const { Operations::store(to, r); }
 
-  friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.r + b.r); }
-  friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.r - b.r); }
-  friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.r * b.r); }
-  friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.r / b.r); }
-  friend Lanes operator-(Lanes a) { return Lanes(-a.r); }
+  DISMANTLE_HOST_DEVICE friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.r + b.r); }
+  DISMANTLE_HOST_DEVICE friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.r - b.r); }
+  DISMANTLE_HOST_DEVICE friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.r * b.r); }
+  DISMANTLE_HOST_DEVICE friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.r / b.r); }
+  DISMANTLE_HOST_DEVICE friend Lanes operator-(Lanes a) { return Lanes(-a.r); }
 
   /// False where a lane of either is NaN.
-  friend Mask operator<(Lanes a, Lanes b) { return {Operations::less(a.r, b.r)}; }
-  friend Mask operator<=(Lanes a, Lanes b) { return {Operations::less_or_equal(a.r, b.r)}; }
-  friend Mask operator>(Lanes a, Lanes b) { return {Operations::less(b.r, a.r)}; }
-  friend Mask operator>=(Lanes a, Lanes b) { return {Operations::less_or_equal(b.r, a.r)}; }
-  friend Mask operator==(Lanes a, Lanes b) { return {Operations::equal(a.r, b.r)}; }
+  DISMANTLE_HOST_DEVICE friend Mask operator<(Lanes a, Lanes b) { return {Operations::less(a.r, b.r)}; }
+  DISMANTLE_HOST_DEVICE friend Mask operator<=(Lanes a, Lanes b) { return {Operations::less_or_equal(a.r, b.r)}; }
+  DISMANTLE_HOST_DEVICE friend Mask operator>(Lanes a, Lanes b) { return {Operations::less(b.r, a.r)}; }
+  DISMANTLE_HOST_DEVICE friend Mask operator>=(Lanes a, Lanes b) { return {Operations::less_or_equal(b.r, a.r)}; }
+  DISMANTLE_HOST_DEVICE friend Mask operator==(Lanes a, Lanes b) { return {Operations::equal(a.r, b.r)}; }
 
   /// a < b ? a : b in every lane: b where one is NaN.
-  friend Lanes min(Lanes a, Lanes b) { return Lanes(Operations::min(a.r, b.r)); }
+  DISMANTLE_HOST_DEVICE friend Lanes min(Lanes a, Lanes b) { return Lanes(Operations::min(a.r, b.r)); }
   /// a > b ? a : b in every lane: b where one is NaN.
-  friend Lanes max(Lanes a, Lanes b) { return Lanes(Operations::max(a.r, b.r)); }
-  friend Lanes abs(Lanes a) { return Lanes(Operations::abs(a.r)); }
-  friend Lanes sqrt(Lanes a) { return Lanes(Operations::sqrt(a.r)); }
+  DISMANTLE_HOST_DEVICE friend Lanes max(Lanes a, Lanes b) { return Lanes(Operations::max(a.r, b.r)); }
+  DISMANTLE_HOST_DEVICE friend Lanes abs(Lanes a) { return Lanes(Operations::abs(a.r)); }
+  DISMANTLE_HOST_DEVICE friend Lanes sqrt(Lanes a) { return Lanes(Operations::sqrt(a.r)); }
   /// mask ? a : b in every lane.
-  friend Lanes select(Mask mask, Lanes a, Lanes b) { return Lanes(Operations::select(mask.m, a.r, b.r)); }
+  DISMANTLE_HOST_DEVICE friend Lanes select(Mask mask, Lanes a, Lanes b) {
+    return Lanes(Operations::select(mask.m, a.r, b.r));
+  }
 };
 
 }  // namespace DISMANTLE_LANES_ISA
