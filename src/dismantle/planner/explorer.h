@@ -35,6 +35,10 @@ class Explorer {
   StepResult slide(const Pose& target);
   /// Whether it can go straight on from where it is by `way` [mm]; it stays where it is.
   bool exits(const Vec3& direction, double way);
+  /// Those of `directions` (unit) that it may well go straight on in by `way` [mm]: a look, nothing moves.
+  std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way) {
+    return maker_.likely_exits(directions, way);
+  }
   /// Puts it back where it has been.
   void go_back(const Pose& pose) { maker_.go_back(pose); }
   /// What all that it did has cost: see StepMaker::effort.
