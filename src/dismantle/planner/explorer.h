@@ -14,8 +14,9 @@ namespace dismantle {
 /// What came of the search for a way out that is not straight.
 struct WaySearch {
   std::optional<PlanStep> step;
-  std::vector<ComponentId> met;  ///< What was in the way somewhere: as long as all of it is there, nothing changes.
-  bool exhausted = false;        ///< All that there is to try was tried: more effort does not help.
+  std::vector<ComponentId> met;    ///< What was in the way somewhere: as long as all of it is there, nothing changes.
+  std::optional<double> furthest;  ///< How far its center got, in its radii; nothing where it did not move at all.
+  bool exhausted = false;          ///< All that there is to try was tried: more effort does not help.
 };
 
 /// Moves one component about with the engine, from where it was assembled, and remembers what it met. In the end all

@@ -57,6 +57,8 @@ class SlideOut {
       for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
   }
 
+  const PlaceTree& places() const { return places_; }
+
   std::optional<PlanStep> find() {
     for (;;) {
       const auto best = std::max_element(promises_.begin(), promises_.end(), [](const Promise& a, const Promise& b) {
@@ -183,8 +185,10 @@ WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId co
                     const GoOn& go_on) {
   WaySearch search;
   Explorer explorer(maker, component);
-  search.step = SlideOut(explorer, table, component, moves, go_on).find();
+  SlideOut sliding(explorer, table, component, moves, go_on);
+  search.step = sliding.find();
   search.met = explorer.met();
+  search.furthest = sliding.places().furthest();
   search.exhausted = !search.step && explorer.effort() < moves.most_effort;
   return search;
 }
