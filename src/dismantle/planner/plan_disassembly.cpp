@@ -370,10 +370,15 @@ class Planner {
   void find_directions(double tolerance) {
     std::vector<double> popularity;  // of every direction
     std::vector<std::vector<CandidateDirection>> own(count_);
+    // What stays needs none; where there are targets, all but these may have to make way.
+    const ComponentSet all = ComponentSet::all(count_), none(count_);
+    const ComponentSet staying = options_.targets.empty() && count_ > 0 ? staying_of(all) : none;
     for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
       const ComponentId id(c);
-      contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
-      own[c] = candidate_directions(id, contacts_[c], features_);
+      if (!staying.has(id)) {
+        contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
+        own[c] = candidate_directions(id, contacts_[c], features_);
+      }
       double weight = 1;
       const auto vote = [&](const Vec3& direction) {
         const std::size_t index = table_.add_direction(direction).value;
@@ -472,6 +477,7 @@ Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, Compo
                         const CertificateOptions& options) {
   DISMANTLE_EXPECT(component.value < assembly.components.size());
   PlanOptions plan;
+  plan.targets = {component};
   plan.engine = options;
   return Planner(assembly, pairs, plan).explain_assembled(component);
 }
