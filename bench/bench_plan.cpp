@@ -8,7 +8,8 @@
 //                                                         of these assemblies, or else of 200 generated ones of two
 //                                                         components; --from and --count take a part of them
 //   bench_plan products [N...]                            generated products of about N components
-//   bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...         assemblies
+//   bench_plan files [--time-limit S] [--tolerance MM] [--target NAME] ASSEMBLY...
+//                                                         assemblies, or only one component out of them
 // --no-audit: plans only. One row a case or an assembly, tab-separated. `good`: exactly what is known to come out does,
 // and the audit holds; for assemblies: all comes out or is explained, and the audit holds. Times, the limit's too, are
 // processor times of one thread and do not include reading.
@@ -97,6 +98,7 @@ struct Settings {
   std::size_t from = 0, count = kTurnedCases;
   Audited audited = Audited::Yes;
   double time_limit = 60, tolerance = 0;
+  std::string target;
   std::vector<std::string> names;
 };
 
@@ -151,6 +153,8 @@ bool run_cases(const Settings& settings) {
 
 bool run_assembly(const Assembly& assembly, const Settings& settings) {
   PlanOptions options;
+  for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
+    if (assembly.components[c].name == settings.target) options.targets.emplace_back(c);
   const double end = processor_seconds() + settings.time_limit;
   options.progress = [end](std::string_view, double) { return processor_seconds() < end; };
   const Planned planned = plan_and_audit(assembly, settings.tolerance, options, settings.audited);
@@ -271,6 +275,8 @@ bool parse(int argc, char** argv, Settings& settings) {
       settings.audited = Audited::No;
     } else if (option == "--time-limit" && has_value) {
       settings.time_limit = std::atof(argv[++i]);
+    } else if (option == "--target" && has_value) {
+      settings.target = argv[++i];
     } else if (option == "--tolerance" && has_value) {
       settings.tolerance = std::atof(argv[++i]);
     } else if (option.rfind("--", 0) == 0) {
@@ -290,11 +296,12 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   Settings settings;
   if ((what != "cases" && what != "turned" && what != "files" && what != "products") || !parse(argc, argv, settings)) {
-    std::fprintf(stderr,
-                 "usage: bench_plan cases [--shapes N] [--poses M] [--seed S] [--no-audit] [KIND...]\n"
-                 "       bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [--no-audit] [ASSEMBLY...]\n"
-                 "       bench_plan products [N...]\n"
-                 "       bench_plan files [--time-limit S] [--tolerance MM] ASSEMBLY...\n");
+    std::fprintf(
+        stderr,
+        "usage: bench_plan cases [--shapes N] [--poses M] [--seed S] [--no-audit] [KIND...]\n"
+        "       bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [--no-audit] [ASSEMBLY...]\n"
+        "       bench_plan products [N...]\n"
+        "       bench_plan files [--time-limit S] [--tolerance MM] [--target NAME] [--no-audit] ASSEMBLY...\n");
     return 2;
   }
   if (what == "cases") return run_cases(settings) ? 0 : 1;
