@@ -40,7 +40,7 @@ class RemovalSearch {
       : table_(table), directions_(directions), present_(present), never_(never), go_on_(go_on) {}
 
   std::optional<ComponentSet> find(Span<const ComponentId> targets) {
-    const std::optional<ComponentSet> known = enough_for(targets);
+    std::optional<ComponentSet> known = enough_for(targets);
     if (known) most_ = known->size();
     push(ComponentSet(present_.universe(), targets));
     while (!waiting_.empty() && go_on_()) {
