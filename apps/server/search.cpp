@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/search.h"
 
-#include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
 
 #include <algorithm>
@@ -46,7 +45,9 @@ Executor executor_beside(const Executor& executor) {
 PlanOptions plan_options(const Search& search, const ProgressCallback& progress) {
   const Standing& standing = *search.standing;
   const CertificateOptions engine{executor_beside(search.engine.executor), search.engine.lanes};
-  return {local(standing, search.targets), local(standing, search.fixed), 0, engine, progress};
+  PlanOptions options{local(standing, search.targets), local(standing, search.fixed), 0, engine, progress};
+  options.preferences = search.preferences;
+  return options;
 }
 
 /// The steps of a plan as a session goes them: each set by motions since it was found.

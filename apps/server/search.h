@@ -3,7 +3,7 @@
 
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
-#include "dismantle/planner/plan.h"
+#include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/session/session.h"
 
 #include "apps/server/session_json.h"
@@ -45,6 +45,7 @@ struct Search {
   std::shared_ptr<const Standing> standing;
   std::vector<ComponentId> targets;  ///< Of the session, all in `standing`; of Why: one; of Plan none: everything.
   std::vector<ComponentId> fixed;    ///< Of the session, none of them a target. These never move.
+  std::vector<StepPreference> preferences;  ///< See PlanOptions.
   CertificateOptions engine;
 };
 

@@ -68,13 +68,14 @@ std::optional<std::string> Workbench::guide_text() const {
   return session().guide()->text;
 }
 
-Result<Json> Workbench::search(SearchKind kind, std::vector<ComponentId> targets, std::vector<ComponentId> fixed) {
-  for (const ComponentId c : targets) {
+Result<Json> Workbench::search(Search wanted) {
+  const SearchKind kind = wanted.kind;
+  for (const ComponentId c : wanted.targets) {
     const std::string& name = session().assembly()[c].name;
     if (kind != SearchKind::Plan && session().is_removed(c))
       return Error{ErrorKind::Usage,
                    "nothing can be searched for '" + name + "' (it was taken out); put it back first"};
-    if (std::find(fixed.begin(), fixed.end(), c) != fixed.end())
+    if (std::find(wanted.fixed.begin(), wanted.fixed.end(), c) != wanted.fixed.end())
       return Error{ErrorKind::Usage,
                    "'" + name + "' cannot come out (it is a target, and fixed); leave out one of the two"};
   }
@@ -84,9 +85,10 @@ Result<Json> Workbench::search(SearchKind kind, std::vector<ComponentId> targets
     session().release();
     drop_targets();
   }
-  auto seen = std::make_shared<const Standing>(kind == SearchKind::Plan ? assembled(session()) : standing(session()));
-  const Result<std::uint32_t> job =
-      begin_search_({kind, std::move(seen), std::move(targets), std::move(fixed), session().options()});
+  wanted.standing =
+      std::make_shared<const Standing>(kind == SearchKind::Plan ? assembled(session()) : standing(session()));
+  wanted.engine = session().options();
+  const Result<std::uint32_t> job = begin_search_(wanted);
   if (!job) return job.error();
   return Json{{"job", *job}};
 }

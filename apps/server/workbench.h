@@ -80,7 +80,7 @@ class Workbench {
  private:
   friend class WorkbenchCommands;
 
-  Result<Json> search(SearchKind kind, std::vector<ComponentId> targets, std::vector<ComponentId> fixed);
+  Result<Json> search(Search wanted);
   void go_out(const Finding& finding);
   void forget_old_finding();
   Result<Json> hold(const std::vector<ComponentId>& components);

@@ -2,7 +2,9 @@
 #include "apps/server/workbench.h"
 
 #include "dismantle/io/atomic_file.h"
+#include "dismantle/planner/step_preference.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -40,6 +42,23 @@ class Arguments {
       ids.emplace_back(one.get<std::uint32_t>());
     }
     return ids;
+  }
+
+  /// What is preferred, the first counts most; absent: nothing.
+  Result<std::vector<StepPreference>> preferences() const {
+    std::vector<StepPreference> preferences;
+    const auto found = command_.find("prefer");
+    if (found == command_.end()) return preferences;
+    const std::string wanted = "a list of direction, upright, groups, support, each once at most";
+    if (!found->is_array()) return wrong("prefer", wanted);
+    for (const Json& one : *found) {
+      const auto known = one.is_string() ? step_preferences().find(one.get<std::string>()) : step_preferences().end();
+      if (known == step_preferences().end() ||
+          std::find(preferences.begin(), preferences.end(), known->second) != preferences.end())
+        return wrong("prefer", wanted);
+      preferences.push_back(known->second);
+    }
+    return preferences;
   }
 
   /// [x, y, z]; nothing where it is absent or null.
@@ -183,18 +202,20 @@ class WorkbenchCommands {
     if (!targets) return targets.error();
     const auto fixed = in_.list("fixed");
     if (!fixed) return fixed.error();
-    return bench_.search(SearchKind::Plan, *targets, *fixed);
+    const auto preferences = in_.preferences();
+    if (!preferences) return preferences.error();
+    return bench_.search({SearchKind::Plan, {}, *targets, *fixed, *preferences, {}});
   }
   Result<Json> find_path() {
     const auto components = in_.components();
-    return components ? bench_.search(SearchKind::TakeOut, *components, {}) : components.error();
+    return components ? bench_.search({SearchKind::TakeOut, {}, *components, {}, {}, {}}) : components.error();
   }
   Result<Json> why() {
     const auto components = in_.components();
     if (!components) return components.error();
     if (components->size() > 1)
       return usage("this cannot be told", "several components are named", "ask about one at a time");
-    return bench_.search(SearchKind::Why, *components, {});
+    return bench_.search({SearchKind::Why, {}, *components, {}, {}, {}});
   }
   Result<Json> play() {
     const auto source = in_.source();

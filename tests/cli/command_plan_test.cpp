@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/io/load_assembly.h"
+#include "dismantle/io/path_file.h"
+#include "dismantle/planner/plan_disassembly.h"
+#include "dismantle/planner/plan_path.h"
 #include "tests/cli/cli_fixture.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +65,17 @@ TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
   EXPECT_EQ(plan["steps"][0]["components"], Json::array({"front"}));
   EXPECT_EQ(plan["steps"][1]["components"], Json::array({"back"}));
   EXPECT_EQ(run("audit parts one.path.json").exit_code, 0);
+}
+
+TEST_F(CliPlan, WritesThePlainPlanWhereNothingIsPreferred) {
+  ASSERT_EQ(run("plan parts -o all.path.json").exit_code, 0);
+  const Assembly assembly = load_assembly(in("parts").string()).value();
+  const PairStates pairs = classify_pairs(assembly, {}).value();
+  const Plan plain = plan_disassembly(assembly, pairs, {});
+  EXPECT_EQ(read_all(in("all.path.json")), path_text(plan_path(assembly, pairs, plain)));
+  // Preferences can tell another order, so that this is not true of everything.
+  ASSERT_EQ(run("plan parts -o direction.path.json --prefer direction").exit_code, 0);
+  EXPECT_NE(read_all(in("all.path.json")), read_all(in("direction.path.json")));
 }
 
 TEST_F(CliPlan, PrefersWhatItIsToldTo) {

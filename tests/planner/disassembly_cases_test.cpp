@@ -56,6 +56,21 @@ TEST_P(DisassemblyCaseOf, ComesApartOrDoesNotInAnyOrientationSizeAndTessellation
   expect_right(kind, {scenes::placed(scenes::refined(made.assembly, random), pose, scale), made.fixed}, scale);
 }
 
+TEST(DisassemblyCases, EveryPinComesOutOfItsSlot) {
+  // Where a push ends just beyond a place on its way, the end has to be a place, too.
+  std::mt19937_64 random(1);
+  for (int shape = 0; shape < 60; ++shape) {
+    const DisassemblyCase made = scenes::disassembly_case(CaseKind::LSlot, scenes::random_shape(random));
+    const scenes::PlanScene scene =
+        scenes::plan_scene(scenes::placed(made.assembly, scenes::random_pose(random, 50, 3)));
+    PlanOptions options;
+    options.slide_effort = scenes::kSlideEffort;
+    options.sample_effort = 0;
+    options.fixed = {ComponentId(0)};
+    EXPECT_TRUE(plan_disassembly(scene.assembly, scene.pairs, options).complete()) << shape;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(DisassemblyCases, DisassemblyCaseOf, testing::ValuesIn(scenes::kCaseKinds),
                          [](const testing::TestParamInfo<CaseKind>& tested) {
                            std::string name(name_of(tested.param));

@@ -37,5 +37,17 @@ TEST(PlaceTree, CountsWhatTheCenterGoesAndTheRimTurns) {
   EXPECT_NEAR(tree.distance({}, turned * Pose{{-1, 0, 0}, {}}), 5 * 0.2, 1e-12) << "about its center";
 }
 
+TEST(PlaceTree, TellsHowFarTheCenterHasBeen) {
+  PlaceTree tree({1, 0, 0}, 5);
+  EXPECT_EQ(tree.furthest(), std::nullopt);
+  const Pose about_center = Pose{{1, 0, 0}, quat_about({0, 0, 1}, 0.2)} * Pose{{-1, 0, 0}, {}};
+  tree.add({about_center, 0, {about_center}});
+  ASSERT_TRUE(tree.furthest().has_value());
+  EXPECT_NEAR(*tree.furthest(), 0, 1e-12);
+  tree.add({{{0, 10, 0}, {}}, 0, {}});
+  tree.add({{{0, 5, 0}, {}}, 0, {}});
+  EXPECT_DOUBLE_EQ(*tree.furthest(), 2);
+}
+
 }  // namespace
 }  // namespace dismantle

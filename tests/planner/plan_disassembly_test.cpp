@@ -4,6 +4,7 @@
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/planner/plan_path.h"
 #include "tests/planner/plan_scenes.h"
+#include "tests/support/disassembly_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,15 @@ TEST(PlanDisassembly, IsTheSameInAnyOrientation) {
       EXPECT_EQ(taken_out(plan), taken_out(turned)) << assembly.components[0].name << ' ' << round;
       EXPECT_EQ(plan.complete(), turned.complete());
     }
+  }
+}
+
+TEST(PlanDisassembly, IsTheSameHoweverSurfacesAreCut) {
+  std::mt19937_64 random(6);
+  for (const Assembly& assembly : {scenes::dovetail(0.01).assembly, scenes::peg_in_hole(24, 0.01).assembly}) {
+    const Plan plan = plan_of(assembly);
+    for (int round = 0; round < 8; ++round)
+      EXPECT_EQ(taken_out(plan), taken_out(plan_of(scenes::refined(assembly, random)))) << round;
   }
 }
 

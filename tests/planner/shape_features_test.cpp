@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/shape_features.h"
 
+#include "tests/support/disassembly_cases.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -26,6 +27,14 @@ TEST(ShapeFeatures, FindsTheAxisOfABoreInAnyOrientation) {
     ASSERT_FALSE(features.axes.empty());
     EXPECT_NEAR(std::abs(dot(features.axes[0].direction, axis)), 1, 1e-12) << angle;
   }
+}
+
+TEST(ShapeFeatures, FindsTheSameAreaHoweverTheSurfaceIsCut) {
+  std::mt19937_64 random(5);
+  const TriangleMesh block =
+      scenes::box_block({{{0, 4, 10}, {0, 20}, {0, 5, 30}}}, [](int x, int, int z) { return x == 0 || z == 0; });
+  EXPECT_NEAR(shape_features(block).area, 1900, 1e-9);
+  EXPECT_NEAR(shape_features(scenes::refined(block, random)).area, 1900, 1e-9);
 }
 
 }  // namespace

@@ -74,6 +74,27 @@ TEST_F(ServerSearch, PlansForATargetWithWhatIsFixed) {
   EXPECT_FALSE(client.command("plan", {{"targets", {9}}})["ok"]);
 }
 
+TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
+  // A shelf in a slot of a wall, and a cup on it.
+  constexpr std::uint32_t kShelf = 2, kCup = 3;
+  start_with(scenes::assembly({scenes::component("a over", scenes::box({-20, -30, 2}, {0, 30, 40})),
+                               scenes::component("b under", scenes::box({-20, -30, -40}, {0, 30, 0})),
+                               scenes::component("c shelf", scenes::box({-4, -3, 0}, {10, 3, 2})),
+                               scenes::component("d cup", scenes::box({0, -6, 2}, {9, 6, 22}))}));
+  Client client(door());
+  client.state();
+  for (const auto& [preferred, first] : {std::pair("direction", kShelf), std::pair("support", kCup)}) {
+    search(client, "plan", {{"fixed", {0, 1}}, {"prefer", {preferred}}});
+    const Json wanted = {first};
+    const Json state = client.event_where("state", [&](const Json& s) {
+      return !s["guide"].is_null() && s["guide"]["moves"][0]["components"] == wanted;
+    });
+    EXPECT_EQ(state["guide"]["moves"].size(), 2u);
+  }
+  for (const Json& wrong : {Json("groups"), Json{"beauty"}, Json{"groups", "groups"}, Json{1}})
+    EXPECT_FALSE(client.command("plan", {{"prefer", wrong}})["ok"]) << wrong;
+}
+
 TEST_F(ServerSearch, TakesOutWhatIsInTheWayAndThenWhatIsWanted) {
   start_with(scenes::stack_in_tube(3));
   Client client(door());

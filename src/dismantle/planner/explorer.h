@@ -14,8 +14,9 @@ namespace dismantle {
 /// What came of the search for a way out that is not straight.
 struct WaySearch {
   std::optional<PlanStep> step;
-  std::vector<ComponentId> met;  ///< What was in the way somewhere: as long as all of it is there, nothing changes.
-  bool exhausted = false;        ///< All that there is to try was tried: more effort does not help.
+  std::vector<ComponentId> met;    ///< What was in the way somewhere: as long as all of it is there, nothing changes.
+  std::optional<double> furthest;  ///< How far its center got, in its radii; nothing where it did not move at all.
+  bool exhausted = false;          ///< All that there is to try was tried: more effort does not help.
 };
 
 /// Moves one component about with the engine, from where it was assembled, and remembers what it met. In the end all
@@ -35,6 +36,10 @@ class Explorer {
   StepResult slide(const Pose& target);
   /// Whether it can go straight on from where it is by `way` [mm]; it stays where it is.
   bool exits(const Vec3& direction, double way);
+  /// Those of `directions` (unit) that it may well go straight on in by `way` [mm]: a look, nothing moves.
+  std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way) {
+    return maker_.likely_exits(directions, way);
+  }
   /// Puts it back where it has been.
   void go_back(const Pose& pose) { maker_.go_back(pose); }
   /// What all that it did has cost: see StepMaker::effort.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/place_tree.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace dismantle {
@@ -19,6 +20,13 @@ std::pair<std::size_t, double> PlaceTree::nearest(const Pose& pose) const {
     if (apart < best.second) best = {k, apart};
   }
   return best;
+}
+
+std::optional<double> PlaceTree::furthest() const {
+  if (places_.size() == 1) return std::nullopt;
+  double most = 0;
+  for (const Place& place : places_) most = std::max(most, length(center_at(place.pose) - center_));
+  return most / radius_;
 }
 
 std::vector<Pose> PlaceTree::way_to(std::size_t place) const {

@@ -4,6 +4,7 @@
 #include "dismantle/math/screw.h"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,8 @@ class PlaceTree {
   double distance(const Pose& a, const Pose& b) const;
   /// The place nearest to a pose, and how far that is [mm].
   std::pair<std::size_t, double> nearest(const Pose& pose) const;
+  /// How far the center has been from where it was assembled, in radii; nothing where there are no other places.
+  std::optional<double> furthest() const;
   /// From where it was assembled to a place.
   std::vector<Pose> way_to(std::size_t place) const;
 

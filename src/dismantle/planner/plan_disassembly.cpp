@@ -34,6 +34,12 @@ constexpr std::size_t kMostPushes = 12;
 constexpr std::size_t kMostTurns = 4;
 /// The search for a way that is not straight may cost so much for each component, little for all of them first.
 constexpr std::size_t kFirstEffort = 40'000, kEffortGrowth = 4;
+/// A longer search that gets no further than so many times as far as the one before is the last one.
+constexpr double kFurther = 1.1;
+/// What got no further than this [radii] in shorter searches rattles in its seat: no longer one is made at random.
+constexpr double kRoom = 0.5;
+/// Components are as large as each other where they differ by less: by rounding in a turned assembly.
+constexpr double kSameSize = 1e-6;
 /// What was taken away stands so many diameters of the assembly off.
 constexpr double kFarAway = 100;
 
@@ -103,9 +109,10 @@ class Planner {
       if (body.has(c)) staying.insert(c);
     if (staying.size() > 0) return staying;
     const std::vector<ComponentId> members = body.members();
-    staying.insert(*std::max_element(members.begin(), members.end(), [this](ComponentId a, ComponentId b) {
-      return features_[a.value].radius < features_[b.value].radius;
-    }));
+    double largest = 0;
+    for (const ComponentId c : members) largest = std::max(largest, features_[c.value].area);
+    staying.insert(*std::find_if(members.begin(), members.end(),
+                                 [&](ComponentId c) { return features_[c.value].area >= (1 - kSameSize) * largest; }));
     return staying;
   }
 
@@ -197,6 +204,7 @@ class Planner {
     struct InVain {
       std::size_t effort = 0;
       std::vector<ComponentId> met;
+      std::optional<double> furthest;  // see WaySearch
     };
     std::size_t most;                       ///< That all of them may cost,
     std::size_t spent = 0;                  ///< and have cost.
@@ -219,7 +227,10 @@ class Planner {
         WaySearch found = search(c, std::min(effort, left));
         searches.spent += maker_.effort() - begun;
         if (found.step) return std::move(found.step);
-        before = {found.exhausted ? std::numeric_limits<std::size_t>::max() : effort, std::move(found.met)};
+        const bool no_further =
+            before.effort > 0 && body.has_all(before.met) && found.furthest <= kFurther * before.furthest.value_or(0);
+        before = {found.exhausted || no_further ? std::numeric_limits<std::size_t>::max() : effort,
+                  std::move(found.met), found.furthest};
       }
     return std::nullopt;
   }
@@ -234,6 +245,10 @@ class Planner {
 
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying) {
     return find_long(body, staying, sampling_, [&](ComponentId c, std::size_t effort) {
+      const LongSearches::InVain& slid = sliding_.in_vain[c];
+      const double room = std::max(slid.furthest.value_or(0), sampling_.in_vain[c].furthest.value_or(0));
+      const bool held_fast = slid.effort > 0 && !slid.furthest, rattles = effort > kFirstEffort && room < kRoom;
+      if (held_fast || rattles) return WaySearch{std::nullopt, slid.met, slid.furthest, true};
       return sample_out(maker_, table_, c, effort, [this] { return go_on(); });
     });
   }
@@ -355,10 +370,15 @@ class Planner {
   void find_directions(double tolerance) {
     std::vector<double> popularity;  // of every direction
     std::vector<std::vector<CandidateDirection>> own(count_);
+    // What stays needs none; where there are targets, all but these may have to make way.
+    const ComponentSet all = ComponentSet::all(count_), none(count_);
+    const ComponentSet staying = options_.targets.empty() && count_ > 0 ? staying_of(all) : none;
     for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
       const ComponentId id(c);
-      contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
-      own[c] = candidate_directions(id, contacts_[c], features_);
+      if (!staying.has(id)) {
+        contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
+        own[c] = candidate_directions(id, contacts_[c], features_);
+      }
       double weight = 1;
       const auto vote = [&](const Vec3& direction) {
         const std::size_t index = table_.add_direction(direction).value;
@@ -457,6 +477,7 @@ Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, Compo
                         const CertificateOptions& options) {
   DISMANTLE_EXPECT(component.value < assembly.components.size());
   PlanOptions plan;
+  plan.targets = {component};
   plan.engine = options;
   return Planner(assembly, pairs, plan).explain_assembled(component);
 }

@@ -2,6 +2,7 @@
 #include "dismantle/planner/removal_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <queue>
 #include <set>
@@ -39,9 +40,12 @@ class RemovalSearch {
       : table_(table), directions_(directions), present_(present), never_(never), go_on_(go_on) {}
 
   std::optional<ComponentSet> find(Span<const ComponentId> targets) {
+    std::optional<ComponentSet> known = enough_for(targets);
+    if (known) most_ = known->size();
     push(ComponentSet(present_.universe(), targets));
     while (!waiting_.empty() && go_on_()) {
       const ComponentSet needed = waiting_.top().needed;
+      if (needed.size() >= most_) break;
       waiting_.pop();
       const ComponentSet left = left_over(needed);
       ComponentSet stuck(needed.universe());
@@ -50,11 +54,35 @@ class RemovalSearch {
       if (stuck.size() == 0) return needed;
       widen(needed, left, stuck);
     }
-    return std::nullopt;
+    return known;
   }
 
  private:
+  /// Some set that does, found for little: all is taken out that can be until the targets are, then what was in
+  /// nobody's way is left where it is. No set that is not smaller has to be looked at.
+  std::optional<ComponentSet> enough_for(Span<const ComponentId> targets) {
+    ComponentSet left = present_;
+    std::vector<StraightRemoval> taken;
+    while (left.has_any(targets)) {
+      const std::vector<StraightRemoval> single =
+          free_components(table_, directions_, left, never_, Executor(), go_on_);
+      if (single.empty() || !go_on_()) return std::nullopt;
+      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      taken.insert(taken.end(), single.begin(), single.end());
+    }
+    ComponentSet needed(present_.universe(), targets);
+    for (std::size_t k = taken.size(); k-- > 0;) {
+      const ComponentId c = taken[k].components[0];
+      for (std::size_t later = k + 1; later < taken.size() && !needed.has(c); ++later) {
+        const ComponentId other = taken[later].components[0];
+        if (needed.has(other) && table_.blocks(other, taken[later].direction, c)) needed.insert(c);
+      }
+    }
+    return needed;
+  }
+
   void push(ComponentSet needed) {
+    if (needed.size() >= most_) return;
     if (known_.insert(needed.members()).second) waiting_.push({std::move(needed), known_.size()});
   }
 
@@ -78,14 +106,15 @@ class RemovalSearch {
   /// with what blocks it out before, or together with it.
   void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
     std::map<DirectionId, ComponentSet> ends;
+    const std::size_t most = std::min(left.size(), most_) - 1;
     for (const ComponentId c : stuck.members()) {
       for (const DirectionId d : directions_[c.value]) {
         if (!go_on_()) return;
-        const std::vector<ComponentId> blockers = table_.blockers(c, d, left);
+        const std::vector<ComponentId> blockers = table_.blockers(c, d, left, most_ - needed.size());
         if (never_.has_any(blockers)) continue;
         if (!stuck.has_any(blockers)) push(with(needed, blockers));
         const std::vector<ComponentId> together =
-            table_.moving_together(c, d, left, ends.try_emplace(d, never_).first->second, left.size() - 1);
+            table_.moving_together(c, d, left, ends.try_emplace(d, never_).first->second, most);
         if (!together.empty()) push(with(needed, together));
       }
     }
@@ -103,6 +132,7 @@ class RemovalSearch {
   const GoOn& go_on_;
   std::priority_queue<Waiting> waiting_;
   std::set<std::vector<ComponentId>> known_;
+  std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< The size of the best set that is known.
 };
 
 }  // namespace

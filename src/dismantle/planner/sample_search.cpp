@@ -96,6 +96,7 @@ class SampleOut {
         places_(table.center(component), radius_),
         out_(1) {}
 
+  const PlaceTree& places() const { return places_; }
   /// Nothing new is found any more.
   bool saturated() const { return in_vain_ > kMostInVain; }
 
@@ -219,6 +220,7 @@ WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId c
   SampleOut sampling(explorer, table, component, most_effort, go_on);
   search.step = sampling.find();
   search.met = explorer.met();
+  search.furthest = sampling.places().furthest();
   search.exhausted = sampling.saturated();
   return search;
 }

@@ -31,7 +31,8 @@ ShapeFeatures shape_features(const TriangleMesh& mesh) {
     const Vec3 axis = cross(a, b);
     if (areas > 0 && length(axis) > kLeastSine * areas) axes.add(axis, length(axis) / std::sqrt(areas));
   }
-  ShapeFeatures features{normals.heaviest(kMostNormals), axes.heaviest(kMostAxes), {}, 0};
+  ShapeFeatures features{normals.heaviest(kMostNormals), axes.heaviest(kMostAxes), {}, 0, 0};
+  for (const Vec3& a : area_vectors) features.area += length(a);
   for (const Vec3& p : mesh.vertices) features.center += p / static_cast<double>(mesh.vertices.size());
   for (const Vec3& p : mesh.vertices) features.radius = std::max(features.radius, length(p - features.center));
   return features;

@@ -14,6 +14,7 @@ struct ShapeFeatures {
   std::vector<WeightedDirection> axes;  ///< Of what is round or goes straight on, of either sign; the heaviest first.
   Vec3 center;                          ///< The mean of its vertices [mm].
   double radius = 0;                    ///< Of the sphere about the center that holds it [mm].
+  double area = 0;                      ///< Of its surface, whatever triangles it is cut into [mm^2].
 };
 
 /// Finds the plane faces, and the axes of bores, shafts, ribs and all else that is swept along a line: two faces that

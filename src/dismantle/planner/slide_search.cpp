@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -20,7 +20,7 @@ constexpr double kSamePlace = 0.05;
 /// A turn goes on for so long [rad].
 constexpr double kMostTurn = 6.4;
 /// A place on the way counts less than its end.
-constexpr double kOnTheWay = 0.5;
+constexpr double kEnd = 1, kOnTheWay = 0.5;
 /// Each place between this one and the assembled one counts against it.
 constexpr double kDepthShare = 0.1;
 /// What is within this share of the component's radius of a straight line is tried as one.
@@ -36,6 +36,7 @@ struct SlideMove {
 struct Promise {
   double worth = 0;
   double depth = 0;   ///< Places before it.
+  Quat held;          ///< How the hand holds it turned; walls may have turned it otherwise.
   bool left = false;  ///< All was tried from here.
 };
 
@@ -55,6 +56,8 @@ class SlideOut {
     for (const TurnAxis& axis : moves.axes)
       for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
   }
+
+  const PlaceTree& places() const { return places_; }
 
   std::optional<PlanStep> find() {
     for (;;) {
@@ -78,12 +81,13 @@ class SlideOut {
   /// Goes on with a move as long as it makes something.
   std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
     const bool pushed = length(move.push) > 0;
+    const Quat held = promises_[from].held;
     std::vector<Pose> way;
     std::vector<std::size_t> ends;  // of the hand's steps, in `way`
     double turned = 0;
     for (bool stuck = false; !stuck && turned < kMostTurn && goes_on();) {
       const Pose before = explorer_.pose();
-      const StepResult made = explorer_.slide(target(before, move));
+      const StepResult made = explorer_.slide(target(before, held, move));
       way.insert(way.end(), made.way.begin(), made.way.end());
       stuck = places_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
       if (made.way.empty()) break;
@@ -92,13 +96,36 @@ class SlideOut {
       if (pushed && dot(places_.center_at(made.pose) - places_.center_at({}), move.push) > way_out_)
         return step_out(from, way, move.push);
     }
-    for (std::size_t k = 0; k < ends.size(); ++k)
-      reach(from, {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(ends[k])}, k + 1 == ends.size());
+    if (ends.empty()) return std::nullopt;
+    const auto until = [&](std::size_t end) {
+      return std::vector<Pose>(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    // The end first: what lies just before it is not another place.
+    if (reach(from, move, until(ends.back()), kEnd))
+      if (auto step = leave(places_.size() - 1)) return step;
+    ends.pop_back();
+    for (const std::size_t end : ends) reach(from, move, until(end), kOnTheWay);
     return std::nullopt;
   }
 
-  Pose target(const Pose& pose, const SlideMove& move) const {
-    if (length(move.push) > 0) return {pose.position + kHandShare * radius_ * move.push, pose.rotation};
+  /// Straight out of the place where it is, if that goes.
+  std::optional<PlanStep> leave(std::size_t place) {
+    std::vector<Vec3> directions;
+    for (const SlideMove& move : moves_)
+      if (length(move.push) > 0) directions.push_back(move.push);
+    for (const Vec3& exit : explorer_.likely_exits(directions, 2 * way_out_))
+      if (goes_on() && explorer_.exits(exit, 2 * way_out_))
+        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, places_.way_to(place), exit};
+    return std::nullopt;
+  }
+
+  /// Where the hand goes next. What it pushes it keeps turned as it was, as well as the walls allow: at every corner
+  /// that it slides around it would be turned further, until it is stuck.
+  Pose target(const Pose& pose, const Quat& held, const SlideMove& move) const {
+    if (length(move.push) > 0) {
+      const Vec3 center = places_.center_at(pose) + kHandShare * radius_ * move.push;
+      return {center - places_.center_at({{}, held}), held};
+    }
     Screw screw;
     screw.reference = move.axis.point;
     screw.axis = move.axis.direction;
@@ -112,14 +139,17 @@ class SlideOut {
   }
 
   /// Takes up a place, if it is new.
-  void reach(std::size_t from, std::vector<Pose> way, bool is_end) {
+  /// @param share that it counts
+  bool reach(std::size_t from, const SlideMove& move, std::vector<Pose> way, double share) {
     const Pose pose = way.back();
     const double nearest = places_.nearest(pose).second;
-    if (nearest < kSamePlace * radius_) return;
+    if (nearest < kSamePlace * radius_) return false;
     const double depth = promises_[from].depth + 1;
     const double apart = nearest + places_.distance({}, pose);
-    promises_.push_back({(is_end ? 1 : kOnTheWay) * apart / radius_ - kDepthShare * depth, depth, false});
+    const Quat held = length(move.push) > 0 ? promises_[from].held : pose.rotation;
+    promises_.push_back({share * apart / radius_ - kDepthShare * depth, depth, held, false});
     places_.add({pose, from, std::move(way)});
+    return true;
   }
 
   /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
@@ -155,8 +185,10 @@ WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId co
                     const GoOn& go_on) {
   WaySearch search;
   Explorer explorer(maker, component);
-  search.step = SlideOut(explorer, table, component, moves, go_on).find();
+  SlideOut sliding(explorer, table, component, moves, go_on);
+  search.step = sliding.find();
   search.met = explorer.met();
+  search.furthest = sliding.places().furthest();
   search.exhausted = !search.step && explorer.effort() < moves.most_effort;
   return search;
 }

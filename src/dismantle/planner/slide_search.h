@@ -23,8 +23,8 @@ struct SlideMoves {
 };
 
 /// Pushes and turns a component as far as each goes, along whatever is in the way (response Slide), then goes on from
-/// the places reached: those first that are new and far from where it began. Ends where a push leads out, where there
-/// are no new places, or with the effort.
+/// the places reached: those first that are new and far from where it began. Ends where a push or a straight
+/// way from its end leads out, where there are no new places, or with the effort.
 /// @param moves of the assembled state
 /// @param maker what is present stands, nothing is in hand; the same after it
 WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,

@@ -118,4 +118,19 @@ StepMaker::Trial StepMaker::try_exit(const Vec3& direction, double way) {
   return trial;
 }
 
+std::vector<Vec3> StepMaker::likely_exits(Span<const Vec3> directions, double way) {
+  std::vector<Vec3> open(directions.begin(), directions.end());
+  // A look at the first part costs little, and settles most.
+  for (const double part : {kParts[0], 1.0}) {
+    std::vector<Vec3> ways, free;
+    for (const Vec3& d : open) ways.push_back(part * way * d);
+    const std::vector<FirstContact> found = engine_.straight_contacts(ways);
+    effort_ += kSweepEffort * ways.size();
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (found[i].free) free.push_back(open[i]);
+    open = std::move(free);
+  }
+  return open;
+}
+
 }  // namespace dismantle

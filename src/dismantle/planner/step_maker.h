@@ -43,6 +43,8 @@ class StepMaker {
   void go_back(const Pose& pose);
   /// Whether what is in hand can go straight on from where it is by `way` [mm]; it stays where it is.
   Trial try_exit(const Vec3& direction, double way);
+  /// Those of `directions` (unit) that what is in hand may well go straight on in by `way` [mm]: a look, nothing moves.
+  std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way);
   /// All stands as before.
   void put_back();
 

@@ -2,7 +2,7 @@
 import { button, element, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { directionText, text } from "../strings.ts";
-import type { Search } from "../wire/messages.ts";
+import { kPreferences, type Preference, type Search } from "../wire/messages.ts";
 
 /// Has the planner find how everything comes apart, or how the selection gets out; what it finds becomes the guide, and of
 /// what stays it says why.
@@ -17,6 +17,7 @@ export class PlanPanel {
   private readonly found = element("p", { id: "plan-found", role: "status" });
   private readonly reasons = element("ul", { class: "rows", id: "plan-reasons" });
   private fixed: number[] = [];
+  private preferred: Preference[] = []; // in the order in which they were ticked
   private shownModel = -1;
   private shownSearch: Search | null = null;
 
@@ -34,6 +35,7 @@ export class PlanPanel {
       element("label", {}, this.all, element("span", {}, text("plan.all"))),
       element("label", {}, this.some, this.someWords),
       element("div", { class: "plan-fixed" }, this.fixedWords, this.fix),
+      element("fieldset", {}, element("legend", {}, text("plan.prefer")), ...kPreferences.map((p) => this.preference(p))),
       this.find,
       this.found,
       this.reasons,
@@ -54,7 +56,16 @@ export class PlanPanel {
 
   private async ask(): Promise<void> {
     const targets = this.some.checked ? this.session.store.selection : [];
-    await this.session.ask("plan", { targets, fixed: this.fixed });
+    await this.session.ask("plan", { targets, fixed: this.fixed, prefer: this.preferred });
+  }
+
+  private preference(preference: Preference): HTMLElement {
+    const box = element("input", { type: "checkbox", id: `plan-prefer-${preference}` });
+    box.addEventListener("change", () => {
+      this.preferred = this.preferred.filter((p) => p !== preference);
+      if (box.checked) this.preferred.push(preference);
+    });
+    return element("label", {}, box, element("span", {}, text(`plan.prefer.${preference}`)));
   }
 
   private toggleFixed(): void {

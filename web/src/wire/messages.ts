@@ -58,6 +58,10 @@ export interface Reason {
   locked: number[];
 }
 
+/// What can be preferred of several steps that can come next.
+export const kPreferences = ["direction", "upright", "groups", "support"] as const;
+export type Preference = (typeof kPreferences)[number];
+
 /// What the planner found last.
 export interface Search {
   kind: "plan" | "find_path" | "why";
@@ -159,7 +163,7 @@ export interface Commands {
   isolate: [Components, object];
   restore: [object, object];
   reset: [object, object];
-  plan: [{ targets?: number[]; fixed?: number[] }, { job: number }];
+  plan: [{ targets?: number[]; fixed?: number[]; prefer?: Preference[] }, { job: number }];
   find_path: [Components, { job: number }];
   why: [Components, { job: number }];
   play: [{ speed: number; source?: Source }, object];

@@ -60,6 +60,35 @@ test("a plan for the selection leaves alone what is not in its way, and what is 
   assert.equal(await viewer.page.isVisible("#plan-panel"), false);
 });
 
+test("what is preferred is asked for, the first ticked first", async () => {
+  await viewer.press("l");
+  const asked = viewer.page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        const { session } = window.dismantle!.app;
+        const ask = session.ask.bind(session);
+        session.ask = ((name: "plan", members: object) => {
+          if (name === "plan") resolve(members);
+          session.ask = ask;
+          return ask(name, members);
+        }) as typeof session.ask;
+      }),
+  );
+  await viewer.page.check("#plan-prefer-support");
+  await viewer.page.check("#plan-prefer-upright");
+  await viewer.page.check("#plan-prefer-groups");
+  await viewer.page.uncheck("#plan-prefer-upright");
+  await viewer.page.click("#plan-find");
+  assert.deepEqual(((await asked) as { prefer: string[] }).prefer, ["support", "groups"]);
+  await waitForSearch("plan");
+  await viewer.idle();
+  assert.ok((await search())!.steps > 10);
+  await viewer.page.uncheck("#plan-prefer-support");
+  await viewer.page.uncheck("#plan-prefer-groups");
+  await viewer.click("#guide-close");
+  await viewer.press("l");
+});
+
 test("why it stays: the blocker is named, highlighted, and an arrow points at it", async () => {
   await viewer.select("stage plate");
   const before = await viewer.picture();
