@@ -35,7 +35,12 @@ export class PlanPanel {
       element("label", {}, this.all, element("span", {}, text("plan.all"))),
       element("label", {}, this.some, this.someWords),
       element("div", { class: "plan-fixed" }, this.fixedWords, this.fix),
-      element("fieldset", {}, element("legend", {}, text("plan.prefer")), ...kPreferences.map((p) => this.preference(p))),
+      element(
+        "fieldset",
+        {},
+        element("legend", {}, text("plan.prefer")),
+        ...kPreferences.map((p) => this.preference(p)),
+      ),
       this.find,
       this.found,
       this.reasons,
