@@ -74,6 +74,7 @@ test("what is preferred is asked for, the first ticked first", async () => {
         }) as typeof session.ask;
       }),
   );
+  await viewer.page.check("#plan-all");
   await viewer.page.check("#plan-prefer-support");
   await viewer.page.check("#plan-prefer-upright");
   await viewer.page.check("#plan-prefer-groups");
