@@ -18,16 +18,17 @@ constexpr std::uint32_t kChunk = 512;
 static_assert(sizeof(VertexFaceMotion) == kMotionDoubles * sizeof(double));
 static_assert(sizeof(EdgeEdgeMotion) == kMotionDoubles * sizeof(double));
 
-std::uint32_t left_by_lanes(const VertexFaceMotion* first, std::uint32_t count, LaneCount lanes,
+std::uint32_t left_by_lanes(const VertexFaceMotion* first, std::uint32_t count, std::uint32_t next, LaneCount lanes,
                             std::uint32_t* undecided) {
   const double* numbers = &first->vertex_t0.x;
-  return with_lanes(lanes, [&](auto width) { return vertex_face_lanes_kernel<width>(numbers, count, undecided); });
+  return with_lanes(lanes,
+                    [&](auto width) { return vertex_face_lanes_kernel<width>(numbers, count, next, undecided); });
 }
 
-std::uint32_t left_by_lanes(const EdgeEdgeMotion* first, std::uint32_t count, LaneCount lanes,
+std::uint32_t left_by_lanes(const EdgeEdgeMotion* first, std::uint32_t count, std::uint32_t next, LaneCount lanes,
                             std::uint32_t* undecided) {
   const double* numbers = &first->a_t0[0].x;
-  return with_lanes(lanes, [&](auto width) { return edge_edge_lanes_kernel<width>(numbers, count, undecided); });
+  return with_lanes(lanes, [&](auto width) { return edge_edge_lanes_kernel<width>(numbers, count, next, undecided); });
 }
 
 CcdResult decided_in_double(const VertexFaceMotion& motion) {
@@ -43,8 +44,11 @@ CcdBatchResult decide(Span<const Motion> motions, LaneCount lanes) {
   CcdBatchResult result;
   std::uint32_t undecided[kChunk + kMostLanes];
   for (std::size_t start = 0; start < motions.size(); start += kChunk) {
-    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kChunk, motions.size() - start));
-    const std::uint32_t left = left_by_lanes(motions.data() + start, count, lanes, undecided);
+    const auto up_to_chunk = [&](std::size_t from) {
+      return static_cast<std::uint32_t>(std::min<std::size_t>(kChunk, motions.size() - from));
+    };
+    const std::uint32_t count = up_to_chunk(start), next = up_to_chunk(start + count);
+    const std::uint32_t left = left_by_lanes(motions.data() + start, count, next, lanes, undecided);
     result.decided_in_double += left;
     for (std::uint32_t i = 0; i < left; ++i) {
       const std::size_t query = start + undecided[i];

@@ -50,8 +50,8 @@ struct EdgeEdgeLanes {
 
 template <>
 std::uint32_t edge_edge_lanes_kernel<DISMANTLE_LANE_COUNT>(const double* motions, std::uint32_t count,
-                                                           std::uint32_t* undecided) {
-  return undecided_motions<DISMANTLE_LANE_COUNT, EdgeEdgeLanes>(motions, count, undecided);
+                                                           std::uint32_t next, std::uint32_t* undecided) {
+  return undecided_motions<DISMANTLE_LANE_COUNT, EdgeEdgeLanes>(motions, count, next, undecided);
 }
 
 }  // namespace dismantle

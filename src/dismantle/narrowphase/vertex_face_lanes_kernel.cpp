@@ -57,8 +57,8 @@ struct VertexFaceLanes {
 
 template <>
 std::uint32_t vertex_face_lanes_kernel<DISMANTLE_LANE_COUNT>(const double* motions, std::uint32_t count,
-                                                             std::uint32_t* undecided) {
-  return undecided_motions<DISMANTLE_LANE_COUNT, VertexFaceLanes>(motions, count, undecided);
+                                                             std::uint32_t next, std::uint32_t* undecided) {
+  return undecided_motions<DISMANTLE_LANE_COUNT, VertexFaceLanes>(motions, count, next, undecided);
 }
 
 }  // namespace dismantle
