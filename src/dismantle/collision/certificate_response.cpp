@@ -21,7 +21,7 @@ constexpr double kBackoffShare = 1e-3;
 /// Motions shorter than this share of the tolerance are not made: what rests stays where it is, bit for bit.
 constexpr double kRestShare = 2e-3;
 /// Sweeps of one step of response Slide, apart from free ones of an unbounded motion.
-constexpr int kMostTries = 20;
+constexpr int kMostTries = 40;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or with it where
 /// it is the step's first: the next goes on.
 constexpr double kCreepShare = 0.1;
@@ -107,6 +107,7 @@ double CertificateResponse::follow(const Pose& end, double part, Guarded guarded
   guarded_.clear();
   part = guarded_part(end, part, guarded);
   if (part <= 0) return 0;
+  rests_ = 0;
   if (!embedded_.empty()) {
     for (std::size_t c = 0; c < held_.size(); ++c)
       held_[c] = sweeper_.holds(ComponentId(static_cast<std::uint32_t>(c)));
@@ -209,6 +210,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double lever = std::max(sweeper_.radius() / 2, tolerance);
   contacts_.drop_vertices();
   bool fresh = contacts_.empty();  // the contacts' axes are those of the motion that is wanted from here
+  bool found_here = fresh;         // all contacts were found where the set is
   bool on_course = false;          // the last motion was on the screw to the target
   Effort effort = Effort::Fits;    // while what it tells is new
   for (int tries = 0; tries < kMostTries;) {
@@ -219,6 +221,13 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const SlideContacts::Twist allowed = contacts_.nearest(tried, lever), twist = bent_little(allowed);
     const double travel = travel_of(twist);
     const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
+    if (!found_here && (travel < rest ? look_again_at_rest() : creeping)) {
+      // Of many pairs one that was left behind may be what holds the set.
+      contacts_.drop_pairs();
+      fresh = found_here = true;
+      ++tries;
+      continue;
+    }
     if (travel < rest || (creeping && !result.way.empty())) break;
 
     const Pose end = within_arcs(twist.bounded || !whole ? twisted(twist) : target);
@@ -238,7 +247,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       // What goes on along one screw is one motion.
       if (made && was_on_course && on_course) result.way.erase(result.way.end() - 2);
       reach_ *= kTryGrowth;
-      fresh = false;
+      fresh = found_here = false;
       if (!made || creeping || sweeper_.pose() == target) break;
       continue;
     }
@@ -263,9 +272,14 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
     const bool made = advance(end, part, result, Guarded::Part) > 0;
     if (!take_guarded(result) && !made) break;
-    fresh = on_course = false;
+    fresh = on_course = found_here = false;
   }
   end_slide(target, result);
+}
+
+bool CertificateResponse::look_again_at_rest() {
+  ++rests_;
+  return (rests_ & (rests_ - 1)) == 0;
 }
 
 void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
@@ -350,6 +364,7 @@ Pose CertificateResponse::twisted(const SlideContacts::Twist& twist) const {
 void CertificateResponse::begin() {
   contacts_.clear();
   stopping_.clear();
+  rests_ = 0;
   reach_ = std::numeric_limits<double>::infinity();
 }
 

@@ -21,6 +21,8 @@ class SlideContacts {
     vertices_.clear();
     fits_.clear();
   }
+  /// Lets go of all pairs, to find those that are left anew.
+  void drop_pairs() { pairs_.clear(); }
   bool empty() const { return pairs_.empty(); }
   /// Takes up the pair, or gives it its new axis. True where it bounds the twist in a way that it did not before.
   bool add(const BlockedPair& pair);
