@@ -107,7 +107,6 @@ double CertificateResponse::follow(const Pose& end, double part, Guarded guarded
   guarded_.clear();
   part = guarded_part(end, part, guarded);
   if (part <= 0) return 0;
-  rests_ = 0;
   if (!embedded_.empty()) {
     for (std::size_t c = 0; c < held_.size(); ++c)
       held_[c] = sweeper_.holds(ComponentId(static_cast<std::uint32_t>(c)));
@@ -221,7 +220,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const SlideContacts::Twist allowed = contacts_.nearest(tried, lever), twist = bent_little(allowed);
     const double travel = travel_of(twist);
     const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
-    if (!found_here && (travel < rest ? look_again_at_rest() : creeping)) {
+    if (!found_here && (travel < rest || creeping) && look_again()) {
       // Of many pairs one that was left behind may be what holds the set.
       contacts_.drop_pairs();
       fresh = found_here = true;
@@ -248,6 +247,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       if (made && was_on_course && on_course) result.way.erase(result.way.end() - 2);
       reach_ *= kTryGrowth;
       fresh = found_here = false;
+      if (made && !creeping) held_times_ = 0;
       if (!made || creeping || sweeper_.pose() == target) break;
       continue;
     }
@@ -273,13 +273,14 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const bool made = advance(end, part, result, Guarded::Part) > 0;
     if (!take_guarded(result) && !made) break;
     fresh = on_course = found_here = false;
+    if (made && !creeping) held_times_ = 0;
   }
   end_slide(target, result);
 }
 
-bool CertificateResponse::look_again_at_rest() {
-  ++rests_;
-  return (rests_ & (rests_ - 1)) == 0;
+bool CertificateResponse::look_again() {
+  ++held_times_;
+  return (held_times_ & (held_times_ - 1)) == 0;
 }
 
 void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
@@ -364,7 +365,7 @@ Pose CertificateResponse::twisted(const SlideContacts::Twist& twist) const {
 void CertificateResponse::begin() {
   contacts_.clear();
   stopping_.clear();
-  rests_ = 0;
+  held_times_ = 0;
   reach_ = std::numeric_limits<double>::infinity();
 }
 

@@ -38,8 +38,9 @@ class CertificateResponse {
   /// or nothing where not `touch`.
   double free_part(const Pose& end, bool touch, StepResult& result);
   void slide(const Pose& target, StepResult& result);
-  /// Whether a step that is held looks for its contacts anew: the first since the last motion, the second, fourth, ...
-  bool look_again_at_rest();
+  /// Whether contacts that let the set hardly move are to be found anew: the first time since it did move, the second,
+  /// the fourth, ...
+  bool look_again();
   /// Goes what cylinders held as one may have kept from it, and tells the contacts.
   void end_slide(const Pose& target, StepResult& result);
   /// Takes up what the guard stopped the last motion for; true where that bounds the twist in a new way.
@@ -61,8 +62,8 @@ class CertificateResponse {
   std::vector<VertexContact> guarded_;                         ///< What the guard found in the last advance.
   SlideContacts contacts_;                                     ///< Of the last step of response Slide.
   std::vector<BlockedPair> stopping_;                          ///< What stopped the last motion of Stop or Touch.
-  double reach_;        ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.
-  unsigned rests_ = 0;  ///< Steps with response Slide since the last motion that were held where the set is.
+  double reach_;  ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.
+  unsigned held_times_ = 0;  ///< How often contacts let the set hardly move since it last did.
 };
 
 }  // namespace dismantle
