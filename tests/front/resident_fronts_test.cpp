@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fronts that ask a device against fronts that do not: on devices that executors play, and on the CUDA device where
 // there is one.
+#include "dismantle/collision/front_device.h"
 #include "dismantle/front/certificate_front.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pair_motions.h"
@@ -67,7 +68,7 @@ struct Swept {
 
 /// Every third pair of triangles blocks.
 LeafTest leaf_test(Swept& swept) {
-  return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint) {
+  return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t) {
     swept.tested.emplace_back(moving, fixed);
     LeafVerdict verdict;
     verdict.free = (moving + fixed) % 3 != 0;
@@ -94,8 +95,8 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   const PreparedSweep linear = front.begin_sweep(motion);
   for (std::size_t part = 0; part < front.part_count(); ++part) front.merge_part(part, linear, kernels);
   Span<const PartAnswers> answers;
-  const AskedFront asked{&front, &linear};
-  if (device) answers = device->ask(Span<const AskedFront>(&asked, 1), to_the_end);
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  if (device) answers = device->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), to_the_end).parts;
   for (std::size_t part = 0; part < front.part_count(); ++part)
     add(swept, front.sweep_part(part, linear, kernels, leaf_test(swept), device ? &answers[part] : nullptr));
   front.end_sweep(linear, free_of(swept));
@@ -161,8 +162,8 @@ TEST_P(ResidentFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
-  const AskedFront asked{&front, &linear};
-  const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront>(&asked, 1), true);
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), true).parts;
   ASSERT_EQ(answers.size(), 1u);
   ASSERT_EQ(answers[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
@@ -193,8 +194,8 @@ TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
       motion.allowed = kAllowed;
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
-    const AskedFront asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront>(asked, 2), true);
+    const AskedFront<LeafSweep> asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
+    const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(asked, 2), true).parts;
     ASSERT_EQ(answers.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {

@@ -419,7 +419,7 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   for (std::size_t k = 0; k < work.triangles_asked.size(); ++k) {
     Item& item = work.items[work.triangles_asked[k]];
     if (take(work, item, work.separations[k], sweep, result)) continue;
-    if (sides_ != SideRule::Memory) item.hint = work.separations[k].certificate.axis;
+    item.hint = trees().leaf_hint(item.hint, work.separations[k]);
     test_leaves(work, item, test, result);
   }
 }
@@ -427,7 +427,8 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
 void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
   const BoxPairQuery query = trees().box_query(item.a, item.b, {});
-  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint);
+  const std::uint32_t answer = item.answer == Item::kNone ? PairAnswer::kNone : work.answers[item.answer].leaf;
+  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint, answer);
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;

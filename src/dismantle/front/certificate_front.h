@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/front/certificate_part.h"
-#include "dismantle/front/front_device.h"
+#include "dismantle/front/front_answers.h"
 #include "dismantle/front/paired_trees.h"
 #include "dismantle/front/round_separation.h"
 #include "dismantle/front/thread_separation.h"
@@ -27,8 +27,10 @@ struct LeafVerdict {
 };
 
 /// Tests a face of the moving component against one of the fixed component during the sweep at hand, beginning with the
-/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none).
-using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint)>;
+/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none). `answer` is that of PairAnswer:
+/// where the device found what the test would find.
+using LeafTest =
+    std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer)>;
 
 /// A motion as a front takes it.
 struct PreparedSweep : LinearSweep {
@@ -91,7 +93,7 @@ class CertificateFront {
   /// Makes all certificates anew with the next sweep: what stands still was moved.
   void forget();
 
-  // For a FrontDevice, which keeps copies of all this.
+  // For a device, which keeps copies of all this.
   const ObbTree& tree_a() const { return *a_; }
   const ObbTree& tree_b() const { return *b_; }
   PairedTrees trees() const {
