@@ -34,6 +34,7 @@ struct Asked {
   std::size_t tests = 0;         ///< Elementary tests that it answered,
   std::size_t tests_taken = 0;   ///< those of them that steps asked for,
   std::size_t tests_wanted = 0;  ///< and all that steps asked for.
+  std::size_t parents = 0;       ///< Pairs of nodes that it separated for merging.
 };
 
 /// What the host finds of the same faces, bit for bit.
@@ -58,6 +59,11 @@ class CountedDevice final : public FrontDevice {
     for (const AskedFront<LeafSweep>& asked : fronts)
       for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
     return answers;
+  }
+  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
+                                      Span<const AskedParents> pairs) override {
+    asked_.parents += pairs.size();
+    return device_->separate(fronts, pairs);
   }
 
  private:
@@ -160,7 +166,9 @@ TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
   for (int k = 1; k <= 25; ++k) targets.push_back(pair.rolled(0.01 * k, 0.2 * k));
-  EXPECT_GT(expect_same(scene.assembly, 0.01, motion_of(scene, targets)).answered, 1000u);
+  const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
+  EXPECT_GT(asked.answered, 1000u);
+  EXPECT_GT(asked.parents, 100u);
 }
 
 TEST_P(ResidentCertificates, ScrewBoltsOutAsTheCpuDoes) {

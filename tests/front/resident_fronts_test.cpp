@@ -63,7 +63,11 @@ struct Swept {
   std::size_t blocked = 0;
   bool complete = true, touching = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
-  friend bool operator==(const Swept&, const Swept&) = default;
+  std::size_t parents = 0;  ///< Pairs of nodes of which a device was asked for merging: nothing that was found.
+  friend bool operator==(const Swept& x, const Swept& y) {
+    return x.least_gap == y.least_gap && x.blocked == y.blocked && x.complete == y.complete &&
+           x.touching == y.touching && x.tested == y.tested;
+  }
 };
 
 /// Every third pair of triangles blocks.
@@ -89,16 +93,44 @@ bool free_of(const Swept& swept) {
   return swept.blocked == 0 && swept.complete;
 }
 
+/// What siblings of the parts may merge into, for a device.
+std::vector<AskedParents> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
+  std::vector<AskedParents> parents;
+  for (const std::vector<Siblings>& of_part : siblings)
+    for (const Siblings& s : of_part) parents.push_back({0, s.parent.a, s.parent.b, s.hint});
+  return parents;
+}
+
+/// Merges by what a device says; gives of how many pairs it was asked.
+std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  std::vector<std::vector<Siblings>> siblings;
+  for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
+  const std::vector<AskedParents> parents = parents_of(siblings);
+  const Span<const NodeSeparation> found = device.separate(Span<const AskedFront<LeafSweep>>(&asked, 1), parents);
+  std::size_t begin = 0;
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    const std::size_t count = siblings[part].size();
+    front.merge_part(part, linear, front_kernels(widest_lanes()), siblings[part], found.subspan(begin, count));
+    begin += count;
+  }
+  return begin;
+}
+
 Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* device, bool to_the_end) {
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
-  for (std::size_t part = 0; part < front.part_count(); ++part) front.merge_part(part, linear, kernels);
   Span<const PartAnswers> answers;
   const AskedFront<LeafSweep> asked{&front, &linear};
-  if (device) answers = device->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), to_the_end).parts;
-  for (std::size_t part = 0; part < front.part_count(); ++part)
+  if (device) {
+    swept.parents = merge_by(*device, front, linear);
+    answers = device->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), to_the_end).parts;
+  }
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    if (!device) front.merge_part(part, linear, kernels);
     add(swept, front.sweep_part(part, linear, kernels, leaf_test(swept), device ? &answers[part] : nullptr));
+  }
   front.end_sweep(linear, free_of(swept));
   return swept;
 }
@@ -125,7 +157,7 @@ TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
     CertificateFront front(a, b, sides), expected(a, b, sides);
     std::mt19937_64 random(20261123);
     Pose pose;
-    std::size_t most_parts = 0, tests = 0, blocked = 0;
+    std::size_t most_parts = 0, tests = 0, blocked = 0, parents = 0;
     bool exchanged = false;
     for (int step = 0; step < 50 && !HasFailure(); ++step) {
       SCOPED_TRACE(step);
@@ -143,16 +175,19 @@ TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
       motion.allowed = kAllowed;
       if (step % 4 == 1) motion.enough_blocked = 8;
       const Swept wanted = sweep(expected, motion, nullptr, true);
-      EXPECT_EQ(sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0), wanted);
+      const Swept found = sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0);
+      EXPECT_EQ(found, wanted);
       expect_same_fronts(front, expected);
       most_parts = std::max(most_parts, front.part_count());
       tests += wanted.tested.size();
       blocked += wanted.blocked;
+      parents += found.parents;
       pose = next;
     }
     EXPECT_GT(most_parts, 1u);
     EXPECT_GT(tests, 1000u);
     EXPECT_GT(blocked, 100u);
+    EXPECT_GT(parents, 100u);
   }
 }
 
@@ -180,6 +215,31 @@ TEST_P(ResidentFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   EXPECT_GT(of_kind[PairAnswer::Boxes], 100u);
   EXPECT_GT(of_kind[PairAnswer::Triangles], 100u);
   EXPECT_EQ(of_kind[PairAnswer::Split] + 1, of_kind[PairAnswer::Boxes] + of_kind[PairAnswer::Triangles]);
+}
+
+// A front that has moved away merges by what it is told alone: nothing where no parents are said to be apart.
+TEST_P(ResidentFronts, MergeByWhatTheDeviceSaysOfParents) {
+  const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
+  CertificateFront front(a, b, SideRule::Normals);
+  PairMotion motion = scenes::pair_motion(a, b, {}, {{0.01, 0, 0}, {}});
+  motion.allowed = kAllowed;
+  for (int step = 0; step < 7; ++step) sweep(front, motion, nullptr, true);
+  motion = scenes::pair_motion(a, b, {{0, 0, 6}, {}}, {{0, 0, 6.01}, {}});
+  motion.allowed = kAllowed;
+  const PreparedSweep linear = front.begin_sweep(motion);
+  CertificateFront lied_to = front, expected = front;
+  std::size_t merged = 0;
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    const std::vector<Siblings> siblings = front.siblings_of(part, linear);
+    const std::vector<NodeSeparation> overlap(siblings.size(), NodeSeparation{-1, Certificate::none()});
+    lied_to.merge_part(part, linear, front_kernels(widest_lanes()), siblings, overlap);
+    expected.merge_part(part, linear, front_kernels(widest_lanes()));
+    merged += siblings.size();
+  }
+  EXPECT_GT(merged, 20u);
+  EXPECT_EQ(merge_by(*device_, front, linear), merged);
+  EXPECT_LT(front.size() * 2, lied_to.size());
+  expect_same_fronts(front, expected);
 }
 
 TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {

@@ -280,19 +280,15 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for (std::size_t p = 0; p < active.size(); ++p)
     for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
-  const auto merge = [&](std::size_t i) {
-    const ActivePair& pair = active[tasks[i].pair];
-    pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
-  };
   FrontAnswers answers;
   const bool asks = asks_device(active);
   if (asks) {
-    for_each_part(tasks.size(), merge);
-    answers = ask_device(active, effort);
+    merge_by_device(active, tasks);
+    answers = device_.fronts->ask(asked_fronts(active), effort == Effort::Full);
   }
   for_each_part(tasks.size(), [&](std::size_t i) {
-    if (!asks) merge(i);
     const ActivePair& pair = active[tasks[i].pair];
+    if (!asks) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
     tasks[i].found =
         pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window, answers.leaves),
                                asks ? &answers.parts[i] : nullptr);
@@ -335,11 +331,33 @@ bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) cons
   return pairs >= device_.least_pairs;
 }
 
-FrontAnswers CertificateSweeper::ask_device(const std::vector<ActivePair>& active, Effort effort) {
+std::vector<AskedFront<LeafSweep>> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
   std::vector<AskedFront<LeafSweep>> fronts;
   fronts.reserve(active.size());
   for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep, &pair.leaves});
-  return device_.fronts->ask(fronts, effort == Effort::Full);
+  return fronts;
+}
+
+void CertificateSweeper::merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks) {
+  std::vector<std::vector<Siblings>> siblings(tasks.size());
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    const ActivePair& pair = active[tasks[i].pair];
+    siblings[i] = pair.front->siblings_of(tasks[i].part, pair.sweep);
+  });
+  std::vector<std::size_t> begins;
+  std::vector<AskedParents> parents;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    begins.push_back(parents.size());
+    for (const Siblings& s : siblings[i])
+      parents.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b, s.hint});
+  }
+  if (parents.empty()) return;
+  const Span<const NodeSeparation> separations = device_.fronts->separate(asked_fronts(active), parents);
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    const ActivePair& pair = active[tasks[i].pair];
+    pair.front->merge_part(tasks[i].part, pair.sweep, kernels_, siblings[i],
+                           separations.subspan(begins[i], siblings[i].size()));
+  });
 }
 
 CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {

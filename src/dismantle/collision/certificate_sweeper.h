@@ -142,8 +142,9 @@ class CertificateSweeper {
   void for_each_part(std::size_t count, const Run& run) const;
   /// Whether there is a device, and enough for it to do.
   bool asks_device(const std::vector<ActivePair>& active) const;
-  /// What the device says of all parts.
-  FrontAnswers ask_device(const std::vector<ActivePair>& active, Effort effort);
+  static std::vector<AskedFront<LeafSweep>> asked_fronts(const std::vector<ActivePair>& active);
+  /// Merges what the parts that are due gather, with what the device says of it.
+  void merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks);
   /// Adds what looking at a pair finds, from a front of theirs.
   void look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const;
   /// @param answers of a device to tests of the whole motion

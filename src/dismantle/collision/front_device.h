@@ -31,6 +31,12 @@ class FrontDevice {
   /// @return what holds until the next call
   /// @pre sweeps begun with begin_sweep(); the fronts' trees outlive the device
   virtual FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) = 0;
+
+  /// Separates pairs of nodes of the fronts as boxes, for what merges before a sweep.
+  /// @return of each pair; holds until the next call
+  /// @pre as ask()
+  virtual Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
+                                              Span<const AskedParents> pairs) = 0;
 };
 
 /// What the buffers of a device have room for at first: the pages and failing pairs of a front of some thousand pairs.

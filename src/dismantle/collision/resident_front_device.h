@@ -64,6 +64,10 @@ class ResidentFrontDevice final : public FrontDevice {
     const Span<const PartAnswers> parts = fronts_.ask(fronts, to_the_end);
     return {parts, fronts_.leaves()};
   }
+  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
+                                      Span<const AskedParents> pairs) override {
+    return fronts_.separate(fronts, pairs);
+  }
 
  private:
   ResidentFronts<Queue, ResidentLeaves> fronts_;

@@ -14,10 +14,6 @@ namespace dismantle {
 
 namespace {
 
-/// Every part looks for siblings to merge each so many sweeps.
-constexpr std::size_t kMergePeriod = 8;
-/// It goes on with that while more than one in so many pairs goes.
-constexpr std::size_t kMergeShare = 8;
 /// So many pairs are looked at together.
 constexpr std::size_t kBatch = 64;
 /// Where some blocked pairs are enough: so many that come from one pair of the front.
@@ -156,13 +152,6 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
     if (thread.useful()) sweep.threads.push_back(thread);
   }
   return sweep;
-}
-
-void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
-  CertificatePart& part = parts_[index];
-  if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1)
-    while (merge(part, sweep, kernels) * kMergeShare > part.size()) {
-    }
 }
 
 FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,

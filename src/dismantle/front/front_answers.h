@@ -36,6 +36,13 @@ struct PartAnswers {
   Span<const PairAnswer> answers;    ///< Of all parts.
 };
 
+/// A pair of nodes that two siblings of a front may merge into.
+struct AskedParents {
+  std::uint32_t front = 0;     ///< Of the fronts asked.
+  std::uint32_t a = 0, b = 0;  ///< Nodes of its trees.
+  Vec3f hint;                  ///< The side to stay on; zero for none.
+};
+
 /// A front whose parts are swept.
 /// @tparam LeafSweep tests pairs of triangles
 template <class LeafSweep>

@@ -257,6 +257,20 @@ struct SeparatePairs {
   }
 };
 
+/// Separates the boxes of pairs that siblings may merge into. Item: one of them.
+struct SeparateParents {
+  Span<const AskedParents> asked;
+  Span<const FrontOrder> fronts;
+  Span<NodeSeparation> found;
+
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const AskedParents& pair = asked[i];
+    const FrontOrder& front = fronts[pair.front];
+    const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
+    separate_box_lanes<1>(&query, 1, front.sweep, &found[i]);
+  }
+};
+
 /// Goes on to the tests that were gathered by now. One item.
 struct NextLeaves {
   SweepCounters* counters;

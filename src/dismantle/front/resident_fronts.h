@@ -32,6 +32,8 @@ class ResidentFronts {
   /// Checks all certificates of the fronts, and so on: see FrontDevice::ask().
   /// @return of each part, front by front; holds until the next call
   Span<const PartAnswers> ask(Span<const Asked> fronts, bool to_the_end);
+  /// Separates pairs of nodes as boxes: see FrontDevice::separate().
+  Span<const NodeSeparation> separate(Span<const Asked> fronts, Span<const AskedParents> pairs);
   /// What elementary tests found in that: PairAnswer::leaf is an index of these.
   Span<const Found> leaves() const { return found_leaves_.on_host().subspan(0, stored_leaves()); }
 
@@ -59,6 +61,7 @@ class ResidentFronts {
   resident_front::LeafSink leaf_sink() { return {asked_leaves_.view(), &counters_.on_device().data()->leaves_needed}; }
 
   ObbTreeView tree(const ObbTree& tree);
+  resident_front::FrontOrder order_of(const Asked& asked);
   void order(Span<const Asked> fronts);
   void order_part(CertificatePart& part, std::vector<std::uint32_t>& pages);
   void send_order();
@@ -102,6 +105,8 @@ class ResidentFronts {
   MirroredArray<PairAnswer> answers_;
   DeviceArray<resident_front::AskedLeaf> asked_leaves_;
   MirroredArray<Found> found_leaves_;
+  MirroredArray<AskedParents> parents_;
+  MirroredArray<NodeSeparation> parent_separations_;
   typename Queue::Recording recording_;
 
   std::vector<PartAnswers> found_;
@@ -120,7 +125,9 @@ ResidentFronts<Queue, Leaves>::ResidentFronts(Queue queue, std::size_t capacity)
       least_(queue_, 1),
       pairs_(queue_, 0),
       answers_(queue_, 0),
-      found_leaves_(queue_, 0) {
+      found_leaves_(queue_, 0),
+      parents_(queue_, 1),
+      parent_separations_(queue_, 1) {
   make_pair_room(pages_.size());
   make_leaf_room(pages_.size());
 }
@@ -169,6 +176,34 @@ ObbTreeView ResidentFronts<Queue, Leaves>::tree(const ObbTree& tree) {
 }
 
 template <class Queue, class Leaves>
+Span<const NodeSeparation> ResidentFronts<Queue, Leaves>::separate(Span<const Asked> fronts,
+                                                                   Span<const AskedParents> pairs) {
+  const std::size_t count = pairs.size();
+  make_room(fronts_, fronts.size());
+  make_room(parents_, count);
+  make_room(parent_separations_, count);
+  std::transform(fronts.begin(), fronts.end(), fronts_.on_host().begin(),
+                 [this](const Asked& asked) { return order_of(asked); });
+  std::copy(pairs.begin(), pairs.end(), parents_.on_host().begin());
+  fronts_.copy_up(queue_);
+  const Span<AskedParents> parents = parents_.on_device().subspan(0, count);
+  const Span<NodeSeparation> separations = parent_separations_.on_device().subspan(0, count);
+  queue_.copy_up(parents.data(), parents_.on_host().data(), count * sizeof(AskedParents));
+  queue_.launch(count, resident_front::SeparateParents{parents, fronts_.on_device(), separations});
+  queue_.copy_down(parent_separations_.on_host().data(), separations.data(), count * sizeof(NodeSeparation));
+  queue_.wait();
+  return parent_separations_.on_host().subspan(0, count);
+}
+
+template <class Queue, class Leaves>
+resident_front::FrontOrder ResidentFronts<Queue, Leaves>::order_of(const Asked& asked) {
+  PairedTrees trees = asked.front->trees();
+  trees.a = tree(asked.front->tree_a());
+  trees.b = tree(asked.front->tree_b());
+  return {*asked.sweep, trees, asked.leaves ? 1u : 0u};
+}
+
+template <class Queue, class Leaves>
 void ResidentFronts<Queue, Leaves>::order(Span<const Asked> fronts) {
   orders_.clear();
   leaf_kernels_.clear();
@@ -177,10 +212,7 @@ void ResidentFronts<Queue, Leaves>::order(Span<const Asked> fronts) {
   part_count_ = 0;
   for (const Asked& asked : fronts) {
     CertificateFront& front = *asked.front;
-    PairedTrees trees = front.trees();
-    trees.a = tree(front.tree_a());
-    trees.b = tree(front.tree_b());
-    orders_.push_back({*asked.sweep, trees, asked.leaves ? 1u : 0u});
+    orders_.push_back(order_of(asked));
     leaf_kernels_.push_back(asked.leaves ? leaves_.kernel(queue_, *asked.leaves) : Kernel{});
     PartPages& pages = part_pages_[&front];
     for (std::size_t p = front.part_count(); p < pages.size(); ++p) drop_pages(pages[p], 0);
