@@ -39,7 +39,8 @@ struct Measured {
   double build_ms = 0, first_us = 0;
   std::vector<double> us;  // a step
   std::size_t front = 0;
-  double reached = 0;  // share of the steps
+  std::size_t answered = 0;  // elementary tests that a device answered, in all steps
+  double reached = 0;        // share of the steps
 };
 
 /// Where the components were after a step, and which were in hand.
@@ -116,6 +117,7 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
       }
       m.us.push_back(us);
       m.front = std::max(m.front, result.sizes.front);
+      m.answered += result.sizes.answered_tests;
       ++steps;
       reached += result.reached ? 1 : 0;
       visited.push_back({&move, {engine->poses().begin(), engine->poses().end()}});
@@ -135,10 +137,10 @@ void print_row(const BenchScene& scene, const Settings& settings, Measured m, do
   if (m.us.empty()) return;
   const double average = mean(m.us);
   std::sort(m.us.begin(), m.us.end());
-  std::printf("%s\t%zu\t%s\t%d\t%zu\t%.0f\t%.0f\t%.1f\t%.1f\t%.1f\t%.1f\t%zu\t%.3f\t%.2f\n", scene.name.c_str(),
+  std::printf("%s\t%zu\t%s\t%d\t%zu\t%.0f\t%.0f\t%.1f\t%.1f\t%.1f\t%.1f\t%zu\t%zu\t%.3f\t%.2f\n", scene.name.c_str(),
               triangle_count(scene.assembly), m.method.c_str(), m.method.rfind("fcl", 0) == 0 ? 1 : settings.threads,
               m.us.size(), m.build_ms, m.first_us, m.us[m.us.size() / 2], average, m.us[m.us.size() * 99 / 100],
-              m.us.back(), m.front, m.reached, average / base);
+              m.us.back(), m.front, m.answered, m.reached, average / base);
   std::fflush(stdout);
 }
 
@@ -238,7 +240,7 @@ int main(int argc, char** argv) {
   }
   std::printf(
       "scene\ttriangles\tmethod\tthreads\tsteps\tbuild_ms\tfirst_us\tmedian_us\tmean_us\tp99_us\tmax_"
-      "us\tfront\treached\t"
+      "us\tfront\tanswered_tests\treached\t"
       "ratio\n");
   for (const std::string& name : settings.scenes) {
     const Result<std::vector<BenchScene>> scenes = make_bench_scenes(name, settings.size, settings.samples_folder);

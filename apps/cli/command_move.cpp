@@ -36,15 +36,15 @@ std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
   std::string csv =
       "step,move,target,time_s,components,reached,contacts,sweeps,vertices_ms,bvh_refit_ms,front_ms,intersection_test_"
       "ms,"
-      "overall_ms,front,triangle_pairs,intersection_pairs,elementary_tests,replays\n";
+      "overall_ms,front,triangle_pairs,intersection_pairs,elementary_tests,answered_tests,replays\n";
   for (std::size_t i = 0; i < played.steps.size(); ++i) {
     const PlayedStep& s = played.steps[i];
     const StepResult& r = s.result;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", i, s.move,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{}\n", i, s.move,
                        s.target, s.time, motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.contacts.size(),
                        r.sweeps, r.timings.vertices, r.timings.refit, r.timings.front, r.timings.intersection,
                        r.timings.overall, r.sizes.front, r.sizes.triangle_pairs, r.sizes.intersection_pairs,
-                       r.sizes.elementary_tests, r.sizes.replays);
+                       r.sizes.elementary_tests, r.sizes.answered_tests, r.sizes.replays);
   }
   return csv;
 }

@@ -3,6 +3,7 @@
 // executors play, and on the CUDA device where there is one.
 #include "dismantle/io/load_assembly.h"
 #include "dismantle/io/motion_file.h"
+#include "dismantle/math/vec3f.h"
 #include "tests/support/large_scenes.h"
 #include "tests/support/slide_drags.h"
 
@@ -30,24 +31,60 @@ const Device kDevices[] = {{"Serial", Executor()},
 /// How much a device was asked.
 struct Asked {
   std::size_t sweeps = 0, failing = 0, answered = 0;
+  std::size_t tests = 0;         ///< Elementary tests that it answered,
+  std::size_t tests_taken = 0;   ///< those of them that steps asked for,
+  std::size_t tests_wanted = 0;  ///< and all that steps asked for.
+  std::size_t parents = 0;       ///< Pairs of nodes that it separated for merging.
 };
 
-/// Counts what goes through it.
+/// What the host finds of the same faces, bit for bit.
+void expect_same_leaf(const LeafResult& found, const LeafResult& expected) {
+  EXPECT_EQ(found.free, expected.free);
+  EXPECT_EQ(found.gap, expected.gap);
+  EXPECT_EQ(found.harmless, expected.harmless);
+  EXPECT_EQ(found.contact.face_moving, expected.contact.face_moving);
+  EXPECT_EQ(found.contact.face_fixed, expected.contact.face_fixed);
+  EXPECT_EQ(found.contact.toi, expected.contact.toi);
+  EXPECT_EQ(found.contact.axis, expected.contact.axis);
+}
+
+/// Counts what goes through it, and looks at what no sweep may take.
 class CountedDevice final : public FrontDevice {
  public:
   CountedDevice(std::unique_ptr<FrontDevice> device, Asked& asked) : device_(std::move(device)), asked_(asked) {}
-  Span<const PartAnswers> ask(Span<const AskedFront> fronts, bool to_the_end) override {
-    const Span<const PartAnswers> answers = device_->ask(fronts, to_the_end);
+  FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) override {
+    const FrontAnswers answers = device_->ask(fronts, to_the_end);
     ++asked_.sweeps;
-    for (const PartAnswers& part : answers)
-      for (const std::uint32_t root : part.roots) {
-        ++asked_.failing;
-        asked_.answered += part.answers[root].kind != PairAnswer::None ? 1 : 0;
-      }
+    std::size_t part = 0;
+    for (const AskedFront<LeafSweep>& asked : fronts)
+      for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
     return answers;
+  }
+  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
+                                      Span<const AskedParents> pairs) override {
+    asked_.parents += pairs.size();
+    return device_->separate(fronts, pairs);
   }
 
  private:
+  void count(const PartAnswers& part, Span<const LeafResult> leaves, const AskedFront<LeafSweep>& asked) {
+    std::vector<std::uint32_t> left = part.roots;
+    asked_.failing += left.size();
+    for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairAnswer::None ? 1 : 0;
+    while (!left.empty()) {
+      const PairAnswer& answer = part.answers[left.back()];
+      left.pop_back();
+      if (answer.first_child != PairAnswer::kNone)
+        left.insert(left.end(), {answer.first_child, answer.first_child + 1});
+      if (answer.leaf == PairAnswer::kNone) continue;
+      ++asked_.tests;
+      if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is not told
+      const LeafResult& found = leaves[answer.leaf];
+      const Vec3 hint = to_double(answer.separation.certificate.axis);
+      expect_same_leaf(found, asked.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
+    }
+  }
+
   std::unique_ptr<FrontDevice> device_;
   Asked& asked_;
 };
@@ -78,6 +115,9 @@ class ResidentCertificates : public testing::TestWithParam<Device> {
     for (std::size_t k = 0; k < played.steps.size() && !HasFailure(); ++k) {
       SCOPED_TRACE(k);
       expect_same_step(played.steps[k].result, expected.steps[k].result);
+      EXPECT_EQ(expected.steps[k].result.sizes.answered_tests, 0u);
+      asked.tests_taken += played.steps[k].result.sizes.answered_tests;
+      asked.tests_wanted += played.steps[k].result.sizes.elementary_tests;
     }
     return asked;
   }
@@ -109,12 +149,19 @@ TEST_P(ResidentCertificates, PullPegsOutAsTheCpuDoes) {
     EXPECT_GT(asked.sweeps, 5u);
     EXPECT_GT(asked.failing, 50u);
     EXPECT_GT(asked.answered, 0u);
+    EXPECT_GT(asked.tests, 1000u);
+    EXPECT_GT(asked.tests_taken, 0u);
+    // What comes after a contact, and pairs from which sweeps stop early, are the host's.
+    EXPECT_LT(asked.tests_taken, asked.tests_wanted);
   }
 }
 
 TEST_P(ResidentCertificates, DrawKeysAndCornersAsTheCpuDoes) {
-  for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)})
-    EXPECT_GT(expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15))).failing, 50u);
+  for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)}) {
+    const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
+    EXPECT_GT(asked.failing, 50u);
+    EXPECT_GT(asked.tests, 0u);
+  }
 }
 
 TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
@@ -122,7 +169,9 @@ TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
   for (int k = 1; k <= 25; ++k) targets.push_back(pair.rolled(0.01 * k, 0.2 * k));
-  EXPECT_GT(expect_same(scene.assembly, 0.01, motion_of(scene, targets)).answered, 1000u);
+  const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
+  EXPECT_GT(asked.answered, 1000u);
+  EXPECT_GT(asked.parents, 100u);
 }
 
 TEST_P(ResidentCertificates, ScrewBoltsOutAsTheCpuDoes) {

@@ -35,7 +35,7 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
   motion.allowed = kAllowed;
   const PreparedSweep sweep = front.begin_sweep(motion);
   FacePairs found;
-  const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f) {
+  const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f, std::uint32_t) {
     found.insert({face_a, face_b});
     LeafVerdict verdict;
     verdict.free = false;
@@ -184,7 +184,7 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
   motion.allowed = kAllowed;
-  const LeafTest blocks = [](std::uint32_t, std::uint32_t, Vec3f) {
+  const LeafTest blocks = [](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
     LeafVerdict verdict;
     verdict.free = false;
     verdict.certificate.offset = kNoCertificate;
@@ -253,10 +253,11 @@ TEST(CertificateFront, LooksWithoutChanging) {
   motion.allowed = kAllowed;
   std::size_t first = 0, second = 0;
   for (std::size_t* count : {&first, &second})
-    front.look(front.begin_look(motion), front_kernels(widest_lanes()), [&](std::uint32_t, std::uint32_t, Vec3f) {
-      ++*count;
-      return LeafVerdict{};
-    });
+    front.look(front.begin_look(motion), front_kernels(widest_lanes()),
+               [&](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
+                 ++*count;
+                 return LeafVerdict{};
+               });
   EXPECT_EQ(first, second);
   EXPECT_EQ(front.size(), 1u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fronts that ask a device against fronts that do not: on devices that executors play, and on the CUDA device where
 // there is one.
+#include "dismantle/collision/front_device.h"
 #include "dismantle/front/certificate_front.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pair_motions.h"
@@ -62,12 +63,16 @@ struct Swept {
   std::size_t blocked = 0;
   bool complete = true, touching = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
-  friend bool operator==(const Swept&, const Swept&) = default;
+  std::size_t parents = 0;  ///< Pairs of nodes of which a device was asked for merging: nothing that was found.
+  friend bool operator==(const Swept& x, const Swept& y) {
+    return x.least_gap == y.least_gap && x.blocked == y.blocked && x.complete == y.complete &&
+           x.touching == y.touching && x.tested == y.tested;
+  }
 };
 
 /// Every third pair of triangles blocks.
 LeafTest leaf_test(Swept& swept) {
-  return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint) {
+  return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t) {
     swept.tested.emplace_back(moving, fixed);
     LeafVerdict verdict;
     verdict.free = (moving + fixed) % 3 != 0;
@@ -88,16 +93,44 @@ bool free_of(const Swept& swept) {
   return swept.blocked == 0 && swept.complete;
 }
 
+/// What siblings of the parts may merge into, for a device.
+std::vector<AskedParents> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
+  std::vector<AskedParents> parents;
+  for (const std::vector<Siblings>& of_part : siblings)
+    for (const Siblings& s : of_part) parents.push_back({0, s.parent.a, s.parent.b, s.hint});
+  return parents;
+}
+
+/// Merges by what a device says; gives of how many pairs it was asked.
+std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  std::vector<std::vector<Siblings>> siblings;
+  for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
+  const std::vector<AskedParents> parents = parents_of(siblings);
+  const Span<const NodeSeparation> found = device.separate(Span<const AskedFront<LeafSweep>>(&asked, 1), parents);
+  std::size_t begin = 0;
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    const std::size_t count = siblings[part].size();
+    front.merge_part(part, linear, front_kernels(widest_lanes()), siblings[part], found.subspan(begin, count));
+    begin += count;
+  }
+  return begin;
+}
+
 Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* device, bool to_the_end) {
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
-  for (std::size_t part = 0; part < front.part_count(); ++part) front.merge_part(part, linear, kernels);
   Span<const PartAnswers> answers;
-  const AskedFront asked{&front, &linear};
-  if (device) answers = device->ask(Span<const AskedFront>(&asked, 1), to_the_end);
-  for (std::size_t part = 0; part < front.part_count(); ++part)
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  if (device) {
+    swept.parents = merge_by(*device, front, linear);
+    answers = device->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), to_the_end).parts;
+  }
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    if (!device) front.merge_part(part, linear, kernels);
     add(swept, front.sweep_part(part, linear, kernels, leaf_test(swept), device ? &answers[part] : nullptr));
+  }
   front.end_sweep(linear, free_of(swept));
   return swept;
 }
@@ -124,7 +157,7 @@ TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
     CertificateFront front(a, b, sides), expected(a, b, sides);
     std::mt19937_64 random(20261123);
     Pose pose;
-    std::size_t most_parts = 0, tests = 0, blocked = 0;
+    std::size_t most_parts = 0, tests = 0, blocked = 0, parents = 0;
     bool exchanged = false;
     for (int step = 0; step < 50 && !HasFailure(); ++step) {
       SCOPED_TRACE(step);
@@ -142,16 +175,19 @@ TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
       motion.allowed = kAllowed;
       if (step % 4 == 1) motion.enough_blocked = 8;
       const Swept wanted = sweep(expected, motion, nullptr, true);
-      EXPECT_EQ(sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0), wanted);
+      const Swept found = sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0);
+      EXPECT_EQ(found, wanted);
       expect_same_fronts(front, expected);
       most_parts = std::max(most_parts, front.part_count());
       tests += wanted.tested.size();
       blocked += wanted.blocked;
+      parents += found.parents;
       pose = next;
     }
     EXPECT_GT(most_parts, 1u);
     EXPECT_GT(tests, 1000u);
     EXPECT_GT(blocked, 100u);
+    EXPECT_GT(parents, 100u);
   }
 }
 
@@ -161,8 +197,8 @@ TEST_P(ResidentFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
-  const AskedFront asked{&front, &linear};
-  const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront>(&asked, 1), true);
+  const AskedFront<LeafSweep> asked{&front, &linear};
+  const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), true).parts;
   ASSERT_EQ(answers.size(), 1u);
   ASSERT_EQ(answers[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
@@ -181,6 +217,31 @@ TEST_P(ResidentFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   EXPECT_EQ(of_kind[PairAnswer::Split] + 1, of_kind[PairAnswer::Boxes] + of_kind[PairAnswer::Triangles]);
 }
 
+// A front that has moved away merges by what it is told alone: nothing where no parents are said to be apart.
+TEST_P(ResidentFronts, MergeByWhatTheDeviceSaysOfParents) {
+  const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
+  CertificateFront front(a, b, SideRule::Normals);
+  PairMotion motion = scenes::pair_motion(a, b, {}, {{0.01, 0, 0}, {}});
+  motion.allowed = kAllowed;
+  for (int step = 0; step < 7; ++step) sweep(front, motion, nullptr, true);
+  motion = scenes::pair_motion(a, b, {{0, 0, 6}, {}}, {{0, 0, 6.01}, {}});
+  motion.allowed = kAllowed;
+  const PreparedSweep linear = front.begin_sweep(motion);
+  CertificateFront lied_to = front, expected = front;
+  std::size_t merged = 0;
+  for (std::size_t part = 0; part < front.part_count(); ++part) {
+    const std::vector<Siblings> siblings = front.siblings_of(part, linear);
+    const std::vector<NodeSeparation> overlap(siblings.size(), NodeSeparation{-1, Certificate::none()});
+    lied_to.merge_part(part, linear, front_kernels(widest_lanes()), siblings, overlap);
+    expected.merge_part(part, linear, front_kernels(widest_lanes()));
+    merged += siblings.size();
+  }
+  EXPECT_GT(merged, 20u);
+  EXPECT_EQ(merge_by(*device_, front, linear), merged);
+  EXPECT_LT(front.size() * 2, lied_to.size());
+  expect_same_fronts(front, expected);
+}
+
 TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 24, 6)),
                 c = tree_of(scenes::box({-3, -3, 4.5}, {3, 3, 6}));
@@ -193,8 +254,8 @@ TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
       motion.allowed = kAllowed;
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
-    const AskedFront asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront>(asked, 2), true);
+    const AskedFront<LeafSweep> asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
+    const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(asked, 2), true).parts;
     ASSERT_EQ(answers.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/collision/front_device.h"
 #include "dismantle/collision/motion_engine.h"
-#include "dismantle/front/front_device.h"
 #include "dismantle/math/lane_dispatch.h"
 
 #include <limits>

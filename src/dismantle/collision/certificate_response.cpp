@@ -86,6 +86,7 @@ CertificateSweep CertificateResponse::sweep(const Pose& end, double window, Effo
   CertificateSweep found = sweeper_.sweep(end, window, effort);
   ++result.sweeps;
   result.sizes.elementary_tests += found.leaf_tests;
+  result.sizes.answered_tests += found.answered_tests;
   result.sizes.triangle_pairs += found.leaf_tests;
   result.sizes.front = found.front;
   for (const auto& [moving, fixed] : found.touching) guard_.consider(moving, fixed, sweeper_.allowed(moving, fixed));

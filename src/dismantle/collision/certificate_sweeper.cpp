@@ -58,6 +58,7 @@ struct CertificateSweeper::PartTask {
   double horizon = 1;  // what comes later would not happen
   FrontSweep found;
   std::vector<BlockedPair> blocked;
+  std::size_t answered = 0;
 };
 
 CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairStates& pairs,
@@ -180,7 +181,7 @@ LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, 
                    rules);
 }
 
-LeafSweep::Result CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
+LeafResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
   return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
@@ -193,7 +194,7 @@ CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, 
     if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
       leaves.emplace(leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
     last = &pair;
-    const LeafSweep::Result found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+    const LeafResult found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
     ++result.leaf_tests;
     if (found.free) continue;
     result.blocked.push_back(pair);
@@ -236,9 +237,14 @@ void CertificateSweeper::for_each_near(const Pose& start, const Pose& end, doubl
   }
 }
 
-LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, double window) {
-  return [&pair, &task, window](std::uint32_t moving, std::uint32_t fixed, Vec3f hint) {
-    const LeafSweep::Result found = pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
+LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, double window,
+                                       Span<const LeafResult> answers) {
+  return [&pair, &task, window, answers](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer) {
+    // A device tests the whole motion; after a contact it is not looked at to its end any more.
+    const bool answered = answer != PairAnswer::kNone && task.horizon == 1;
+    task.answered += answered ? 1 : 0;
+    const LeafResult found =
+        answered ? answers[answer] : pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
     if (!found.free) {
       task.horizon = std::min(task.horizon, found.contact.toi + window);
       task.blocked.push_back(
@@ -272,29 +278,27 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   });
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < active.size(); ++p)
-    for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}});
+    for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
-  const auto merge = [&](std::size_t i) {
-    const ActivePair& pair = active[tasks[i].pair];
-    pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
-  };
-  Span<const PartAnswers> answers;
+  FrontAnswers answers;
   const bool asks = asks_device(active);
   if (asks) {
-    for_each_part(tasks.size(), merge);
-    answers = ask_device(active, effort);
+    merge_by_device(active, tasks);
+    answers = device_.fronts->ask(asked_fronts(active), effort == Effort::Full);
   }
   for_each_part(tasks.size(), [&](std::size_t i) {
-    if (!asks) merge(i);
     const ActivePair& pair = active[tasks[i].pair];
-    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window),
-                                            asks ? &answers[i] : nullptr);
+    if (!asks) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
+    tasks[i].found =
+        pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window, answers.leaves),
+                               asks ? &answers.parts[i] : nullptr);
   });
 
   for (PartTask& task : tasks) {
     const LinearSweep& sweep = active[task.pair].sweep;
     result.clearance = std::min<double>(result.clearance, task.found.least_gap - sweep.error);
     result.leaf_tests += task.found.leaf_tests;
+    result.answered_tests += task.answered;
     result.complete &= task.found.complete;
     active[task.pair].free &= task.found.complete && task.found.blocked == 0;
     const std::pair both{active[task.pair].moving, active[task.pair].fixed};
@@ -327,11 +331,33 @@ bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) cons
   return pairs >= device_.least_pairs;
 }
 
-Span<const PartAnswers> CertificateSweeper::ask_device(const std::vector<ActivePair>& active, Effort effort) {
-  std::vector<AskedFront> fronts;
+std::vector<AskedFront<LeafSweep>> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
+  std::vector<AskedFront<LeafSweep>> fronts;
   fronts.reserve(active.size());
-  for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep});
-  return device_.fronts->ask(fronts, effort == Effort::Full);
+  for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep, &pair.leaves});
+  return fronts;
+}
+
+void CertificateSweeper::merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks) {
+  std::vector<std::vector<Siblings>> siblings(tasks.size());
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    const ActivePair& pair = active[tasks[i].pair];
+    siblings[i] = pair.front->siblings_of(tasks[i].part, pair.sweep);
+  });
+  std::vector<std::size_t> begins;
+  std::vector<AskedParents> parents;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    begins.push_back(parents.size());
+    for (const Siblings& s : siblings[i])
+      parents.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b, s.hint});
+  }
+  if (parents.empty()) return;
+  const Span<const NodeSeparation> separations = device_.fronts->separate(asked_fronts(active), parents);
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    const ActivePair& pair = active[tasks[i].pair];
+    pair.front->merge_part(tasks[i].part, pair.sweep, kernels_, siblings[i],
+                           separations.subspan(begins[i], siblings[i].size()));
+  });
 }
 
 CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {
@@ -372,7 +398,7 @@ CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, dou
 void CertificateSweeper::look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const {
   const ActivePair pair{
       look.moving, look.fixed, nullptr, look.leaves, front.begin_look(look.motion), allowed(look.moving, look.fixed)};
-  PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}};
+  PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}, 0};
   const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, look.window));
   for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
@@ -389,7 +415,7 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
     const CertificateFront front = roots(moving, fixed, SideRule::Free);
     PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
-    const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f) {
+    const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f, std::uint32_t) {
       pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
       return LeafVerdict{};
     };

@@ -40,6 +40,7 @@ struct CertificateSweep {
   double clearance = 0;              ///< No pair came nearer than this during the sweep [mm]; 0 where not free.
   std::size_t front = 0;             ///< Node pairs of the fronts looked at.
   std::size_t leaf_tests = 0;
+  std::size_t answered_tests = 0;  ///< Those of them that a device answered.
   /// Moving and fixed: pairs of components of which not everything was certainly apart all the time.
   std::vector<std::pair<ComponentId, ComponentId>> touching;
 };
@@ -87,7 +88,7 @@ class CertificateSweeper {
   std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles, with Effort::Quick: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
-  LeafSweep::Result sweep_pair(const BlockedPair& pair, const Pose& end) const;
+  LeafResult sweep_pair(const BlockedPair& pair, const Pose& end) const;
   /// The same motion of these pairs alone, with Effort::Full; those of the same components one after the other.
   CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
@@ -141,11 +142,13 @@ class CertificateSweeper {
   void for_each_part(std::size_t count, const Run& run) const;
   /// Whether there is a device, and enough for it to do.
   bool asks_device(const std::vector<ActivePair>& active) const;
-  /// What the device says of all parts.
-  Span<const PartAnswers> ask_device(const std::vector<ActivePair>& active, Effort effort);
+  static std::vector<AskedFront<LeafSweep>> asked_fronts(const std::vector<ActivePair>& active);
+  /// Merges what the parts that are due gather, with what the device says of it.
+  void merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks);
   /// Adds what looking at a pair finds, from a front of theirs.
   void look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const;
-  static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window);
+  /// @param answers of a device to tests of the whole motion
+  static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window, Span<const LeafResult> answers = {});
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;

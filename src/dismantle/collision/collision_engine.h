@@ -35,6 +35,7 @@ struct StreamSizes {
   std::size_t triangle_pairs = 0;      ///< S_t
   std::size_t intersection_pairs = 0;  ///< S_i: component pairs
   std::size_t elementary_tests = 0;    ///< VF and EE tests, or certified triangle-pair tests, that the filters left
+  std::size_t answered_tests = 0;      ///< Those of them that a device answered (method `certificates`)
   std::size_t replays = 0;             ///< Times that a stage ran again because its buffer was full
 };
 

@@ -76,7 +76,7 @@ void SlideContacts::drop_vertices() {
 
 void SlideContacts::choose_axes(const Pose& end) {
   std::erase_if(pairs_, [&](BlockedPair& pair) {
-    const LeafSweep::Result found = sweeper_.sweep_pair(pair, end);
+    const LeafResult found = sweeper_.sweep_pair(pair, end);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
     return false;

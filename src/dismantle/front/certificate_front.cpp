@@ -14,10 +14,6 @@ namespace dismantle {
 
 namespace {
 
-/// Every part looks for siblings to merge each so many sweeps.
-constexpr std::size_t kMergePeriod = 8;
-/// It goes on with that while more than one in so many pairs goes.
-constexpr std::size_t kMergeShare = 8;
 /// So many pairs are looked at together.
 constexpr std::size_t kBatch = 64;
 /// Where some blocked pairs are enough: so many that come from one pair of the front.
@@ -156,13 +152,6 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
     if (thread.useful()) sweep.threads.push_back(thread);
   }
   return sweep;
-}
-
-void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
-  CertificatePart& part = parts_[index];
-  if ((sweeps_ + index) % kMergePeriod == kMergePeriod - 1)
-    while (merge(part, sweep, kernels) * kMergeShare > part.size()) {
-    }
 }
 
 FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
@@ -419,7 +408,7 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   for (std::size_t k = 0; k < work.triangles_asked.size(); ++k) {
     Item& item = work.items[work.triangles_asked[k]];
     if (take(work, item, work.separations[k], sweep, result)) continue;
-    if (sides_ != SideRule::Memory) item.hint = work.separations[k].certificate.axis;
+    item.hint = trees().leaf_hint(item.hint, work.separations[k]);
     test_leaves(work, item, test, result);
   }
 }
@@ -427,7 +416,8 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
 void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
   const BoxPairQuery query = trees().box_query(item.a, item.b, {});
-  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint);
+  const std::uint32_t answer = item.answer == Item::kNone ? PairAnswer::kNone : work.answers[item.answer].leaf;
+  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint, answer);
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/front/certificate_part.h"
-#include "dismantle/front/front_device.h"
+#include "dismantle/front/front_answers.h"
 #include "dismantle/front/paired_trees.h"
 #include "dismantle/front/round_separation.h"
 #include "dismantle/front/thread_separation.h"
@@ -27,8 +27,10 @@ struct LeafVerdict {
 };
 
 /// Tests a face of the moving component against one of the fixed component during the sweep at hand, beginning with the
-/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none).
-using LeafTest = std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint)>;
+/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none). `answer` is that of PairAnswer:
+/// where the device found what the test would find.
+using LeafTest =
+    std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer)>;
 
 /// A motion as a front takes it.
 struct PreparedSweep : LinearSweep {
@@ -48,6 +50,13 @@ struct FrontSweep {
   /// Some pair was not certainly apart all the time, nor lay face on face: only such pairs can hide a deep vertex, as a
   /// triangle is never deeper across its own plane than it is thin.
   bool touching = false;
+};
+
+/// Two pairs of a part of a front that are the halves of one.
+struct Siblings {
+  FrontPair parent;
+  Vec3f hint;                           ///< Of the side that either is bound to; zero for none.
+  std::uint32_t first = 0, second = 0;  ///< Their places.
 };
 
 /// The front of the tree of node pairs of two components (Li, Chen 1998; DESIGN section 2.2), each pair with a
@@ -75,6 +84,11 @@ class CertificateFront {
   PreparedSweep begin_look(const PairMotion& motion) const;
   /// Now and then gathers what went fine: to be called before each sweep_part().
   void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels);
+  /// What merge_part() looks at first, if this is the time for it; else nothing.
+  std::vector<Siblings> siblings_of(std::size_t part, const PreparedSweep& sweep) const;
+  /// As merge_part(), with what a device found of siblings_of(): the separations of their parents as boxes.
+  void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
+                  Span<const Siblings> siblings, Span<const NodeSeparation> separations);
   /// @param answers of a device that this sweep was asked of after merging, if any was: the result is the same
   FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                         const PartAnswers* answers = nullptr);
@@ -91,7 +105,7 @@ class CertificateFront {
   /// Makes all certificates anew with the next sweep: what stands still was moved.
   void forget();
 
-  // For a FrontDevice, which keeps copies of all this.
+  // For a device, which keeps copies of all this.
   const ObbTree& tree_a() const { return *a_; }
   const ObbTree& tree_b() const { return *b_; }
   PairedTrees trees() const {
@@ -131,8 +145,14 @@ class CertificateFront {
   void add_item(const CertificatePart& part, std::uint32_t place, const PreparedSweep& sweep, Work& work) const;
   /// The axis of pair i where it binds the pair to its side; zero otherwise.
   Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
-  /// Replaces siblings by their parents where these can be separated; gives how many pairs went.
-  std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels) const;
+  /// Whether this is the time for a part to merge.
+  bool merges(std::size_t part) const;
+  std::vector<Siblings> find_siblings(const CertificatePart& part, const PreparedSweep& sweep) const;
+  std::vector<NodeSeparation> separate_parents(Span<const Siblings> siblings, const PreparedSweep& sweep,
+                                               const FrontKernels& kernels) const;
+  /// Replaces siblings by their parents where these are separated; gives how many pairs went.
+  std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, Span<const Siblings> siblings,
+                    Span<const NodeSeparation> separations) const;
   void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
                FrontSweep& result) const;
   /// The items to begin with, the first one last. What was parted as round, and is not any more, is opened to some

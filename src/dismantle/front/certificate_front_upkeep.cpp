@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a front does between looking for what is apart: it gathers what went fine, and keeps its parts of a size.
+#include "dismantle/core/contract.h"
 #include "dismantle/front/certificate_front.h"
 #include "dismantle/front/sibling_table.h"
 #include "dismantle/math/vec3f.h"
@@ -11,6 +12,10 @@ namespace dismantle {
 
 namespace {
 
+/// Every part looks for siblings to merge each so many sweeps.
+constexpr std::size_t kMergePeriod = 8;
+/// It goes on with that while more than one in so many pairs goes.
+constexpr std::size_t kMergeShare = 8;
 /// Parts of more pairs than this are cut in two.
 constexpr std::size_t kLargestPart = 2048;
 /// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
@@ -21,14 +26,32 @@ constexpr std::size_t kRoundTries = 256;
 
 }  // namespace
 
-std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& sweep,
-                                    const FrontKernels& kernels) const {
-  struct Siblings {
-    FrontPair parent;
-    std::uint32_t first, second;
-  };
+bool CertificateFront::merges(std::size_t part) const {
+  return (sweeps_ + part) % kMergePeriod == kMergePeriod - 1;
+}
+
+std::vector<Siblings> CertificateFront::siblings_of(std::size_t part, const PreparedSweep& sweep) const {
+  return merges(part) ? find_siblings(parts_[part], sweep) : std::vector<Siblings>{};
+}
+
+void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
+  const std::vector<Siblings> siblings = siblings_of(index, sweep);
+  merge_part(index, sweep, kernels, siblings, separate_parents(siblings, sweep, kernels));
+}
+
+void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
+                                  Span<const Siblings> siblings, Span<const NodeSeparation> separations) {
+  DISMANTLE_EXPECT(siblings.size() == separations.size());
+  CertificatePart& part = parts_[index];
+  std::size_t gone = merge(part, sweep, siblings, separations);
+  while (gone * kMergeShare > part.size()) {
+    const std::vector<Siblings> more = find_siblings(part, sweep);
+    gone = merge(part, sweep, more, separate_parents(more, sweep, kernels));
+  }
+}
+
+std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& part, const PreparedSweep& sweep) const {
   std::vector<Siblings> found;
-  std::vector<BoxPairQuery> queries;
   SiblingTable table(2 * part.size());
   const auto siblings = [&](FrontPair x, FrontPair y, bool halves_a) {
     return halves_a ? x.b == y.b && a_->nodes[x.a].parent == a_->nodes[y.a].parent
@@ -40,8 +63,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
     // Siblings on different sides of the same thing stay apart; one side is handed on.
     const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
     if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
-    queries.push_back(trees().box_query(parent.a, parent.b, length_squared(one) > 0 ? one : two));
-    found.push_back({parent, *other, i});
+    found.push_back({parent, length_squared(one) > 0 ? one : two, *other, i});
   };
   for (std::uint32_t i = 0; i < part.size(); ++i) {
     const FrontPair pair = part.pair(i);
@@ -49,17 +71,30 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
     if (up_a != ObbNode::kNone) look_for({up_a, pair.b}, true, i);
     if (up_b != ObbNode::kNone) look_for({pair.a, up_b}, false, i);
   }
-  if (queries.empty()) return 0;
-  std::vector<NodeSeparation> separations(queries.size());
-  kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
+  return found;
+}
 
+std::vector<NodeSeparation> CertificateFront::separate_parents(Span<const Siblings> siblings,
+                                                               const PreparedSweep& sweep,
+                                                               const FrontKernels& kernels) const {
+  std::vector<BoxPairQuery> queries;
+  queries.reserve(siblings.size());
+  for (const Siblings& s : siblings) queries.push_back(trees().box_query(s.parent.a, s.parent.b, s.hint));
+  std::vector<NodeSeparation> separations(queries.size());
+  if (!queries.empty()) kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
+  return separations;
+}
+
+std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& sweep, Span<const Siblings> siblings,
+                                    Span<const NodeSeparation> separations) const {
+  if (siblings.empty()) return 0;
   FrontSweep unused;
   std::vector<bool> merged(part.size());
   std::vector<std::uint32_t> gone;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const Siblings& s = found[k];
+  for (std::size_t k = 0; k < siblings.size(); ++k) {
+    const Siblings& s = siblings[k];
     if (merged[s.first] || merged[s.second]) continue;
-    const bool by_boxes = separations[k].gap >= trees().limit(queries[k].guard, sweep);
+    const bool by_boxes = separations[k].gap >= trees().limit(s.hint, sweep);
     if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
     part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::of_round());
     merged[s.first] = merged[s.second] = true;

@@ -69,6 +69,10 @@ struct PairedTrees {
     const bool binds = sides == SideRule::Memory && c.offset > kNoCertificate && gap_at(c, sweep.t0) < sweep.error;
     return binds ? c.axis : Vec3f{};
   }
+  /// The axis that the elementary test of two leaves begins with, after what was found of their triangles.
+  DISMANTLE_HOST_DEVICE Vec3f leaf_hint(Vec3f hint, const NodeSeparation& found) const {
+    return sides == SideRule::Memory ? hint : found.certificate.axis;
+  }
   /// The least gap that certifies a pair. One that remembers no side gets it from an axis that needs no allowance.
   DISMANTLE_HOST_DEVICE float limit(Vec3f guard, const LinearSweep& sweep) const {
     return sides == SideRule::Memory && length_squared(guard) == 0 ? sweep.meeting : sweep.limit;

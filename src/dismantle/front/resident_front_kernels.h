@@ -4,7 +4,7 @@
 #include "dismantle/exec/append_buffer.h"
 #include "dismantle/front/box_lanes.h"
 #include "dismantle/front/certificate_part.h"
-#include "dismantle/front/front_device.h"
+#include "dismantle/front/front_answers.h"
 #include "dismantle/front/paired_trees.h"
 #include "dismantle/front/triangle_lanes.h"
 
@@ -38,7 +38,8 @@ struct CheckedPage {
 /// A front that is asked.
 struct FrontOrder {
   LinearSweep sweep;
-  PairedTrees trees;  ///< Those in the device's memory.
+  PairedTrees trees;               ///< Those in the device's memory.
+  std::uint32_t tests_leaves = 0;  ///< Not 0: triangles that are not apart are to be tested.
 };
 
 struct SweepOrder {
@@ -48,6 +49,8 @@ struct SweepOrder {
 struct SweepCounters {
   std::uint64_t needed = 0;          ///< Pairs to be looked at, whether there was room for them or not.
   std::uint64_t begin = 0, end = 0;  ///< Those of this round.
+  std::uint64_t leaves_needed = 0;   ///< The same of elementary tests.
+  std::uint64_t leaves_begin = 0, leaves_end = 0;
 };
 
 /// A pair to be looked at.
@@ -57,6 +60,14 @@ struct AskedPair {
   std::uint32_t a = kDead, b = kDead;  ///< Dead where there was room for one of two.
   std::uint32_t front = 0;
   std::uint32_t of_triangles = 0;  ///< Not 0: boxes need not be tried.
+  std::uint32_t on_edge = 0;       ///< Not 0: the triangles were found to be in each other on edge.
+  Vec3f hint;
+};
+
+/// Two faces to be tested.
+struct AskedLeaf {
+  std::uint32_t moving = 0, fixed = 0;
+  std::uint32_t front = 0;
   Vec3f hint;
 };
 
@@ -116,7 +127,21 @@ struct PairSink {
   DISMANTLE_HOST_DEVICE void put(std::uint32_t at, const AskedPair& pair, std::uint32_t part,
                                  std::uint32_t place) const {
     pairs[at] = pair;
-    answers[at] = {PairAnswer::None, part, place, PairAnswer::kNone, {}};
+    answers[at] = {PairAnswer::None, part, place, PairAnswer::kNone, PairAnswer::kNone, {}};
+  }
+};
+
+/// Faces to be tested.
+struct LeafSink {
+  Span<AskedLeaf> leaves;
+  std::uint64_t* needed;
+
+  /// Where there is no room it is counted only. @return its place; none for no room
+  DISMANTLE_HOST_DEVICE std::uint32_t append(const AskedLeaf& leaf) const {
+    const std::uint64_t place = atomic_add(needed, 1);
+    if (place >= leaves.size()) return PairAnswer::kNone;
+    leaves[place] = leaf;
+    return static_cast<std::uint32_t>(place);
   }
 };
 
@@ -158,6 +183,7 @@ struct CheckCertificates {
     pair.b = page.pairs[k].b;
     pair.front = at.front;
     pair.of_triangles = kind > NodeHull::kBox ? 1 : 0;
+    pair.on_edge = kind == NodeHull::kTriangleOnEdge ? 1 : 0;
     pair.hint = front.trees.hint_of(certificate, front.sweep);
     return pair;
   }
@@ -174,11 +200,13 @@ struct NextRound {
   }
 };
 
-/// Separates the pairs of a round, and splits what cannot be separated. Item: a place in the round.
+/// Separates the pairs of a round, splits what cannot be separated, and gathers the faces that are to be tested. Item:
+/// a place in the round.
 struct SeparatePairs {
   const SweepCounters* counters;
   Span<const FrontOrder> fronts;
   PairSink sink;
+  LeafSink leaves;
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::size_t at = counters->begin + i;
@@ -201,9 +229,17 @@ struct SeparatePairs {
     const TrianglePairQuery query = front.trees.triangle_query(pair.a, pair.b, pair.hint);
     separate_triangle_lanes<1>(&query, 1, front.sweep, &answer.separation);
     answer.kind = PairAnswer::Triangles;
+    if (front.tests_leaves != 0 && !front.trees.certifies(answer.separation, pair.hint, pair.on_edge != 0, front.sweep))
+      answer.leaf = leaves.append(asked(pair, front.trees, answer.separation));
   }
 
  private:
+  /// With the hint that the front's own sweep has.
+  DISMANTLE_HOST_DEVICE static AskedLeaf asked(const AskedPair& pair, const PairedTrees& trees,
+                                               const NodeSeparation& found) {
+    const BoxPairQuery faces = trees.box_query(pair.a, pair.b, {});
+    return {faces.a->child, faces.b->child, pair.front, trees.leaf_hint(pair.hint, found)};
+  }
   DISMANTLE_HOST_DEVICE void split(const AskedPair& pair, const PairedTrees& trees, PairAnswer& answer) const {
     answer.kind = PairAnswer::Split;
     answer.first_child = sink.take(2);
@@ -218,6 +254,48 @@ struct SeparatePairs {
       }
       sink.put(answer.first_child + k, half, answer.part, PairAnswer::kNone);
     }
+  }
+};
+
+/// Separates the boxes of pairs that siblings may merge into. Item: one of them.
+struct SeparateParents {
+  Span<const AskedParents> asked;
+  Span<const FrontOrder> fronts;
+  Span<NodeSeparation> found;
+
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const AskedParents& pair = asked[i];
+    const FrontOrder& front = fronts[pair.front];
+    const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
+    separate_box_lanes<1>(&query, 1, front.sweep, &found[i]);
+  }
+};
+
+/// Goes on to the tests that were gathered by now. One item.
+struct NextLeaves {
+  SweepCounters* counters;
+  std::uint64_t capacity;
+
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
+    counters->leaves_begin = counters->leaves_end;
+    counters->leaves_end = counters->leaves_needed < capacity ? counters->leaves_needed : capacity;
+  }
+};
+
+/// Tests faces for the whole motion. Item: a place among the tests.
+/// @tparam Kernel has test(moving, fixed, hint, horizon)
+template <class Kernel, class Found>
+struct TestLeaves {
+  const SweepCounters* counters;
+  Span<const AskedLeaf> asked;
+  Span<const Kernel> kernels;  ///< Of each front asked.
+  Span<Found> found;
+
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const std::size_t at = counters->leaves_begin + i;
+    if (at >= counters->leaves_end) return;
+    const AskedLeaf& leaf = asked[at];
+    found[at] = kernels[leaf.front].test(leaf.moving, leaf.fixed, {leaf.hint.x, leaf.hint.y, leaf.hint.z}, 1);
   }
 };
 
