@@ -111,8 +111,7 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
                     [pair](int k) { return pair.rolled(0.002 * k, 0.2 * k); }});
   }
   if (name == "thread") {
-    if (getenv("ONLYTOL") && std::abs(tolerance*1000-atof(getenv("ONLYTOL")))>1e-6) return fits;
-    if (!getenv("ONLYTOL")) add_thread(fits, "factory_nut_bolt_m8_loose", 1.25, 0.9 * 1.25, tolerance);
+    add_thread(fits, "factory_nut_bolt_m8_loose", 1.25, 0.9 * 1.25, tolerance);
     add_thread(fits, "factory_nut_bolt_m16", 2, 0, tolerance);
   }
   return fits;
