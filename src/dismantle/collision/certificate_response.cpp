@@ -25,6 +25,8 @@ constexpr int kMostTries = 40;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or with it where
 /// it is the step's first: the next goes on.
 constexpr double kCreepShare = 0.1;
+/// Contacts that let the set hardly move are found anew so many times in a row, and then ever more seldom.
+constexpr unsigned kAlwaysLookAgain = 4;
 /// How far a twist's second-order part may take a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
 /// Contacts are taken up while their gap is at most so many tolerances.
@@ -281,7 +283,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
 
 bool CertificateResponse::look_again() {
   ++held_times_;
-  return (held_times_ & (held_times_ - 1)) == 0;
+  return held_times_ <= kAlwaysLookAgain || (held_times_ & (held_times_ - 1)) == 0;
 }
 
 void CertificateResponse::end_slide(const Pose& target, StepResult& result) {

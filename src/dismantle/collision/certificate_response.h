@@ -38,8 +38,8 @@ class CertificateResponse {
   /// or nothing where not `touch`.
   double free_part(const Pose& end, bool touch, StepResult& result);
   void slide(const Pose& target, StepResult& result);
-  /// Whether contacts that let the set hardly move are to be found anew: the first time since it did move, the second,
-  /// the fourth, ...
+  /// Whether contacts that let the set hardly move are to be found anew: the first times since it did move, and then
+  /// ever more seldom.
   bool look_again();
   /// Goes what cylinders held as one may have kept from it, and tells the contacts.
   void end_slide(const Pose& target, StepResult& result);
