@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time of the ways in which threads append to the streams of the front, on the CPU or a CUDA device: a shaft in its
-// hole, a front that starts from its root and one that is kept.
+// Time of appending to the streams of the front by global locks, local locks and count-scan-emit, on the CPU or a CUDA
+// device. Scene: a shaft in its hole.
 //   bench_appends [--variant global|local|count-scan-emit]... [--device cpu|cuda] [--threads N] [--triangles N]
 //                 [--steps N] [--repeats N]
-// One row a variant, tab-separated; mean ms a launch, and how many values the last one appended.
+// One row a variant, tab-separated: the mean time of a launch and the values that the last one appended, for a front
+// that starts from its root and for one that is updated.
+#include "bench/command_line.h"
 #include "bench/paper/append_times.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
 #include <string>
 
 namespace dismantle {
@@ -21,30 +20,20 @@ struct Settings {
 };
 
 bool parse(int argc, char** argv, Settings& settings) {
-  static const std::map<std::string, AppendVariant> kNames{{"global", AppendVariant::GlobalLock},
-                                                           {"local", AppendVariant::LocalLock},
-                                                           {"count-scan-emit", AppendVariant::CountScanEmit}};
+  bench::CommandLine line(
+      "bench_appends [--variant global|local|count-scan-emit]... [--device cpu|cuda] [--threads N]\n"
+      "                     [--triangles N] [--steps N] [--repeats N]");
   std::vector<AppendVariant> chosen;
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 == argc) return false;
-    const std::string option = argv[i], value = argv[i + 1];
-    const int number = std::max(1, std::atoi(value.c_str()));
-    if (option == "--variant" && kNames.count(value) > 0) {
-      chosen.push_back(kNames.at(value));
-    } else if (option == "--device" && (value == "cpu" || value == "cuda")) {
-      settings.runs.on_device = value == "cuda";
-    } else if (option == "--threads") {
-      settings.runs.cores = number;
-    } else if (option == "--triangles") {
-      settings.size.triangles = static_cast<std::size_t>(number);
-    } else if (option == "--steps") {
-      settings.size.steps = number;
-    } else if (option == "--repeats") {
-      settings.runs.repeats = number;
-    } else {
-      return false;
-    }
-  }
+  line.choices("--variant", chosen,
+               {{"global", AppendVariant::GlobalLock},
+                {"local", AppendVariant::LocalLock},
+                {"count-scan-emit", AppendVariant::CountScanEmit}});
+  line.choice("--device", settings.runs.on_device, {{"cpu", false}, {"cuda", true}});
+  line.option("--threads", settings.runs.cores, 1);
+  line.option("--triangles", settings.size.triangles, 1);
+  line.option("--steps", settings.size.steps, 1);
+  line.option("--repeats", settings.runs.repeats, 1);
+  if (!line.parse(argc, argv)) return false;
   if (!chosen.empty()) settings.runs.variants = chosen;
   return true;
 }
@@ -54,9 +43,9 @@ int run(const Settings& settings) {
   const Result<std::vector<AppendTime>> times = time_appends(scenes->front(), settings.runs);
   if (!times) {
     std::fprintf(stderr, "bench_appends: nothing runs on CUDA (%s)\n", times.error().message.c_str());
-    return 1;
+    return bench::kExitFailed;
   }
-  std::printf("variant\tstart_ms\tstarted\tupdate_ms\tupdated\n");
+  std::printf("variant\tstart_ms\tstart_values\tupdate_ms\tupdate_values\n");
   for (const AppendTime& time : *times)
     std::printf("%s\t%.3f\t%zu\t%.3f\t%zu\n", std::string(name_of(time.variant)).c_str(), time.start_ms, time.started,
                 time.update_ms, time.updated);
@@ -68,11 +57,6 @@ int run(const Settings& settings) {
 
 int main(int argc, char** argv) {
   dismantle::Settings settings;
-  if (!dismantle::parse(argc, argv, settings)) {
-    std::fprintf(stderr,
-                 "usage: bench_appends [--variant global|local|count-scan-emit]... [--device cpu|cuda] [--threads N]\n"
-                 "                     [--triangles N] [--steps N] [--repeats N]\n");
-    return 2;
-  }
+  if (!dismantle::parse(argc, argv, settings)) return dismantle::bench::kExitUsage;
   return dismantle::run(settings);
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidate motions a second: from an assembly's assembled state, each of some components goes many straight ways, and
-// along screws, in all directions.
+// Time of a batch of candidate motions: some components of an assembly, each from the assembled state along many
+// straight motions and screws in random directions.
 //   bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/collision/motion_batch.h"
-#include "dismantle/collision/stage_clock.h"
-#include "dismantle/io/load_assembly.h"
+// Two rows a component, tab-separated: --count straight motions of up to 50 mm, and a tenth as many screws. Wall time.
+#include "bench/command_line.h"
+#include "dismantle/candidates/motion_batch.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
+#include "dismantle/streams/stage_clock.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -20,10 +21,10 @@ struct Settings {
   DeviceChoice device = DeviceChoice::Cpu;
   int threads = 2;
   std::size_t count = 20'000;
-  std::string assembly = DISMANTLE_SOURCE_DIR "/samples/lathe.step";
+  std::vector<std::string> assemblies;  // at most one
 };
 
-constexpr double kLongest = 50;     // of a way [mm]
+constexpr double kLongest = 50;     // of a straight motion, in each coordinate [mm]
 constexpr double kLargestTurn = 1;  // of a screw [rad]
 constexpr std::size_t kComponents = 4;
 
@@ -42,10 +43,10 @@ void print(const Assembly& assembly, ComponentId c, const char* what, const std:
 }
 
 void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch) {
-  std::printf("component\ttriangles\tmotions\tcandidates\tfree\tms\tus_each\n");
+  std::printf("component\ttriangles\tmotions\tcandidates\tfree\ttotal_ms\tcandidate_us\n");
   std::mt19937_64 random(1);
-  std::vector<Vec3> ways(settings.count);
-  for (Vec3& way : ways) way = random_vector(random, kLongest);
+  std::vector<Vec3> displacements(settings.count);
+  for (Vec3& displacement : displacements) displacement = random_vector(random, kLongest);
   std::vector<Pose> targets(settings.count / 10);
   std::uniform_real_distribution<double> turn(-kLargestTurn, kLargestTurn);
   for (Pose& target : targets) {
@@ -57,7 +58,7 @@ void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch)
     const ComponentId c(static_cast<std::uint32_t>(i * count / std::min(kComponents, count)));
     batch.set_state(std::vector<Pose>(count), std::vector<ComponentId>{c});
     StageClock clock;
-    const std::vector<FirstContact> straight = batch.straight_contacts(ways);
+    const std::vector<FirstContact> straight = batch.straight_contacts(displacements);
     const double straight_ms = clock.lap();
     const std::vector<FirstContact> turning = batch.screw_contacts(targets);
     const double turning_ms = clock.lap();
@@ -67,38 +68,27 @@ void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch)
 }
 
 bool parse(int argc, char** argv, Settings& settings) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option.rfind("--", 0) != 0) {
-      settings.assembly = option;
-      continue;
-    }
-    if (++i == argc) return false;
-    const std::string value = argv[i];
-    if (option == "--device" && (value == "cpu" || value == "cuda")) {
-      settings.device = value == "cuda" ? DeviceChoice::Cuda : DeviceChoice::Cpu;
-    } else if (option == "--threads") {
-      settings.threads = std::max(1, std::atoi(argv[i]));
-    } else if (option == "--count") {
-      settings.count = std::max<std::size_t>(10, std::strtoull(argv[i], nullptr, 10));
-    } else {
-      return false;
-    }
-  }
-  return true;
+  bench::CommandLine line("bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]");
+  line.choice("--device", settings.device, {{"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}});
+  line.option("--threads", settings.threads, 1);
+  line.option("--count", settings.count, 10);
+  line.words(settings.assemblies);
+  return line.parse(argc, argv) && (settings.assemblies.size() <= 1 || line.wrong());
 }
 
 int measure(const Settings& settings) {
-  const Result<Assembly> assembly = load_assembly(settings.assembly, {});
+  const std::string file =
+      settings.assemblies.empty() ? DISMANTLE_SOURCE_DIR "/samples/lathe.step" : settings.assemblies.front();
+  const Result<Assembly> assembly = load_assembly(file, {});
   if (!assembly) {
     std::fprintf(stderr, "bench_candidates: %s\n", assembly.error().message.c_str());
-    return 3;
+    return bench::kExitUnreadable;
   }
   const Executor executor(ExecutorKind::Threads, settings.threads);
   ClassifyOptions classify;
   classify.executor = executor;
   const Result<PairStates> states = classify_pairs(*assembly, classify);
-  if (!states) return 3;
+  if (!states) return bench::kExitFailed;
   const ChosenMotionBatch chosen = make_motion_batch(*assembly, *states, executor, settings.device);
   if (!chosen.why.empty()) std::fprintf(stderr, "bench_candidates: on the CPU (%s)\n", chosen.why.c_str());
   run(settings, *assembly, *chosen.batch);
@@ -110,7 +100,5 @@ int measure(const Settings& settings) {
 
 int main(int argc, char** argv) {
   dismantle::Settings settings;
-  if (dismantle::parse(argc, argv, settings)) return dismantle::measure(settings);
-  std::fprintf(stderr, "usage: bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]\n");
-  return 2;
+  return dismantle::parse(argc, argv, settings) ? dismantle::measure(settings) : dismantle::bench::kExitUsage;
 }

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_ccd_queries FILE.ccdq...: every elementary continuous test over query sets with exact truth (FORMATS,
-// `*.ccdq`). Prints a header, then a line a file and a test, then a line "total" a test where there are several files:
-//   file test n hits false_positives false_negatives ns_mean ns_median ns_p99     (tab-separated)
+// Time and correctness of the elementary continuous tests over query sets with exact truth (`*.ccdq`, docs/formats.md).
+//   bench_ccd_queries FILE.ccdq...
+// One row a file and a test, then one row "total" a test where there are several files; tab-separated:
+//   file test n hits false_positives false_negatives ns_mean ns_median ns_p99
 // Queries of unknown truth are timed but count for neither false column.
 //
 // Timing. One query is shorter than reading the clock, so no single call is timed. ns_mean is the wall time of whole
-// passes over the file, one query after another as a program would run them, divided by the queries (the fastest of
-// kPasses passes after one that warms up: other programs only ever add). For the distribution each query is run
-// kRepeats times in a row between two clock readings and the time of an empty measurement is taken off; there the
-// branch predictor has seen the query before, so ns_median and ns_p99 lean low against ns_mean.
+// passes over the file, one query after another as a program would run them, divided by the number of queries (the
+// fastest of kPasses passes after one that warms up). For the distribution each query is run kRepeats times in a row
+// between two clock readings, and the time of an empty measurement is subtracted; there the branch predictor has seen
+// the query before, so ns_median and ns_p99 are lower than ns_mean suggests.
 //
-// The tests in lanes take batches; their ns_median and ns_p99 are of the means of kBlock queries each.
-//   certified_lanes         ns_mean streams: the file's queries over and over, kStreamBytes in all, from memory as it
-//   is
-//                           after reading a file; processor time of the fastest of kPasses passes, since a pass is
-//                           longer than the time that other programs leave alone
-//   certified_lanes_cached  blocks of kBlock queries, which stay in a second-level cache, each the fastest of kRepeats
-//   certified_lanes_hits    the same for the hits alone, where every query is left to the test in double
+// The tests in lanes take batches; their ns_median and ns_p99 are of the means of blocks of kBlock queries.
+//   certified_lanes         ns_mean streams from memory: the file's queries are repeated to kStreamBytes. Processor
+//                           time, since a pass is longer than a time slice.
+//   certified_lanes_cached  blocks of kBlock queries, which stay in a second-level cache; each the fastest of kRepeats
+//   certified_lanes_hits    the same for the hits alone, where every query falls back to the test in double precision
 #include "bench/ccd_query_file.h"
+#include "bench/command_line.h"
+#include "bench/timing.h"
 #include "dismantle/narrowphase/ccd_edge_edge.h"
 #include "dismantle/narrowphase/ccd_lanes.h"
 #include "dismantle/narrowphase/ccd_vertex_face.h"
@@ -26,9 +27,7 @@
 #include "dismantle/narrowphase/nonpenetration_filter.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,7 +35,7 @@
 namespace {
 
 using namespace dismantle;
-using Clock = std::chrono::steady_clock;
+using bench::keep;
 
 constexpr int kPasses = 5;
 constexpr int kRepeats = 32;
@@ -67,7 +66,7 @@ struct ElementaryFiltered {
   }
 };
 
-/// What a test did on some queries.
+/// Counts and times of a test over some queries.
 struct Tally {
   std::size_t queries = 0, hits = 0, false_positives = 0, false_negatives = 0;
   double mean_sum = 0;      ///< [ns], over all queries
@@ -83,20 +82,11 @@ struct Tally {
   }
 };
 
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
-
-/// Keeps the compiler from dropping or merging runs of a query.
-template <class T>
-void keep(T& value) {
-  asm volatile("" : : "g"(&value) : "memory");
-}
-
-double ns_of_empty_measurement() {
-  double least = 1e9;
-  for (int i = 0; i < 1000; ++i) least = std::min(least, ns_since(Clock::now()));
-  return least;
+/// The time of a measurement of nothing [ns].
+double empty_measurement_ns() {
+  double fastest = 1e9;
+  for (int i = 0; i < 1000; ++i) fastest = std::min(fastest, bench::Stopwatch().ns());
+  return fastest;
 }
 
 template <class Test, class Motion>
@@ -110,26 +100,21 @@ Tally run(const std::vector<Motion>& motions, const std::vector<CcdTruth>& truth
     tally.false_negatives += !hit && truth[i] == CcdTruth::Hit;
   }
 
-  double fastest = 0;
-  for (int pass = 0; pass <= kPasses; ++pass) {
-    const Clock::time_point start = Clock::now();
+  tally.mean_sum = bench::fastest_ns(kPasses, [&] {
     std::size_t hits = 0;
     for (const Motion& m : motions) hits += Test::hit(m);
     keep(hits);
-    const double ns = ns_since(start);
-    if (pass == 1 || (pass > 1 && ns < fastest)) fastest = ns;
-  }
-  tally.mean_sum = fastest;
+  });
 
-  const double empty = ns_of_empty_measurement();
+  const double empty = empty_measurement_ns();
   for (const Motion& m : motions) {
-    const Clock::time_point start = Clock::now();
+    const bench::Stopwatch watch;
     for (int i = 0; i < kRepeats; ++i) {
       bool hit = Test::hit(m);
       keep(hit);
       keep(m);
     }
-    tally.each.push_back(static_cast<float>(std::max(0.0, ns_since(start) - empty) / kRepeats));
+    tally.each.push_back(static_cast<float>(std::max(0.0, watch.ns() - empty) / kRepeats));
   }
   return tally;
 }
@@ -142,29 +127,16 @@ CcdBatchResult in_lanes(Span<const EdgeEdgeMotion> motions) {
   return ccd_edge_edge_lanes(motions);
 }
 
-double wall_ns() {
-  return std::chrono::duration<double, std::nano>(Clock::now().time_since_epoch()).count();
-}
-
-/// What this thread has had of a processor.
-double processor_ns() {
-  timespec t = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-/// The ns of a call of the tests in lanes by the clock `now`; the fastest of `passes` after one that warms up.
+/// The time of a call of the tests in lanes [ns].
 template <class Motion>
-double ns_in_lanes(Span<const Motion> motions, int passes, double (*now)()) {
-  double fastest = 0;
-  for (int pass = 0; pass <= passes; ++pass) {
-    const double start = now();
-    CcdBatchResult result = in_lanes(motions);
-    keep(result);
-    const double ns = now() - start;
-    if (pass == 1 || (pass > 1 && ns < fastest)) fastest = ns;
-  }
-  return fastest;
+double lanes_ns(Span<const Motion> motions, int passes, bench::ClockNs now) {
+  return bench::fastest_ns(
+      passes,
+      [&] {
+        CcdBatchResult result = in_lanes(motions);
+        keep(result);
+      },
+      now);
 }
 
 template <class Motion>
@@ -179,21 +151,21 @@ Tally run_cached_lanes(const std::vector<Motion>& motions, const std::vector<Ccd
   tally.false_negatives += static_cast<std::size_t>(std::count(truth.begin(), truth.end(), CcdTruth::Hit));
   for (std::size_t i = 0; i < motions.size(); i += kBlock) {
     const std::size_t count = std::min(kBlock, motions.size() - i);
-    const double ns = ns_in_lanes(Span<const Motion>(motions).subspan(i, count), kRepeats, wall_ns);
+    const double ns = lanes_ns(Span<const Motion>(motions).subspan(i, count), kRepeats, bench::wall_ns);
     tally.mean_sum += ns;
     tally.each.push_back(static_cast<float>(ns / count));
   }
   return tally;
 }
 
-/// As `cached` but for the mean.
+/// Streams the queries from memory. @param cached the result of run_cached_lanes, of which all but the mean is kept
 template <class Motion>
 Tally run_streamed_lanes(const std::vector<Motion>& motions, Tally cached) {
   std::vector<Motion> stream;
   while (!motions.empty() && stream.size() * sizeof(Motion) < kStreamBytes)
     stream.insert(stream.end(), motions.begin(), motions.end());
   if (stream.empty()) return cached;
-  cached.mean_sum = ns_in_lanes(Span<const Motion>(stream), kPasses, processor_ns) / stream.size() * motions.size();
+  cached.mean_sum = lanes_ns(Span<const Motion>(stream), kPasses, bench::thread_ns) / stream.size() * motions.size();
   return cached;
 }
 
@@ -205,16 +177,11 @@ Tally run_hits_in_lanes(const std::vector<Motion>& motions, const std::vector<Cc
   return run_cached_lanes(hits, std::vector<CcdTruth>(hits.size(), CcdTruth::Hit));
 }
 
-void print(const std::string& name, const char* test, Tally tally) {
-  const auto quantile = [&tally](double q) {
-    if (tally.each.empty()) return 0.0f;
-    const auto place = tally.each.begin() + static_cast<std::ptrdiff_t>(q * (tally.each.size() - 1));
-    std::nth_element(tally.each.begin(), place, tally.each.end());
-    return *place;
-  };
+void print(const std::string& name, const char* test, const Tally& tally) {
   const double mean = tally.queries > 0 ? tally.mean_sum / tally.queries : 0;
   std::printf("%s\t%s\t%zu\t%zu\t%zu\t%zu\t%.1f\t%.1f\t%.1f\n", name.c_str(), test, tally.queries, tally.hits,
-              tally.false_positives, tally.false_negatives, mean, quantile(0.5), quantile(0.99));
+              tally.false_positives, tally.false_negatives, mean, bench::quantile(tally.each, 0.5),
+              bench::quantile(tally.each, 0.99));
 }
 
 /// The tallies of all tests.
@@ -232,7 +199,7 @@ struct Tallies {
 };
 
 template <class Motion>
-Tallies bench(const std::vector<Motion>& motions, const std::vector<CcdTruth>& truth) {
+Tallies measure(const std::vector<Motion>& motions, const std::vector<CcdTruth>& truth) {
   const Tally cached = run_cached_lanes(motions, truth);
   return {{run<Certified>(motions, truth), run<Elementary>(motions, truth), run<ElementaryFiltered>(motions, truth),
            run_streamed_lanes(motions, cached), cached, run_hits_in_lanes(motions, truth)}};
@@ -241,23 +208,23 @@ Tallies bench(const std::vector<Motion>& motions, const std::vector<CcdTruth>& t
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: bench_ccd_queries FILE.ccdq...\n");
-    return 2;
-  }
+  bench::CommandLine line("bench_ccd_queries FILE.ccdq...");
+  std::vector<std::string> names;
+  line.words(names);
+  if (!line.parse(argc, argv) || (names.empty() && !line.wrong())) return bench::kExitUsage;
   Tallies total;
   std::printf("file\ttest\tn\thits\tfalse_positives\tfalse_negatives\tns_mean\tns_median\tns_p99\n");
-  for (int i = 1; i < argc; ++i) {
-    const auto file = read_ccdq(argv[i]);
+  for (const std::string& name : names) {
+    const auto file = read_ccdq(name);
     if (!file) {
-      std::fprintf(stderr, "%s\n", file.error().message.c_str());
-      return 3;
+      std::fprintf(stderr, "bench_ccd_queries: %s\n", file.error().message.c_str());
+      return bench::kExitUnreadable;
     }
     const Tallies tallies =
-        file->vertex_face.empty() ? bench(file->edge_edge, file->truth) : bench(file->vertex_face, file->truth);
-    tallies.print(std::filesystem::path(argv[i]).filename().string());
+        file->vertex_face.empty() ? measure(file->edge_edge, file->truth) : measure(file->vertex_face, file->truth);
+    tallies.print(std::filesystem::path(name).filename().string());
     total.add(tallies);
   }
-  if (argc > 2) total.print("total");
+  if (names.size() > 1) total.print("total");
   return 0;
 }

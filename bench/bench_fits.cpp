@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fits a trembling hand takes apart, at which clearances and tolerances, and in how many steps: the method
-// `certificates` with response `slide`, every path audited.
+// Close fits taken apart by a trembling hand, at several clearances and tolerances: method `certificates`, response
+// `slide`, every path audited.
 //   bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner|gears|thread...]
-// One row a fit, clearance, tolerance and seed, tab-separated. `straight`: the steps of a straight pull of 0.5 mm a
-// step (gears: 0.2 mm and a roll of 0.002 rad; threads, out of the data folder: 4.5 degrees, half a turn); `out`: those
-// that it took, 0 where it never came out within twice as many; `good`: no more than 1.2 times the straight ones (asked
-// for where tolerance and clearance make up 0.005 mm), and the audit holds.
-#include "dismantle/io/load_assembly.h"
+// One row a fit, clearance, tolerance and seed, tab-separated. straight_steps: the steps of a straight pull of 0.5 mm a
+// step (gears: 0.2 mm and a rotation of 0.002 rad a step; threads, from the data folder: 4.5 degrees a step for half a
+// turn). out_steps: the steps until the component was out; 0 if it was not out after twice as many as the straight
+// ones. good: out_steps is at most 1.2 times straight_steps (required where tolerance and clearance together are at
+// least 0.005 mm), and the audit holds. Exit code 1 where a row is not good.
+#include "bench/command_line.h"
+#include "bench/timing.h"
+#include "dismantle/loading/load_assembly.h"
 #include "tests/support/slide_drags.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -29,44 +30,40 @@ struct Fit {
   std::string name, detail;
   double clearance = 0, tolerance = 0;  // [mm]
   SlideScene scene;
-  int straight = 0;                   // steps
-  std::function<Pose(int)> steadily;  // where the hand goes but for its trembling
+  int straight_steps = 0;
+  std::function<Pose(int step)> steady;  // the target of a step without the trembling
 };
 
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
-/// False where it is not as it should be.
+/// Prints a row. @return good
 bool run(const Fit& fit, std::uint64_t seed) {
   Hand::Options options;
   options.seed = seed;
   Hand hand(fit.scene, options);
   std::vector<Pose> targets;
-  for (int k = 1; k <= 2 * fit.straight; ++k) targets.push_back(hand.trembling(fit.steadily(k)));
+  for (int k = 1; k <= 2 * fit.straight_steps; ++k) targets.push_back(hand.trembling(fit.steady(k)));
   const Drag made = drag(fit.scene, fit.tolerance, targets);
   const int out = steps_until_out(fit.scene, made);
-  double deepest = 0, allowed = 0;
+  double max_depth = 0, allowed_depth = 0;
   for (const AuditPairDepth& d : made.audit.depths)
-    if (d.deepest > deepest) deepest = d.deepest, allowed = d.allowed;
+    if (d.deepest > max_depth) max_depth = d.deepest, allowed_depth = d.allowed;
   std::vector<double> us;
   for (const PlayedStep& s : made.played.steps)
     if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.timings.overall);
-  const bool asked = fit.tolerance + fit.clearance >= 0.005 - 1e-12;
-  const bool in_time = out > 0 && out <= static_cast<int>(1.2 * fit.straight);
-  const bool good = made.audit.holds() && (in_time || !asked);
-  std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
+  const bool required = fit.tolerance + fit.clearance >= 0.005 - 1e-12;
+  const bool in_time = out > 0 && out <= static_cast<int>(1.2 * fit.straight_steps);
+  const bool good = made.audit.holds() && (in_time || !required);
+  std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
               fit.detail.c_str(), 1e3 * fit.clearance, 1e3 * fit.tolerance, static_cast<unsigned long long>(seed),
-              fit.straight, out, way_made(fit.scene, made.played.steps.back().result.pose), deepest, allowed,
-              made.audit.holds() ? "holds" : "BROKEN", quantile(us, 0.5), quantile(us, 0.99), good ? "yes" : "NO");
+              fit.straight_steps, out, way_made(fit.scene, made.played.steps.back().result.pose), max_depth,
+              allowed_depth, made.audit.holds() ? "holds" : "BROKEN", bench::quantile(us, 0.5),
+              bench::quantile(us, 0.99), bench::quantile(us, 1), good ? "yes" : "NO");
   std::fflush(stdout);
   if (!made.audit.holds()) std::fprintf(stderr, "  %s\n", complaints(made.audit).c_str());
   return good;
 }
 
-/// A nut on a bolt with real threads out of the data folder, lifted to where it is clear: half a turn of it.
+/// Adds half a turn of a nut on a bolt with real threads, from the data folder. @param lift moves the nut along the
+/// bolt to where it is clear of the threads [mm]
 void add_thread(std::vector<Fit>& fits, const std::string& assembly, double pitch, double lift, double tolerance) {
   const std::string parts = std::string(DISMANTLE_SOURCE_DIR "/../shared/data/assemblies/") + assembly + "/parts";
   if (!std::filesystem::exists(parts)) return;
@@ -77,7 +74,7 @@ void add_thread(std::vector<Fit>& fits, const std::string& assembly, double pitc
   fit.scene.pull = {0, 0, 1};
   fit.scene.way = 0.98 * pitch / 2;
   fit.scene.center = assembled_bounds(fit.scene.assembly[fit.scene.moving]).center();
-  fit.steadily = [pitch](int k) { return Pose{{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)}; };
+  fit.steady = [pitch](int k) { return Pose{{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)}; };
   fits.push_back(std::move(fit));
 }
 
@@ -86,8 +83,8 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
   const auto add = [&](const std::string& detail, double clearance, SlideScene scene) {
     const double step = Hand::Options{}.step;
     const Vec3 pull = scene.pull;
-    const int straight = static_cast<int>(std::ceil(scene.way / step));
-    fits.push_back({name, detail, clearance, tolerance, std::move(scene), straight, [step, pull](int k) {
+    const int straight_steps = static_cast<int>(std::ceil(scene.way / step));
+    fits.push_back({name, detail, clearance, tolerance, std::move(scene), straight_steps, [step, pull](int k) {
                       return Pose{k * step * pull, {}};
                     }});
   };
@@ -101,7 +98,7 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
     }
     if (name == "dovetail") add("along", clearance, dovetail(clearance));
   }
-  // A press fit is allowed its own depth and the tolerance: what is left to move in is the tolerance.
+  // The audit allows a press fit its own depth and the tolerance: only the tolerance is left to move in.
   if (name == "press") add("0.02 mm too thick", 0, press_fit_pin(64, 0.02));
   if (name == "plate") add("0.0009 mm too thick", 0, plate_in_slot(0.0009));
   if (name == "corner") add("three planes", 0, part_in_corner());
@@ -119,16 +116,10 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
 
 bool parse(int argc, char** argv, Settings& settings) {
   const std::vector<std::string> all = {"peg", "key", "dovetail", "press", "plate", "corner", "gears", "thread"};
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option == "--seeds" && i + 1 < argc) {
-      settings.seeds = std::max(1, std::atoi(argv[++i]));
-    } else if (std::find(all.begin(), all.end(), option) != all.end()) {
-      settings.fits.push_back(option);
-    } else {
-      return false;
-    }
-  }
+  bench::CommandLine line("bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner|gears|thread...]");
+  line.option("--seeds", settings.seeds, 1);
+  line.words(settings.fits, all);
+  if (!line.parse(argc, argv)) return false;
   if (settings.fits.empty()) settings.fits = all;
   return true;
 }
@@ -139,17 +130,15 @@ bool parse(int argc, char** argv, Settings& settings) {
 int main(int argc, char** argv) {
   using namespace dismantle;
   Settings settings;
-  if (!parse(argc, argv, settings)) {
-    std::fprintf(stderr, "usage: bench_fits [--seeds N] [peg|key|dovetail|press|plate|corner|gears|thread...]\n");
-    return 2;
-  }
+  if (!parse(argc, argv, settings)) return bench::kExitUsage;
   std::printf(
-      "fit\tdetail\tclearance_um\ttolerance_um\tseed\tstraight\tout\tway_mm\tdeepest_mm\tallowed_mm\taudit\tmedian_us\t"
-      "p99_us\tgood\n");
+      "fit\tdetail\tclearance_um\ttolerance_um\tseed\tstraight_steps\tout_steps\ttravel_mm\tmax_depth_mm\tallowed_"
+      "depth_mm\t"
+      "audit\tmedian_us\tp99_us\tmax_us\tgood\n");
   bool good = true;
   for (const std::string& name : settings.fits)
     for (const double tolerance : {0.001, 0.005, 0.01})
       for (const Fit& fit : make_fits(name, tolerance))
         for (int seed = 1; seed <= settings.seeds; ++seed) good = run(fit, static_cast<std::uint64_t>(seed)) && good;
-  return good ? 0 : 1;
+  return good ? 0 : bench::kExitFailed;
 }

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time a step of a method as the loop of a host program sees it, over named scenes; where FCL is there, its discrete
-// test at the same poses beside it.
+// Time of a step of the collision methods as the loop of a host program sees it, over named scenes; FCL's discrete test
+// at the same poses, where FCL is installed.
 //   bench_motion [--method certificates|streams]... [--device cpu|cuda] [--triangles N] [--threads N] [--steps N]
 //                [--response stop|touch|slide] [--samples FOLDER] [SCENE...]
-// One row a scene and method, tab-separated. Times are processor time with one thread, wall time with more or on a GPU.
-// The first step builds the front and is not among the times, but given by itself. `reached`: the share of the steps
-// that reached their targets; of FCL, of the poses that it finds free. `ratio`: how many times as long as the first
-// method's mean step over the same poses the row's mean step takes.
+// One row a scene and method, tab-separated. Processor time with one thread; wall time with more, or on a GPU. The
+// first step of a move, which builds the front, is left out and given by itself (first_us, the longest of the moves).
+// front: the largest number of nodes of the front. device_tests: elementary tests that the device made, in all steps.
+// reached: the share of the steps that reached their targets; for FCL, of the poses that it finds free. ratio: the
+// row's mean step over the first method's mean step, over the same poses.
+#include "bench/command_line.h"
 #include "bench/motion_scenes.h"
-#include "dismantle/collision/choose_certificate_device.h"
+#include "bench/timing.h"
+#include "dismantle/certificates/choose_certificate_device.h"
+#include "dismantle/streams/choose_streams_backend.h"
+#include "dismantle/streams/streams_motion_engine.h"
 #ifdef DISMANTLE_WITH_FCL
 #include "bench/fcl_baseline.h"
 #endif
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <map>
 #include <optional>
 
 namespace dismantle {
@@ -29,47 +30,31 @@ struct Settings {
   BenchSize size;
   DeviceChoice device = DeviceChoice::Cpu;
   int threads = 1;
-  std::optional<ResponseKind> response;  // absent: the richest that the method has
+  std::optional<ResponseKind> response;  // absent: slide where the method can, else touch
   std::string samples_folder = DISMANTLE_SOURCE_DIR "/samples";
 };
 
-/// What a method made of a scene.
+/// Results of a method over a scene.
 struct Measured {
   std::string method;
   double build_ms = 0, first_us = 0;
-  std::vector<double> us;  // a step
+  std::vector<double> us;  // of each step
   std::size_t front = 0;
-  std::size_t answered = 0;  // elementary tests that a device answered, in all steps
-  double reached = 0;        // share of the steps
+  std::size_t device_tests = 0;  // in all steps
+  double reached = 0;            // share of the steps
 };
 
-/// Where the components were after a step, and which were in hand.
+/// The poses of the components after a step, and the move that the step is of.
 struct Visited {
   const BenchMove* move = nullptr;
   std::vector<Pose> poses;
 };
 
-/// Wall time; where one thread does all that thread's processor time, which other work on the machine does not
-/// lengthen.
-class Stopwatch {
- public:
-  Stopwatch() : clock_(CLOCK_THREAD_CPUTIME_ID), start_(now()) {}
-  explicit Stopwatch(const Settings& settings)
-      : clock_(settings.threads > 1 || settings.device != DeviceChoice::Cpu ? CLOCK_MONOTONIC
-                                                                            : CLOCK_THREAD_CPUTIME_ID),
-        start_(now()) {}
-  double us() const { return now() - start_; }
-
- private:
-  double now() const {
-    timespec time{};
-    clock_gettime(clock_, &time);
-    return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
-  }
-
-  clockid_t clock_;
-  double start_;
-};
+/// The clock of the measurements: processor time, which other work on the machine does not lengthen, where one thread
+/// does everything.
+bench::ClockNs clock_of(const Settings& settings) {
+  return settings.threads > 1 || settings.device != DeviceChoice::Cpu ? bench::wall_ns : bench::thread_ns;
+}
 
 void note_cpu(const std::string& why) {
   if (!why.empty()) std::fprintf(stderr, "bench_motion: on the CPU (%s)\n", why.c_str());
@@ -100,15 +85,15 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
                  std::vector<Visited>& visited) {
   Measured m;
   m.method = method;
-  const Stopwatch building(settings);
+  const bench::Stopwatch building(clock_of(settings));
   const std::unique_ptr<MotionEngine> engine = make_engine(method, scene, settings);
-  m.build_ms = building.us() / 1e3;
+  m.build_ms = building.ms();
   const ResponseKind response = response_for(*engine, settings);
   int steps = 0, reached = 0;
   for (const BenchMove& move : scene.moves) {
     engine->hold(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
-      const Stopwatch stepping(settings);
+      const bench::Stopwatch stepping(clock_of(settings));
       const StepResult result = engine->step(move.targets[k], response);
       const double us = stepping.us();
       if (k == 0) {
@@ -117,7 +102,7 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
       }
       m.us.push_back(us);
       m.front = std::max(m.front, result.sizes.front);
-      m.answered += result.sizes.answered_tests;
+      m.device_tests += result.sizes.answered_tests;
       ++steps;
       reached += result.reached ? 1 : 0;
       visited.push_back({&move, {engine->poses().begin(), engine->poses().end()}});
@@ -127,47 +112,41 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
   return m;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
-
-void print_row(const BenchScene& scene, const Settings& settings, Measured m, double base) {
+void print_row(const BenchScene& scene, const Settings& settings, const Measured& m, double base_us) {
   if (m.us.empty()) return;
-  const double average = mean(m.us);
-  std::sort(m.us.begin(), m.us.end());
   std::printf("%s\t%zu\t%s\t%d\t%zu\t%.0f\t%.0f\t%.1f\t%.1f\t%.1f\t%.1f\t%zu\t%zu\t%.3f\t%.2f\n", scene.name.c_str(),
               triangle_count(scene.assembly), m.method.c_str(), m.method.rfind("fcl", 0) == 0 ? 1 : settings.threads,
-              m.us.size(), m.build_ms, m.first_us, m.us[m.us.size() / 2], average, m.us[m.us.size() * 99 / 100],
-              m.us.back(), m.front, m.answered, m.reached, average / base);
+              m.us.size(), m.build_ms, m.first_us, bench::quantile(m.us, 0.5), bench::mean(m.us),
+              bench::quantile(m.us, 0.99), bench::quantile(m.us, 1), m.front, m.device_tests, m.reached,
+              bench::mean(m.us) / base_us);
   std::fflush(stdout);
 }
 
 #ifdef DISMANTLE_WITH_FCL
-/// FCL's discrete test at the poses where the first method was, and the same of those poses alone at which it finds
-/// nothing: at a contact it is done with the first triangle pair that it meets.
+/// Times FCL's discrete test at the poses of the first method, and gives a second row for the poses at which it finds
+/// no collision: at the others it ends with the first triangle pair that intersects.
 void run_fcl(const BenchScene& scene, const Settings& settings, const std::vector<Visited>& visited,
              const Measured& first) {
-  Measured all, apart, first_apart;
+  Measured all, free_poses, first_free;
   all.method = "fcl discrete";
-  apart.method = "fcl discrete, apart";
-  const Stopwatch building;
+  free_poses.method = "fcl discrete, free poses";
+  const bench::Stopwatch building(bench::thread_ns);
   const DiscreteFcl fcl(scene.assembly);
-  all.build_ms = building.us() / 1e3;
+  all.build_ms = building.ms();
   for (std::size_t k = 0; k < visited.size(); ++k) {
-    const Stopwatch stepping;
+    const bench::Stopwatch stepping(bench::thread_ns);
     const bool free = fcl.colliding_pairs(visited[k].move->components, visited[k].poses) == 0;
     const double us = stepping.us();
     all.us.push_back(us);
     if (!free) continue;
-    apart.us.push_back(us);
-    first_apart.us.push_back(first.us[k]);
+    free_poses.us.push_back(us);
+    first_free.us.push_back(first.us[k]);
   }
-  all.reached = static_cast<double>(apart.us.size()) / static_cast<double>(std::max<std::size_t>(1, all.us.size()));
-  apart.reached = 1;
-  print_row(scene, settings, all, mean(first.us));
-  if (apart.us.size() < all.us.size()) print_row(scene, settings, apart, mean(first_apart.us));
+  all.reached =
+      static_cast<double>(free_poses.us.size()) / static_cast<double>(std::max<std::size_t>(1, all.us.size()));
+  free_poses.reached = 1;
+  print_row(scene, settings, all, bench::mean(first.us));
+  if (free_poses.us.size() < all.us.size()) print_row(scene, settings, free_poses, bench::mean(first_free.us));
 }
 #endif
 
@@ -181,44 +160,35 @@ void run(const BenchScene& scene, const Settings& settings) {
       first = m;
       first_visited = std::move(visited);
     }
-    print_row(scene, settings, std::move(m), mean(first->us));
+    print_row(scene, settings, m, bench::mean(first->us));
   }
 #ifdef DISMANTLE_WITH_FCL
   run_fcl(scene, settings, first_visited, *first);
 #endif
 }
 
+std::string usage() {
+  std::string text =
+      "bench_motion [--method certificates|streams]... [--device cpu|cuda] [--triangles N] [--threads N]\n"
+      "                    [--steps N] [--response stop|touch|slide] [--samples FOLDER] [SCENE...]\n"
+      "scenes:";
+  for (const std::string& name : bench_scene_names()) text += " " + name;
+  return text;
+}
+
 bool parse(int argc, char** argv, Settings& settings) {
-  static const std::map<std::string, ResponseKind> kResponses{
-      {"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}};
-  const std::vector<std::string> methods = {"certificates", "streams"};
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option.rfind("--", 0) != 0) {
-      settings.scenes.push_back(option);
-      continue;
-    }
-    if (++i == argc) return false;
-    const std::string value = argv[i];
-    if (option == "--method" && std::find(methods.begin(), methods.end(), value) != methods.end()) {
-      settings.methods.push_back(value);
-    } else if (option == "--device" && (value == "cpu" || value == "cuda")) {
-      settings.device = value == "cuda" ? DeviceChoice::Cuda : DeviceChoice::Cpu;
-    } else if (option == "--triangles") {
-      settings.size.triangles = std::strtoull(argv[i], nullptr, 10);
-    } else if (option == "--threads") {
-      settings.threads = std::max(1, std::atoi(argv[i]));
-    } else if (option == "--steps") {
-      settings.size.steps = std::max(1, std::atoi(argv[i]));
-    } else if (option == "--response" && kResponses.count(value) > 0) {
-      settings.response = kResponses.at(value);
-    } else if (option == "--samples") {
-      settings.samples_folder = value;
-    } else {
-      return false;
-    }
-  }
-  if (settings.methods.empty()) settings.methods = methods;
+  bench::CommandLine line(usage());
+  line.choices("--method", settings.methods, {{"certificates", "certificates"}, {"streams", "streams"}});
+  line.choice("--device", settings.device, {{"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}});
+  line.option("--triangles", settings.size.triangles, 1);
+  line.option("--threads", settings.threads, 1);
+  line.option("--steps", settings.size.steps, 1);
+  line.choice("--response", settings.response,
+              {{"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}});
+  line.option("--samples", settings.samples_folder);
+  line.words(settings.scenes);
+  if (!line.parse(argc, argv)) return false;
+  if (settings.methods.empty()) settings.methods = {"certificates", "streams"};
   if (settings.scenes.empty()) settings.scenes = bench_scene_names();
   return true;
 }
@@ -229,19 +199,10 @@ bool parse(int argc, char** argv, Settings& settings) {
 int main(int argc, char** argv) {
   using namespace dismantle;
   Settings settings;
-  if (!parse(argc, argv, settings)) {
-    std::fprintf(
-        stderr,
-        "usage: bench_motion [--method certificates|streams]... [--device cpu|cuda] [--triangles N] [--threads "
-        "N]\n                    [--steps N] [--response stop|touch|slide] [--samples FOLDER] [SCENE...]\nscenes:");
-    for (const std::string& name : bench_scene_names()) std::fprintf(stderr, " %s", name.c_str());
-    std::fprintf(stderr, "\n");
-    return 2;
-  }
+  if (!parse(argc, argv, settings)) return bench::kExitUsage;
   std::printf(
-      "scene\ttriangles\tmethod\tthreads\tsteps\tbuild_ms\tfirst_us\tmedian_us\tmean_us\tp99_us\tmax_"
-      "us\tfront\tanswered_tests\treached\t"
-      "ratio\n");
+      "scene\ttriangles\tmethod\tthreads\tsteps\tbuild_ms\tfirst_us\tmedian_us\tmean_us\tp99_us\tmax_us\tfront\t"
+      "device_tests\treached\tratio\n");
   for (const std::string& name : settings.scenes) {
     const Result<std::vector<BenchScene>> scenes = make_bench_scenes(name, settings.size, settings.samples_folder);
     if (!scenes) {

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the planner takes apart, by which tier, in what time; every path audited.
-//   bench_plan cases [--shapes N] [--poses M] [--seed S] [KIND...]   N shapes of each kind of generated case, each as
-//   it
-//                                                         is and in M random orientations, scales and tessellations
-//   bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [ASSEMBLY...]   whether the same comes out of the
-//                                                         assembly in M random orientations, scales and tessellations:
-//                                                         of these assemblies, or else of 200 generated ones of two
-//                                                         components; --from and --count take a part of them
-//   bench_plan products [N...]                            generated products of about N components
+// Success and time of the planner, by tier; every path audited.
+//   bench_plan cases [--shapes N] [--poses M] [--seed S] [KIND...]
+//     N shapes of each kind of generated case, each as it is and in M random orientations, scales and tessellations
+//   bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [ASSEMBLY...]
+//     whether the same components come out in M random orientations, scales and tessellations: of these assemblies, or
+//     of the generated ones of two components, of which --from and --count choose some of the 200
+//   bench_plan products [N...]
+//     generated products of about N components
 //   bench_plan files [--time-limit S] [--tolerance MM] [--target NAME] ASSEMBLY...
-//                                                         assemblies, or only one component out of them
-// --no-audit: plans only. One row a case or an assembly, tab-separated. `good`: exactly what is known to come out does,
-// and the audit holds; for assemblies: all comes out or is explained, and the audit holds. Times, the limit's too, are
-// processor times of one thread and do not include reading.
+//     assemblies, or one component of each
+// --no-audit: plans only. One row a case or an assembly, tab-separated; `cases` adds an empty line and a table with one
+// row a kind. out: components that a step takes out by themselves; straight, helical, sliding and together: steps of
+// the tiers. good: exactly what is known to come out does, and the audit holds; for assemblies: the plan ended in time,
+// and the audit holds. Exit code 1 where a row is not good. Times, --time-limit too, are processor time of one thread
+// without reading the file.
+#include "bench/assembly_files.h"
+#include "bench/command_line.h"
+#include "bench/timing.h"
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/io/load_assembly.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/planner/plan_path.h"
 #include "tests/planner/plan_scenes.h"
 #include "tests/support/disassembly_cases.h"
@@ -22,7 +26,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <map>
 #include <set>
 #include <string>
 
@@ -31,41 +35,30 @@ namespace {
 
 using namespace scenes;
 
-/// Processor time, which other programs do not change much [s].
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
-/// So many generated cases of two components there are to be turned.
+/// Number of the generated cases of two components for `turned`.
 constexpr std::size_t kTurnedCases = 200;
 
-/// What was planned, and what it cost.
+/// A plan, the verdict of its audit, and its cost.
 struct Planned {
   Plan plan;
-  bool audited = false;
+  bool audit_holds = false;  ///< Also true where no audit was wanted.
   double classify_seconds = 0, plan_seconds = 0;
 };
 
-enum class Audited { Yes, No };
+enum class Audit { Yes, No };
 
-Planned plan_and_audit(const Assembly& assembly, double tolerance, const PlanOptions& options, Audited audited) {
+Planned plan_and_audit(const Assembly& assembly, double tolerance, const PlanOptions& options, Audit audit) {
   Planned planned;
-  const double start = processor_seconds();
+  bench::Stopwatch watch(bench::process_ns);
   ClassifyOptions classify;
   classify.tolerance = tolerance;
   const PairStates pairs = classify_pairs(assembly, classify).value();
-  const double classified = processor_seconds();
-  planned.classify_seconds = classified - start;
+  planned.classify_seconds = watch.seconds();
+  watch = bench::Stopwatch(bench::process_ns);
   planned.plan = plan_disassembly(assembly, pairs, options);
   const Path path = plan_path(assembly, pairs, planned.plan);
-  planned.plan_seconds = processor_seconds() - classified;
-  planned.audited = audited == Audited::No || audit_path(assembly, path).holds();
+  planned.plan_seconds = watch.seconds();
+  planned.audit_holds = audit == Audit::No || audit_path(assembly, path).holds();
   return planned;
 }
 
@@ -75,7 +68,7 @@ std::size_t taken_out(const Plan& plan) {
                                                 [](const PlanStep& step) { return step.components.size() == 1; }));
 }
 
-/// How many steps each tier made: as a row has it.
+/// The cells of a row with the number of steps of each tier.
 std::string tiers(const Plan& plan) {
   std::string row;
   for (const PlanTier tier : {PlanTier::Straight, PlanTier::Helical, PlanTier::Sliding, PlanTier::StraightTogether})
@@ -86,9 +79,9 @@ std::string tiers(const Plan& plan) {
 
 constexpr const char* kTierColumns = "straight\thelical\tsliding\ttogether";
 
-/// What came of all the cases of one kind.
+/// Counts and times of all cases of one kind.
 struct Tally {
-  std::size_t plans = 0, good = 0, false_free = 0;
+  std::size_t plans = 0, good = 0, false_free = 0;  ///< false_free: of the locked, those of which something comes out.
   std::vector<double> ms;
 };
 
@@ -96,26 +89,26 @@ struct Settings {
   int shapes = 3, poses = 1;
   std::uint64_t seed = 1;
   std::size_t from = 0, count = kTurnedCases;
-  Audited audited = Audited::Yes;
+  Audit audit = Audit::Yes;
   double time_limit = 60, tolerance = 0;
   std::string target;
   std::vector<std::string> names;
 };
 
-void run_case(CaseKind kind, int shape, const DisassemblyCase& made, double scale, Audited audited, Tally& tally) {
+void run_case(CaseKind kind, int shape, const DisassemblyCase& made, double scale, Audit audit, Tally& tally) {
   PlanOptions options;
   for (std::uint32_t c = 0; c < made.fixed; ++c) options.fixed.emplace_back(c);
   const std::size_t others = made.assembly.components.size() - made.fixed;
-  const Planned planned = plan_and_audit(made.assembly, 0.01 * scale, options, audited);
+  const Planned planned = plan_and_audit(made.assembly, 0.01 * scale, options, audit);
   const std::size_t out = taken_out(planned.plan);
-  const bool good = out == (comes_apart(kind) ? others : 0) && planned.audited;
+  const bool good = out == (comes_apart(kind) ? others : 0) && planned.audit_holds;
   ++tally.plans;
   tally.good += good;
   tally.false_free += !comes_apart(kind) && out > 0;
   tally.ms.push_back(1e3 * planned.plan_seconds);
   std::printf("%s\t%d\t%g\t%zu\t%zu%s\t%.1f\t%.1f\t%s\t%s\n", std::string(name_of(kind)).c_str(), shape, scale, others,
               out, tiers(planned.plan).c_str(), 1e3 * planned.classify_seconds, 1e3 * planned.plan_seconds,
-              planned.audited ? "holds" : "BROKEN", good ? "yes" : "NO");
+              planned.audit_holds ? "holds" : "BROKEN", good ? "yes" : "NO");
   std::fflush(stdout);
 }
 
@@ -133,41 +126,43 @@ bool run_cases(const Settings& settings) {
     for (int shape = 0; shape < settings.shapes; ++shape) {
       const CaseShape drawn = random_shape(random);
       const DisassemblyCase made = disassembly_case(kind, drawn);
-      run_case(kind, shape, made, 1, settings.audited, tally);
+      run_case(kind, shape, made, 1, settings.audit, tally);
       for (int pose = 0; pose < settings.poses; ++pose) {
         const double scale = std::array{0.01, 1.0, 1000.0}[static_cast<std::size_t>(pose) % 3];
         const Pose turned = random_pose(random, 50, 3);
         run_case(kind, shape, {placed(refined(made.assembly, random), turned, scale), made.fixed}, scale,
-                 settings.audited, tally);
+                 settings.audit, tally);
       }
     }
     all_good = all_good && tally.good == tally.plans;
     tallies.emplace_back(kind, std::move(tally));
   }
-  std::printf("\nkind\tplans\tgood\tfalse free\tmedian_ms\tp99_ms\tmost_ms\n");
+  std::printf("\nkind\tplans\tgood\tfalse_free\tmedian_ms\tp99_ms\tmax_ms\n");
   for (const auto& [kind, tally] : tallies)
     std::printf("%s\t%zu\t%zu\t%zu\t%.1f\t%.1f\t%.1f\n", std::string(name_of(kind)).c_str(), tally.plans, tally.good,
-                tally.false_free, quantile(tally.ms, 0.5), quantile(tally.ms, 0.99), quantile(tally.ms, 1));
+                tally.false_free, bench::quantile(tally.ms, 0.5), bench::quantile(tally.ms, 0.99),
+                bench::quantile(tally.ms, 1));
   return all_good;
 }
 
-bool run_assembly(const Assembly& assembly, const Settings& settings) {
+/// Prints a row. @return good
+bool run_assembly(const std::string& name, const Assembly& assembly, const Settings& settings) {
   PlanOptions options;
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
     if (assembly.components[c].name == settings.target) options.targets.emplace_back(c);
-  const double end = processor_seconds() + settings.time_limit;
-  options.progress = [end](std::string_view, double) { return processor_seconds() < end; };
-  const Planned planned = plan_and_audit(assembly, settings.tolerance, options, settings.audited);
-  const bool good = planned.audited && !planned.plan.out_of_time;
-  std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", assembly.source_file.c_str(),
-              assembly.components.size(), triangle_count(assembly), taken_out(planned.plan),
-              tiers(planned.plan).c_str(), planned.plan.staying.size(), planned.classify_seconds, planned.plan_seconds,
-              planned.audited ? "holds" : "BROKEN", good ? "yes" : "NO");
+  const bench::Stopwatch watch(bench::process_ns);
+  options.progress = [&](std::string_view, double) { return watch.seconds() < settings.time_limit; };
+  const Planned planned = plan_and_audit(assembly, settings.tolerance, options, settings.audit);
+  const bool good = planned.audit_holds && !planned.plan.out_of_time;
+  std::printf("%s\t%zu\t%zu\t%zu%s\t%zu\t%.2f\t%.2f\t%s\t%s\n", name.c_str(), assembly.components.size(),
+              triangle_count(assembly), taken_out(planned.plan), tiers(planned.plan).c_str(),
+              planned.plan.staying.size(), planned.classify_seconds, planned.plan_seconds,
+              planned.audit_holds ? "holds" : "BROKEN", good ? "yes" : "NO");
   std::fflush(stdout);
   return good;
 }
 
-/// What some step takes out by itself, by name.
+/// Names of the components that a step takes out by themselves.
 std::set<std::string> removed(const Assembly& assembly, const Plan& plan) {
   std::set<std::string> names;
   for (const PlanStep& step : plan.steps)
@@ -175,15 +170,15 @@ std::set<std::string> removed(const Assembly& assembly, const Plan& plan) {
   return names;
 }
 
-/// Whether the same comes out of an assembly however it is turned, in other sizes and of more triangles. It says so as
-/// it goes on: such a run is long.
-/// @param tolerance of the assembly as it is [mm]; 0: the planner's own
+/// Prints a row on whether the same components come out of an assembly in other orientations, scales and tessellations.
+/// @param tolerance of the assembly as it is [mm]; 0: the planner's default
+/// @return good
 bool run_turned(const std::string& name, const Assembly& assembly, double tolerance, const Settings& settings) {
   std::mt19937_64 random(settings.seed);
   std::set<std::string> expected;
   int same = 0;
   double seconds = 0;
-  bool audited = true;
+  bool audits_hold = true;
   for (int pose = 0; pose <= settings.poses; ++pose) {
     const double scale = pose == 0 ? 1 : std::array{0.01, 1.0, 1000.0}[static_cast<std::size_t>(pose) % 3];
     Assembly other = assembly;
@@ -191,22 +186,22 @@ bool run_turned(const std::string& name, const Assembly& assembly, double tolera
       const Pose turned = random_pose(random, 50, 3);
       other = placed(refined(assembly, random), turned, scale);
     }
-    const Planned planned = plan_and_audit(other, tolerance * scale, {}, settings.audited);
+    const Planned planned = plan_and_audit(other, tolerance * scale, {}, settings.audit);
     seconds += planned.classify_seconds + planned.plan_seconds;
-    audited = audited && planned.audited;
+    audits_hold = audits_hold && planned.audit_holds;
     const std::set<std::string> out = removed(other, planned.plan);
     if (pose == 0) expected = out;
     same += pose > 0 && out == expected;
     if (out != expected) std::fprintf(stderr, "%s: other components at pose %d, scale %g\n", name.c_str(), pose, scale);
   }
-  const bool good = same == settings.poses && audited;
+  const bool good = same == settings.poses && audits_hold;
   std::printf("%s\t%zu\t%zu\t%d\t%d\t%.2f\t%s\t%s\n", name.c_str(), assembly.components.size(), expected.size(),
-              settings.poses, same, seconds, audited ? "holds" : "BROKEN", good ? "yes" : "NO");
+              settings.poses, same, seconds, audits_hold ? "holds" : "BROKEN", good ? "yes" : "NO");
   std::fflush(stdout);
   return good;
 }
 
-/// The generated case of two components of this index, always the same.
+/// Runs the generated case of two components with this index, which is the same in every run. @return good
 bool run_turned_case(std::size_t index, const Settings& settings) {
   constexpr CaseKind kPairs[] = {CaseKind::Peg,   CaseKind::Key,         CaseKind::Dovetail,
                                  CaseKind::LSlot, CaseKind::Bayonet,     CaseKind::Screw,
@@ -218,7 +213,7 @@ bool run_turned_case(std::size_t index, const Settings& settings) {
 }
 
 bool run_all_turned(const Settings& settings) {
-  std::printf("case\tcomponents\tout\tposes\tsame\tseconds\taudit\tgood\n");
+  std::printf("case\tcomponents\tout\tposes\tsame\tplan_s\taudit\tgood\n");
   const std::size_t all = settings.names.empty() ? kTurnedCases : settings.names.size();
   const std::size_t end = std::min(all, settings.from + settings.count);
   std::size_t good = 0, done = 0;
@@ -229,24 +224,23 @@ bool run_all_turned(const Settings& settings) {
     }
     const std::string& file = settings.names[k];
     const Result<Assembly> assembly = load_assembly(file);
-    if (!assembly) std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
+    if (!assembly) std::fprintf(stderr, "bench_plan: %s\n", assembly.error().message.c_str());
     good += assembly && run_turned(file, *assembly, settings.tolerance, settings);
   }
-  std::printf("\n%zu of %zu cases good\n", good, done);
+  std::printf("# %zu of %zu cases good\n", good, done);
   return good == done;
 }
 
 bool run_file(const std::string& file, const Settings& settings) {
   const Result<Assembly> assembly = load_assembly(file);
-  if (assembly) return run_assembly(*assembly, settings);
-  std::fprintf(stderr, "%s\n", assembly.error().message.c_str());
+  if (assembly) return run_assembly(bench::assembly_name(file), *assembly, settings);
+  std::fprintf(stderr, "bench_plan: %s\n", assembly.error().message.c_str());
   return false;
 }
 
 bool run_product(const std::string& count, const Settings& settings) {
-  Assembly product = stations(static_cast<std::uint32_t>(std::max(7, std::atoi(count.c_str()))));
-  product.source_file = "product";
-  return run_assembly(product, settings);
+  const auto components = static_cast<std::uint32_t>(std::max(7, std::atoi(count.c_str())));
+  return run_assembly("product of " + count, stations(components), settings);
 }
 
 template <class Run>
@@ -257,35 +251,39 @@ bool run_assemblies(const Settings& settings, const Run& run) {
   return good;
 }
 
-bool parse(int argc, char** argv, Settings& settings) {
-  for (int i = 2; i < argc; ++i) {
-    const std::string option = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (option == "--shapes" && has_value) {
-      settings.shapes = std::atoi(argv[++i]);
-    } else if (option == "--poses" && has_value) {
-      settings.poses = std::atoi(argv[++i]);
-    } else if (option == "--seed" && has_value) {
-      settings.seed = static_cast<std::uint64_t>(std::atoll(argv[++i]));
-    } else if (option == "--from" && has_value) {
-      settings.from = static_cast<std::size_t>(std::atoll(argv[++i]));
-    } else if (option == "--count" && has_value) {
-      settings.count = static_cast<std::size_t>(std::atoll(argv[++i]));
-    } else if (option == "--no-audit") {
-      settings.audited = Audited::No;
-    } else if (option == "--time-limit" && has_value) {
-      settings.time_limit = std::atof(argv[++i]);
-    } else if (option == "--target" && has_value) {
-      settings.target = argv[++i];
-    } else if (option == "--tolerance" && has_value) {
-      settings.tolerance = std::atof(argv[++i]);
-    } else if (option.rfind("--", 0) == 0) {
-      return false;
-    } else {
-      settings.names.push_back(option);
-    }
-  }
-  return true;
+/// What to run: the name of the first argument.
+enum class Mode { None, Cases, Turned, Products, Files };
+
+Mode parse(int argc, char** argv, Settings& settings) {
+  static const std::map<std::string, Mode> kModes{
+      {"cases", Mode::Cases}, {"turned", Mode::Turned}, {"products", Mode::Products}, {"files", Mode::Files}};
+  bench::CommandLine line(
+      "bench_plan cases [--shapes N] [--poses M] [--seed S] [--no-audit] [KIND...]\n"
+      "       bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [--no-audit] [ASSEMBLY...]\n"
+      "       bench_plan products [--no-audit] [N...]\n"
+      "       bench_plan files [--time-limit S] [--tolerance MM] [--target NAME] [--no-audit] ASSEMBLY...");
+  bool no_audit = false;
+  line.option("--shapes", settings.shapes, 1);
+  line.option("--poses", settings.poses, 0);
+  line.option("--seed", settings.seed, 0);
+  line.option("--from", settings.from, 0);
+  line.option("--count", settings.count, 1);
+  line.option("--time-limit", settings.time_limit);
+  line.option("--tolerance", settings.tolerance);
+  line.option("--target", settings.target);
+  line.flag("--no-audit", no_audit);
+  line.words(settings.names);
+  const auto mode = kModes.find(argc > 1 ? argv[1] : "");
+  if (mode == kModes.end()) line.wrong();
+  if (mode == kModes.end() || !line.parse(argc, argv, 2)) return Mode::None;
+  if (no_audit) settings.audit = Audit::No;
+  return mode->second;
+}
+
+bool run(Mode mode, const Settings& settings) {
+  if (mode == Mode::Cases) return run_cases(settings);
+  if (mode == Mode::Turned) return run_all_turned(settings);
+  return run_assemblies(settings, mode == Mode::Files ? run_file : run_product);
 }
 
 }  // namespace
@@ -293,18 +291,8 @@ bool parse(int argc, char** argv, Settings& settings) {
 
 int main(int argc, char** argv) {
   using namespace dismantle;
-  const std::string what = argc > 1 ? argv[1] : "";
   Settings settings;
-  if ((what != "cases" && what != "turned" && what != "files" && what != "products") || !parse(argc, argv, settings)) {
-    std::fprintf(
-        stderr,
-        "usage: bench_plan cases [--shapes N] [--poses M] [--seed S] [--no-audit] [KIND...]\n"
-        "       bench_plan turned [--poses M] [--seed S] [--from N] [--count N] [--no-audit] [ASSEMBLY...]\n"
-        "       bench_plan products [N...]\n"
-        "       bench_plan files [--time-limit S] [--tolerance MM] [--target NAME] [--no-audit] ASSEMBLY...\n");
-    return 2;
-  }
-  if (what == "cases") return run_cases(settings) ? 0 : 1;
-  if (what == "turned") return run_all_turned(settings) ? 0 : 1;
-  return run_assemblies(settings, what == "files" ? run_file : run_product) ? 0 : 1;
+  const Mode mode = parse(argc, argv, settings);
+  if (mode == Mode::None) return bench::kExitUsage;
+  return run(mode, settings) ? 0 : bench::kExitFailed;
 }

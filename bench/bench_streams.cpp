@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time a step of the streams method, stage by stage: a shaft slides and wobbles in its hole, 0.1 mm a step.
+// Time of a step of the method `streams`, stage by stage. Scene: a shaft slides and wobbles in its hole, 0.1 mm a step.
 //   bench_streams [--device cpu|cuda] [--threads N] [--clearance MM] [--steps N] [--ccd certified|elementary]
 //                 [TRIANGLES...]
-#include "dismantle/collision/choose_streams_backend.h"
+// One row a size, tab-separated: means of the stages, then mean, median and p99 of the whole step; wall time. The first
+// step, which builds the front, is left out. --threads 0 runs without an executor.
+#include "bench/command_line.h"
+#include "bench/timing.h"
+#include "dismantle/streams/choose_streams_backend.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,7 @@ struct Settings {
   double clearance = 0.1;  // between shaft and hole, radial [mm]; below 0 they overlap and are a fit
   int steps = 100;
   ElementaryTest test = ElementaryTest::Certified;
-  std::vector<std::size_t> triangles;
+  std::vector<std::size_t> triangles = {3000, 10'000, 120'000, 1'000'000};
 };
 
 /// A housing with a hole of radius 10 and a shaft in it, 100 long, of about `triangles` triangles that are as long as
@@ -64,13 +65,13 @@ RigidTransform pose_at(int step, double clearance) {
 void run(const Settings& settings, std::size_t triangles) {
   const Assembly assembly = shaft_in_hole(triangles, settings.clearance);
   const Executor executor = settings.threads > 0 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
-  const auto start = std::chrono::steady_clock::now();
+  const bench::Stopwatch building;
   const CollisionOptions options{settings.test, executor, 1 << 16};
   ChosenStreamsBackend chosen = choose_streams_backend(assembly, options, settings.device);
   if (!chosen.why.empty()) std::fprintf(stderr, "bench_streams: on the CPU (%s)\n", chosen.why.c_str());
   const std::unique_ptr<CollisionEngine> engine =
       make_streams_engine(assembly, states_for(settings), options, std::move(chosen.backend));
-  const std::chrono::duration<double, std::milli> built = std::chrono::steady_clock::now() - start;
+  const double build_ms = building.ms();
 
   StepTimings sum;
   std::vector<double> overall;
@@ -89,41 +90,26 @@ void run(const Settings& settings, std::size_t triangles) {
     sum.intersection += last.timings.intersection;
     overall.push_back(last.timings.overall);
   }
-  std::sort(overall.begin(), overall.end());
-  double total = 0;
-  for (const double ms : overall) total += ms;
   const auto mean = [&](double ms) { return ms / settings.steps; };
   std::printf("%zu\t%.0f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%zu\t%zu\t%zu\t%d\n", triangle_count(assembly),
-              built.count(), mean(sum.vertices), mean(sum.refit), mean(sum.front), mean(sum.intersection), mean(total),
-              overall[overall.size() / 2], overall[overall.size() * 99 / 100], last.sizes.front,
+              build_ms, mean(sum.vertices), mean(sum.refit), mean(sum.front), mean(sum.intersection),
+              bench::mean(overall), bench::quantile(overall, 0.5), bench::quantile(overall, 0.99), last.sizes.front,
               last.sizes.triangle_pairs, last.sizes.elementary_tests, blocked);
   std::fflush(stdout);
 }
 
 bool parse(int argc, char** argv, Settings& settings) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    if (option.rfind("--", 0) != 0) {
-      settings.triangles.push_back(std::strtoull(argv[i], nullptr, 10));
-      continue;
-    }
-    if (++i == argc) return false;
-    if (option == "--device") {
-      settings.device = std::strcmp(argv[i], "cuda") == 0 ? DeviceChoice::Cuda : DeviceChoice::Cpu;
-    } else if (option == "--threads") {
-      settings.threads = std::atoi(argv[i]);
-    } else if (option == "--clearance") {
-      settings.clearance = std::atof(argv[i]);
-    } else if (option == "--steps") {
-      settings.steps = std::max(1, std::atoi(argv[i]));
-    } else if (option == "--ccd") {
-      settings.test = std::strcmp(argv[i], "elementary") == 0 ? ElementaryTest::Elementary : ElementaryTest::Certified;
-    } else {
-      return false;
-    }
-  }
-  if (settings.triangles.empty()) settings.triangles = {3000, 10'000, 120'000, 1'000'000};
-  return true;
+  bench::CommandLine line(
+      "bench_streams [--device cpu|cuda] [--threads N] [--clearance MM] [--steps N]\n"
+      "                     [--ccd certified|elementary] [TRIANGLES...]");
+  line.choice("--device", settings.device, {{"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}});
+  line.option("--threads", settings.threads, 0);
+  line.option("--clearance", settings.clearance);
+  line.option("--steps", settings.steps, 1);
+  line.choice("--ccd", settings.test,
+              {{"certified", ElementaryTest::Certified}, {"elementary", ElementaryTest::Elementary}});
+  line.numbers(settings.triangles);
+  return line.parse(argc, argv);
 }
 
 }  // namespace
@@ -131,16 +117,10 @@ bool parse(int argc, char** argv, Settings& settings) {
 
 int main(int argc, char** argv) {
   dismantle::Settings settings;
-  if (!dismantle::parse(argc, argv, settings)) {
-    std::fprintf(stderr,
-                 "usage: bench_streams [--device cpu|cuda] [--threads N] [--clearance MM] [--steps N] [--ccd "
-                 "certified|elementary] "
-                 "[TRIANGLES...]\n");
-    return 2;
-  }
+  if (!dismantle::parse(argc, argv, settings)) return dismantle::bench::kExitUsage;
   std::printf(
-      "triangles\tbuild_ms\tvertices_ms\trefit_ms\tfront_ms\tintersection_ms\toverall_ms\tmedian_ms\tp99_ms\tfront\t"
-      "triangle_pairs\ttests\tblocked\n");
+      "triangles\tbuild_ms\tvertices_ms\trefit_ms\tfront_ms\tintersection_ms\tmean_ms\tmedian_ms\tp99_ms\tfront\t"
+      "triangle_pairs\telementary_tests\tblocked_steps\n");
   for (const std::size_t triangles : settings.triangles) dismantle::run(settings, triangles);
   return 0;
 }

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step at, past and through thin walls, of which the exact time of contact is known: what our continuous test says,
-// and what FCL's two say, from the identity and from start poses, near the origin and far from it.
+// Single steps at, past and through thin walls whose exact time of contact is known: the verdicts of our continuous
+// test and of FCL's two, from the identity and from start poses, near the origin and far from it.
 //   bench_tunnelling
-// A row a step and distance from the origin, tab-separated, then how many of each verdict a test has. A verdict is
-// right where the step is free and is found free, or is stopped within 0.01 mm of the exact contact; else it is missed,
-// late (beyond the contact), early (before it), at the start (stopped at once), or free though it was none.
-#include "dismantle/collision/certificate_engine.h"
+// Two tables, tab-separated: one row a step, distance from the origin and kind of start pose; then, after an empty
+// line, one row a method with the number of its verdicts of each kind.
+#include "dismantle/certificates/certificate_engine.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/tunnelling_scenes.h"
 #ifdef DISMANTLE_WITH_FCL
 #include "bench/fcl_baseline.h"
 #endif
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -23,20 +22,20 @@ namespace dismantle {
 namespace {
 
 constexpr double kTolerance = 1e-4;  // of our test: a tenth of the thinnest wall [mm]
-constexpr double kRight = 0.01;      // how far from the exact contact a right answer may be [mm]
+constexpr double kRight = 0.01;      // how far from the exact contact a right verdict may stop [mm]
 
-/// What a test says of a step: whether it is free, and else when it stops.
-struct Answer {
+/// Result of a continuous test: free, or the time of the stop.
+struct StepTest {
   bool free = true;
   double toi = 1;
 };
 
 struct Method {
   std::string name;
-  std::function<Answer(const scenes::OneStep&)> ask;
+  std::function<StepTest(const scenes::OneStep&)> test;
 };
 
-Answer ours(const scenes::OneStep& step) {
+StepTest ours(const scenes::OneStep& step) {
   const Assembly assembly = scenes::assembly_of(step);
   CertificateEngine engine(assembly, PairStates{kTolerance, {}});
   const Pose poses[] = {Pose{}, step.start};
@@ -52,8 +51,8 @@ std::vector<Method> methods() {
 #ifdef DISMANTLE_WITH_FCL
   const auto fcl = [](FclSolver solver) {
     return [solver](const scenes::OneStep& step) {
-      const FirstTouch touch = continuous_fcl(step.fixed, step.moving, step.start, step.target, solver);
-      return Answer{touch.free, touch.toi};
+      const FclMotionResult result = continuous_fcl(step.fixed, step.moving, step.start, step.target, solver);
+      return StepTest{result.free, result.toi};
     };
   };
   all.push_back({"fcl naive", fcl(FclSolver::Naive)});
@@ -62,49 +61,66 @@ std::vector<Method> methods() {
   return all;
 }
 
-/// How far the furthest corner goes from one time to another, straight [mm].
+/// The largest distance between a vertex at one time and the same vertex at another [mm].
 double distance_between(const scenes::OneStep& step, double from, double to) {
   const RigidTransform a = transform_from_pose(pose_between(step.start, step.target, from));
   const RigidTransform b = transform_from_pose(pose_between(step.start, step.target, to));
-  double most = 0;
-  for (const Vec3& p : step.moving.vertices) most = std::max(most, length(a * p - b * p));
-  return most;
+  double distance = 0;
+  for (const Vec3& p : step.moving.vertices) distance = std::max(distance, length(a * p - b * p));
+  return distance;
 }
 
-std::string verdict(const scenes::OneStep& step, const Answer& answer) {
-  if (step.free) return answer.free ? "right" : answer.toi <= 0 ? "stopped at the start" : "stopped";
-  if (answer.free) return "missed";
-  if (distance_between(step, step.toi, answer.toi) <= kRight) return "right";
-  if (answer.toi > step.toi) return "late";
-  return answer.toi <= 0 ? "stopped at the start" : "early";
+enum Verdict : std::size_t {
+  Right,              ///< Free and found free, or stopped within kRight of the exact contact.
+  Missed,             ///< Found free though it is not.
+  Late,               ///< Stopped beyond the contact.
+  Early,              ///< Stopped before the contact.
+  StoppedAtStart,     ///< Stopped at once, free or not.
+  StoppedThoughFree,  ///< Stopped later though it is free.
+  kVerdictCount
+};
+
+constexpr const char* kVerdictNames[kVerdictCount] = {"right", "missed",           "late",
+                                                      "early", "stopped_at_start", "stopped_though_free"};
+
+Verdict verdict(const scenes::OneStep& step, const StepTest& result) {
+  if (step.free && result.free) return Right;
+  if (step.free) return result.toi <= 0 ? StoppedAtStart : StoppedThoughFree;
+  if (result.free) return Missed;
+  if (distance_between(step, step.toi, result.toi) <= kRight) return Right;
+  if (result.toi > step.toi) return Late;
+  return result.toi <= 0 ? StoppedAtStart : Early;
 }
 
 void run() {
-  const std::vector<Method> tests = methods();
-  std::vector<std::map<std::string, int>> counts(tests.size());
-  std::printf("step\tfrom the origin [mm]\tstart\texact");
-  for (const Method& method : tests) std::printf("\t%s", method.name.c_str());
+  const std::vector<Method> all = methods();
+  std::vector<std::array<int, kVerdictCount>> counts(all.size());
+  std::printf("step\torigin_distance_mm\tstart\texact_toi");
+  for (const Method& method : all) std::printf("\t%s", method.name.c_str());
   std::printf("\n");
   std::mt19937_64 random(20261122);
   for (const double offset : {0.0, 1e3, 1e4, 1e5})
     for (const scenes::OneStep& suite : scenes::tunnelling_suite())
-      for (const bool baked : {false, true}) {
-        const Pose place{{offset, -0.5 * offset, 0.25 * offset}, {}};
-        scenes::OneStep step = scenes::placed(suite, place);
-        if (baked) step = scenes::started_from(step, scenes::random_pose(random, 20, 3));
-        std::printf("%s\t%g\t%s\t%s", step.name.c_str(), offset, baked ? "a pose" : "identity",
+      for (const bool from_pose : {false, true}) {
+        const Pose world_from_suite{{offset, -0.5 * offset, 0.25 * offset}, {}};
+        scenes::OneStep step = scenes::placed(suite, world_from_suite);
+        if (from_pose) step = scenes::started_from(step, scenes::random_pose(random, 20, 3));
+        std::printf("%s\t%g\t%s\t%s", step.name.c_str(), offset, from_pose ? "a pose" : "identity",
                     step.free ? "free" : std::to_string(step.toi).c_str());
-        for (std::size_t m = 0; m < tests.size(); ++m) {
-          const std::string found = verdict(step, tests[m].ask(step));
-          std::printf("\t%s", found.c_str());
+        for (std::size_t m = 0; m < all.size(); ++m) {
+          const Verdict found = verdict(step, all[m].test(step));
+          std::printf("\t%s", kVerdictNames[found]);
           ++counts[m][found];
         }
         std::printf("\n");
         std::fflush(stdout);
       }
-  for (std::size_t m = 0; m < tests.size(); ++m) {
-    std::printf("%s:", tests[m].name.c_str());
-    for (const auto& [found, count] : counts[m]) std::printf(" %d %s;", count, found.c_str());
+  std::printf("\nmethod");
+  for (const char* name : kVerdictNames) std::printf("\t%s", name);
+  std::printf("\n");
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    std::printf("%s", all[m].name.c_str());
+    for (const int count : counts[m]) std::printf("\t%d", count);
     std::printf("\n");
   }
 }

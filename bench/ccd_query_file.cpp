@@ -56,7 +56,7 @@ Result<CcdQueryFile> read_ccdq(const std::filesystem::path& file) {
   std::error_code no_size;
   const std::uintmax_t size = std::filesystem::file_size(file, no_size);
   std::ifstream in(file, std::ios::binary);
-  if (no_size || !in) return unreadable(file, "it is missing or no readable file", "check the name");
+  if (no_size || !in) return unreadable(file, "it is missing or not readable", "check the name");
   Header header;
   if (size < kHeaderBytes || !in.read(reinterpret_cast<char*>(&header), kHeaderBytes) ||
       std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
@@ -77,14 +77,14 @@ Result<CcdQueryFile> read_ccdq(const std::filesystem::path& file) {
   for (std::uint32_t i = 0; i < header.count; ++i) {
     Points points;
     if (!in.read(reinterpret_cast<char*>(&points), kQueryBytes))
-      return unreadable(file, "reading failed on the way", "check the disk");
+      return unreadable(file, "reading stopped before the end", "check the disk");
     if (!all_finite(points))
       return unreadable(file, "query " + std::to_string(i) + " has a coordinate that is not finite", "remove it");
     add_query(queries, points, header.type == 0);
   }
   queries.truth.resize(header.count);
   if (!in.read(reinterpret_cast<char*>(queries.truth.data()), header.count))
-    return unreadable(file, "reading failed on the way", "check the disk");
+    return unreadable(file, "reading stopped before the end", "check the disk");
   for (std::uint32_t i = 0; i < header.count; ++i)
     if (queries.truth[i] > CcdTruth::Unknown)
       return unreadable(file, "query " + std::to_string(i) + " has a truth that is not 0, 1 or 2", "correct it");

@@ -4,6 +4,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+
 #include <algorithm>
 
 namespace dismantle {
@@ -33,43 +34,43 @@ fcl::Transform3d make_fcl_transform(const Pose& pose) {
 
 }  // namespace
 
-class DiscreteFcl::Body {
+class DiscreteFcl::Impl {
  public:
   std::vector<std::shared_ptr<FclModel>> models;  // assembled
 };
 
-DiscreteFcl::DiscreteFcl(const Assembly& assembly) : body_(std::make_unique<Body>()) {
-  for (const Component& c : assembly.components) body_->models.push_back(make_fcl_model(assembled_mesh(c)));
+DiscreteFcl::DiscreteFcl(const Assembly& assembly) : impl_(std::make_unique<Impl>()) {
+  for (const Component& c : assembly.components) impl_->models.push_back(make_fcl_model(assembled_mesh(c)));
 }
 
 DiscreteFcl::~DiscreteFcl() = default;
 
-int DiscreteFcl::colliding_pairs(Span<const ComponentId> in_hand, Span<const Pose> poses) const {
+int DiscreteFcl::colliding_pairs(Span<const ComponentId> moving_set, Span<const Pose> poses) const {
   int pairs = 0;
   const fcl::CollisionRequestd request;
-  for (const ComponentId hand : in_hand) {
-    const fcl::Transform3d moving = make_fcl_transform(poses[hand.value]);
+  for (const ComponentId moving : moving_set) {
+    const fcl::Transform3d world_from_moving = make_fcl_transform(poses[moving.value]);
     for (std::uint32_t c = 0; c < poses.size(); ++c) {
-      if (std::find(in_hand.begin(), in_hand.end(), ComponentId(c)) != in_hand.end()) continue;
+      if (std::find(moving_set.begin(), moving_set.end(), ComponentId(c)) != moving_set.end()) continue;
       fcl::CollisionResultd result;
-      fcl::collide(body_->models[hand.value].get(), moving, body_->models[c].get(), make_fcl_transform(poses[c]),
-                   request, result);
+      fcl::collide(impl_->models[moving.value].get(), world_from_moving, impl_->models[c].get(),
+                   make_fcl_transform(poses[c]), request, result);
       pairs += result.isCollision() ? 1 : 0;
     }
   }
   return pairs;
 }
 
-FirstTouch continuous_fcl(const TriangleMesh& fixed, const TriangleMesh& moving, const Pose& start, const Pose& end,
-                          FclSolver solver) {
-  const auto standing = make_fcl_model(fixed), going = make_fcl_model(moving);
-  const fcl::Transform3d still = fcl::Transform3d::Identity();
+FclMotionResult continuous_fcl(const TriangleMesh& fixed, const TriangleMesh& moving, const Pose& start,
+                               const Pose& end, FclSolver solver) {
+  const auto fixed_model = make_fcl_model(fixed), moving_model = make_fcl_model(moving);
+  const fcl::Transform3d identity = fcl::Transform3d::Identity();
   fcl::ContinuousCollisionRequestd request;
   request.ccd_motion_type = fcl::CCDM_SCREW;
   request.ccd_solver_type = solver == FclSolver::Naive ? fcl::CCDC_NAIVE : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
   fcl::ContinuousCollisionResultd result;
-  fcl::continuousCollide(going.get(), make_fcl_transform(start), make_fcl_transform(end), standing.get(), still, still,
-                         request, result);
+  fcl::continuousCollide(moving_model.get(), make_fcl_transform(start), make_fcl_transform(end), fixed_model.get(),
+                         identity, identity, request, result);
   return {!result.is_collide, result.is_collide ? result.time_of_contact : 1};
 }
 

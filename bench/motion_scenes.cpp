@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/motion_scenes.h"
 
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/motion_file.h"
+#include "dismantle/documents/motion_file.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
 #include "tests/support/large_scenes.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTolerance = 0.01;  // of the generated scenes [mm]
 
-/// 0, 1, ... `period`, and back again.
+/// A triangle wave: 0, 1, ... `period`, and back to 0.
 int to_and_fro(int step, int period) {
   const int phase = step % (2 * period);
   return phase <= period ? phase : 2 * period - phase;
@@ -33,9 +33,9 @@ BenchScene generated(const std::string& name, scenes::SlideScene scene, int step
   return bench;
 }
 
-/// Forward by 0.1 mm a step, to and fro across by a tenth of `play`, turning a little.
-Pose sliding(int step, double play) {
-  const double across = 0.1 * play * ((step * 7) % 5 - 2) / 2;
+/// The target of a step: forward by 0.1 mm a step, to and fro across by a tenth of `clearance`, turning a little.
+Pose sliding(int step, double clearance) {
+  const double across = 0.1 * clearance * ((step * 7) % 5 - 2) / 2;
   return {{across, 0.5 * across, 0.1 * to_and_fro(step, 200)}, quat_about({0, 0, 1}, 1e-4 * ((step * 3) % 5 - 2))};
 }
 
@@ -52,7 +52,7 @@ BenchScene shaft(const std::string& name, const BenchSize& size, double clearanc
   return bench;
 }
 
-/// The trembling hand on a shaft that fills its hole.
+/// A shaft that fills its hole, moved by a trembling hand.
 BenchScene shaft_touching(const std::string& name, const BenchSize& size) {
   BenchScene bench = shaft(name, size, 0);
   const scenes::SlideScene hand_scene = scenes::shaft_in_hole(1000, 0);
@@ -98,19 +98,19 @@ Result<BenchScene> sample(const std::string& name, const std::string& folder, bo
     bench.states = *states;
     const Result<Motion> motion = read_motion(folder + "/" + name + ".motion.json");
     if (!motion) return motion.error();
-    for (const MotionMove& asked : motion->moves) {
+    for (const MotionMove& recorded : motion->moves) {
       BenchMove move;
-      for (const std::string& component : asked.components)
+      for (const std::string& component : recorded.components)
         if (const std::optional<ComponentId> id = assembly->find(component)) move.components.push_back(*id);
-      for (const Frame& target : asked.targets) move.targets.push_back(target.pose);
+      for (const Frame& target : recorded.targets) move.targets.push_back(target.pose);
       bench.moves.push_back(std::move(move));
     }
   }
   return bench;
 }
 
-/// The first place out of a fixed sequence at which a box of that half size is clear of every triangle's box.
-Vec3 free_place(const Assembly& assembly, double half) {
+/// The first point of a fixed sequence at which a box of that half size overlaps no triangle's box.
+Vec3 free_point(const Assembly& assembly, double half) {
   std::vector<Aabb> boxes;
   for (const Component& c : assembly.components) {
     const TriangleMesh mesh = assembled_mesh(c);
@@ -124,29 +124,29 @@ Vec3 free_place(const Assembly& assembly, double half) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 1000; ++trial) {
     const Vec3 offset = scenes::random_vector(random, 0.5), size = all.size();
-    const Vec3 place = all.center() + Vec3{offset.x * size.x, offset.y * size.y, offset.z * size.z};
-    const Aabb box = inflated(Aabb{place, place}, half);
-    if (std::none_of(boxes.begin(), boxes.end(), [&](const Aabb& b) { return overlaps(b, box); })) return place;
+    const Vec3 point = all.center() + Vec3{offset.x * size.x, offset.y * size.y, offset.z * size.z};
+    const Aabb box = inflated(Aabb{point, point}, half);
+    if (std::none_of(boxes.begin(), boxes.end(), [&](const Aabb& b) { return overlaps(b, box); })) return point;
   }
   return all.upper + Vec3{half, half, half};
 }
 
-/// A little cube in the middle of the lathe that touches nothing and trembles.
+/// A small trembling cube inside the lathe that touches nothing.
 Result<BenchScene> loose_in_lathe(const std::string& name, const BenchSize& size, const std::string& folder) {
   Result<BenchScene> made = sample("lathe", folder, false);
   if (!made) return made;
   BenchScene& bench = *made;
   bench.name = name;
   const double half = 2;
-  const Vec3 place = free_place(bench.assembly, 3 * half), h{half, half, half};
+  const Vec3 center = free_point(bench.assembly, 3 * half), h{half, half, half};
   const auto id = ComponentId(static_cast<std::uint32_t>(bench.assembly.components.size()));
-  bench.assembly.components.push_back(scenes::component("loose", scenes::box(place - h, place + h)));
+  bench.assembly.components.push_back(scenes::component("loose", scenes::box(center - h, center + h)));
   bench.states.tolerance = kTolerance;
   std::mt19937_64 random(2);
   BenchMove move{{id}, {}};
   for (int k = 0; k <= size.steps; ++k) {
     const Pose shake = scenes::random_pose(random, 0.3, 0.06);
-    move.targets.push_back(Pose{place, {}} * shake * Pose{-place, {}});
+    move.targets.push_back(Pose{center, {}} * shake * Pose{-center, {}});
   }
   bench.moves.push_back(std::move(move));
   return made;
@@ -182,7 +182,8 @@ Result<std::vector<BenchScene>> make_bench_scenes(const std::string& name, const
     }
   }
   if (made.empty())
-    return Error{ErrorKind::Usage, "there is no scene '" + name + "' (it is not in the list); see --help"};
+    return Error{ErrorKind::Usage,
+                 "there is no scene '" + name + "' (it is not in the list); see the usage for their names"};
   return made;
 }
 

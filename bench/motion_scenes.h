@@ -11,31 +11,33 @@
 
 namespace dismantle {
 
-/// Components that are taken in hand, and where the hand wants them step by step.
+/// A moving set and its targets, one a step.
 struct BenchMove {
-  std::vector<ComponentId> components;
-  std::vector<Pose> targets;
+  std::vector<ComponentId> components;  ///< Move as one rigid body.
+  std::vector<Pose> targets;            ///< Of all of them, relative to the assembled state.
 };
 
-/// What is measured: an assembly, how its pairs stand, and a motion.
+/// An assembly with a motion to measure.
 struct BenchScene {
   std::string name;
   Assembly assembly;
-  PairStates states;
-  std::vector<BenchMove> moves;
+  PairStates states;             ///< Of its pairs in the assembled state, with the tolerance.
+  std::vector<BenchMove> moves;  ///< One after another.
 };
 
-/// How large and how long.
+/// Size of the scenes that are generated.
 struct BenchSize {
-  std::size_t triangles = 120'000;  ///< Of generated scenes.
-  int steps = 200;                  ///< Of generated scenes, and of the loose component.
+  std::size_t triangles = 120'000;  ///< Roughly, of the whole assembly.
+  int steps = 200;                  ///< Beyond the first target; `loose_in_lathe` has them too.
 };
 
-/// The names that make_bench_scenes knows, in the order of the table.
+/// The names that make_bench_scenes knows.
 std::vector<std::string> bench_scene_names();
 
-/// The scenes of that name: one; for "samples", the four bundled assemblies with their bundled motions, which can also
-/// be had each by its name. Files are read from `samples_folder`. Errors: those of reading; Usage for an unknown name.
+/// Makes the scene of that name; for "samples", the four bundled assemblies with their bundled motions, each of which
+/// has its own name too.
+/// @param samples_folder with the STEP files and motions of the samples
+/// Errors: those of reading; Usage for an unknown name.
 Result<std::vector<BenchScene>> make_bench_scenes(const std::string& name, const BenchSize& size,
                                                   const std::string& samples_folder);
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// soak_triangle_pairs [COUNT [SEED]]: holds the discrete triangle pair tests against exact integer arithmetic on COUNT
-// random and nearly or exactly degenerate pairs (default 100000, seed 1), the same number of each family. Prints a line
-// a family and a total (tab-separated, header first) and the first wrong pairs in hexadecimal; exit 1 where anything is
-// wrong.
+// Exactness of the discrete triangle pair tests: random and nearly or exactly degenerate pairs against exact integer
+// arithmetic.
+//   soak_triangle_pairs [COUNT [SEED]]
+// COUNT pairs (default 100000), the same number of each family. One row a family and one "total", tab-separated; before
+// them, in lines that begin with "#", the first wrong pairs in hexadecimal. Exit code 1 where anything is wrong.
+#include "bench/command_line.h"
 #include "tests/support/check_triangle_pair.h"
 
 #include <cstdio>
-#include <cstdlib>
 
 namespace {
 
@@ -33,17 +34,16 @@ void show(const char* family, const TrianglePair& pair) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const long long count = argc > 1 ? std::atoll(argv[1]) : 100000;
-  const unsigned long long seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
-  if (count <= 0 || argc > 3) {
-    std::fprintf(stderr, "usage: soak_triangle_pairs [COUNT [SEED]]\n");
-    return 2;
-  }
+  bench::CommandLine line("soak_triangle_pairs [COUNT [SEED]]");
+  std::vector<std::uint64_t> numbers = {100'000};
+  line.numbers(numbers);
+  if (!line.parse(argc, argv) || (numbers.size() > 2 && !line.wrong())) return bench::kExitUsage;
+  const std::uint64_t count = numbers[0], seed = numbers.size() > 1 ? numbers[1] : 1;
   constexpr int kKinds = static_cast<int>(PairKind::kCount);
   TrianglePairs pairs(seed);
   PairCheck per_kind[kKinds], total;
   int shown = 0;
-  for (long long i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < count; ++i) {
     const int kind = static_cast<int>(i % kKinds);
     const TrianglePair pair = pairs.next(static_cast<PairKind>(kind));
     const PairCheck check = check_pair(pair);
@@ -51,14 +51,14 @@ int main(int argc, char** argv) {
     if (!check.passed() && shown++ < kShownPairs) show(name_of(static_cast<PairKind>(kind)), pair);
   }
 
-  std::printf("# seed %llu\n", seed);
+  std::printf("# seed %llu\n", static_cast<unsigned long long>(seed));
   std::printf(
-      "family\tpairs\tmeeting\tsigns\twrong_signs\twrong_intersections\twrong_depths\twrong_distances\t"
-      "worst_depth_error\tworst_distance_error\n");
+      "family\tpairs\tintersecting\tsigns\twrong_signs\twrong_intersections\twrong_depths\twrong_distances\t"
+      "max_relative_depth_error\tmax_relative_distance_error\n");
   for (int kind = 0; kind < kKinds; ++kind) {
     print(name_of(static_cast<PairKind>(kind)), per_kind[kind]);
     total.add(per_kind[kind]);
   }
   print("total", total);
-  return total.passed() ? 0 : 1;
+  return total.passed() ? 0 : bench::kExitFailed;
 }

@@ -13,11 +13,13 @@ endif()
 # Floating-point results must not depend on the compiler's mood: no contraction, never fast-math.
 add_library(dismantle_build_settings INTERFACE)
 target_compile_features(dismantle_build_settings INTERFACE cxx_std_20)
-# Warnings are ours to mend, not for those who use an installed dismantle.
+# Warnings are ours to mend, not for those who use an installed dismantle. -Wrestrict of GCC 12 is wrong about strings at -O3
+# (https://gcc.gnu.org/bugzilla/show_bug.cgi?id=105329).
 target_compile_options(dismantle_build_settings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
   $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false$<SEMICOLON>-Xcompiler=-ffp-contract=off>
-  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>>)
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall$<SEMICOLON>-Wextra$<SEMICOLON>-Wshadow$<SEMICOLON>-Wno-unknown-pragmas>>
+  $<BUILD_INTERFACE:$<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>,$<CONFIG:Release>>:-Wno-restrict>>)
 target_compile_definitions(dismantle_build_settings INTERFACE
   $<$<BOOL:${DISMANTLE_CONTRACTS}>:DISMANTLE_CONTRACTS=1>)
 if(DISMANTLE_WERROR)
@@ -32,12 +34,16 @@ install(TARGETS dismantle_build_settings EXPORT dismantleTargets)
 
 # dismantle_component(NAME
 #   SOURCES a.cpp ...           absent for a header-only component
+#   PRIVATE_HEADERS a.h ...     headers that are not installed: those that show a private library
 #   DEPENDS core math ...       other components: the only ones this one may include (tools/check_layers)
 #   LIBRARIES ...               third-party targets that users of this component also need
-#   PRIVATE_LIBRARIES ...)      third-party targets that only this component's .cpp files see
+#   PRIVATE_LIBRARIES ...)      third-party targets that only this component's .cpp files and private headers see
+# All other headers below the folder are installed: they are the target's header set.
 function(dismantle_component name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE_HEADERS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(target dismantle_${name})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "*.h")
+  list(REMOVE_ITEM headers ${arg_PRIVATE_HEADERS})
   if(arg_SOURCES)
     add_library(${target} STATIC ${arg_SOURCES})
     set(scope PUBLIC)
@@ -54,8 +60,9 @@ function(dismantle_component name)
     target_link_libraries(${target} ${scope} dismantle_${dep})
   endforeach()
   target_link_libraries(${target} ${scope} ${arg_LIBRARIES})
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/src" FILES ${headers})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS ${target} EXPORT dismantleTargets ARCHIVE DESTINATION lib)
+  install(TARGETS ${target} EXPORT dismantleTargets ARCHIVE DESTINATION lib FILE_SET HEADERS DESTINATION include)
   set_property(GLOBAL APPEND PROPERTY DISMANTLE_COMPONENTS ${name})
 endfunction()
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# install() and find_package(dismantle): headers, the component libraries, and one aggregate target dismantle::dismantle.
+# install() and find_package(dismantle): the component libraries with their headers (dismantle_component), and one aggregate target
+# dismantle::dismantle.
 include(CMakePackageConfigHelpers)
 
 get_property(components GLOBAL PROPERTY DISMANTLE_COMPONENTS)
@@ -9,7 +10,6 @@ foreach(component IN LISTS components)
   target_link_libraries(dismantle INTERFACE dismantle_${component})
 endforeach()
 install(TARGETS dismantle EXPORT dismantleTargets)
-install(DIRECTORY src/dismantle DESTINATION include FILES_MATCHING PATTERN "*.h")
 install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION lib/cmake/dismantle)
 configure_package_config_file(cmake/dismantleConfig.cmake.in "${PROJECT_BINARY_DIR}/dismantleConfig.cmake"
   INSTALL_DESTINATION lib/cmake/dismantle)

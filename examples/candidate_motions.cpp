@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A batch of candidate motions from one state, as a planner asks for: which ways may this component leave?
 //   candidate_motions ASSEMBLY COMPONENT [MM]     how far each candidate goes; without: its own size
-#include "dismantle/collision/certificate_engine.h"
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/load_assembly.h"
+#include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -2,9 +2,9 @@
 // The loop of a host program (a viewer, a haptic device, a game): a component is taken in hand and follows the hand's
 // targets, sliding along what is in its way.
 //   host_loop ASSEMBLY COMPONENT [X Y Z]     the direction of the pull; without: upwards
-#include "dismantle/collision/certificate_engine.h"
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/load_assembly.h"
+#include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -3,9 +3,9 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/core/result.h"
-#include "dismantle/io/assembly_builder.h"
-#include "dismantle/io/import_options.h"
-#include "dismantle/io/mesh_source.h"
+#include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/import_options.h"
+#include "dismantle/formats/import/mesh_source.h"
 
 #include <cstddef>
 #include <cstdint>

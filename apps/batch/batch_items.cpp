@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/batch/batch_items.h"
 
-#include "dismantle/io/read_mesh.h"
-#include "dismantle/io/sha256.h"
-#include "dismantle/io/text_scan.h"
+#include "dismantle/files/sha256.h"
+#include "dismantle/files/text_scan.h"
+#include "dismantle/formats/mesh/read_mesh.h"
 
 #include <fnmatch.h>
 

@@ -4,7 +4,7 @@
 #include "apps/batch/batch_result.h"
 #include "apps/batch/claim_folder.h"
 #include "apps/batch/stop_signal.h"
-#include "dismantle/io/isolated_process.h"
+#include "dismantle/files/isolated_process.h"
 
 #include <unistd.h>
 

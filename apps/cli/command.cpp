@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/command.h"
 
-#include "dismantle/io/load_assembly.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 
 #include <unistd.h>

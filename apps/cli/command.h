@@ -4,11 +4,11 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/assembly/path.h"
-#include "dismantle/collision/choose_streams_backend.h"
-#include "dismantle/collision/classify_pairs.h"
 #include "dismantle/core/result.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/exec/executor.h"
-#include "dismantle/io/import_options.h"
+#include "dismantle/formats/import/import_options.h"
+#include "dismantle/streams/choose_streams_backend.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,7 +19,7 @@
 /// add_<name>_command(app, exit_code) that declares its options and sets the callback; main.cpp lists them.
 namespace dismantle::cli {
 
-/// FORMATS, "Command line".
+/// docs/cli.md.
 enum class ExitCode { Done = 0, No = 1, Usage = 2, Unreadable = 3, Failed = 4 };
 
 /// The options that every command knows.

@@ -2,7 +2,7 @@
 #include "apps/cli/commands.h"
 
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
 
 #include <fmt/format.h>
 

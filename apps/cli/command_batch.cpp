@@ -4,9 +4,9 @@
 #include "apps/batch/stop_signal.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/plan_text.h"
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/check_report.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/check_report.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/check_report.h"
+#include "dismantle/documents/check_report.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/report/html_check_report.h"
 
 #include <fmt/format.h>

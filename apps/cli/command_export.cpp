@@ -3,14 +3,14 @@
 #include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
 
+#include "dismantle/documents/path_file.h"
 #include "dismantle/export/exported_file.h"
 #include "dismantle/export/step_scene.h"
 #include "dismantle/export/swept_volume.h"
+#include "dismantle/files/atomic_file.h"
+#include "dismantle/formats/mesh/write_mesh.h"
 #include "dismantle/instructions/instructions_page.h"
 #include "dismantle/instructions/instructions_pdf.h"
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/path_file.h"
-#include "dismantle/io/write_mesh.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/collision/choose_certificate_device.h"
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/motion_file.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/certificates/choose_certificate_device.h"
+#include "dismantle/documents/motion_file.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/session/play_motion.h"
+#include "dismantle/streams/streams_motion_engine.h"
 
 #include <fmt/format.h>
 

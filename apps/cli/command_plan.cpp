@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
 #include "dismantle/instructions/precedence_files.h"
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/path_file.h"
 #include "dismantle/planner/plan_path.h"
 #include "dismantle/planner/step_preference.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "samples/bundled/bundled_sample.h"
 
 #include <fmt/format.h>

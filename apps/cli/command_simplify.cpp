@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/io/write_assembly.h"
+#include "dismantle/loading/write_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/server/server.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
 
 #include <fmt/format.h>
 #include <spawn.h>

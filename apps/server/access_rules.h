@@ -14,8 +14,8 @@ std::string random_token();
 /// Whether the two are equal, in a time that depends on their lengths only.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// Who may talk to the server (UI.md, "Server"): a web page of another origin cannot send our Host, our Origin and the
-/// token of this run.
+/// Who may talk to the server (docs/wire.md, "Doors"): a web page of another origin cannot send our Host, our Origin
+/// and the token of this run.
 class AccessRules {
  public:
   AccessRules(std::uint16_t port, std::string token);

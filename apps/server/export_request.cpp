@@ -2,7 +2,7 @@
 #include "apps/server/export_request.h"
 
 #include "apps/server/viewer_files.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
 
 namespace dismantle::server {
 

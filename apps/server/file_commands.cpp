@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/file_commands.h"
 
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "samples/bundled/bundled_sample.h"
 
 #include <stdlib.h>

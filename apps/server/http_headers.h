@@ -9,7 +9,7 @@
 
 namespace dismantle::server {
 
-/// The headers that every answer has, the socket's handshake too (UI.md, "Server").
+/// The headers that every answer has, the socket's handshake too (docs/wire.md, "Doors").
 inline void add_safety_headers(boost::beast::http::fields& headers) {
   headers.set("Content-Security-Policy", AccessRules::content_security_policy().data());
   headers.set("X-Content-Type-Options", "nosniff");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/journal_store.h"
 
-#include "dismantle/io/read_file.h"
+#include "dismantle/files/read_file.h"
 
 namespace dismantle::server {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/model_loader.h"
 
-#include "dismantle/io/load_isolated.h"
-#include "dismantle/io/write_glb.h"
+#include "dismantle/formats/gltf/write_glb.h"
+#include "dismantle/loading/load_isolated.h"
 #include "dismantle/simplify/simplify_assembly.h"
 
 namespace dismantle::server {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/server/model.h"
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/import_options.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/formats/import/import_options.h"
 
 #include <filesystem>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/recent_files.h"
 
-#include "dismantle/io/atomic_file.h"
-#include "dismantle/io/read_file.h"
+#include "dismantle/files/atomic_file.h"
+#include "dismantle/files/read_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/roots.h"
 
-#include "dismantle/io/text_scan.h"
+#include "dismantle/files/text_scan.h"
 
 #include <algorithm>
 #include <array>

@@ -23,7 +23,7 @@ struct ServerOptions {
   std::chrono::milliseconds idle_time{20'000};
 };
 
-/// The viewer's server (UI.md, "Server"; docs/wire.md): on the loopback addresses only, with a token that is new each
+/// The viewer's server (docs/wire.md): on the loopback addresses only, with a token that is new each
 /// time. It runs on threads of its own until it is stopped.
 class Server {
  public:

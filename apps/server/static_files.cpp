@@ -2,7 +2,7 @@
 #include "apps/server/static_files.h"
 
 #include "apps/server/roots.h"
-#include "dismantle/io/read_file.h"
+#include "dismantle/files/read_file.h"
 #include "web/web_files.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 #include "apps/server/wire.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/io/byte_order.h"
+#include "dismantle/files/byte_order.h"
 
 #include <cmath>
 

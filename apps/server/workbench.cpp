@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/workbench.h"
 
-#include "dismantle/io/path_file.h"
-#include "dismantle/io/read_file.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/files/read_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -63,7 +63,7 @@ class Workbench {
 
   /// Between two steps of what goes on.
   std::chrono::microseconds step_interval() const;
-  /// The recording as FORMATS has it and a name for its file; none where nothing is open.
+  /// The recording as docs/formats.md has it and a name for its file; none where nothing is open.
   std::optional<std::string> recording_text() const;
   std::string recording_name() const;
   /// Has the next take_state() give one even where nothing has changed: for clients that are new.

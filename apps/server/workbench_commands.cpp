@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/workbench.h"
 
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <algorithm>

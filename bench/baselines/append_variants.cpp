@@ -7,15 +7,15 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kNodesPerRange = 2048;  // as Front has it: the group of the local lock
+constexpr std::size_t kNodesPerRange = 2048;  // as in Front: the group of the local lock
 constexpr std::size_t kPendingPerRange = 4;
 
 using Stream = FrontAppender::Stream;
 constexpr std::size_t kStreamCount = FrontAppender::kStreamCount;
 using Views = std::array<AppendView<std::uint64_t>, kStreamCount>;
-using Places = std::array<std::size_t, kStreamCount>;
+using Offsets = std::array<std::size_t, kStreamCount>;
 
-/// The kernel's finds by stream, as `Derived::put(stream, value)` takes them.
+/// The sink of the kernel: passes each value on to `Derived::put(stream, value)`.
 template <class Derived>
 class StreamSink {
  public:
@@ -51,22 +51,22 @@ class LocalLockSink : public StreamSink<LocalLockSink> {
 
 class CountSink : public StreamSink<CountSink> {
  public:
-  explicit CountSink(Places& counts) : counts_(counts) {}
+  explicit CountSink(Offsets& counts) : counts_(counts) {}
   void put(Stream stream, std::uint64_t) { ++counts_[stream]; }
 
  private:
-  Places& counts_;
+  Offsets& counts_;
 };
 
 class EmitSink : public StreamSink<EmitSink> {
  public:
-  EmitSink(std::array<std::vector<std::uint64_t>, kStreamCount>& streams, const Places& places)
-      : streams_(streams), places_(places) {}
-  void put(Stream stream, std::uint64_t value) { streams_[stream][places_[stream]++] = value; }
+  EmitSink(std::array<std::vector<std::uint64_t>, kStreamCount>& streams, const Offsets& offsets)
+      : streams_(streams), offsets_(offsets) {}
+  void put(Stream stream, std::uint64_t value) { streams_[stream][offsets_[stream]++] = value; }
 
  private:
   std::array<std::vector<std::uint64_t>, kStreamCount>& streams_;
-  Places places_;
+  Offsets offsets_;
 };
 
 }  // namespace
@@ -137,18 +137,18 @@ void FrontAppender::append(std::size_t count, std::size_t items_per_range, const
 template <class Item>
 void FrontAppender::count_scan_emit(std::size_t count, std::size_t items_per_range, const Item& item,
                                     const Executor& executor) {
-  std::vector<Places> places((count + items_per_range - 1) / items_per_range);
+  std::vector<Offsets> offsets((count + items_per_range - 1) / items_per_range);
   executor.for_each_range(count, items_per_range, [&](std::size_t begin, std::size_t end) {
-    CountSink sink(places[begin / items_per_range]);
+    CountSink sink(offsets[begin / items_per_range]);
     for (std::size_t i = begin; i < end; ++i) item(i, sink);
   });
   for (std::size_t s = 0; s < kStreamCount; ++s) {
     std::size_t next = streams_[s].size();
-    for (Places& range : places) next += std::exchange(range[s], next);
+    for (Offsets& range : offsets) next += std::exchange(range[s], next);
     streams_[s].resize(next);
   }
   executor.for_each_range(count, items_per_range, [&](std::size_t begin, std::size_t end) {
-    EmitSink sink(streams_, places[begin / items_per_range]);
+    EmitSink sink(streams_, offsets[begin / items_per_range]);
     for (std::size_t i = begin; i < end; ++i) item(i, sink);
   });
 }

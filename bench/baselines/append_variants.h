@@ -3,7 +3,7 @@
 
 #include "dismantle/exec/append_buffer.h"
 #include "dismantle/exec/executor.h"
-#include "dismantle/front/front_kernel.h"
+#include "dismantle/streams/bvtt_front_kernel.h"
 
 #include <array>
 #include <cstdint>
@@ -12,33 +12,34 @@
 
 namespace dismantle {
 
-/// How threads that find things at the same time put them into one stream.
+/// Ways in which concurrent threads append values to one stream.
 enum class AppendVariant {
-  GlobalLock,     ///< One atomic addition a value, on the stream's own counter (Du et al. 2015, section 4.3).
-  LocalLock,      ///< Into a buffer of the group of items first, which goes to the stream when it is full, with one
-                  ///< atomic addition (Tang, Manocha, Lin, Tong 2011). What `streams` does.
-  CountScanEmit,  ///< Everything is found twice: counted, and written where a prefix sum of the counts says.
+  GlobalLock,     ///< One atomic addition for each value, on the stream's own counter (Du et al. 2015, section 4.3).
+  LocalLock,      ///< Into a buffer local to a group of items, which is flushed to the stream with one atomic addition
+                  ///< when it is full (Tang, Manocha, Lin, Tong 2011). Method `streams` does this.
+  CountScanEmit,  ///< Two passes: the first counts, the second writes to the offsets of a prefix sum of the counts.
 };
 
+/// All variants.
 inline constexpr AppendVariant kAppendVariants[] = {AppendVariant::GlobalLock, AppendVariant::LocalLock,
                                                     AppendVariant::CountScanEmit};
 
 /// "global lock", "local lock", "count-scan-emit".
 std::string_view name_of(AppendVariant variant);
 
-/// Looks at the nodes of a front as `Front` does, with every way of appending: what comes out is the same.
+/// Sprouts the nodes of a front as `Front` does, with any of the variants: the values appended are the same.
 class FrontAppender {
  public:
-  /// What a launch appends to.
+  /// The streams that a launch appends to.
   enum Stream : std::size_t { TrianglePairs, Kept, Rested, Sprouted, Pending, kStreamCount };
 
-  /// @param capacity that the streams start with; they grow as needed, and the launch is run again
+  /// @param capacity initial size of the streams [values]; they grow as needed, and the launch is repeated
   FrontAppender(AppendVariant variant, std::size_t capacity);
 
-  /// Looks at `kernel.items`, and in further rounds at what they leave over.
+  /// Sprouts `kernel.items`, and in further rounds the items that were left pending.
   void run(FrontSproutKernel kernel, const Executor& executor);
 
-  /// What the last run put into the stream, in no particular order; Pending is empty then.
+  /// The values that the last run appended to the stream, in no particular order; Pending is empty.
   Span<const std::uint64_t> values(Stream stream) const { return streams_[stream]; }
 
  private:

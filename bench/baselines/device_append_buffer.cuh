@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// AppendBuffer in a CUDA device's memory: what does not fit is counted, not stored.
+/// AppendBuffer in a CUDA device's memory: values beyond the capacity are counted, not stored.
 template <class T>
 class DeviceAppendBuffer {
  public:
@@ -22,7 +22,7 @@ class DeviceAppendBuffer {
     needed_.copy_up(*queue_);
     return {storage_.view(), needed_.on_device().data()};
   }
-  /// Waits for what was launched, and makes room for what did not fit. @return true where something did not
+  /// Waits for the launches and grows the buffer to the values counted. @return true if it had to grow
   bool grown() {
     needed_.copy_down(*queue_);
     queue_->wait();
@@ -31,7 +31,7 @@ class DeviceAppendBuffer {
     storage_ = DeviceArray<T>(*queue_, needed + needed / 2);
     return true;
   }
-  /// On the host, in no particular order. @pre grown() was asked for and said no
+  /// The values on the host, in no particular order. @pre the last call of grown() returned false
   std::vector<T> values() { return brought_down(*queue_, storage_, needed_.on_host()[0]); }
 
  private:

@@ -2,7 +2,7 @@
 #include "bench/baselines/device_appender.h"
 
 #include "bench/baselines/device_append_buffer.cuh"
-#include "dismantle/collision/stage_clock.h"
+#include "dismantle/streams/stage_clock.h"
 
 #include <cub/device/device_scan.cuh>
 
@@ -17,12 +17,12 @@ namespace {
 using Stream = FrontAppender::Stream;
 constexpr std::size_t kStreamCount = FrontAppender::kStreamCount;
 
-/// A view of each stream, as launches take them by value.
+/// A view of each stream; kernels take it by value.
 struct StreamViews {
   AppendView<std::uint64_t> stream[kStreamCount];
 };
 
-/// The kernel's finds by stream, as `Derived::put(stream, value)` takes them.
+/// The sink of the kernel: passes each value on to `Derived::put(stream, value)`.
 template <class Derived>
 class DeviceSink {
  public:
@@ -36,13 +36,13 @@ class DeviceSink {
   __device__ void put(Stream stream, std::uint64_t value) { static_cast<Derived*>(this)->put(stream, value); }
 };
 
-/// A round of a front: the first looks at its nodes, others at what was left over.
+/// A round over the front: the first sprouts its nodes, later ones the items that were left pending.
 struct FrontRound {
   FrontSproutKernel kernel;
   bool first = true;
 
   template <class Sink>
-  __device__ void look_at(std::size_t i, Sink& sink) const {
+  __device__ void visit(std::size_t i, Sink& sink) const {
     if (first) {
       kernel.look(i, sink);
     } else {
@@ -51,7 +51,7 @@ struct FrontRound {
   }
 };
 
-/// Every value by itself.
+/// Appends every value with an atomic addition of its own.
 class GlobalLockSink : public DeviceSink<GlobalLockSink> {
  public:
   __device__ explicit GlobalLockSink(const StreamViews& views) : views_(views) {}
@@ -67,7 +67,7 @@ struct SproutWithGlobalLock {
 
   __device__ void operator()(std::size_t i) const {
     GlobalLockSink sink(views);
-    round.look_at(i, sink);
+    round.visit(i, sink);
   }
 };
 
@@ -78,17 +78,17 @@ constexpr unsigned kLocalCapacity = 256;  // 10 KiB of shared memory a block
 struct LocalBuffers {
   std::uint64_t values[kStreamCount][kLocalCapacity];
   unsigned count[kStreamCount];
-  std::size_t place[kStreamCount];
+  std::size_t offset[kStreamCount];
 };
 
-/// Into the block's buffers; what finds them full goes to the streams by itself.
+/// Appends to the block's buffers; once these are full, values go straight to the streams.
 class LocalLockSink : public DeviceSink<LocalLockSink> {
  public:
   __device__ LocalLockSink(LocalBuffers& local, const StreamViews& views) : local_(local), views_(views) {}
   __device__ void put(Stream stream, std::uint64_t value) {
-    const unsigned place = atomicAdd(&local_.count[stream], 1u);
-    if (place < kLocalCapacity) {
-      local_.values[stream][place] = value;
+    const unsigned slot = atomicAdd(&local_.count[stream], 1u);
+    if (slot < kLocalCapacity) {
+      local_.values[stream][slot] = value;
     } else {
       views_.stream[stream].append(value);
     }
@@ -106,63 +106,64 @@ __global__ void sprout_with_local_lock(FrontRound round, StreamViews views) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i < round.kernel.items.size()) {
     LocalLockSink sink(local, views);
-    round.look_at(i, sink);
+    round.visit(i, sink);
   }
   __syncthreads();
   if (threadIdx.x < kStreamCount) {
     const unsigned s = threadIdx.x;
     local.count[s] = local.count[s] < kLocalCapacity ? local.count[s] : kLocalCapacity;
-    local.place[s] = views.stream[s].take(local.count[s]);
+    local.offset[s] = views.stream[s].take(local.count[s]);
   }
   __syncthreads();
   for (unsigned s = 0; s < kStreamCount; ++s)
     for (unsigned k = threadIdx.x; k < local.count[s]; k += blockDim.x)
-      views.stream[s].put(local.place[s] + k, local.values[s][k]);
+      views.stream[s].put(local.offset[s] + k, local.values[s][k]);
 }
 
-/// Counts what an item finds.
+/// Counts the values of an item.
 class CountSink : public DeviceSink<CountSink> {
  public:
   __device__ void put(Stream stream, std::uint64_t) { ++count[stream]; }
   std::uint64_t count[kStreamCount] = {};
 };
 
-/// Of every stream a row with a count an item, one stream after the other.
-struct CountFinds {
+/// First pass of CountScanEmit: one row of counts for each stream, one count for each item.
+struct CountValues {
   FrontRound round;
   Span<std::uint64_t> counts;
 
   __device__ void operator()(std::size_t i) const {
     CountSink sink;
-    round.look_at(i, sink);
+    round.visit(i, sink);
     for (std::size_t s = 0; s < kStreamCount; ++s) counts[s * round.kernel.items.size() + i] = sink.count[s];
   }
 };
 
-/// Writes what an item finds from the places that it was given.
+/// Writes the values of an item from its offsets on.
 class EmitSink : public DeviceSink<EmitSink> {
  public:
   __device__ explicit EmitSink(Span<std::uint64_t> values) : values_(values) {}
-  __device__ void put(Stream stream, std::uint64_t value) { values_[place[stream]++] = value; }
-  std::uint64_t place[kStreamCount] = {};
+  __device__ void put(Stream stream, std::uint64_t value) { values_[offset[stream]++] = value; }
+  std::uint64_t offset[kStreamCount] = {};
 
  private:
   Span<std::uint64_t> values_;
 };
 
-struct EmitFinds {
+/// Second pass of CountScanEmit.
+struct EmitValues {
   FrontRound round;
-  Span<const std::uint64_t> places;  ///< As CountFinds has counts.
+  Span<const std::uint64_t> offsets;  ///< Laid out as the counts of CountValues.
   Span<std::uint64_t> values;
 
   __device__ void operator()(std::size_t i) const {
     EmitSink sink(values);
-    for (std::size_t s = 0; s < kStreamCount; ++s) sink.place[s] = places[s * round.kernel.items.size() + i];
-    round.look_at(i, sink);
+    for (std::size_t s = 0; s < kStreamCount; ++s) sink.offset[s] = offsets[s * round.kernel.items.size() + i];
+    round.visit(i, sink);
   }
 };
 
-/// The tree and what moves, on the device.
+/// The tree, its bounds and motion classes on the device.
 struct Input {
   BvhView tree;
   DeviceArray<BvhChildren> children;
@@ -234,29 +235,29 @@ class CudaAppender final : public DeviceAppender {
   void count_scan_emit(const FrontRound& round) {
     const std::size_t count = round.kernel.items.size(), cells = kStreamCount * count;
     DeviceArray<std::uint64_t> counts(queue_, cells + 1);
-    DeviceArray<std::uint64_t> places(queue_, cells + 1);
-    const std::uint64_t none = 0;  // so that the last place is the number of all
+    DeviceArray<std::uint64_t> offsets(queue_, cells + 1);
+    const std::uint64_t none = 0;  // so that the last offset is the total
     queue_.copy_up(counts.view().data() + cells, &none, sizeof none);
-    queue_.launch(count, CountFinds{round, counts.view()});
+    queue_.launch(count, CountValues{round, counts.view()});
     std::size_t bytes = 0;
-    check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, counts.view().data(), places.view().data(), cells + 1,
+    check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, counts.view().data(), offsets.view().data(), cells + 1,
                                              queue_.stream()),
                "the scan");
     DeviceArray<std::byte> scratch(queue_, bytes);
-    check_cuda(cub::DeviceScan::ExclusiveSum(scratch.view().data(), bytes, counts.view().data(), places.view().data(),
+    check_cuda(cub::DeviceScan::ExclusiveSum(scratch.view().data(), bytes, counts.view().data(), offsets.view().data(),
                                              cells + 1, queue_.stream()),
                "the scan");
     std::uint64_t begins[kStreamCount + 1] = {};
     for (std::size_t s = 0; s <= kStreamCount; ++s)
-      queue_.copy_down(&begins[s], places.view().data() + s * count, sizeof begins[s]);
+      queue_.copy_down(&begins[s], offsets.view().data() + s * count, sizeof begins[s]);
     queue_.wait();
     std::copy(std::begin(begins), std::end(begins), begins_.begin());
     emitted_ = DeviceArray<std::uint64_t>(queue_, begins_[kStreamCount]);
-    queue_.launch(count, EmitFinds{round, places.view(), emitted_.view()});
+    queue_.launch(count, EmitValues{round, offsets.view(), emitted_.view()});
     queue_.wait();
   }
 
-  /// Brings down what a round appended.
+  /// Copies the values of a round to the host.
   void collect() {
     std::vector<std::uint64_t> all;
     if (variant_ == AppendVariant::CountScanEmit) all = brought_down(queue_, emitted_, begins_[kStreamCount]);

@@ -2,10 +2,10 @@
 #include "bench/baselines/front_based_engine.h"
 
 #include "bench/baselines/front_parts.h"
-#include "dismantle/collision/embedded_pairs.h"
-#include "dismantle/collision/narrow_phase.h"
-#include "dismantle/collision/stage_clock.h"
-#include "dismantle/collision/vertex_kernel.h"
+#include "dismantle/streams/embedded_pairs.h"
+#include "dismantle/streams/narrow_phase.h"
+#include "dismantle/streams/stage_clock.h"
+#include "dismantle/streams/vertex_kernel.h"
 
 #include <algorithm>
 
@@ -13,8 +13,8 @@ namespace dismantle {
 
 namespace {
 
-/// What one core finds in its part of the triangle pairs.
-struct PartFinds {
+/// The sink and results of one core over its part of the triangle pairs.
+struct PairTestResults {
   std::vector<TrianglePairContact> contacts;
   std::vector<std::uint64_t> intersections;
   std::size_t tests = 0;
@@ -64,8 +64,8 @@ class FrontBasedEngine final : public CollisionEngine {
   }
   bool moves_against(std::uint64_t key) const;
   bool moves(ComponentId c) const { return motion_class_[c.value] != 0; }
-  PartFinds test_triangle_pairs(double path_deviation);
-  void test_embedded_pairs(PartFinds& finds, double path_deviation);
+  PairTestResults test_triangle_pairs(double path_deviation);
+  void test_embedded_pairs(PairTestResults& results, double path_deviation);
   void part(const std::vector<ComponentPair>& parted);
 
   CollisionOptions options_;
@@ -73,13 +73,13 @@ class FrontBasedEngine final : public CollisionEngine {
   TriangleStreams fixed_;
   std::vector<Vec3> start_vertices_, end_vertices_;
   std::vector<RigidTransform> start_, end_;
-  std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds were made from
-  std::vector<std::uint32_t> motion_class_;  // of each component: 0 where it stands still; equal where they move as one
+  std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds are of
+  std::vector<std::uint32_t> motion_class_;  // of each component: 0 if stationary; equal if they move together
   std::vector<Kdop16> bounds_;
   FrontParts front_;
   PairRules rules_;
   EmbeddedPairs embedded_;
-  std::vector<ComponentPair> parting_;  // those that part if the last sweep is committed
+  std::vector<ComponentPair> parting_;  // embedded pairs that part if the last sweep is committed
   bool may_commit_ = false;
 };
 
@@ -93,25 +93,26 @@ SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path
   refit();
   result.timings.refit = clock.lap();
   const Span<const std::uint32_t> may_rest =
-      work_ == FrontBasedWork::WhatMoves ? motion_class_ : Span<const std::uint32_t>();
+      work_ == FrontBasedWork::MovingComponents ? motion_class_ : Span<const std::uint32_t>();
   front_.update({BvhView(fixed_.bvh), bounds_, may_rest}, options_.executor);
   result.timings.front = clock.lap();
-  PartFinds finds = test_triangle_pairs(path_deviation);
-  test_embedded_pairs(finds, path_deviation);
-  result.contacts = collision_contacts(fixed_, first_of(finds.contacts));
+  PairTestResults results = test_triangle_pairs(path_deviation);
+  test_embedded_pairs(results, path_deviation);
+  result.contacts = collision_contacts(fixed_, first_of(results.contacts));
   result.timings.intersection = clock.lap();
 
   for (const CollisionContact& contact : result.contacts) result.toi = std::min(result.toi, contact.toi);
   result.free = result.contacts.empty();
-  result.sizes = {front_.size(), front_.triangle_pairs().size(), embedded_.pairs().size(), finds.tests, 0};
+  result.sizes = {front_.size(), front_.triangle_pairs().size(), embedded_.pairs().size(), results.tests, 0};
   may_commit_ = result.free;
   result.timings.overall = clock.total();
   return result;
 }
 
 void FrontBasedEngine::set_end(Span<const RigidTransform> next) {
-  std::vector<std::uint8_t> stays(end_.size());  // where the vertices are there already
-  for (std::size_t c = 0; c < end_.size(); ++c) stays[c] = work_ == FrontBasedWork::WhatMoves && end_[c] == next[c];
+  std::vector<std::uint8_t> stays(end_.size());  // components whose vertices are already at `next`
+  for (std::size_t c = 0; c < end_.size(); ++c)
+    stays[c] = work_ == FrontBasedWork::MovingComponents && end_[c] == next[c];
   end_.assign(next.begin(), next.end());
   classify_motion();
   const auto cores = static_cast<std::size_t>(options_.executor.thread_count());
@@ -142,7 +143,7 @@ void FrontBasedEngine::classify_motion() {
 void FrontBasedEngine::refit() {
   std::vector<ComponentId> changed;
   for (std::uint32_t c = 0; c < end_.size(); ++c)
-    if (work_ == FrontBasedWork::Everything || fitted_start_[c] != start_[c] || fitted_end_[c] != end_[c])
+    if (work_ == FrontBasedWork::AllComponents || fitted_start_[c] != start_[c] || fitted_end_[c] != end_[c])
       changed.push_back(ComponentId(c));
   fitted_start_ = start_;
   fitted_end_ = end_;
@@ -150,26 +151,26 @@ void FrontBasedEngine::refit() {
             options_.executor);
 }
 
-/// True where the pair's components move against each other: all others cannot meet.
+/// True if the components of the pair move relative to each other; others cannot collide.
 bool FrontBasedEngine::moves_against(std::uint64_t key) const {
   const NodePair p = pair_of_key(key);
   return motion_class_[fixed_.bvh.component_of[p.a]] != motion_class_[fixed_.bvh.component_of[p.b]];
 }
 
-PartFinds FrontBasedEngine::test_triangle_pairs(double path_deviation) {
+PairTestResults FrontBasedEngine::test_triangle_pairs(double path_deviation) {
   const Span<const std::uint64_t> pairs = front_.triangle_pairs();
   NarrowPhaseKernel kernel{pairs,         triangles(),   bounds_,       fixed_.bvh.component_of, fixed_.features,
                            motion_class_, rules_.view(), options_.test, path_deviation};
   kernel.cull = PairCull::None;
-  std::vector<PartFinds> parts(static_cast<std::size_t>(options_.executor.thread_count()));
+  std::vector<PairTestResults> parts(static_cast<std::size_t>(options_.executor.thread_count()));
   options_.executor.for_each_heavy(parts.size(), [&](std::size_t p) {
-    PartFinds finds;
+    PairTestResults results;
     for (std::size_t i = pairs.size() * p / parts.size(); i < pairs.size() * (p + 1) / parts.size(); ++i)
-      if (moves_against(pairs[i])) kernel(i, finds);
-    parts[p] = std::move(finds);
+      if (moves_against(pairs[i])) kernel(i, results);
+    parts[p] = std::move(results);
   });
-  PartFinds all;
-  for (const PartFinds& part : parts) {
+  PairTestResults all;
+  for (const PairTestResults& part : parts) {
     append(all.contacts, part.contacts);
     append(all.intersections, part.intersections);
     all.tests += part.tests;
@@ -177,18 +178,18 @@ PartFinds FrontBasedEngine::test_triangle_pairs(double path_deviation) {
   return all;
 }
 
-void FrontBasedEngine::test_embedded_pairs(PartFinds& finds, double path_deviation) {
+void FrontBasedEngine::test_embedded_pairs(PairTestResults& results, double path_deviation) {
   if (embedded_.pairs().empty()) return;
   std::vector<std::uint64_t> sorted(front_.triangle_pairs().begin(), front_.triangle_pairs().end());
   options_.executor.sort(sorted);
-  for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, finds.intersections)) {
+  for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, results.intersections)) {
     parting_.push_back(found.pair);
     const double allowed =
         allowed_on_chords(rules_.tolerance(), path_deviation, moves(found.pair.a), moves(found.pair.b));
     const PartedPairKernel kernel{found.triangle_pairs, triangles(), found.from, allowed};
     for (std::size_t i = 0; i < found.triangle_pairs.size(); ++i)
-      if (const std::optional<TrianglePairContact> contact = kernel(i)) finds.contact(*contact);
-    finds.tested(found.triangle_pairs.size());
+      if (const std::optional<TrianglePairContact> contact = kernel(i)) results.contact(*contact);
+    results.tested(found.triangle_pairs.size());
   }
 }
 

@@ -9,7 +9,7 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kNodesPerPartAtStart = 64;  // so that a front that starts from the root is worth sharing
+constexpr std::size_t kNodesPerPartAtStart = 64;  // makes a front that starts from the root worth sharing
 
 bool same_component(const BvhView& tree, NodePair p) {
   return !tree.is_top(p.a) && !tree.is_top(p.b) && tree.component_of[p.a] == tree.component_of[p.b];
@@ -33,7 +33,7 @@ void FrontParts::update(const FrontInput& input, const Executor& executor) {
   if (starts) start(input);
 
   executor.for_each_heavy(parts_.size(), [&](std::size_t p) {
-    Part part = std::move(parts_[p]);  // on the core's own stack: lists that lie side by side share cache lines
+    Part part = std::move(parts_[p]);  // on the core's own stack: adjacent lists share cache lines
     part.nodes.clear();
     part.triangle_pairs.clear();
     for (std::size_t i = nodes_.size() * p / parts_.size(); i < nodes_.size() * (p + 1) / parts_.size(); ++i)

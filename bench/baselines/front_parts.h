@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/front/front.h"
+#include "dismantle/streams/bvtt_front.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace dismantle {
 
-/// The BVTT front as front-based decomposition has it (Tang, Manocha, Tong, "MCCD: Multi-core collision detection
-/// between deformable models using front-based decomposition", Graphical Models 2010): each step the front is cut into
-/// as many equal parts as there are cores; each core sprouts its own part, depth-first, and writes the new front and
-/// the triangle pairs to lists of its own, so that no two cores share anything.
+/// The BVTT front of front-based decomposition (Tang, Manocha, Tong, "MCCD: Multi-core collision detection between
+/// deformable models using front-based decomposition", Graphical Models 2010): each step the front is cut into as many
+/// equal parts as there are cores; each core sprouts its own part, depth-first, and writes the new front and the
+/// triangle pairs to its own lists, so that no two cores share data.
 ///
-/// That paper prunes by looking for siblings; here the front is started anew instead, by the rule of Front, so that it
-/// does not grow for ever.
+/// The published method prunes by merging siblings; here the front is restarted instead, by the rule of Front, so that
+/// it does not grow without bound.
 ///
 /// Guarantee: after update(), triangle_pairs() are exactly the pairs of leaves of different components whose bounds
 /// overlap; without those of one motion class, where classes are given.
 class FrontParts {
  public:
-  /// @param parts how many cores share the work, > 0
+  /// @param parts number of cores that share the work, > 0
   explicit FrontParts(int parts) : parts_(static_cast<std::size_t>(parts)) {}
 
-  /// Brings the front up to the bounds. Where `input.motion_class` is empty every node is looked at, whatever moves;
-  /// else nodes of two components of one class are kept as they are.
+  /// Updates the front to the bounds. Where `input.motion_class` is empty every node is sprouted, whether it moves or
+  /// not; else nodes of two components of one class are kept as they are.
   /// @pre the same tree every time; every node is fitted
   void update(const FrontInput& input, const Executor& executor);
 
   /// Keys (pair_key) of leaf pairs, in no particular order.
   Span<const std::uint64_t> triangle_pairs() const { return triangle_pairs_; }
+  /// Number of nodes of the front.
   std::size_t size() const { return nodes_.size(); }
 
  private:
@@ -44,7 +45,7 @@ class FrontParts {
   std::vector<Part> parts_;
   std::vector<std::uint64_t> nodes_, triangle_pairs_;
   std::size_t fresh_size_ = 0;  // of the front after the last start
-  std::size_t excess_ = 0;      // nodes looked at beyond it since then
+  std::size_t excess_ = 0;      // nodes sprouted beyond it since then
 };
 
 }  // namespace dismantle

@@ -3,8 +3,8 @@
 
 #include "bench/baselines/obb_overlap.h"
 #include "dismantle/bvh/obb_tree.h"
-#include "dismantle/collision/stage_clock.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
+#include "dismantle/streams/stage_clock.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-/// A component with its boxes.
+/// A component with its tree of boxes.
 struct BoxedComponent {
   TriangleMesh mesh;  // assembled
   ObbTree tree;
@@ -32,7 +32,7 @@ Triangle moved_triangle(const BoxedComponent& component, std::uint32_t face, con
 class ObbDiscreteEngine final : public MotionEngine {
  public:
   ObbDiscreteEngine(const Assembly& assembly, const PairStates& pairs, ObbDetail detail)
-      : pairs_(pairs), detail_(detail), poses_(assembly.components.size()), in_hand_(poses_.size(), false) {
+      : pairs_(pairs), detail_(detail), poses_(assembly.components.size()), moves_(poses_.size(), false) {
     for (const Component& c : assembly.components) {
       TriangleMesh mesh = assembled_mesh(c);
       ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
@@ -41,9 +41,9 @@ class ObbDiscreteEngine final : public MotionEngine {
   }
 
   void hold(Span<const ComponentId> components) override {
-    held_.assign(components.begin(), components.end());
-    in_hand_.assign(in_hand_.size(), false);
-    for (const ComponentId c : held_) in_hand_[c.value] = true;
+    moving_set_.assign(components.begin(), components.end());
+    moves_.assign(moves_.size(), false);
+    for (const ComponentId c : moving_set_) moves_[c.value] = true;
   }
 
   StepResult step(const Pose& target, ResponseKind) override;
@@ -60,12 +60,12 @@ class ObbDiscreteEngine final : public MotionEngine {
   ObbDetail detail_;
   std::vector<BoxedComponent> components_;
   std::vector<Pose> poses_;
-  std::vector<bool> in_hand_;
-  std::vector<ComponentId> held_;
+  std::vector<bool> moves_;
+  std::vector<ComponentId> moving_set_;
 };
 
 StepResult ObbDiscreteEngine::step(const Pose& target, [[maybe_unused]] ResponseKind response) {
-  DISMANTLE_EXPECT(!held_.empty());
+  DISMANTLE_EXPECT(!moving_set_.empty());
   DISMANTLE_EXPECT(can_respond(response));
   StageClock clock;
   StepResult result;
@@ -73,19 +73,19 @@ StepResult ObbDiscreteEngine::step(const Pose& target, [[maybe_unused]] Response
   result.reached = result.contacts.empty();
   result.sweeps = 1;
   if (result.reached) {
-    if (!(poses_[held_.front().value] == target)) result.way = {target};
-    for (const ComponentId c : held_) poses_[c.value] = target;
+    if (!(poses_[moving_set_.front().value] == target)) result.way = {target};
+    for (const ComponentId c : moving_set_) poses_[c.value] = target;
   }
-  result.pose = poses_[held_.front().value];
+  result.pose = poses_[moving_set_.front().value];
   result.timings.overall = result.timings.intersection = clock.total();
   return result;
 }
 
 std::vector<CollisionContact> ObbDiscreteEngine::first_contact(const Pose& target) const {
-  for (const ComponentId moving : held_) {
+  for (const ComponentId moving : moving_set_) {
     for (std::uint32_t c = 0; c < poses_.size(); ++c) {
       const ComponentId fixed(c);
-      if (in_hand_[c] || pairs_.find(moving, fixed) != nullptr) continue;
+      if (moves_[c] || pairs_.find(moving, fixed) != nullptr) continue;
       std::vector<CollisionContact> found = first_contact(moving, target, fixed);
       if (!found.empty()) return found;
     }

@@ -7,7 +7,8 @@ namespace dismantle {
 
 namespace {
 
-// Makes the axes of (nearly) parallel edges, which are next to nothing, separate nothing; and covers float32 axes.
+// Keeps the nearly zero axes of nearly parallel edges from separating anything, and covers the rounding of float32
+// axes.
 constexpr double kParallelEdges = 1e-6;
 
 struct BoxAxes {

@@ -6,8 +6,8 @@
 
 namespace dismantle {
 
-/// False only where one of the 15 axes of Gottschalk, Lin, Manocha 1996 separates the boxes.
-/// @param a_from_b takes points of b's frame to a's
+/// True unless one of the 15 axes of Gottschalk, Lin, Manocha 1996 separates the boxes.
+/// @param a_from_b maps points from the frame of b to that of a
 bool boxes_overlap(const Obb& a, const Obb& b, const RigidTransform& a_from_b);
 
 }  // namespace dismantle

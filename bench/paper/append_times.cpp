@@ -2,9 +2,9 @@
 #include "bench/paper/append_times.h"
 
 #include "bench/baselines/device_appender.h"
-#include "dismantle/collision/moving_streams.h"
-#include "dismantle/collision/stage_clock.h"
-#include "dismantle/front/front.h"
+#include "dismantle/streams/bvtt_front.h"
+#include "dismantle/streams/moving_streams.h"
+#include "dismantle/streams/stage_clock.h"
 
 #include <algorithm>
 #include <deque>

@@ -4,7 +4,7 @@
 //   bench_paper [--cores N] [--repeats N] [--largest TRIANGLES] [--docs FOLDER]
 // Takes some ten minutes on two cores; ten million triangles need `--largest 10000000` and 10 GB of memory.
 #include "bench/paper/evaluation_page.h"
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,9 +3,10 @@
 
 #include "bench/baselines/front_based_engine.h"
 #include "bench/baselines/obb_discrete_engine.h"
-#include "dismantle/collision/certificate_engine.h"
-#include "dismantle/collision/stage_clock.h"
-#include "dismantle/collision/streams_backend.h"
+#include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/streams/stage_clock.h"
+#include "dismantle/streams/streams_backend.h"
+#include "dismantle/streams/streams_motion_engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ std::unique_ptr<MotionEngine> make_method(PaperMethod method, const BenchScene& 
   options.executor = executor;
   options.test = method == PaperMethod::StreamsCertified ? ElementaryTest::Certified : ElementaryTest::Elementary;
   const FrontBasedWork work =
-      method == PaperMethod::FrontBased ? FrontBasedWork::Everything : FrontBasedWork::WhatMoves;
+      method == PaperMethod::FrontBased ? FrontBasedWork::AllComponents : FrontBasedWork::MovingComponents;
   switch (method) {
     case PaperMethod::FrontBased:
     case PaperMethod::FrontBasedRigid:

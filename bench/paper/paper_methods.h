@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/motion_scenes.h"
-#include "dismantle/collision/motion_engine.h"
+#include "dismantle/engine/motion_engine.h"
 
 #include <memory>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace dismantle {
 /// The methods that the evaluation compares.
 enum class PaperMethod {
   FrontBased,         ///< Front-based multi-core detection, elementary tests: the baseline of the paper's figure 9.
-  FrontBasedRigid,    ///< The same, told what moves: FrontBasedWork::WhatMoves.
+  FrontBasedRigid,    ///< The same, told what moves: FrontBasedWork::MovingComponents.
   StreamsElementary,  ///< The paper's method on the CPU with the paper's elementary tests.
   StreamsCertified,   ///< The same with certified tests: what `--method streams` does, without its guard of vertices.
   StreamsCuda,        ///< The paper's method with the paper's tests on the CUDA device. @pre there is one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/paper/paper_scenes.h"
 
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/simplify/simplify_assembly.h"
 
 namespace dismantle {

@@ -2,7 +2,7 @@
 #include "bench/paper/result_table.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/io/csv_text.h"
+#include "dismantle/files/csv_text.h"
 
 #include <algorithm>
 

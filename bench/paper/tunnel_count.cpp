@@ -3,8 +3,9 @@
 
 #include "bench/baselines/obb_discrete_engine.h"
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/session/session_path.h"
+#include "dismantle/streams/streams_motion_engine.h"
 #include "tests/support/random_scenes.h"
 
 namespace dismantle {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/assembly_builder.h"
-#include "dismantle/io/check_report.h"
-#include "dismantle/io/load_assembly.h"
+#include "dismantle/documents/check_report.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/loading/load_assembly.h"
 #include "python/src/bind.h"
 
 #include <pybind11/stl/filesystem.h>

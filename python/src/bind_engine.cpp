@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/collision/certificate_engine.h"
-#include "dismantle/collision/motion_batch.h"
+#include "dismantle/candidates/motion_batch.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "python/src/step_result.h"
 
 #include <set>

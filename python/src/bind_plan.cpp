@@ -2,7 +2,7 @@
 #include "apps/server/viewer_files.h"
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/export/exported_file.h"
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/plan_path.h"
 #include "dismantle/planner/step_preference.h"

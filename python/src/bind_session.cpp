@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
 #include "dismantle/session/session.h"
 #include "python/src/path_object.h"
 #include "python/src/step_result.h"

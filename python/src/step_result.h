@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/motion_engine.h"
+#include "dismantle/engine/motion_engine.h"
 #include "python/src/bind.h"
 
 namespace dismantle::python {

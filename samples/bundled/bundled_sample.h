@@ -21,7 +21,7 @@ std::vector<BundledSample> bundled_samples();
 /// The sample's STEP file. Errors: Usage where there is no sample of that name, listing those there are.
 Result<std::string> bundled_sample_step(std::string_view name);
 
-/// The sample's motion file (FORMATS, `*.motion.json`). Errors: as bundled_sample_step.
+/// The sample's motion file (docs/formats.md, `*.motion.json`). Errors: as bundled_sample_step.
 Result<std::string> bundled_sample_motion(std::string_view name);
 
 }  // namespace dismantle

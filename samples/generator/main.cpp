@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/io/motion_file.h"
+#include "dismantle/documents/motion_file.h"
 #include "samples/generator/sample_motion.h"
 #include "samples/generator/samples.h"
 

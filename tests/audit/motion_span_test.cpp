@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/audit/motion_span.h"
+#include "dismantle/audit/motion/motion_span.h"
 
 #include "tests/audit/audit_scenes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/audit/relative_motion.h"
+#include "dismantle/audit/motion/relative_motion.h"
 
 #include <gtest/gtest.h>
 

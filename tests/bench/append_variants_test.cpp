@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/baselines/append_variants.h"
 
-#include "dismantle/collision/triangle_streams.h"
+#include "dismantle/surface/assembly_triangles.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/baselines/front_based_engine.h"
 
-#include "dismantle/collision/response.h"
+#include "dismantle/streams/step_towards.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
@@ -29,7 +29,7 @@ TEST(FrontBasedEngine, FindsTheContactsOfStreamsBitForBitWhereEveryPairIsOrdinar
     const PairStates states{kTolerance, {}};
     const auto streams = make_streams_engine(assembly, states, {ElementaryTest::Elementary, {}, 1});
     std::vector<std::unique_ptr<CollisionEngine>> engines;
-    for (const FrontBasedWork work : {FrontBasedWork::Everything, FrontBasedWork::WhatMoves})
+    for (const FrontBasedWork work : {FrontBasedWork::AllComponents, FrontBasedWork::MovingComponents})
       for (const Executor& executor : all_executors())
         engines.push_back(make_front_based_engine(assembly, states, {ElementaryTest::Elementary, executor, 1}, work));
     for (int step = 0; step < 40; ++step) {
@@ -58,7 +58,7 @@ TEST(FrontBasedEngine, DecidesAsStreamsDoesAmongPairsInContactAndEmbedded) {
     const auto streams = make_streams_engine(assembly, states, {test, {}, 64});
     const Executor two(ExecutorKind::Threads, 2);
     const auto engine = make_front_based_engine(assembly, states, {test, two, 64});
-    const auto rigid = make_front_based_engine(assembly, states, {test, two, 64}, FrontBasedWork::WhatMoves);
+    const auto rigid = make_front_based_engine(assembly, states, {test, two, 64}, FrontBasedWork::MovingComponents);
     const std::size_t embedded = streams->embedded_pairs().size();
     std::size_t free = 0, blocked = 0;
     for (int step = 0; step < 60; ++step) {

@@ -2,8 +2,8 @@
 #include "bench/baselines/front_parts.h"
 
 #include "dismantle/bvh/bvh_traverse.h"
-#include "dismantle/collision/triangle_streams.h"
-#include "dismantle/front/front_kernel.h"
+#include "dismantle/streams/bvtt_front_kernel.h"
+#include "dismantle/surface/assembly_triangles.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
 

@@ -2,7 +2,7 @@
 #include "dismantle/bvh/bvh_refit.h"
 
 #include "dismantle/bvh/bvh_validate.h"
-#include "dismantle/collision/triangle_streams.h"
+#include "dismantle/surface/assembly_triangles.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
 

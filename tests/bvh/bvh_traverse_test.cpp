@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/bvh_traverse.h"
 
-#include "dismantle/collision/triangle_streams.h"
+#include "dismantle/surface/assembly_triangles.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/cli/cli_fixture.h"
+#include "tests/support/test_data.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -89,7 +90,7 @@ class CliBatchRanks : public CliBatch {
  protected:
   void SetUp() override {
     CliBatch::SetUp();
-    if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "there is no mpirun";
+    if (std::system("command -v mpirun >/dev/null") != 0) DISMANTLE_SKIP_OR_FAIL("there is no mpirun");
     ASSERT_LE(run("batch products -o alone --workers 1 --quiet").exit_code, 1);
   }
   /// Four ranks of one worker each, over what `rank` runs.

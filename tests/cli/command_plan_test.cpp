@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
 #include "tests/cli/cli_fixture.h"

@@ -2,7 +2,7 @@
 #include "tests/device/device_streams.h"
 
 #include "bench/baselines/device_append_buffer.cuh"
-#include "dismantle/collision/vertex_kernel.h"
+#include "dismantle/streams/vertex_kernel.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/bvh/bvh_refit.h"
-#include "dismantle/collision/narrow_phase_kernel.h"
 #include "dismantle/math/rigid_transform.h"
+#include "dismantle/streams/narrow_phase_kernel.h"
 
 #include <cstdint>
 #include <vector>

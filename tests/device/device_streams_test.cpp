@@ -4,9 +4,9 @@
 #include "tests/device/device_streams.h"
 
 #include "bench/baselines/device_appender.h"
-#include "dismantle/collision/moving_streams.h"
-#include "dismantle/collision/pair_rules.h"
+#include "dismantle/engine/pair_rules.h"
 #include "dismantle/exec/cuda_device.h"
+#include "dismantle/streams/moving_streams.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/random_scenes.h"
 

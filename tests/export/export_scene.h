@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/session/timeline.h"
 #include "tests/support/meshes.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/timeline_of_path.h"
 
 namespace dismantle::scenes {
 
@@ -26,12 +24,6 @@ inline Path knob_path() {
                 {"knob aside", {"knob"}, {{0, off}, {1, aside}}},
                 {"block aside", {"block"}, {{0, {}}, {2, {{0, 60, 0}, {}}}}}};
   return path;
-}
-
-inline Timeline timeline_of(const Assembly& assembly, const Path& path) {
-  const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
-  EXPECT_TRUE(timeline.ok()) << timeline.error().message;
-  return *timeline;
 }
 
 }  // namespace dismantle::scenes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/exported_file.h"
 
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/path_file.h"
 #include "tests/export/export_scene.h"
 #include "tests/support/check_glb.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/moves_table.h"
 
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "tests/export/export_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/session/timeline.h"
 #include "tests/support/meshes.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/timeline_of_path.h"
 
 namespace dismantle::scenes {
 
@@ -42,12 +40,6 @@ inline PairStates bolted_lid_pairs() {
     return ComponentPair{ComponentId(a), ComponentId(b), PairState::Contact, 0, 0, 0.01, 4};
   };
   return {0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
-}
-
-inline Timeline timeline_of(const Assembly& assembly, const Path& path) {
-  const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
-  EXPECT_TRUE(timeline.ok()) << timeline.error().message;
-  return *timeline;
 }
 
 }  // namespace dismantle::scenes

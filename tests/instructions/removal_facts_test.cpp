@@ -21,12 +21,12 @@ TEST(WayClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
   EXPECT_EQ(up.touched, ComponentId(1));
   EXPECT_FALSE(up.nearest.valid()) << "the lid, which it leaves, does not count";
 
-  const Removal along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
+  const RemovalMove along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
   const WayClearance slid = facts.clearance(lid.steps[0], along);
   EXPECT_EQ(slid.touching, 70) << "it is on the lid all the way";
   EXPECT_FALSE(slid.nearest.valid());
 
-  const Removal over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
+  const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
   const WayClearance passing = facts.clearance(lid.steps[0], over);
   EXPECT_EQ(passing.nearest, ComponentId(3));
   EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
@@ -37,7 +37,7 @@ TEST(WayClearance, DoesNotCountWhatWasPutAside) {
   WorkStep step = lid.steps[0];
   step.before[3].position = {25, 0, 20};  // the other head, near the way of this one
   RemovalFacts facts(lid.assembly, lid.pairs, {});
-  const Removal over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{30, 0, 22}, {}}}};
+  const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{30, 0, 22}, {}}}};
   EXPECT_FALSE(facts.clearance(step, over).nearest.valid());
 }
 

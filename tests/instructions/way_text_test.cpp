@@ -9,8 +9,8 @@ namespace {
 const double kTurn = 2 * std::acos(-1.0);
 
 /// Turns about z by quarter turns while rising 1 mm a turn, then goes on straight.
-Removal screwed_out(int quarters) {
-  Removal removal{{ComponentId(0)}, {{}}};
+RemovalMove screwed_out(int quarters) {
+  RemovalMove removal{{ComponentId(0)}, {{}}};
   for (int i = 1; i <= quarters; ++i) removal.way.push_back({{0, 0, 0.25 * i}, quat_about({0, 0, 1}, kTurn / 4 * i)});
   Pose out = removal.way.back();
   out.position.z += 30;
@@ -18,7 +18,7 @@ Removal screwed_out(int quarters) {
   return removal;
 }
 
-std::string text_of(const Removal& removal, PathDirection direction = PathDirection::Forward) {
+std::string text_of(const RemovalMove& removal, PathDirection direction = PathDirection::Forward) {
   return way_text(legs_of(removal, {1, 2, 3}), direction);
 }
 
@@ -37,19 +37,19 @@ TEST(WayText, CountsTurnsAsTheFitterSeesThem) {
 }
 
 TEST(WayText, TellsOfLeftHandedThreads) {
-  Removal removal = screwed_out(8);
+  RemovalMove removal = screwed_out(8);
   for (Pose& pose : removal.way) pose.rotation = conjugate(pose.rotation);
   EXPECT_EQ(text_of(removal).substr(0, 20), "Turn 2 times clockwi");
 }
 
 TEST(WayText, TellsLegsInTheOrderInWhichTheyAreGone) {
-  const Removal removal{{ComponentId(0)}, {{}, {{4, 0, 0}, {}}, {{4, 0, 30}, {}}}};
+  const RemovalMove removal{{ComponentId(0)}, {{}, {{4, 0, 0}, {}}, {{4, 0, 30}, {}}}};
   EXPECT_EQ(text_of(removal), "Straight along +X, 4 mm, then straight up.");
   EXPECT_EQ(text_of(removal, PathDirection::Reversed), "Straight down, then straight along -X, 4 mm.");
 }
 
 TEST(WayText, SumsUpWhatAHandDid) {
-  Removal removal{{ComponentId(0)}, {{}}};
+  RemovalMove removal{{ComponentId(0)}, {{}}};
   for (int i = 1; i <= 40; ++i) removal.way.push_back({{std::sin(i * 1.0), 0.5 * i, 0}, {}});
   EXPECT_EQ(text_of(removal).substr(0, 15), "Along the arrow");
 }

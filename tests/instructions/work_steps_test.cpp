@@ -51,7 +51,7 @@ TEST(Surroundings, AreWhatStandsToASetAsAssembled) {
 }
 
 TEST(PlacesAlong, BeginAtHomeEndAtTheEndAndHaveAllEndsOfScrews) {
-  const Removal removal{{ComponentId(0)}, {{}, {{3, 0, 0}, {}}, {{3, 4, 0}, {}}}};
+  const RemovalMove removal{{ComponentId(0)}, {{}, {{3, 0, 0}, {}}, {{3, 4, 0}, {}}}};
   const std::vector<WayPlace> places = places_along(removal, {}, 5);
   ASSERT_EQ(places.size(), 11u);
   EXPECT_EQ(places.front().pose, Pose{});

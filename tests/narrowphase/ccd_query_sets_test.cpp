@@ -6,6 +6,7 @@
 #include "dismantle/narrowphase/elementary_edge_edge.h"
 #include "dismantle/narrowphase/elementary_vertex_face.h"
 #include "dismantle/narrowphase/nonpenetration_filter.h"
+#include "tests/support/test_data.h"
 
 #include <gtest/gtest.h>
 
@@ -63,13 +64,13 @@ void count(const std::vector<Motion>& motions, const std::vector<CcdTruth>& trut
   }
 }
 
-/// Public queries with exact truth in the folder of shared data; empty where the folder is missing.
+/// Public queries with exact truth.
+const std::filesystem::path kQuerySets = data_folder() / "ccd-queries";
+
+/// Counts over all queries of one set.
 Counts count_folder(const char* name) {
-  const std::filesystem::path folder =
-      std::filesystem::path(DISMANTLE_SOURCE_DIR) / "../shared/data/ccd-queries" / name;
   Counts c;
-  if (!std::filesystem::exists(folder)) return c;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kQuerySets / name)) {
     if (entry.path().extension() != ".ccdq") continue;
     const auto file = read_ccdq(entry.path());
     EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.error().message);
@@ -85,8 +86,9 @@ Counts count_folder(const char* name) {
 }
 
 TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheHandcraftedHitsAndReportsFewMisses) {
+  DISMANTLE_NEED(kQuerySets / "handcrafted");
   const Counts c = count_folder("handcrafted");
-  if (c.queries == 0) GTEST_SKIP() << "../shared/data/ccd-queries is not here";
+  ASSERT_GT(c.hits, 0);
   EXPECT_EQ(c.false_negatives, 0);
   EXPECT_LE(c.false_positives, 222) << "Tight-Inclusion 1.0.6 reports 222";
   EXPECT_EQ(c.filtered_hits, 0);
@@ -96,8 +98,9 @@ TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheHandcraftedHitsAndReportsFewMisse
 }
 
 TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheSimulationHits) {
+  DISMANTLE_NEED(kQuerySets / "simulation");
   const Counts c = count_folder("simulation");
-  if (c.queries == 0) GTEST_SKIP() << "../shared/data/ccd-queries is not here";
+  ASSERT_GT(c.hits, 0);
   EXPECT_EQ(c.false_negatives, 0);
   EXPECT_LE(c.false_positives, 10);
   EXPECT_EQ(c.filtered_hits, 0);

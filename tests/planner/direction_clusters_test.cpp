@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/direction_clusters.h"
+#include "dismantle/planner/search/direction_clusters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/place_tree.h"
+#include "dismantle/planner/search/search_tree.h"
 
 #include "tests/support/random_scenes.h"
 

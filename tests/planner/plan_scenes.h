@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "tests/support/puzzle_scenes.h"
 #include "tests/support/random_scenes.h"

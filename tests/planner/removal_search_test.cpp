@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/removal_search.h"
+#include "dismantle/planner/search/removal_search.h"
 
 #include "tests/planner/plan_scenes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/sample_search.h"
+#include "dismantle/planner/search/sample_search.h"
 
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/geometry/adjacency.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/screw_search.h"
+#include "dismantle/planner/search/screw_search.h"
 
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/planner/plan_path.h"

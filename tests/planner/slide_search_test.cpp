@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/slide_search.h"
+#include "dismantle/planner/search/slide_search.h"
 
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/geometry/adjacency.h"

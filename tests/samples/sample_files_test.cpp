@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/collision/classify_pairs.h"
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/motion_file.h"
+#include "dismantle/documents/motion_file.h"
+#include "dismantle/engine/classify_pairs.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/motion_file.h"
+#include "dismantle/documents/motion_file.h"
+#include "dismantle/loading/load_assembly.h"
 #include "samples/generator/sample_motion.h"
 #include "samples/generator/samples.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a server must survive. After each attack it answers as before.
-#include "dismantle/io/read_file.h"
+#include "dismantle/files/read_file.h"
 #include "samples/bundled/bundled_sample.h"
 #include "tests/server/server_scene.h"
 

@@ -3,12 +3,12 @@
 
 #include "apps/server/server.h"
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/io/load_assembly.h"
-#include "dismantle/io/path_file.h"
-#include "dismantle/io/write_assembly.h"
-#include "tests/io/scratch_folder.h"
+#include "dismantle/documents/path_file.h"
+#include "dismantle/loading/load_assembly.h"
+#include "dismantle/loading/write_assembly.h"
 #include "tests/server/test_client.h"
 #include "tests/support/meshes.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 

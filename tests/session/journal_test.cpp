@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/session/journal.h"
 
-#include "dismantle/io/read_file.h"
-#include "tests/io/scratch_folder.h"
+#include "dismantle/files/read_file.h"
 #include "tests/session/session_table.h"
+#include "tests/support/scratch_folder.h"
 
 namespace dismantle {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/session/play_motion.h"
 
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/math/screw.h"
+#include "dismantle/streams/streams_motion_engine.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>

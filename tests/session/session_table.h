@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/session/session.h"
 #include "tests/support/meshes.h"
 

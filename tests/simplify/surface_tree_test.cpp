@@ -54,7 +54,7 @@ TEST(SurfaceTree, FindsTheSameDistanceAsLookingAtEveryTriangle) {
     double least = 1e300;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       least = std::min(least, length(p - closest_point_of_triangle(mesh.triangle(f), p)));
-    const SurfaceDistance found = tree.distance(p);
+    const MeshDistance found = tree.distance(p);
     EXPECT_EQ(found.distance, least);
     EXPECT_EQ(tree.distance_to_face(p, found.face), least);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/collision_engine.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
+#include "dismantle/streams/sweep_engine.h"
 #include "tests/support/meshes.h"
 
 #include <limits>

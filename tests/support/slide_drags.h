@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/audit/audit_path.h"
-#include "dismantle/collision/certificate_engine.h"
-#include "dismantle/collision/classify_pairs.h"
+#include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/session/play_motion.h"
 #include "tests/support/slide_scenes.h"
 

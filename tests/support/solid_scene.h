@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/solid_tree.h"
+#include "dismantle/surface/solid_tree.h"
 #include "tests/support/meshes.h"
 
 #include <utility>

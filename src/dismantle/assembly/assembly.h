@@ -65,7 +65,7 @@ Aabb assembled_bounds(const Component& component);
 Aabb assembled_bounds(const Assembly& assembly);
 
 /// The tolerance where the user gives none: the larger of 1e-5 of the diagonal and twice the deflection, plus twice
-/// the simplification error [mm] (DESIGN section 5).
+/// the simplification error [mm] (docs/guarantee.md).
 double default_tolerance(const Assembly& assembly);
 
 /// Makes the names unique: a repeat gets the suffix "#2", "#3", ... in order; an empty name becomes "unnamed".

@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// How two components stand to each other in the assembled state (DESIGN section 5).
+/// How two components stand to each other in the assembled state (docs/guarantee.md).
 enum class PairState {
   Clear,     ///< Apart; allowed penetration: the tolerance.
   Near,      ///< Apart, but closer than the clearance that the user asked about.

@@ -32,7 +32,7 @@ struct PathPair {
   friend bool operator==(const PathPair&, const PathPair&) = default;
 };
 
-/// What a session records and a planner returns: FORMATS, `*.path.json`.
+/// What a session records and a planner returns: docs/formats.md, `*.path.json`.
 struct Path {
   std::string assembly_file;
   std::string assembly_sha256;
@@ -62,7 +62,8 @@ enum class ResponseKind {
 /// "stop", "touch", "slide": as files and the command line have it.
 std::string_view name_of(ResponseKind response);
 
-/// Where the hand wants the components to be at each time; one simulation step a target. FORMATS, `*.motion.json`.
+/// Where the hand wants the components to be at each time; one simulation step a target. docs/formats.md,
+/// `*.motion.json`.
 struct MotionMove {
   std::vector<std::string> components;
   std::vector<Frame> targets;

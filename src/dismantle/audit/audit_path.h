@@ -21,8 +21,8 @@ struct AuditOptions {
   ProgressCallback progress;  ///< Cancelling leaves a report that is not complete.
 };
 
-/// Checks the guarantee of FORMATS, section Path, for a path of an assembly, by means that it shares with nothing that
-/// makes paths: it follows every screw by dense samples in time, whose steps certified separating axes lengthen
+/// Checks the guarantee of docs/formats.md, "Path", for a path of an assembly, by means that it shares with nothing
+/// that makes paths: it follows every screw by dense samples in time, whose steps certified separating axes lengthen
 /// (docs/design/0002-audit.md). With the allowance the tolerance or the pair's own:
 ///   1. Where it holds, no two triangles of different components were ever deeper in each other than their allowance
 ///      plus half the resolution, and no vertex deeper inside a closed component than twice the allowance plus that.

@@ -10,7 +10,7 @@
 
 namespace dismantle {
 
-/// Which part of the guarantee (FORMATS, section Path) a path breaks.
+/// Which part of the guarantee (docs/formats.md, "Path") a path breaks.
 enum class AuditViolationKind {
   PathInconsistent,    ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, ...
   TrianglesIntersect,  ///< Two triangles intersect by more than the pair is allowed.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/audit/audit_report.h"
-#include "dismantle/audit/motion_span.h"
+#include "dismantle/audit/motion/motion_span.h"
 #include "dismantle/audit/sweep_helix.h"
 #include "dismantle/audit/sweep_move.h"
 #include "dismantle/audit/sweep_triangles.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/audit/audit_body.h"
-#include "dismantle/audit/helical_motion.h"
+#include "dismantle/audit/motion/helical_motion.h"
 
 #include <array>
 #include <cstdint>

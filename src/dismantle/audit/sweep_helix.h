@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/audit/helical_motion.h"
+#include "dismantle/audit/motion/helical_motion.h"
 #include "dismantle/audit/profile_tree.h"
 #include "dismantle/audit/sweep_triangles.h"
 

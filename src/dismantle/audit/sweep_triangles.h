@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/audit/audit_body.h"
-#include "dismantle/audit/motion_span.h"
-#include "dismantle/audit/relative_motion.h"
+#include "dismantle/audit/motion/motion_span.h"
+#include "dismantle/audit/motion/relative_motion.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,6 +4,7 @@
 #include "dismantle/bvh/bvh.h"
 #include "dismantle/geometry/kdop.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace dismantle {
@@ -13,6 +14,16 @@ struct NodePair {
   NodeIndex a = kNoNode, b = kNoNode;
   friend bool operator==(const NodePair&, const NodePair&) = default;
 };
+
+/// A pair of nodes or leaves as one 64-bit key, the lower index first: sorted keys are in order of (a, b).
+DISMANTLE_HOST_DEVICE inline std::uint64_t pair_key(NodeIndex a, NodeIndex b) {
+  const std::uint64_t low = a < b ? a : b, high = a < b ? b : a;
+  return low << 32 | high;
+}
+
+DISMANTLE_HOST_DEVICE inline NodePair pair_of_key(std::uint64_t key) {
+  return {static_cast<NodeIndex>(key >> 32), static_cast<NodeIndex>(key & 0xffffffffu)};
+}
 
 /// The children of a node pair in the BVTT: two, or three where a node is paired with itself.
 struct NodePairChildren {

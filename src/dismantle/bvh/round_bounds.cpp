@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/round_bounds.h"
 
-#include "dismantle/geometry/axis_frame.h"
+#include "dismantle/features/axis_frame.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>

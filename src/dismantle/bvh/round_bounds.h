@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/bvh/obb_tree.h"
-#include "dismantle/geometry/round_axes.h"
-#include "dismantle/geometry/thread_axes.h"
+#include "dismantle/features/round_axes.h"
+#include "dismantle/features/thread_axes.h"
 
 #include <limits>
 #include <memory>

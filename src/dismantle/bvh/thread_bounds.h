@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/bvh/obb_tree.h"
-#include "dismantle/geometry/axis_frame.h"
-#include "dismantle/geometry/thread_axes.h"
+#include "dismantle/features/axis_frame.h"
+#include "dismantle/features/thread_axes.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/exported_file.h"
 
-#include "dismantle/io/bill_of_materials.h"
-#include "dismantle/io/path_file.h"
+#include "dismantle/documents/bill_of_materials.h"
+#include "dismantle/documents/path_file.h"
 
 #include <utility>
 

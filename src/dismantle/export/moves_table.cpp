@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/moves_table.h"
 
-#include "dismantle/io/csv_text.h"
+#include "dismantle/files/csv_text.h"
 #include "dismantle/math/screw.h"
 
 #include <algorithm>

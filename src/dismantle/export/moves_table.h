@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/export/path_animations.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/offline_page.h"
 
+#include "dismantle/documents/path_file.h"
 #include "dismantle/export/viewer_model.h"
-#include "dismantle/io/path_file.h"
-#include "dismantle/io/write_glb.h"
+#include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/report/html_text.h"
 
 #include <zlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/io/write_glb.h"
+#include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/session/timeline.h"
 
 #include <vector>

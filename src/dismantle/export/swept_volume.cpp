@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/swept_volume.h"
 
-#include "dismantle/collision/solid_tree_query.h"
 #include "dismantle/export/cell_grid.h"
 #include "dismantle/math/screw.h"
+#include "dismantle/surface/solid_tree_query.h"
 
 #include <algorithm>
 #include <cmath>

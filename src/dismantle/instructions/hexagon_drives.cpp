@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/hexagon_drives.h"
 
-#include "dismantle/geometry/axis_frame.h"
+#include "dismantle/features/axis_frame.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/geometry/round_axes.h"
+#include "dismantle/features/round_axes.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/precedence_files.h"
 
-#include "dismantle/io/json_node.h"
+#include "dismantle/files/json_node.h"
 
 #include <algorithm>
 

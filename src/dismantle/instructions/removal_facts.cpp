@@ -19,7 +19,7 @@ bool has(Span<const ComponentId> set, ComponentId c) {
 }
 
 /// What neither moves nor stands to what does as assembled: earlier steps have put it anywhere.
-std::vector<ComponentId> put_aside_before(const WorkStep& step, const Removal& removal) {
+std::vector<ComponentId> put_aside_before(const WorkStep& step, const RemovalMove& removal) {
   const std::vector<ComponentId> around = surroundings(step, removal);
   std::vector<ComponentId> aside;
   for (std::uint32_t c = 0; c < step.before.size(); ++c)
@@ -32,7 +32,7 @@ std::vector<ComponentId> put_aside_before(const WorkStep& step, const Removal& r
 RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
     : assembly_(assembly), pairs_(pairs), engine_(assembly, pairs, options) {}
 
-WayClearance RemovalFacts::clearance(const WorkStep& step, const Removal& removal) {
+WayClearance RemovalFacts::clearance(const WorkStep& step, const RemovalMove& removal) {
   const Aabb box = bounds_of(assembly_, removal.components);
   const double near = kNearShare * diagonal(box);
   const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
@@ -87,7 +87,7 @@ bool RemovalFacts::can_fall(ComponentId c, Span<const Pose> poses, Span<const Co
 
 std::vector<ComponentId> RemovalFacts::left_unsupported(const WorkStep& step, ComponentId ground) {
   std::vector<ComponentId> gone;
-  for (const Removal& removal : step.removals)
+  for (const RemovalMove& removal : step.removals)
     gone.insert(gone.end(), removal.components.begin(), removal.components.end());
   const std::vector<ComponentId> around = surroundings(step, step.removals.front());
 
@@ -108,7 +108,7 @@ std::vector<ComponentId> RemovalFacts::left_unsupported(const WorkStep& step, Co
 std::vector<ComponentId> staying_components(const Assembly& assembly, Span<const WorkStep> steps) {
   std::vector<bool> moves(assembly.components.size());
   for (const WorkStep& step : steps)
-    for (const Removal& removal : step.removals)
+    for (const RemovalMove& removal : step.removals)
       for (const ComponentId c : removal.components) moves[c.value] = true;
   std::vector<ComponentId> staying;
   for (std::uint32_t c = 0; c < moves.size(); ++c)

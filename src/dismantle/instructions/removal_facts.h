@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/instructions/work_steps.h"
 
 #include <limits>
@@ -26,7 +26,7 @@ class RemovalFacts {
 
   /// Exact at places along the way, some kWayPieces for each screw; nothing is told in between. Embedded pairs, and
   /// what earlier steps have put aside, do not count.
-  WayClearance clearance(const WorkStep& step, const Removal& removal);
+  WayClearance clearance(const WorkStep& step, const RemovalMove& removal);
   /// What nothing holds from below once a step's sets are gone, though something did before: it could fall straight
   /// down by kFall of its size. What is in a fit or embedded with anything that is left holds by that. z is up.
   /// @param ground never falls

@@ -61,7 +61,7 @@ std::vector<Vec3> candidate_views() {
 
 /// What of a removal's way a picture shows: from home to the first place where it is seen to be out.
 /// @param around boxes of the components around it
-std::vector<WayPlace> shown_way(const Assembly& assembly, const Removal& removal, const std::vector<Aabb>& around) {
+std::vector<WayPlace> shown_way(const Assembly& assembly, const RemovalMove& removal, const std::vector<Aabb>& around) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
   std::vector<WayPlace> places = places_along(removal, middle, removal.way.size() > kWayPieces ? 1 : kWayPieces);
   Aabb all;
@@ -144,7 +144,7 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
   const bool is_forward = direction == PathDirection::Forward;
   Subject subject;
   std::vector<bool> moves(assembly_.components.size());
-  for (const Removal& removal : step.removals)
+  for (const RemovalMove& removal : step.removals)
     for (const ComponentId c : removal.components) moves[c.value] = true;
   const auto add = [&](ComponentId c, const Pose& pose) -> RenderItem& {
     RenderItem item = scene_.items[c.value];
@@ -159,7 +159,7 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
     around.push_back(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
     subject.surroundings.extend(around.back());
   }
-  for (const Removal& removal : step.removals) {
+  for (const RemovalMove& removal : step.removals) {
     const Aabb home = bounds_of(assembly_, removal.components, removal.way.front());
     const Vec3 middle = bounds_of(assembly_, removal.components).center();
     const std::vector<WayPlace> way = shown_way(assembly_, removal, around);

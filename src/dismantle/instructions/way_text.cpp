@@ -59,7 +59,7 @@ std::string leg_text(const Leg& leg, PathDirection direction, bool tells_length)
 
 }  // namespace
 
-std::vector<Leg> legs_of(const Removal& removal, const Vec3& middle) {
+std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& middle) {
   std::vector<Leg> legs;
   for (std::size_t i = 1; i < removal.way.size(); ++i) {
     const Leg leg = leg_of(removal.way[i - 1], removal.way[i], middle);

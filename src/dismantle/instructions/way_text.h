@@ -17,7 +17,7 @@ struct Leg {
 };
 
 /// The legs of a removal's way. What goes on in one direction, or about one axis, is one leg.
-std::vector<Leg> legs_of(const Removal& removal, const Vec3& middle);
+std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& middle);
 
 /// A leg that turns by at least half a turn while it goes along its axis: out of, or into, a thread.
 bool is_screwing(const Leg& leg);

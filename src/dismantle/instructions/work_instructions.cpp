@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/work_instructions.h"
 
-#include "dismantle/geometry/thread_axes.h"
+#include "dismantle/documents/bill_of_materials.h"
+#include "dismantle/features/thread_axes.h"
 #include "dismantle/instructions/hexagon_drives.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
 #include "dismantle/instructions/way_text.h"
-#include "dismantle/io/bill_of_materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +111,7 @@ class Writer {
  private:
   void add(const WorkStep& step) {
     Instruction instruction;
-    const Removal& first = step.removals.front();
+    const RemovalMove& first = step.removals.front();
     const std::vector<Leg> legs = legs_of(first, bounds_of(assembly_, first.components).center());
     instruction.parts = counted(step);
     instruction.title = verb(step, legs) + " " + subject(step, instruction.parts);
@@ -130,7 +130,7 @@ class Writer {
 
   std::vector<CountedPart> counted(const WorkStep& step) const {
     std::vector<CountedPart> parts;
-    for (const Removal& removal : step.removals) {
+    for (const RemovalMove& removal : step.removals) {
       for (const ComponentId c : removal.components) {
         const std::size_t line = lines_[c.value];
         auto part = std::find_if(parts.begin(), parts.end(), [&](const CountedPart& p) { return p.item == line; });
@@ -143,7 +143,7 @@ class Writer {
 
   /// What is done: taken away, screwed, or only moved.
   std::string verb(const WorkStep& step, const std::vector<Leg>& legs) const {
-    const Removal& removal = step.removals.front();
+    const RemovalMove& removal = step.removals.front();
     Aabb around;
     for (const ComponentId c : surroundings(step, removal))
       around.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
@@ -165,7 +165,7 @@ class Writer {
   }
 
   /// Of the only component of a removal that is of a line of the bill.
-  const std::string& name_of_one(const Removal& removal, std::size_t line) const {
+  const std::string& name_of_one(const RemovalMove& removal, std::size_t line) const {
     return assembly_[*std::find_if(removal.components.begin(), removal.components.end(),
                                    [&](ComponentId c) { return lines_[c.value] == line; })]
         .name;
@@ -190,7 +190,7 @@ class Writer {
     instruction.notes.push_back({Kind::Way, text});
   }
 
-  void note_tools(const Removal& removal, const std::vector<Leg>& legs, Instruction& instruction) {
+  void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
     if (removal.components.size() != 1 || legs.empty()) return;
     const Component& c = assembly_[removal.components[0]];
     const Mat3 turned = transform_from_pose(removal.way.front()).rotation * c.assembly_from_mesh.rotation;
@@ -287,7 +287,7 @@ class Writer {
   /// Those that a step parts, equal ones counted.
   std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
     std::vector<ComponentId> set;
-    for (const Removal& removal : step.removals)
+    for (const RemovalMove& removal : step.removals)
       set.insert(set.end(), removal.components.begin(), removal.components.end());
     const std::vector<ComponentId> around = surroundings(step, step.removals.front());
     const auto is_in = [](const std::vector<ComponentId>& in, ComponentId c) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/path.h"
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
 #include "dismantle/export/path_animations.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/work_steps.h"
 
-#include "dismantle/io/bill_of_materials.h"
+#include "dismantle/documents/bill_of_materials.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/session/session_path.h"
 
@@ -36,7 +36,7 @@ struct Course {
   double angle = 0;  ///< [rad]
 };
 
-Course course_of(const Assembly& assembly, const Removal& removal) {
+Course course_of(const Assembly& assembly, const RemovalMove& removal) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
   const Vec3 from = transform_from_pose(removal.way.front()) * middle;
   Course course{normalized(transform_from_pose(removal.way.back()) * middle - from)};
@@ -49,8 +49,8 @@ bool are_parallel(const Course& a, const Course& b) {
   return length(a.direction - b.direction) < kParallel && std::abs(a.angle - b.angle) < kParallel;
 }
 
-std::vector<Removal> removals_of(const Timeline& timeline) {
-  std::vector<Removal> removals;
+std::vector<RemovalMove> removals_of(const Timeline& timeline) {
+  std::vector<RemovalMove> removals;
   for (const TimelineMove& move : timeline.moves()) {
     if (removals.empty() || removals.back().components != move.components)
       removals.push_back({move.components, {move.frames.front().pose}});
@@ -63,14 +63,14 @@ std::vector<Removal> removals_of(const Timeline& timeline) {
 
 std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timeline, PathDirection direction) {
   const std::vector<std::size_t> kinds = kinds_of(assembly);
-  const auto are_equal = [&](const Removal& a, const Removal& b) {
+  const auto are_equal = [&](const RemovalMove& a, const RemovalMove& b) {
     return a.components.size() == 1 && b.components.size() == 1 &&
            kinds[a.components[0].value] == kinds[b.components[0].value] &&
            are_parallel(course_of(assembly, a), course_of(assembly, b));
   };
   std::vector<WorkStep> steps;
   std::vector<Pose> poses(assembly.components.size());
-  for (Removal& removal : removals_of(timeline)) {
+  for (RemovalMove& removal : removals_of(timeline)) {
     if (steps.empty() || !are_equal(steps.back().removals.back(), removal)) steps.push_back({{}, poses});
     for (const ComponentId c : removal.components) poses[c.value] = removal.way.back();
     steps.back().removals.push_back(std::move(removal));
@@ -79,7 +79,7 @@ std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timel
   return steps;
 }
 
-std::vector<ComponentId> surroundings(const WorkStep& step, const Removal& removal) {
+std::vector<ComponentId> surroundings(const WorkStep& step, const RemovalMove& removal) {
   std::vector<ComponentId> others, together;
   for (std::uint32_t c = 0; c < step.before.size(); ++c) {
     const auto& set = removal.components;
@@ -90,7 +90,7 @@ std::vector<ComponentId> surroundings(const WorkStep& step, const Removal& remov
   return together.empty() ? others : together;
 }
 
-std::vector<WayPlace> places_along(const Removal& removal, const Vec3& middle, int pieces) {
+std::vector<WayPlace> places_along(const RemovalMove& removal, const Vec3& middle, int pieces) {
   DISMANTLE_EXPECT(pieces >= 1);
   std::vector<WayPlace> places{{removal.way.front(), 0}};
   for (std::size_t i = 1; i < removal.way.size(); ++i) {

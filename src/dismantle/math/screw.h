@@ -41,7 +41,7 @@ double screw_radius(const Screw& screw, Vec3 center, double radius);
 double screw_path_length(const Screw& screw, double rho);
 
 /// An upper bound of the distance, at equal times, between a point's arc and its chord (the linear path), for a point
-/// within `rho` of the axis: rho angle^2 / 8 (DESIGN section 4) [mm].
+/// within `rho` of the axis: rho angle^2 / 8 (docs/design/0000-overview.md) [mm].
 double screw_chord_deviation(const Screw& screw, double rho);
 
 }  // namespace dismantle

@@ -69,7 +69,7 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_edge_edge(const EdgeEdgeMotion& m
   return conservative_advancement(pair, detail::EdgeEdgePair::Axes(pair.hulls(), 0, hint));
 }
 
-/// The certified test of two edges (DESIGN section 4). Linear vertex paths.
+/// The certified test of two edges (docs/design/0001-certified-ccd.md). Linear vertex paths.
 ///   1. Free is certain: the closed segments share no point at any instant, despite rounding.
 ///   2. Contact: there is certainly none on [0, toi), so toi is never later than the first contact.
 ///   3. Contact is reported where they come closer than rounding can tell apart (some 1e-15 of the largest coordinate

@@ -174,9 +174,9 @@ class FurthestAxis {
   bool facing_ = false;
 };
 
-/// Conservative advancement (DESIGN section 4; after Mirtich 1996, and Catto's time of impact): from the time up to
-/// which the motion is certainly allowed, jump to the end of the best certificate, until one lasts to the end (Free) or
-/// none gains anything (Contact). Sound whatever axes are tried. `Pair` knows the features:
+/// Conservative advancement (docs/design/0001-certified-ccd.md; after Mirtich 1996, and Catto's time of impact): from
+/// the time up to which the motion is certainly allowed, jump to the end of the best certificate, until one lasts to
+/// the end (Free) or none gains anything (Contact). Sound whatever axes are tried. `Pair` knows the features:
 ///   start(best)          tries what is cheap at time 0; true where that proves the pair free
 ///   guess(t)             an axis from the (inexact) closest points at t
 ///   advance(t)           a time up to which, from t on, another certificate holds; t where it has none

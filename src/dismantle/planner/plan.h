@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 
 #include <cstdint>
 #include <string_view>

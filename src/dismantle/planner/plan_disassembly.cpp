@@ -2,14 +2,14 @@
 #include "dismantle/planner/plan_disassembly.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/geometry/round_axes.h"
-#include "dismantle/planner/candidate_directions.h"
+#include "dismantle/features/round_axes.h"
 #include "dismantle/planner/explanation.h"
-#include "dismantle/planner/removal_search.h"
-#include "dismantle/planner/sample_search.h"
-#include "dismantle/planner/screw_search.h"
-#include "dismantle/planner/slide_search.h"
-#include "dismantle/planner/step_maker.h"
+#include "dismantle/planner/search/candidate_directions.h"
+#include "dismantle/planner/search/removal_search.h"
+#include "dismantle/planner/search/sample_search.h"
+#include "dismantle/planner/search/screw_search.h"
+#include "dismantle/planner/search/slide_search.h"
+#include "dismantle/planner/search/step_maker.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "dismantle/core/contract.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/planner/component_set.h"
-#include "dismantle/planner/step_maker.h"
+#include "dismantle/planner/search/step_maker.h"
 #include "dismantle/session/session_path.h"
 
 #include <algorithm>

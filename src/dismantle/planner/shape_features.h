@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/geometry/triangle_mesh.h"
-#include "dismantle/planner/direction_clusters.h"
+#include "dismantle/planner/search/direction_clusters.h"
 
 #include <vector>
 

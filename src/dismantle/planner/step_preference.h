@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/planner/plan_disassembly.h"
-#include "dismantle/planner/removal_search.h"
+#include "dismantle/planner/search/removal_search.h"
 
 #include <map>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/render/image.h"
 
-#include "dismantle/io/atomic_file.h"
+#include "dismantle/files/atomic_file.h"
 
 #include <png.h>
 

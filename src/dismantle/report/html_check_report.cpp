@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/report/html_check_report.h"
 
-#include "dismantle/io/check_report.h"
+#include "dismantle/documents/check_report.h"
 #include "dismantle/report/check_page.h"
 #include "dismantle/report/check_pictures.h"
 #include "dismantle/report/html_text.h"

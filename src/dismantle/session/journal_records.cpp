@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/session/journal_records.h"
 
-#include "dismantle/io/byte_order.h"
+#include "dismantle/files/byte_order.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/path.h"
-#include "dismantle/collision/motion_engine.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
+#include "dismantle/engine/motion_engine.h"
 
 #include <vector>
 

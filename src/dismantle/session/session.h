@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/collision/certificate_engine.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/result.h"
 #include "dismantle/session/journal.h"
 #include "dismantle/session/playback.h"
@@ -45,8 +45,8 @@ struct Guide {
 };
 
 /// An assembly that a person takes apart: a set in hand, collision handling by the method `certificates`, a recording
-/// of everything that was let happen, undo and redo. Whatever it holds satisfies the guarantee of DESIGN section 3. The
-/// same calls give the same session, bit for bit. For one thread at a time.
+/// of everything that was let happen, undo and redo. Whatever it holds satisfies the guarantee of docs/guarantee.md.
+/// The same calls give the same session, bit for bit. For one thread at a time.
 class Session {
  public:
   /// Everything assembled. `assembly` must outlive the session.
@@ -92,7 +92,7 @@ class Session {
   Span<const SessionEntry> done() const { return {entries_.data(), done_count_}; }
   /// What redo() would do again; the next one first.
   Span<const SessionEntry> undone() const { return {entries_.data() + done_count_, entries_.size() - done_count_}; }
-  /// The recording as FORMATS has it, with what the drag in hand has made so far.
+  /// The recording as docs/formats.md has it, with what the drag in hand has made so far.
   Path recording() const;
   /// Everything assembled, nothing recorded, nothing hidden.
   void reset();

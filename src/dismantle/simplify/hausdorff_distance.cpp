@@ -80,8 +80,8 @@ class TriangleSearch {
  private:
   double wanted() const { return lower_ + std::max(absolute_gap_, options_.relative_gap * lower_); }
 
-  SurfaceDistance measure(Vec3 point, std::uint32_t nearby) {
-    const SurfaceDistance d = tree_.distance(point, nearby);
+  MeshDistance measure(Vec3 point, std::uint32_t nearby) {
+    const MeshDistance d = tree_.distance(point, nearby);
     lower_ = std::max(lower_, d.distance);
     return d;
   }
@@ -105,7 +105,7 @@ class TriangleSearch {
     piece.upper = bound_by_face(piece.corners, nearby);
     if (piece.upper > wanted()) {
       const Vec3 middle = centroid_of(piece.corners);
-      const SurfaceDistance d = measure(middle, nearby);
+      const MeshDistance d = measure(middle, nearby);
       double radius = 0;
       for (const Vec3& c : piece.corners) radius = std::max(radius, length(c - middle));
       piece.face = d.face;
@@ -167,10 +167,10 @@ DistanceBounds one_sided_hausdorff_distance(const TriangleMesh& from, const Tria
   box.extend(bounds(to));
   const SurfaceTree tree(to, options.executor);
 
-  std::vector<SurfaceDistance> of_vertex(from.vertices.size());
+  std::vector<MeshDistance> of_vertex(from.vertices.size());
   options.executor.for_each(of_vertex.size(), [&](std::size_t v) { of_vertex[v] = tree.distance(from.vertices[v]); });
   DistanceBounds result;
-  for (const SurfaceDistance& d : of_vertex) result.lower = std::max(result.lower, d.distance);
+  for (const MeshDistance& d : of_vertex) result.lower = std::max(result.lower, d.distance);
 
   std::vector<DistanceBounds> of_face(from.faces.size());
   options.executor.for_each(of_face.size(), [&](std::size_t f) {

@@ -73,7 +73,7 @@ double SurfaceTree::distance_to_face(Vec3 point, std::uint32_t face) const {
   return length(point - closest_point_of_triangle(triangles_[face], point));
 }
 
-SurfaceDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint) const {
+MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint) const {
   struct Waiting {
     NodeIndex node;
     double squared;

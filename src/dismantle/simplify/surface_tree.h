@@ -15,7 +15,7 @@ namespace dismantle {
 Vec3 closest_point_of_triangle(const Triangle& triangle, Vec3 point);
 
 /// Distance from a point to a mesh, and a triangle at that distance.
-struct SurfaceDistance {
+struct MeshDistance {
   double distance = 0;     ///< [mm]
   std::uint32_t face = 0;  ///< Of the mesh.
 };
@@ -28,7 +28,7 @@ class SurfaceTree {
 
   /// The distance from `point` to the mesh: to the point of its triangles that is nearest, exact up to rounding.
   /// @param hint a triangle that may be near: the better it is, the sooner the answer
-  SurfaceDistance distance(Vec3 point, std::uint32_t hint = 0) const;
+  MeshDistance distance(Vec3 point, std::uint32_t hint = 0) const;
   const Triangle& triangle(std::uint32_t face) const { return triangles_[face]; }
   /// The distance from `point` to one triangle [mm].
   double distance_to_face(Vec3 point, std::uint32_t face) const;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/candidates/candidate_kernel.h"
+#include "dismantle/candidates/motion_batch.h"
+#include "dismantle/math/screw.h"
+#include "dismantle/streams/device/device_buffers.h"
+#include "dismantle/streams/moving_streams.h"
+#include "dismantle/streams/step_towards.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+/// MotionBatch over a queue, as ResidentStreams is: HostQueue or CudaQueue.
+template <class Queue>
+class ResidentBatch final : public MotionBatch {
+ public:
+  ResidentBatch(Queue queue, const Assembly& assembly, const PairStates& pairs, const Executor& executor)
+      : queue_(std::move(queue)),
+        executor_(executor),
+        assembly_(assembly),
+        rules_(pairs),
+        host_(assembly, executor),
+        geometry_(queue_, host_.fixed()),
+        rule_table_(queue_, rules_.view().table) {}
+
+  void set_state(Span<const Pose> poses, Span<const ComponentId> moving) override;
+  std::vector<FirstContact> straight_contacts(Span<const Vec3> ways) override;
+  std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override;
+
+ private:
+  double path_deviation() const { return kPathDeviationShare * rules_.tolerance(); }
+  CandidateScene scene() const;
+  std::vector<Pose> stations_to(const Pose& target) const;
+  std::vector<FirstContact> brought_down_contacts(const DeviceArray<CandidateContact>& found);
+  FirstContact contact_of(const CandidateContact& found) const;
+
+  Queue queue_;
+  Executor executor_;
+  const Assembly& assembly_;
+  PairRules rules_;
+  MovingStreams host_;
+  resident::Geometry geometry_;
+  DeviceArray<PairRuleEntry> rule_table_;
+  DeviceArray<Vec3> vertices_;
+  DeviceArray<Kdop16> bounds_;
+  DeviceArray<NodeIndex> moving_roots_;
+  DeviceArray<std::uint32_t> motion_class_;
+  std::vector<std::uint32_t> in_hand_;  // what motion_class_ holds
+  Pose start_;
+  RigidSet set_;
+};
+
+template <class Queue>
+void ResidentBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentId> moving) {
+  DISMANTLE_EXPECT(!moving.empty() && poses.size() == host_.fixed().component_count());
+  std::vector<RigidTransform> state;
+  for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
+  host_.jump(state, executor_);
+  start_ = poses[moving[0].value];
+  set_ = make_rigid_set(assembly_, {moving.begin(), moving.end()});
+  in_hand_.assign(poses.size(), 0);
+  std::vector<NodeIndex> roots;
+  for (const ComponentId c : moving) {
+    DISMANTLE_EXPECT(poses[c.value] == start_);
+    in_hand_[c.value] = 1;
+    const NodeIndex root = host_.fixed().bvh.components[c.value].root;
+    if (root != kNoNode) roots.push_back(root);
+  }
+  vertices_ = {queue_, host_.vertices_t0()};
+  bounds_ = {queue_, host_.bounds()};
+  moving_roots_ = {queue_, Span<const NodeIndex>(roots)};
+  motion_class_ = {queue_, Span<const std::uint32_t>(in_hand_)};
+}
+
+template <class Queue>
+CandidateScene ResidentBatch<Queue>::scene() const {
+  return {geometry_.tree(),
+          bounds_.view(),
+          geometry_.assembled.view(),
+          vertices_.view(),
+          geometry_.faces.view(),
+          moving_roots_.view(),
+          motion_class_.view(),
+          {rule_table_.view(), rules_.tolerance()},
+          transform_from_pose(start_),
+          path_deviation()};
+}
+
+template <class Queue>
+std::vector<FirstContact> ResidentBatch<Queue>::straight_contacts(Span<const Vec3> ways) {
+  const DeviceArray<Vec3> ways_there(queue_, ways);
+  DeviceArray<CandidateContact> found(queue_, ways.size());
+  queue_.launch(ways.size(), SweepStraight{scene(), ways_there.view(), found.view()});
+  return brought_down_contacts(found);
+}
+
+/// The poses between which the set's chords are near enough to its arcs; the start first.
+template <class Queue>
+std::vector<Pose> ResidentBatch<Queue>::stations_to(const Pose& target) const {
+  const Screw screw = screw_between(start_, target);
+  const double rho = screw_radius(screw, transform_from_pose(start_) * set_.center, set_.radius);
+  const int pieces = chord_count(screw_chord_deviation(screw, rho), path_deviation());
+  std::vector<Pose> stations;
+  for (int k = 0; k <= pieces; ++k) stations.push_back(pose_between(start_, target, static_cast<double>(k) / pieces));
+  return stations;
+}
+
+template <class Queue>
+std::vector<FirstContact> ResidentBatch<Queue>::screw_contacts(Span<const Pose> targets) {
+  std::vector<RigidTransform> stations;
+  std::vector<std::uint32_t> begin{0};
+  for (const Pose& target : targets) {
+    for (const Pose& station : stations_to(target)) stations.push_back(transform_from_pose(station));
+    begin.push_back(static_cast<std::uint32_t>(stations.size()));
+  }
+  const DeviceArray<RigidTransform> stations_there(queue_, Span<const RigidTransform>(stations));
+  const DeviceArray<std::uint32_t> begin_there(queue_, Span<const std::uint32_t>(begin));
+  DeviceArray<CandidateContact> found(queue_, targets.size());
+  queue_.launch(targets.size(), SweepTurning{scene(), stations_there.view(), begin_there.view(), found.view()});
+  return brought_down_contacts(found);
+}
+
+template <class Queue>
+std::vector<FirstContact> ResidentBatch<Queue>::brought_down_contacts(const DeviceArray<CandidateContact>& found) {
+  std::vector<FirstContact> contacts;
+  contacts.reserve(found.size());
+  for (const CandidateContact& contact : brought_down(queue_, found, found.size()))
+    contacts.push_back(contact_of(contact));
+  return contacts;
+}
+
+template <class Queue>
+FirstContact ResidentBatch<Queue>::contact_of(const CandidateContact& found) const {
+  FirstContact contact;
+  if (found.key == CandidateContact::kFree) return contact;
+  const TriangleStreams& fixed = host_.fixed();
+  NodePair leaves = pair_of_key(found.key);
+  if (in_hand_[fixed.bvh.component_of[leaves.a]] == 0) std::swap(leaves.a, leaves.b);
+  contact.toi = found.toi;
+  contact.free = false;
+  contact.moving = ComponentId(fixed.bvh.component_of[leaves.a]);
+  contact.fixed = ComponentId(fixed.bvh.component_of[leaves.b]);
+  contact.face_moving = fixed.face_of[leaves.a];
+  contact.face_fixed = fixed.face_of[leaves.b];
+  return contact;
+}
+
+}  // namespace dismantle

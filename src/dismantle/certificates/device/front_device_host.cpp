@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/device/queue_front_device.h"
+#include "dismantle/exec/host_queue.h"
+
+namespace dismantle {
+
+std::unique_ptr<FrontDevice> make_played_front_device(const Executor& device, std::size_t capacity) {
+  return std::make_unique<ResidentFrontDevice<HostQueue>>(HostQueue(device), capacity);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/certificates/front/certificate_lanes.h"
+
+/// The separating-axis test of boxes in lanes: the same text for the CPU and CUDA, where a lane is a thread. For
+/// kernels' sources only.
+namespace dismantle {
+inline namespace DISMANTLE_LANES_ISA {
+
+/// Crosses of edges that are nearer to parallel than this (squared sine) are no axes: rounding would swallow them.
+template <int kLanes>
+constexpr float kLeastCross = 0.01f;
+
+/// Pairs of boxes, one a lane.
+template <int kLanes>
+struct BoxPairs {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+
+  V center_a, center_b, axes_a[3], axes_b[3];
+  F half_a[3], half_b[3];
+  V guard, cone_a, cone_b;
+  F ahead_a, ahead_b;
+
+  /// Gathers from the nodes; lanes past `count` repeat the last pair.
+  DISMANTLE_HOST_DEVICE BoxPairs(const BoxPairQuery* queries, std::size_t count) {
+    constexpr int kFields = 35;
+    const NormalCone any{{}, -1};
+    float field[kFields][kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const BoxPairQuery& q = queries[static_cast<std::size_t>(l) < count ? static_cast<std::size_t>(l) : count - 1];
+      gather_box(field, 0, l, q.a->box);
+      gather_box(field, 12, l, q.b->box);
+      field[24][l] = q.guard.x;
+      field[25][l] = q.guard.y;
+      field[26][l] = q.guard.z;
+      gather_cone(field, 27, l, q.cone_a ? *q.cone_a : any);
+      gather_cone(field, 31, l, q.cone_b ? *q.cone_b : any);
+    }
+    center_a = load_vector(field, 0);
+    center_b = load_vector(field, 12);
+    for (int k = 0; k < 2; ++k) {
+      axes_a[k] = load_vector(field, 3 + 3 * k);
+      axes_b[k] = load_vector(field, 15 + 3 * k);
+    }
+    axes_a[2] = cross(axes_a[0], axes_a[1]);
+    axes_b[2] = cross(axes_b[0], axes_b[1]);
+    for (int k = 0; k < 3; ++k) {
+      half_a[k] = F::load(field[9 + k]);
+      half_b[k] = F::load(field[21 + k]);
+    }
+    guard = load_vector(field, 24);
+    cone_a = load_vector(field, 27);
+    ahead_a = F::load(field[30]);
+    cone_b = load_vector(field, 31);
+    ahead_b = F::load(field[34]);
+  }
+
+ private:
+  template <std::size_t kFields>
+  DISMANTLE_HOST_DEVICE static void gather_box(float (&field)[kFields][kLanes], int first, int lane, const Obb& box) {
+    const float* from = &box.center.x;  // 12 floats in a row
+    for (int k = 0; k < 12; ++k) field[first + k][lane] = from[k];
+  }
+  template <std::size_t kFields>
+  DISMANTLE_HOST_DEVICE static void gather_cone(float (&field)[kFields][kLanes], int first, int lane,
+                                                const NormalCone& cone) {
+    field[first][lane] = cone.axis.x;
+    field[first + 1][lane] = cone.axis.y;
+    field[first + 2][lane] = cone.axis.z;
+    field[first + 3][lane] = cone.ahead;
+  }
+  template <std::size_t kFields>
+  DISMANTLE_HOST_DEVICE static V load_vector(const float (&field)[kFields][kLanes], int first) {
+    return {F::load(field[first]), F::load(field[first + 1]), F::load(field[first + 2])};
+  }
+};
+
+/// The axis of the largest gap so far, with the boxes turned as they are half way, whatever the normals say.
+template <int kLanes>
+struct FurthestAxes {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+
+  V guard;
+  F apart;
+  F gap = F(-3e38f);
+  V axis = {};
+
+  /// @param way_t0, way_t1 from the center of B to that of A, along `line`, at either end
+  /// @param half the two boxes' extents along `line`
+  /// @param scale 1 / |line|
+  DISMANTLE_HOST_DEVICE void consider(V line, F way_t0, F way_t1, F half, F scale) {
+    const F side = select(way_t0 + way_t1 > F(0), F(-1), F(1));
+    const F nearest = min(-(side * way_t0), -(side * way_t1));
+    const F along = side * dot(line, guard);
+    const F found = (nearest - half) * scale;
+    const auto better = (found > gap) & !((along < F(0)) & (found < apart));
+    gap = select(better, found, gap);
+    axis = select_vector<kLanes>(better, (side * scale) * line, axis);
+  }
+};
+
+/// Two boxes, where they are relative to each other during the sweep.
+template <int kLanes>
+struct BoxWay {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+
+  V way_t0, way_t1;  // from the center of B to that of A
+  V a[3];            // axes of A half way
+  F cosine[3][3];
+
+  DISMANTLE_HOST_DEVICE BoxWay(const BoxPairs<kLanes>& boxes, const LinearSweep& sweep)
+      : way_t0(transformed<kLanes>(sweep.t0, boxes.center_a) - boxes.center_b),
+        way_t1(transformed<kLanes>(sweep.t1, boxes.center_a) - boxes.center_b) {
+    for (int i = 0; i < 3; ++i) {
+      a[i] = rotated<kLanes>(sweep.middle, boxes.axes_a[i]);
+      for (int j = 0; j < 3; ++j) cosine[i][j] = abs(dot(a[i], boxes.axes_b[j]));
+    }
+  }
+};
+
+/// Considers all 15 axes of pairs of boxes.
+template <int kLanes, class Axes>
+DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const BoxWay<kLanes>& way, Axes& best) {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+  for (int i = 0; i < 3; ++i) {
+    const F reach_b =
+        boxes.half_b[0] * way.cosine[i][0] + boxes.half_b[1] * way.cosine[i][1] + boxes.half_b[2] * way.cosine[i][2];
+    best.consider(way.a[i], dot(way.a[i], way.way_t0), dot(way.a[i], way.way_t1), boxes.half_a[i] + reach_b, F(1));
+    const F reach_a =
+        boxes.half_a[0] * way.cosine[0][i] + boxes.half_a[1] * way.cosine[1][i] + boxes.half_a[2] * way.cosine[2][i];
+    const V b = boxes.axes_b[i];
+    best.consider(b, dot(b, way.way_t0), dot(b, way.way_t1), boxes.half_b[i] + reach_a, F(1));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const V line = cross(way.a[i], boxes.axes_b[j]);
+      const F square = dot(line, line);
+      const auto parallel = square < F(kLeastCross<kLanes>);
+      const F scale = F(1) / sqrt(select(parallel, F(1), square));
+      const F half = boxes.half_a[i1] * way.cosine[i2][j] + boxes.half_a[i2] * way.cosine[i1][j] +
+                     boxes.half_b[j1] * way.cosine[i][j2] + boxes.half_b[j2] * way.cosine[i][j1];
+      best.consider(line, dot(line, way.way_t0), dot(line, way.way_t1), half + select(parallel, F(1e30f), F(0)), scale);
+    }
+  }
+}
+
+/// As separate_boxes_kernel.
+template <int kLanes>
+DISMANTLE_HOST_DEVICE void separate_box_lanes(const BoxPairQuery* queries, std::size_t count, const LinearSweep& sweep,
+                                              NodeSeparation* separations) {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t left = count - first;
+    const BoxPairs<kLanes> boxes(queries + first, left);
+    const BoxWay<kLanes> way(boxes, sweep);
+    const FacingLanes<kLanes> facing{rotated<kLanes>(sweep.middle, boxes.cone_a), boxes.cone_b, boxes.ahead_a,
+                                     boxes.ahead_b, F(sweep.allowed)};
+    FurthestAxes<kLanes> furthest{boxes.guard, F(sweep.apart)};
+    consider_all<kLanes>(boxes, way, furthest);
+    V axis = furthest.axis;
+    FacingAxes<kLanes> chosen{facing, boxes.guard, F(sweep.apart)};
+    // Which side is which matters only where they are close.
+    const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
+    if (any(close)) {
+      consider_all<kLanes>(boxes, way, chosen);
+      axis = select_vector<kLanes>(close, chosen.axis, axis);
+    }
+    const Hulls<kLanes> hull{
+        boxes.center_a,
+        {boxes.half_a[0] * boxes.axes_a[0], boxes.half_a[1] * boxes.axes_a[1], boxes.half_a[2] * boxes.axes_a[2]},
+        F(0)};
+    F reach_b(0);
+    for (int k = 0; k < 3; ++k) reach_b = reach_b + abs(dot(axis, boxes.axes_b[k])) * boxes.half_b[k];
+    const F offset = dot(axis, boxes.center_b) - reach_b - facing.taken_off(axis);
+    store_separations<kLanes>(axis, offset, hull, boxes.guard, sweep, separations + first, left);
+  }
+}
+
+}  // namespace DISMANTLE_LANES_ISA
+}  // namespace dismantle

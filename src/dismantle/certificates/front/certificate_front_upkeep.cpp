@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a front does between looking for what is apart: it gathers what went fine, and keeps its parts of a size.
+#include "dismantle/certificates/front/certificate_front.h"
+#include "dismantle/certificates/front/sibling_table.h"
+#include "dismantle/core/contract.h"
+#include "dismantle/math/vec3f.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace dismantle {
+
+namespace {
+
+/// Every part looks for siblings to merge each so many sweeps.
+constexpr std::size_t kMergePeriod = 8;
+/// It goes on with that while more than one in so many pairs goes.
+constexpr std::size_t kMergeShare = 8;
+/// Parts of more pairs than this are cut in two.
+constexpr std::size_t kLargestPart = 2048;
+/// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
+/// for what is parted as round, in so many pairs of nodes.
+constexpr std::size_t kBlockedToMerge = 3;
+constexpr std::size_t kLeastToMergeRound = 64;
+constexpr std::size_t kRoundTries = 256;
+
+}  // namespace
+
+bool CertificateFront::merges(std::size_t part) const {
+  return (sweeps_ + part) % kMergePeriod == kMergePeriod - 1;
+}
+
+std::vector<Siblings> CertificateFront::siblings_of(std::size_t part, const PreparedSweep& sweep) const {
+  return merges(part) ? find_siblings(parts_[part], sweep) : std::vector<Siblings>{};
+}
+
+void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
+  const std::vector<Siblings> siblings = siblings_of(index, sweep);
+  merge_part(index, sweep, kernels, siblings, separate_parents(siblings, sweep, kernels));
+}
+
+void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
+                                  Span<const Siblings> siblings, Span<const NodeSeparation> separations) {
+  DISMANTLE_EXPECT(siblings.size() == separations.size());
+  CertificatePart& part = parts_[index];
+  std::size_t gone = merge(part, sweep, siblings, separations);
+  while (gone * kMergeShare > part.size()) {
+    const std::vector<Siblings> more = find_siblings(part, sweep);
+    gone = merge(part, sweep, more, separate_parents(more, sweep, kernels));
+  }
+}
+
+std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& part, const PreparedSweep& sweep) const {
+  std::vector<Siblings> found;
+  SiblingTable table(2 * part.size());
+  const auto siblings = [&](FrontPair x, FrontPair y, bool halves_a) {
+    return halves_a ? x.b == y.b && a_->nodes[x.a].parent == a_->nodes[y.a].parent
+                    : x.a == y.a && b_->nodes[x.b].parent == b_->nodes[y.b].parent;
+  };
+  const auto look_for = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
+    const std::optional<std::uint32_t> other = table.meet(parent.a, parent.b, halves_a, i);
+    if (!other || !siblings(part.pair(*other), part.pair(i), halves_a)) return;
+    // Siblings on different sides of the same thing stay apart; one side is handed on.
+    const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
+    if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
+    found.push_back({parent, length_squared(one) > 0 ? one : two, *other, i});
+  };
+  for (std::uint32_t i = 0; i < part.size(); ++i) {
+    const FrontPair pair = part.pair(i);
+    const std::uint32_t up_a = a_->nodes[pair.a].parent, up_b = b_->nodes[pair.b].parent;
+    if (up_a != ObbNode::kNone) look_for({up_a, pair.b}, true, i);
+    if (up_b != ObbNode::kNone) look_for({pair.a, up_b}, false, i);
+  }
+  return found;
+}
+
+std::vector<NodeSeparation> CertificateFront::separate_parents(Span<const Siblings> siblings,
+                                                               const PreparedSweep& sweep,
+                                                               const FrontKernels& kernels) const {
+  std::vector<BoxPairQuery> queries;
+  queries.reserve(siblings.size());
+  for (const Siblings& s : siblings) queries.push_back(trees().box_query(s.parent.a, s.parent.b, s.hint));
+  std::vector<NodeSeparation> separations(queries.size());
+  if (!queries.empty()) kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
+  return separations;
+}
+
+std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& sweep, Span<const Siblings> siblings,
+                                    Span<const NodeSeparation> separations) const {
+  if (siblings.empty()) return 0;
+  FrontSweep unused;
+  std::vector<bool> merged(part.size());
+  std::vector<std::uint32_t> gone;
+  for (std::size_t k = 0; k < siblings.size(); ++k) {
+    const Siblings& s = siblings[k];
+    if (merged[s.first] || merged[s.second]) continue;
+    const bool by_boxes = separations[k].gap >= trees().limit(s.hint, sweep);
+    if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
+    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::of_round());
+    merged[s.first] = merged[s.second] = true;
+    gone.push_back(s.second);
+  }
+  std::sort(gone.begin(), gone.end());
+  for (auto i = gone.rbegin(); i != gone.rend(); ++i) part.remove(*i);
+  return gone.size();
+}
+
+CertificatePart CertificateFront::cut(CertificatePart& part) const {
+  std::vector<std::uint32_t> of_a(part.size()), of_b(part.size());
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    of_a[i] = part.pair(i).a;
+    of_b[i] = part.pair(i).b;
+  }
+  // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not part them.
+  const auto middle_of = [](std::vector<std::uint32_t>& nodes) {
+    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+    std::nth_element(nodes.begin(), middle, nodes.end());
+    return *middle | 1u;
+  };
+  const auto spread = [](const std::vector<std::uint32_t>& nodes) {
+    const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
+    return *most - *least;
+  };
+  const bool by_a = spread(of_a) >= spread(of_b);
+  std::vector<std::uint32_t>& nodes = by_a ? of_a : of_b;
+  std::uint32_t border = middle_of(nodes);
+  // Where most pairs have the first node, it and its sibling go before the border: something has to.
+  if (*std::min_element(nodes.begin(), nodes.end()) >= border) border += 2;
+  CertificatePart kept, rest;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    ((by_a ? part.pair(i).a : part.pair(i).b) < border ? kept : rest).append(part.pair(i), part.certificate(i));
+  part = std::move(kept);
+  return rest;
+}
+
+void CertificateFront::merge_round(const PreparedSweep& sweep) {
+  struct Pair {
+    ObbSubtree a, b;
+  };
+  std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
+  FrontSweep unused;
+  for (std::size_t k = 0; k < tried.size() && k < kRoundTries; ++k) {
+    const Pair pair = tried[k];
+    if (parts_round(pair.a.node, pair.b.node, sweep, unused)) {
+      found.push_back(pair);
+    } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
+      const bool splits_of_a = trees().splits_a(pair.a.node, pair.b.node);
+      for (std::uint32_t h = 0; h < 2; ++h)
+        tried.push_back(splits_of_a ? Pair{pair.a.half(*a_, h), pair.b} : Pair{pair.a, pair.b.half(*b_, h)});
+    }
+  }
+  if (found.empty()) return;
+  const auto lies_below = [](const FrontPair& pair) {
+    return [pair](const Pair& large) { return large.a.holds(pair.a) && large.b.holds(pair.b); };
+  };
+  for (CertificatePart& part : parts_)
+    for (std::size_t i = part.size(); i-- > 0;)
+      if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
+  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, Certificate::of_round());
+}
+
+void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
+  ++sweeps_;
+  blocked_ += !free;
+  if (free && blocked_ >= kBlockedToMerge && size() > kLeastToMergeRound) {
+    merge_round(sweep);
+    blocked_ = 0;
+  }
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (parts_[p].size() <= kLargestPart) continue;
+    CertificatePart rest = cut(parts_[p]);
+    if (rest.size() > 0) parts_.push_back(std::move(rest));
+  }
+  // Parts that merging has left small join, so that siblings meet again.
+  for (std::size_t p = 1; p < parts_.size();) {
+    CertificatePart& before = parts_[p - 1];
+    const CertificatePart& part = parts_[p];
+    if (before.size() + part.size() > kLargestPart / 2) {
+      ++p;
+      continue;
+    }
+    for (std::size_t i = 0; i < part.size(); ++i) before.append(part.pair(i), part.certificate(i));
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
+    for (std::size_t behind = p; behind < parts_.size(); ++behind) parts_[behind].mark_changed();
+  }
+}
+
+void CertificateFront::exchange_roles(const Mat3& rotation) {
+  const Mat3 back = transposed(rotation);
+  for (CertificatePart& part : parts_)
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      Certificate c = part.certificate(i);
+      const Vec3f axis = c.axis;
+      c.axis = to_float(-(back * Vec3{axis.x, axis.y, axis.z}));
+      part.set_certificate(i, c);
+    }
+  b_moves_ = !b_moves_;
+  forget();
+}
+
+void CertificateFront::forget() {
+  for (CertificatePart& part : parts_)
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      Certificate c = part.certificate(i);
+      c.offset = std::min(c.offset, kForgottenCertificate);
+      part.set_certificate(i, c);
+    }
+}
+
+}  // namespace dismantle

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/certificates/front/certificate_lanes.h"
+
+/// The separating-axis test of triangles in lanes: the same text for the CPU and CUDA, where a lane is a thread. For
+/// kernels' sources only.
+namespace dismantle {
+inline namespace DISMANTLE_LANES_ISA {
+
+/// Crosses smaller than this (squared [mm^4]) are no axes.
+template <int kLanes>
+constexpr float kNoAxis = 1e-30f;
+
+/// Pairs of triangles, one a lane.
+template <int kLanes>
+struct TrianglePairs {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+
+  V a[3], b[3], guard;
+  F facing;
+
+  /// Gathers the corners; lanes past `count` repeat the last pair.
+  DISMANTLE_HOST_DEVICE TrianglePairs(const TrianglePairQuery* queries, std::size_t count) {
+    constexpr int kFields = 22;
+    float field[kFields][kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const TrianglePairQuery& q =
+          queries[static_cast<std::size_t>(l) < count ? static_cast<std::size_t>(l) : count - 1];
+      const float *from_a = &q.a->corner[0].x, *from_b = &q.b->corner[0].x;  // 9 floats in a row each
+      for (int k = 0; k < 9; ++k) field[k][l] = from_a[k];
+      for (int k = 0; k < 9; ++k) field[9 + k][l] = from_b[k];
+      field[18][l] = q.guard.x;
+      field[19][l] = q.guard.y;
+      field[20][l] = q.guard.z;
+      field[21][l] = q.facing ? 1.0f : 0.0f;
+    }
+    const auto vector = [&](int first) {
+      return V{F::load(field[first]), F::load(field[first + 1]), F::load(field[first + 2])};
+    };
+    for (int k = 0; k < 3; ++k) {
+      a[k] = vector(3 * k);
+      b[k] = vector(9 + 3 * k);
+    }
+    guard = vector(18);
+    facing = F::load(field[21]);
+  }
+};
+
+template <int kLanes>
+DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> unit_or_zero(Vec3T<Lanes<kLanes>> v) {
+  using F = Lanes<kLanes>;
+  const F square = dot(v, v);
+  const auto none = square < F(kNoAxis<kLanes>);
+  return select(none, F(0), F(1) / sqrt(select(none, F(1), square))) * v;
+}
+
+/// The axes of two triangles: both normals, what is across their edges in their planes, and the edges' crosses.
+template <int kLanes>
+struct TriangleAxes {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+
+  V at_t0[3], at_t1[3], b[3];
+  FacingAxes<kLanes>&well, &on_edge;
+
+  DISMANTLE_HOST_DEVICE void consider(V line) {
+    const V w = unit_or_zero<kLanes>(line);
+    F low_a(3e38f), high_a(-3e38f), low_b(3e38f), high_b(-3e38f);
+    for (int k = 0; k < 3; ++k) {
+      const F x0 = dot(w, at_t0[k]), x1 = dot(w, at_t1[k]), y = dot(w, b[k]);
+      low_a = min(low_a, min(x0, x1));
+      high_a = max(high_a, max(x0, x1));
+      low_b = min(low_b, y);
+      high_b = max(high_b, y);
+    }
+    // A zero axis would find no gap and no overlap.
+    const F none = select(dot(w, w) < F(0.5f), F(1e30f), F(0));
+    for (int k = 0; k < 2; ++k) {
+      FacingAxes<kLanes>& best = k == 0 ? well : on_edge;
+      best.consider_side(w, low_b - high_a - none);
+      best.consider_side(-w, low_a - high_b - none);
+    }
+  }
+};
+
+/// As separate_triangles_kernel.
+template <int kLanes>
+DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* queries, std::size_t count,
+                                                   const LinearSweep& sweep, NodeSeparation* separations) {
+  using F = Lanes<kLanes>;
+  using V = Vec3T<F>;
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t left = count - first;
+    const TrianglePairs<kLanes> pairs(queries + first, left);
+    Hulls<kLanes> hull{pairs.a[0], {pairs.a[1] - pairs.a[0], pairs.a[2] - pairs.a[0], V{}}, F(NodeHull::kTriangle)};
+    const V along_a[3] = {rotated<kLanes>(sweep.middle, hull.span[0]),
+                          rotated<kLanes>(sweep.middle, pairs.a[2] - pairs.a[1]),
+                          rotated<kLanes>(sweep.middle, hull.span[1])};
+    const V along_b[3] = {pairs.b[1] - pairs.b[0], pairs.b[2] - pairs.b[1], pairs.b[2] - pairs.b[0]};
+    const V normal_a = cross(along_a[0], along_a[2]), normal_b = cross(along_b[0], along_b[2]);
+    const auto closed = pairs.facing > F(0);
+    const V unit_a = unit_or_zero<kLanes>(normal_a), unit_b = unit_or_zero<kLanes>(normal_b);
+    const auto facing_by = [&](float least) {
+      const F ahead = select(closed, F(least), F(-2));
+      return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
+    };
+    const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kLeastAhead)),
+                              facing_on_edge = facing_by(kLeastCosine<kLanes>);
+    FacingAxes<kLanes> well{facing_well, pairs.guard, F(sweep.apart)},
+        on_edge{facing_on_edge, pairs.guard, F(sweep.apart)};
+    TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}, well, on_edge};
+    for (int k = 0; k < 3; ++k) {
+      axes.at_t0[k] = transformed<kLanes>(sweep.t0, pairs.a[k]);
+      axes.at_t1[k] = transformed<kLanes>(sweep.t1, pairs.a[k]);
+    }
+    axes.consider(normal_a);
+    axes.consider(normal_b);
+    for (int i = 0; i < 3; ++i) {
+      axes.consider(cross(along_a[i], normal_a));
+      axes.consider(cross(along_b[i], normal_b));
+      for (int j = 0; j < 3; ++j) axes.consider(cross(along_a[i], along_b[j]));
+    }
+    // On edge only what cannot be otherwise; the margin is for what rounding does to `well`.
+    const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
+    const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
+    const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
+    hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
+    F least_b(3e38f);
+    for (int k = 0; k < 3; ++k) least_b = min(least_b, dot(axis, pairs.b[k]));
+    const F offset = least_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
+    store_separations<kLanes>(axis, offset, hull, pairs.guard, sweep, separations + first, left);
+  }
+}
+
+}  // namespace DISMANTLE_LANES_ISA
+}  // namespace dismantle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/response/embedded_watch.h"
+
+#include "dismantle/math/screw.h"
+#include "dismantle/streams/sweep_engine.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// A motion that is stopped is made up to this share before the contact, and tried that many times.
+constexpr double kBackoff = 1 - 1e-3;
+constexpr int kTries = 4;
+
+}  // namespace
+
+EmbeddedWatch::EmbeddedWatch(const Assembly& assembly, const PairStates& pairs, const Executor& executor) {
+  for (const ComponentPair& pair : pairs.pairs) {
+    if (pair.state != PairState::Embedded) continue;
+    Watched w;
+    w.pair = pair;
+    w.assembly = std::make_unique<Assembly>();
+    w.assembly->components = {assembly[pair.a], assembly[pair.b]};
+    PairStates states;
+    states.tolerance = pairs.tolerance;
+    states.pairs = {pair};
+    states.pairs[0].a = ComponentId(0);
+    states.pairs[0].b = ComponentId(1);
+    CollisionOptions options;
+    options.executor = executor;
+    w.engine = make_streams_engine(*w.assembly, states, options);
+    watched_.push_back(std::move(w));
+  }
+}
+
+std::vector<ComponentPair> EmbeddedWatch::pairs() const {
+  std::vector<ComponentPair> list;
+  for (const Watched& w : watched_) list.push_back(w.pair);
+  return list;
+}
+
+double EmbeddedWatch::follow(const std::vector<bool>& held, Span<const Pose> poses, const Pose& start, const Pose& end,
+                             int cuts, double deviation) {
+  std::vector<Watched*> moving;
+  for (Watched& w : watched_)
+    if (held[w.pair.a.value] != held[w.pair.b.value]) moving.push_back(&w);
+  if (moving.empty()) return 1;
+
+  // The least part of the piece to `next` that all of them let through; nothing is committed.
+  const auto sweep = [&](const Pose& next) {
+    double toi = 1;
+    for (Watched* w : moving) {
+      const auto at = [&](ComponentId c) { return transform_from_pose(held[c.value] ? next : poses[c.value]); };
+      const RigidTransform state[2] = {at(w->pair.a), at(w->pair.b)};
+      const SweepResult found = w->engine->sweep({state, 2}, deviation);
+      if (!found.free) toi = std::min(toi, found.toi * kBackoff);
+    }
+    return toi;
+  };
+  const auto commit = [&] {
+    for (Watched* w : moving) w->engine->commit();
+  };
+
+  for (int k = 0; k < cuts; ++k) {
+    double part = 1;
+    for (int tries = 0; tries < kTries; ++tries) {
+      const double through = sweep(pose_between(start, end, (k + part) / cuts));
+      if (through >= 1) break;
+      part = tries + 1 < kTries ? part * through : 0;
+    }
+    if (part > 0) commit();
+    if (part < 1) return (k + part) / cuts;
+  }
+  return 1;
+}
+
+void EmbeddedWatch::jump(Span<const Pose> poses) {
+  for (Watched& w : watched_) {
+    const RigidTransform state[2] = {transform_from_pose(poses[w.pair.a.value]),
+                                     transform_from_pose(poses[w.pair.b.value])};
+    w.engine->jump({state, 2});
+  }
+}
+
+std::vector<ComponentPair> EmbeddedWatch::take_parted() {
+  std::vector<ComponentPair> parted;
+  for (const Watched& w : watched_)
+    if (w.engine->embedded_pairs().empty()) parted.push_back(w.pair);
+  std::erase_if(watched_, [](const Watched& w) { return w.engine->embedded_pairs().empty(); });
+  return parted;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/response/slide_contacts.h"
+
+#include "dismantle/surface/solid_tree_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// Axes nearer to each other than this (one minus the cosine) are the same.
+constexpr double kSameAxis = 1e-9;
+/// Corners within this share of the tolerance of the nearest one touch with it.
+constexpr double kTouching = 1e-2;
+
+/// Of a motion on which a pair uses the reserve, this share of what the certificates allow is made.
+constexpr double kShareBeyondReserve = 0.5;
+
+/// The same of a cylinder in its bore, whose rows leave nothing out but what bends.
+constexpr double kFitReserve = 0.45;
+/// A twist is bounded anew where it takes a cylinder further, so many times.
+constexpr int kFitCuts = 6;
+/// By less than this share of the tolerance it may.
+constexpr double kFitSlack = 1e-2;
+
+/// Cylinders that may be off their bores by less than this share of the tolerance are held by their triangles.
+constexpr double kLeastOff = 0.1;
+
+/// The face that touches is looked for so far from the end of what touches [of its length].
+constexpr double kInside = 1e-3;
+/// The cosine of the angle between a cylinder and its bore, up to its sign, is at least this.
+constexpr double kLeastAhead = 0.99;
+
+bool same_faces(const BlockedPair& x, const BlockedPair& y) {
+  return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
+}
+
+}  // namespace
+
+bool SlideContacts::add(const BlockedPair& pair) {
+  if (length_squared(pair.axis) == 0) return false;
+  for (BlockedPair& known : pairs_) {
+    if (!same_faces(known, pair)) continue;
+    const bool changed = 1 - dot(known.axis, pair.axis) > kSameAxis;
+    known = pair;
+    return changed && stand(known).patch.count > 0;
+  }
+  pairs_.push_back(pair);
+  return stand(pair).patch.count > 0;
+}
+
+bool SlideContacts::add_vertex(const BlockedPair& pair) {
+  for (const BlockedPair& known : vertices_)
+    if (same_faces(known, pair)) return false;
+  vertices_.push_back(pair);
+  return stand(pair).patch.count > 0;
+}
+
+bool SlideContacts::add_fit(const BlockedFit& fit) {
+  const auto same = [&](const BlockedFit& known) {
+    return known.moving == fit.moving && known.fixed == fit.fixed && known.fit == fit.fit;
+  };
+  if (std::any_of(fits_.begin(), fits_.end(), same)) return false;
+  if (most_off(fit) < kLeastOff * sweeper_.tolerance()) return false;
+  fits_.push_back(fit);
+  return !ends(fit).empty();
+}
+
+void SlideContacts::drop_vertices() {
+  vertices_.clear();
+}
+
+void SlideContacts::choose_axes(const Pose& end) {
+  std::erase_if(pairs_, [&](BlockedPair& pair) {
+    const LeafResult found = sweeper_.sweep_pair(pair, end);
+    if (found.free || length_squared(found.contact.axis) == 0) return true;
+    pair.axis = found.contact.axis;
+    return false;
+  });
+}
+
+double SlideContacts::part_within_reserve(const BlockedPair& pair) const {
+  if (length_squared(pair.axis) == 0) return 0;
+  const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = stand(pair).gap;
+  const double most = gap + allowed - kArcShare * sweeper_.tolerance();
+  const double wanted = gap + allowed - kSlideReserve * sweeper_.tolerance();
+  const double share = most > 0 ? wanted / most : 0;
+  // What is beyond the reserve already goes half of what is left.
+  return pair.toi * std::max(share, kShareBeyondReserve);
+}
+
+SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
+  const RigidTransform moving = transform_from_pose(sweeper_.pose());
+  const Pose& fixed_pose = sweeper_.poses()[pair.fixed.value];
+  const RigidTransform fixed = transform_from_pose(fixed_pose);
+  const Triangle own = sweeper_.solid(pair.moving).triangle(pair.face_moving.value);
+  const Triangle other = sweeper_.solid(pair.fixed).triangle(pair.face_fixed.value);
+  const Triangle own_now{{moving * own[0], moving * own[1], moving * own[2]}};
+  const Triangle other_now{{fixed * other[0], fixed * other[1], fixed * other[2]}};
+  Stand s;
+  s.normal = -(fixed.rotation * pair.axis);
+  double most = -std::numeric_limits<double>::infinity(), gaps[3];
+  for (int i = 0; i < 3; ++i) most = std::max(most, dot(s.normal, other_now[i] - other_now[0]));
+  for (int i = 0; i < 3; ++i) gaps[i] = dot(s.normal, own_now[i] - other_now[0]) - most;
+  s.gap = std::min({gaps[0], gaps[1], gaps[2]});
+  s.patch = contact_patch(own_now, other_now, s.normal, sweeper_.tolerance());
+  if (s.patch.count == 0 && s.gap <= sweeper_.tolerance())
+    for (int i = 0; i < 3; ++i) s.patch.points[s.patch.count++] = {own_now[i], gaps[i]};
+  return s;
+}
+
+void SlideContacts::drop_beyond(double reach) {
+  std::erase_if(pairs_, [&](const BlockedPair& pair) { return stand(pair).gap > reach; });
+  std::erase_if(fits_, [&](const BlockedFit& fit) {
+    const std::vector<FitEnd> both = ends(fit);
+    return std::all_of(both.begin(), both.end(), [reach](const FitEnd& end) { return end.gap > reach; });
+  });
+}
+
+std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked) const {
+  const RoundFit& fit = blocked.fit;
+  const RigidTransform moving = transform_from_pose(sweeper_.pose());
+  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[blocked.fixed.value]);
+  const RigidTransform &of_inner = fit.moving_inside ? moving : fixed, &of_outer = fit.moving_inside ? fixed : moving;
+  const Vec3 point = of_inner * fit.inner.point, direction = of_inner.rotation * fit.inner.direction;
+  const Vec3 middle = of_outer * fit.outer.point, along = of_outer.rotation * fit.outer.direction;
+  // The bore's ends, as places along the cylinder's axis.
+  const double ahead = dot(direction, along), start = dot(point - middle, along);
+  if (std::abs(ahead) < kLeastAhead) return {};
+  double begin = (fit.outer_begin - start) / ahead, end = (fit.outer_end - start) / ahead;
+  if (ahead < 0) std::swap(begin, end);
+  begin = std::max(begin, fit.inner_begin);
+  end = std::min(end, fit.inner_end);
+  if (!(begin <= end)) return {};
+  std::vector<FitEnd> both;
+  for (const bool at_end : {false, true}) {
+    const double at = at_end ? end : begin;
+    const Vec3 place = point + at * direction, from = place - middle;
+    const Vec3 off = from - dot(from, along) * along;
+    both.push_back({place, fit.moving_inside ? off : -off, along, (at_end ? begin - end : end - begin) * direction,
+                    fit.room - length(off)});
+  }
+  return both;
+}
+
+double SlideContacts::withheld() const {
+  double most = 0;
+  for (const BlockedFit& fit : fits_) most = std::max(most, fit.fit.spread);
+  return most;
+}
+
+double SlideContacts::most_off(const BlockedFit& fit) const {
+  return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
+}
+
+bool SlideContacts::bound(const HeldFit& held, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const {
+  const double slack = kFitSlack * sweeper_.tolerance();
+  bool bounded = false;
+  for (const FitEnd& end : held.ends) {
+    const Vec3 lever_arm = end.place - sweeper_.center();
+    const Vec3 way = twist.velocity + cross(twist.rotation, lever_arm);
+    const Vec3 off = end.off + way - dot(way, end.along) * end.along;
+    if (length(off) <= std::max(held.most_off, length(end.off)) + slack) continue;
+    const Vec3 out = normalized(off), turn = (1 / lever) * cross(lever_arm, out);
+    bounds.push_back(
+        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - held.most_off)});
+    bounded = true;
+  }
+  return bounded;
+}
+
+void SlideContacts::bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const {
+  const Vec3 center = sweeper_.center();
+  const Stand s = stand(pair);
+  const double deepest = allowed - kSlideReserve * sweeper_.tolerance();
+  if (s.patch.count == 0) return;
+  // What the certificates measure: it can be deeper than where the two lie over each other.
+  const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
+  for (int i = 0; i < s.patch.count; ++i) {
+    const ContactPatch::Point& p = s.patch.points[i];
+    const Vec3 turn = (1 / lever) * cross(p.on_upper - center, s.normal);
+    bounds.push_back(
+        {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
+  }
+}
+
+SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) const {
+  std::vector<HalfSpace> bounds;
+  for (const BlockedPair& pair : pairs_) bound(pair, sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  for (const BlockedPair& pair : vertices_)
+    bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  std::vector<HeldFit> held;
+  for (const BlockedFit& fit : fits_) held.push_back({most_off(fit), ends(fit)});
+  Twist found = solve(wanted, lever, bounds);
+  for (int cuts = 0; cuts < kFitCuts; ++cuts) {
+    bool news = false;
+    for (const HeldFit& fit : held) news |= bound(fit, found, lever, bounds);
+    if (!news) break;
+    found = solve(wanted, lever, bounds);
+  }
+  return found;
+}
+
+SlideContacts::Twist SlideContacts::solve(const Twist& wanted, double lever,
+                                          const std::vector<HalfSpace>& bounds) const {
+  const Vec3 turned = lever * wanted.rotation;
+  const NearestTwist found =
+      nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds);
+  return {{found.x[0], found.x[1], found.x[2]},
+          {found.x[3] / lever, found.x[4] / lever, found.x[5] / lever},
+          found.active_count > 0};
+}
+
+ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) const {
+  const Vec3 out = normalized(end.off);
+  const double side = fit.fit.moving_inside ? 1 : -1;
+  ContactPoint contact{fit.moving, fit.fixed, {}, {}, end.place + side * fit.fit.radius * out, -out, end.gap};
+  // Just inside: on the rim the faces that the bore opens in are as near.
+  const Vec3 inside = contact.point + kInside * end.inwards;
+  const auto face = [&inside](const SolidTree& solid, const Pose& pose) {
+    const Vec3 seen = inverse(transform_from_pose(pose)) * inside;
+    return FaceId(nearest_face(solid, seen, NearestFace::kNone).face);
+  };
+  contact.face_moving = face(sweeper_.solid(fit.moving), sweeper_.pose());
+  contact.face_fixed = face(sweeper_.solid(fit.fixed), sweeper_.poses()[fit.fixed.value]);
+  return contact;
+}
+
+std::vector<ContactPoint> SlideContacts::points(double reach) const {
+  std::vector<ContactPoint> points;
+  for (const BlockedPair& pair : pairs_) {
+    const Stand s = stand(pair);
+    if (s.gap > reach || s.patch.count == 0) continue;
+    // The middle of what touches.
+    const double touching = s.patch.nearest().gap + kTouching * sweeper_.tolerance();
+    Vec3 sum;
+    int count = 0;
+    for (int i = 0; i < s.patch.count; ++i) {
+      if (s.patch.points[i].gap > touching) continue;
+      sum += s.patch.points[i].on_upper;
+      ++count;
+    }
+    points.push_back(
+        {pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, (1.0 / count) * sum, s.normal, s.gap});
+  }
+  for (const BlockedFit& fit : fits_)
+    for (const FitEnd& end : ends(fit))
+      if (end.gap <= reach && length_squared(end.off) > 0) points.push_back(point(fit, end));
+  std::sort(points.begin(), points.end(), [](const ContactPoint& x, const ContactPoint& y) {
+    if (x.moving != y.moving) return x.moving < y.moving;
+    if (x.fixed != y.fixed) return x.fixed < y.fixed;
+    return x.face_moving != y.face_moving ? x.face_moving < y.face_moving : x.face_fixed < y.face_fixed;
+  });
+  return points;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/documents/bill_of_materials.h"
+
+#include "dismantle/files/csv_text.h"
+#include "dismantle/files/json_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dismantle {
+
+namespace {
+
+/// Without the suffix that make_names_unique adds.
+std::string name_without_count(const std::string& name) {
+  const std::size_t mark = name.rfind('#');
+  const bool counted = mark != std::string::npos && mark > 0 && mark + 1 < name.size() &&
+                       name.find_first_not_of("0123456789", mark + 1) == std::string::npos;
+  return counted ? name.substr(0, mark) : name;
+}
+
+std::string place_of(const Assembly& assembly, const Component& c) {
+  if (assembly.tree.empty()) return c.name;
+  std::vector<std::string> names;
+  for (std::uint32_t node = c.tree_node; node != 0; node = assembly.tree[node].parent)
+    names.push_back(assembly.tree[node].name);
+  std::reverse(names.begin(), names.end());
+  if (names.empty() || names.back() != name_without_count(c.name)) names.push_back(c.name);
+  return joined(names, "/");
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double twice = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) twice += length(normal_unscaled(mesh.triangle(i)));
+  return twice / 2;
+}
+
+BillItem new_item(const Component& c) {
+  BillItem item;
+  item.name = name_without_count(c.name);
+  const Aabb box = bounds(*c.mesh);
+  if (!box.empty()) item.size = box.size();
+  if (c.faults.closed()) item.volume = std::abs(signed_volume(*c.mesh));
+  item.area = area_of(*c.mesh);
+  item.triangles = c.mesh->faces.size();
+  item.color = c.color;
+  return item;
+}
+
+bool are_alike(const Component& a, const Component& b) {
+  return a.color == b.color && (a.mesh == b.mesh || *a.mesh == *b.mesh);
+}
+
+/// "#aabbcc"; alpha follows where it is not whole.
+std::string color_text(const Color& color) {
+  const auto part = [](float value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); };
+  char text[16];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", part(color.r), part(color.g), part(color.b));
+  if (part(color.a) < 255) std::snprintf(text + 7, sizeof text - 7, "%02x", part(color.a));
+  return text;
+}
+
+std::vector<std::string> component_names(const Assembly& assembly, const BillItem& item) {
+  std::vector<std::string> names;
+  for (const ComponentId c : item.components) names.push_back(assembly[c].name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<BillItem> bill_of_materials(const Assembly& assembly) {
+  std::vector<BillItem> bill;
+  for (std::uint32_t i = 0; i < assembly.components.size(); ++i) {
+    const Component& c = assembly.components[i];
+    auto line = std::find_if(bill.begin(), bill.end(),
+                             [&](const BillItem& item) { return are_alike(assembly[item.components.front()], c); });
+    if (line == bill.end()) line = bill.insert(line, new_item(c));
+    line->components.push_back(ComponentId(i));
+    line->places.push_back(place_of(assembly, c));
+  }
+  return bill;
+}
+
+std::string bill_csv(const Assembly& assembly, const std::vector<BillItem>& bill) {
+  std::string text = csv_row({"item", "name", "count", "size_x_mm", "size_y_mm", "size_z_mm", "volume_mm3", "area_mm2",
+                              "triangles", "color", "components", "places"});
+  for (std::size_t i = 0; i < bill.size(); ++i) {
+    const BillItem& item = bill[i];
+    text +=
+        csv_row({csv_field(i + 1), csv_field(item.name), csv_field(item.components.size()), csv_field(item.size.x),
+                 csv_field(item.size.y), csv_field(item.size.z), item.volume ? csv_field(*item.volume) : std::string(),
+                 csv_field(item.area), csv_field(item.triangles), color_text(item.color),
+                 csv_field(joined(component_names(assembly, item))), csv_field(joined(item.places))});
+  }
+  return text;
+}
+
+std::string bill_json(const Assembly& assembly, const std::vector<BillItem>& bill) {
+  std::string text = "{\n  \"format\": \"dismantle-bill\", \"version\": 1,\n  \"assembly\": {\"file\": " +
+                     json_text(assembly.source_file) + ", \"sha256\": " + json_text(assembly.source_sha256) +
+                     ", \"components\": " + std::to_string(assembly.components.size()) + "},\n  \"items\": [";
+  for (const BillItem& item : bill) {
+    text += &item == bill.data() ? "\n    " : ",\n    ";
+    text += "{\"name\": " + json_text(item.name) + ", \"count\": " + std::to_string(item.components.size()) +
+            ", \"size_mm\": [" + json_text(item.size.x) + ", " + json_text(item.size.y) + ", " +
+            json_text(item.size.z) + "], \"volume_mm3\": " + (item.volume ? json_text(*item.volume) : "null") +
+            ", \"area_mm2\": " + json_text(item.area) + ", \"triangles\": " + std::to_string(item.triangles) +
+            ", \"color\": " + json_text(color_text(item.color)) +
+            ",\n     \"components\": " + json_text(component_names(assembly, item)) +
+            ",\n     \"places\": " + json_text(item.places) + "}";
+  }
+  return text + "\n  ]\n}\n";
+}
+
+}  // namespace dismantle

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/features/round_axes.h"
+
+#include "dismantle/features/axis_frame.h"
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/geometry/adjacency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kQuarterTurn = 1.5707963;
+/// Faces that meet at less [sine] are taken for one plane; at more [cosine] for a corner.
+constexpr double kLeastSine = 1e-4;
+constexpr double kLeastCosine = 0.5;
+/// Axes agree whose directions and places are in one cell of that size; places as a share of the box's diagonal.
+constexpr double kSameDirection = 1e-3;
+constexpr double kSamePlace = 1e-4;
+/// Where cells begin: not at places that models are fond of.
+constexpr double kCellOffset = 0.3819660113;
+
+using Cell = std::array<std::int64_t, 6>;
+
+std::int64_t cell_at(double x, double size) {
+  return static_cast<std::int64_t>(std::floor(x / size + kCellOffset));
+}
+
+/// The one of both signs whose largest coordinate is positive.
+Vec3 of_one_sign(Vec3 v) {
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  const double largest = x >= y && x >= z ? v.x : y >= z ? v.y : v.z;
+  return largest < 0 ? -v : v;
+}
+
+/// The third corner of a face.
+Vec3 opposite(Span<const Vec3> vertices, const Face& face, const std::uint32_t (&edge)[2]) {
+  for (const std::uint32_t v : face.v)
+    if (v != edge[0] && v != edge[1]) return vertices[v];
+  return vertices[edge[0]];
+}
+
+Vec3 normal_of(Span<const Vec3> vertices, const Face& f) {
+  return normalized(normal_unscaled(Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}}));
+}
+
+/// The axis of which the edge of two faces is a ruling; a turn of zero where there is none.
+RoundAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair, Vec3 middle) {
+  RoundAxis axis;
+  const Face &a = faces[pair.face[0]], &b = faces[pair.face[1]];
+  const Vec3 normal_a = normal_of(vertices, a), normal_b = normal_of(vertices, b);
+  const double sine = length(cross(normal_a, normal_b));
+  if (!(sine > kLeastSine) || !(dot(normal_a, normal_b) > kLeastCosine)) return axis;
+  const Vec3 from = vertices[pair.edge[0]];
+  axis.direction = of_one_sign(normalized(vertices[pair.edge[1]] - from));
+  const auto across = [&](Vec3 v) { return v - dot(v, axis.direction) * axis.direction; };
+  // The center of the circle through the edge and the two opposite corners, seen along the edge.
+  const Vec3 p = across(opposite(vertices, a, pair.edge) - from), q = across(opposite(vertices, b, pair.edge) - from);
+  const Vec3 normal = cross(p, q);
+  const double square = length_squared(normal);
+  if (!(square > 0)) return axis;
+  const Vec3 center = from + cross(length_squared(p) * q - length_squared(q) * p, normal) / (2 * square);
+  axis.point = middle + across(center - middle);
+  axis.turn = std::asin(std::min(1.0, sine));
+  return axis;
+}
+
+/// A cylinder's corners are at one distance from its axis to this share of it.
+constexpr double kOneDistance = 1e-3;
+/// And its faces' normals lead away from the axis, or to it, with at least this cosine.
+constexpr double kLeadsAway = 0.8;
+/// Cylinders of fewer faces are left alone.
+constexpr std::size_t kLeastOfCylinder = 12;
+
+/// A face of a cylinder: the mean distance of its corners from the axis, negative where its normal leads to it [mm].
+std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& triangle) {
+  double distances[3];
+  Vec3 away;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 across = frame.across(triangle[i]);
+    distances[i] = length(across);
+    away = away + across;
+  }
+  const double mean = (distances[0] + distances[1] + distances[2]) / 3;
+  for (const double d : distances)
+    if (std::abs(d - mean) > kOneDistance * mean) return std::nullopt;
+  const Vec3 normal = normal_unscaled(triangle);
+  const double facing = dot(normal, away), least = kLeadsAway * length(normal) * length(away);
+  if (std::abs(facing) <= least) return std::nullopt;
+  return facing > 0 ? mean : -mean;
+}
+
+/// Faces that belong together.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
+  std::uint32_t of(std::uint32_t face) {
+    while (of_[face] != face) face = of_[face] = of_[of_[face]];
+    return face;
+  }
+  void join(std::uint32_t x, std::uint32_t y) { of_[of(std::max(x, y))] = of(std::min(x, y)); }
+
+ private:
+  std::vector<std::uint32_t> of_;
+};
+
+/// What a group of faces is as a cylinder.
+struct CylinderExtent {
+  double area = 0, distance = 0;
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  std::size_t count = 0;
+  /// The angle that it goes around, were it of one length all around [rad].
+  double turn() const { return area / (distance * (end - begin)); }
+};
+
+}  // namespace
+
+std::vector<RoundAxis> round_axes(Span<const Vec3> vertices, Span<const Face> faces) {
+  Aabb box;
+  for (const Vec3& p : vertices) box.extend(p);
+  if (box.empty()) return {};
+  const Vec3 middle = box.center();
+  const double diagonal = length(box.size());
+  std::map<Cell, RoundAxis> cells;  // sums, weighted by the turn
+  for (const NeighbouringFaces& pair : neighbouring_faces(faces)) {
+    const RoundAxis axis = axis_of(vertices, faces, pair, middle);
+    const Vec3 place = axis.point - middle, d = axis.direction;
+    if (!(axis.turn > 0) || !(max_abs(place) <= diagonal)) continue;
+    const double size = kSamePlace * diagonal;
+    RoundAxis& sum = cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
+                            cell_at(place.x, size), cell_at(place.y, size), cell_at(place.z, size)}];
+    sum.point += axis.turn * place;
+    sum.direction += axis.turn * d;
+    sum.turn += axis.turn;
+  }
+  std::vector<RoundAxis> axes;
+  for (const auto& [cell, sum] : cells)
+    if (sum.turn >= kQuarterTurn) axes.push_back({middle + sum.point / sum.turn, normalized(sum.direction), sum.turn});
+  std::stable_sort(axes.begin(), axes.end(), [](const RoundAxis& x, const RoundAxis& y) { return x.turn > y.turn; });
+  if (axes.size() > kMostRoundAxes) axes.resize(kMostRoundAxes);
+  return axes;
+}
+
+void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes,
+                        std::vector<std::uint8_t>& parts) {
+  if (axes.empty()) return;
+  if (parts.empty()) parts.assign(faces.size(), 0);
+  const std::vector<NeighbouringFaces> neighbours = neighbouring_faces(faces);
+  std::size_t last = *std::max_element(parts.begin(), parts.end());
+  std::vector<double> distances(faces.size());  // 0 for what is none of the axis' cylinders
+  for (const RoundAxis& axis : axes) {
+    const AxisFrame frame(axis.point, axis.direction);
+    const auto triangle = [&](std::size_t f) {
+      return Triangle{{vertices[faces[f].v[0]], vertices[faces[f].v[1]], vertices[faces[f].v[2]]}};
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      distances[f] = parts[f] == 0 ? cylinder_distance(frame, triangle(f)).value_or(0) : 0;
+    Groups groups(faces.size());
+    for (const NeighbouringFaces& n : neighbours) {
+      const double x = distances[n.face[0]], y = distances[n.face[1]];
+      if (x * y > 0 && std::abs(x - y) <= kOneDistance * std::abs(x)) groups.join(n.face[0], n.face[1]);
+    }
+    std::map<std::uint32_t, CylinderExtent> cylinders;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      if (distances[f] == 0) continue;
+      CylinderExtent& cylinder = cylinders[groups.of(f)];
+      ++cylinder.count;
+      cylinder.area += length(normal_unscaled(triangle(f))) / 2;
+      cylinder.distance = std::abs(distances[f]);
+      for (int i = 0; i < 3; ++i) {
+        cylinder.begin = std::min(cylinder.begin, frame.along(triangle(f)[i]));
+        cylinder.end = std::max(cylinder.end, frame.along(triangle(f)[i]));
+      }
+    }
+    std::map<std::uint32_t, std::uint8_t> numbers;
+    for (const auto& [group, cylinder] : cylinders)
+      if (cylinder.count >= kLeastOfCylinder && cylinder.turn() >= 2 * kQuarterTurn * 0.95 &&
+          last < std::numeric_limits<std::uint8_t>::max())
+        numbers[group] = static_cast<std::uint8_t>(++last);
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      if (const auto number = distances[f] != 0 ? numbers.find(groups.of(f)) : numbers.end(); number != numbers.end())
+        parts[f] = number->second;
+  }
+}
+
+}  // namespace dismantle

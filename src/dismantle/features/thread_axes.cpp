@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/features/thread_axes.h"
+
+#include "dismantle/features/thread_fit.h"
+#include "dismantle/features/thread_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// An edge is along a helix where its ends' distances from the axis differ by no more than this share of them,
+constexpr double kSameDistance = 2e-3;
+/// the angle between them is between these [rad],
+constexpr double kLeastAngle = 1e-3, kMostAngle = 1.3;
+/// and the lead that it has is between these shares of the distance.
+constexpr double kLeastLead = 0.03, kMostLead = 6;
+/// Leads agree that differ by no more than this share.
+constexpr double kSameLead = 1e-3;
+/// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
+/// and no further apart than this share of the lead.
+constexpr double kMatingLead = 5e-3, kMatingSine = 0.02, kMatingShare = 0.25;
+/// So many axes of a mesh are looked at, those with the longest turns,
+constexpr std::size_t kMostAxes = 16;
+/// and so many leads of each, those with the longest edges [rad],
+constexpr std::size_t kMostLeads = 3;
+/// if these are at least a turn long, and this share of all such edges.
+constexpr double kLeastTurn = kTurn, kLeastShare = 0.05;
+/// No more than so many edges are looked at, of all axes together: an even choice of them.
+constexpr std::size_t kMostEdges = 4'000'000;
+
+/// A mesh without edges along helices may have a thread if it has so many faces. Its fit is made with no more than so
+/// many of the curved places,
+constexpr std::size_t kFewestFaces = 400, kMostSamples = 40'000;
+/// its lead sought no further from the fit's than this share of it, in steps for which so many parts of a turn add up
+/// along the thread; with no more than so many faces at first, and then with more, so often a third closer.
+constexpr double kLeadRange = 0.12, kLeadStep = 0.05;
+constexpr std::size_t kMostScanned = 2000, kMostFitted = 10'000;
+constexpr int kCloser = 20;
+
+/// Edges along helices of one lead.
+struct Helices {
+  double turn = 0;  ///< The sum of their angles [rad].
+  double lead = 0;  ///< The same, each times its lead; in the end the mean lead.
+  /// Where they are.
+  double begin = std::numeric_limits<double>::infinity(), end = -begin, least = begin, most = 0;
+
+  void add(const Helices& other) {
+    turn += other.turn;
+    lead += other.lead;
+    begin = std::min(begin, other.begin);
+    end = std::max(end, other.end);
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+  /// Whether a face may be of the thread that these are edges of.
+  bool reach(const ProfileFace& face) const {
+    const double play = std::abs(lead) / 4;
+    const AxisPlace& at = face.centroid;
+    return at.along >= begin - play && at.along <= end + play && at.distance >= least - play &&
+           at.distance <= most + play;
+  }
+};
+
+/// The edges of the mesh along helices about the axis by their leads, those of the longest edges first.
+std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
+                             std::size_t stride) {
+  std::map<std::int64_t, Helices> cells;
+  double all = 0;
+  const double cell_count = 1 / kSameLead;
+  for (std::size_t f = 0; f < faces.size(); f += stride)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = faces[f].v[k], w = faces[f].v[(k + 1) % 3];
+      if (stride == 1 && v > w) continue;  // as the edge of its other face
+      const double rise = dot(vertices[w] - vertices[v], frame.direction);
+      const Vec3 from = frame.across(vertices[v]), to = frame.across(vertices[w]);
+      const double distance = length(from), other = length(to);
+      if (!(rise != 0) || !(std::abs(distance - other) <= kSameDistance * distance)) continue;
+      const double angle = std::atan2(dot(frame.direction, cross(from, to)), dot(from, to));
+      if (!(std::abs(angle) >= kLeastAngle && std::abs(angle) <= kMostAngle)) continue;
+      const double lead = kTurn * rise / angle, size = std::abs(lead);
+      if (!(size >= kLeastLead * distance && size <= kMostLead * distance)) continue;
+      const auto place = static_cast<std::int64_t>(std::floor(std::log(size) * cell_count));
+      const double turn = std::abs(angle) * static_cast<double>(stride);
+      const double low = frame.along(vertices[v]), high = low + rise;
+      all += turn;
+      cells[2 * place + (lead < 0 ? 1 : 0)].add({turn, turn * lead, std::min(low, high), std::max(low, high),
+                                                 std::min(distance, other), std::max(distance, other)});
+    }
+  std::vector<Helices> sums, found;
+  for (const auto& [cell, votes] : cells) {
+    Helices sum = votes;
+    if (const auto next = cells.find(cell + 2); next != cells.end()) sum.add(next->second);
+    if (!(sum.turn >= std::max(kLeastTurn, kLeastShare * all))) continue;
+    sum.lead /= sum.turn;
+    sums.push_back(sum);
+  }
+  std::stable_sort(sums.begin(), sums.end(), [](const Helices& x, const Helices& y) { return x.turn > y.turn; });
+  for (const Helices& sum : sums) {
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Helices& other) {
+      return std::abs(other.lead - sum.lead) <= 3 * kSameLead * std::abs(sum.lead);
+    });
+    if (!known && found.size() < kMostLeads) found.push_back(sum);
+  }
+  return found;
+}
+
+std::optional<ThreadProfile> best_profile(Span<const Vec3> vertices, Span<const Face> faces, const RoundAxis& axis,
+                                          std::size_t stride) {
+  const AxisFrame frame(axis.point, axis.direction);
+  std::optional<ThreadProfile> best;
+  std::vector<ProfileFace> all;
+  for (const Helices& edges : helices(frame, vertices, faces, stride)) {
+    if (all.empty())
+      for (const Face& f : faces)
+        all.push_back(profile_face(frame, Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}}));
+    std::vector<ProfileFace> near;
+    for (const ProfileFace& face : all)
+      if (may_be_flank(face) && edges.reach(face)) near.push_back(face);
+    improve_profile(best, near, axis, edges.lead);
+  }
+  return best;
+}
+
+/// How much area of possible flanks agrees about its place in the profile with one lead or another.
+class Agreement {
+ public:
+  /// @param count of the faces at most that are looked at, an even choice
+  Agreement(const std::vector<ProfileFace>& faces, std::size_t count) {
+    const std::size_t stride = 1 + faces.size() / count;
+    std::array<FacesOfDirection, kProfileDirections> directions;
+    for (const ProfileFace& face : faces) {
+      FacesOfDirection& d = directions[profile_direction(face.normal)];
+      d.radial += face.area * face.normal.radial;
+      d.lift += face.area * face.normal.lift;
+    }
+    for (std::size_t i = 0; i < faces.size(); i += stride) {
+      const ProfileFace& face = faces[i];
+      const std::size_t direction = profile_direction(face.normal);
+      const ProfileDirection normal = directions[direction].normal();
+      seen_.push_back({direction, normal.radial / normal.lift * face.centroid.distance + face.centroid.along,
+                       std::polar(face.area, -face.centroid.angle)});
+    }
+  }
+
+  double area(double lead) const {
+    std::array<std::complex<double>, kProfileDirections> sums{};
+    for (const Seen& s : seen_) sums[s.direction] += s.turned * std::polar(1.0, kTurn * s.place / lead);
+    double area = 0;
+    for (const std::complex<double>& sum : sums) area += std::abs(sum);
+    return area;
+  }
+
+ private:
+  struct Seen {
+    std::size_t direction;
+    double place;                 // where its plane of the profile meets the axis, angle 0 [mm]
+    std::complex<double> turned;  // its area, turned back by its angle
+  };
+  std::vector<Seen> seen_;
+};
+
+/// The lead near a rough one with which the most area agrees. The peak is narrow: few faces tell about where it is.
+/// @param turns how many turns the thread has
+double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double turns) {
+  const Agreement few(faces, kMostScanned), many(faces, kMostFitted);
+  const double step = kLeadStep / std::max(1.0, turns);
+  double best = rough, most = 0;
+  for (double off = -kLeadRange; off <= kLeadRange; off += step) {
+    const double found = few.area(rough * (1 + off));
+    if (found <= most) continue;
+    most = found;
+    best = rough * (1 + off);
+  }
+  double low = best * (1 - step), high = best * (1 + step);
+  for (int round = 0; round < kCloser; ++round) {
+    const double x = low + (high - low) / 3, y = high - (high - low) / 3;
+    if (many.area(x) < many.area(y)) {
+      low = x;
+    } else {
+      high = y;
+    }
+  }
+  return (low + high) / 2;
+}
+
+/// The thread of a mesh that was cut anew, which has no edges along helices: its surface tells the axis, and about how
+/// far it leads.
+std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
+  if (faces.size() < kFewestFaces) return std::nullopt;
+  const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMostSamples));
+  if (!rough) return std::nullopt;
+  const AxisFrame frame(rough->point, rough->direction);
+  std::vector<ProfileFace> near;
+  for (const Face& f : faces) {
+    const ProfileFace face = profile_face(frame, Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
+    const AxisPlace& at = face.centroid;
+    if (may_be_flank(face) && at.along >= rough->begin && at.along <= rough->end && at.distance <= rough->most)
+      near.push_back(face);
+  }
+  const double lead = sharpest_lead(near, rough->lead, (rough->end - rough->begin) / std::abs(rough->lead));
+  std::optional<ThreadProfile> best;
+  improve_profile(best, near, {rough->point, rough->direction}, lead);
+  return best;
+}
+
+}  // namespace
+
+std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes) {
+  std::vector<ThreadAxis> threads;
+  const std::size_t count = std::min(axes.size(), kMostAxes), stride = 1 + 3 * faces.size() * count / kMostEdges;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::optional<ThreadProfile> profile = best_profile(vertices, faces, axes[i], stride))
+      threads.push_back(profile->thread);
+  if (threads.empty())
+    if (const std::optional<ThreadProfile> profile = recut_profile(vertices, faces)) threads.push_back(profile->thread);
+  return threads;
+}
+
+bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
+  const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
+  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kMatingLead * lead &&
+         length(cross(x.direction, y.direction)) <= kMatingSine &&
+         length(AxisFrame(y.point, y.direction).across(x.point)) <= kMatingShare * lead;
+}
+
+}  // namespace dismantle

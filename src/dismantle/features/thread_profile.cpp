@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/features/thread_profile.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// A flank takes no more than this many directions of the profile.
+constexpr int kMostOfFlank = 6;
+/// What has less than this share of the area of the largest flank is none.
+constexpr double kLeastOfLargest = 0.1;
+/// The least share of the normal along the axis that a flank has.
+constexpr double kLeastLift = 0.15;
+/// How well the faces of a flank agree about its place: 1 for all at one, 0 for all over the profile.
+constexpr double kLeastAgreement = 0.75;
+/// How little they agree about the angle around the axis.
+constexpr double kMostOneSided = 0.3;
+/// Faces of which the centroid is no further off a flank, in profiles, tell where it is.
+constexpr double kNearPlace = 0.12;
+/// The corners of a face of a flank are no further off it, in profiles.
+constexpr double kOfPlace = 0.02;
+constexpr int kMostStarts = 4;
+/// Another lead or number of starts is taken where flanks have so many times the area with it.
+constexpr double kMuchMore = 1.5;
+
+AxisPlace place_of(const AxisFrame& frame, Vec3 p) {
+  const Vec3 across = frame.across(p);
+  return {length(across), frame.angle(across), frame.along(p)};
+}
+
+using Directions = std::array<FacesOfDirection, kProfileDirections>;
+
+double along(ProfileDirection normal, const AxisPlace& at, double lead) {
+  return normal.radial * at.distance + normal.lift * at.lift(lead);
+}
+
+/// How far the place is off the flank, in profiles: between minus and plus a half.
+double profiles_off(const ThreadAxis::Flank& flank, const AxisPlace& at, double lead, double period) {
+  const double off = (along(flank.normal, at, lead) - flank.place) / (flank.normal.lift * period);
+  return off - std::round(off);
+}
+
+/// The turn that a place along a normal is in the profile.
+std::complex<double> phase(ProfileDirection normal, double place, double period) {
+  return std::polar(1.0, kTurn * place / (normal.lift * period));
+}
+
+/// The runs of directions in which the faces agree about their place.
+std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
+  std::vector<std::vector<std::size_t>> runs;
+  double all = 0;
+  for (const FacesOfDirection& d : directions) all += d.area;
+  for (std::size_t i = 0; i < kProfileDirections; ++i) {
+    const FacesOfDirection& d = directions[i];
+    const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kLeastAgreement * d.area &&
+                        std::abs(d.angle) <= kMostOneSided * d.area;
+    if (!agrees) continue;
+    const bool goes_on = !runs.empty() && runs.back().back() + 1 == i && runs.back().size() < kMostOfFlank &&
+                         directions[i - 1].lift * d.lift > 0;
+    if (goes_on) {
+      runs.back().push_back(i);
+    } else {
+      runs.push_back({i});
+    }
+  }
+  const auto area = [&](const std::vector<std::size_t>& run) {
+    double sum = 0;
+    for (const std::size_t i : run) sum += directions[i].area;
+    return sum;
+  };
+  double most = 0;
+  for (const std::vector<std::size_t>& run : runs) most = std::max(most, area(run));
+  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kLeastOfLargest * most; });
+  return runs;
+}
+
+/// The line in the profile that the corners of the flank's faces are nearest to, for the one that is roughly known.
+ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const ProfileFace*>& faces, double lead,
+                         double period) {
+  // About the rough line: how far off it, and how far along it.
+  double sum_off = 0, sum_far = 0, off_off = 0, far_far = 0, off_far = 0, count = 0;
+  for (const ProfileFace* face : faces) {
+    if (std::abs(profiles_off(rough, face->centroid, lead, period)) > kNearPlace) continue;
+    for (const AxisPlace& at : face->corner) {
+      const double off = profiles_off(rough, at, lead, period) * rough.normal.lift * period;
+      // On the line it is where its lift is: off = radial * distance + lift * (lift - that of the period) - place.
+      const double lift = (off + rough.place - rough.normal.radial * at.distance) / rough.normal.lift;
+      const double far = rough.normal.lift * at.distance - rough.normal.radial * lift;
+      sum_off += off;
+      sum_far += far;
+      off_off += off * off;
+      far_far += far * far;
+      off_far += off * far;
+      ++count;
+    }
+  }
+  if (count == 0) return rough;
+  const double mean_off = sum_off / count, mean_far = sum_far / count;
+  const double tilt = std::atan2(2 * (off_far / count - mean_off * mean_far),
+                                 far_far / count - mean_far * mean_far - off_off / count + mean_off * mean_off) /
+                      2;
+  const double cosine = std::cos(tilt), sine = std::sin(tilt);
+  const ProfileDirection n = rough.normal;
+  ThreadAxis::Flank flank;
+  flank.normal = {cosine * n.radial - sine * n.lift, cosine * n.lift + sine * n.radial};
+  flank.place = cosine * (rough.place + mean_off) - sine * mean_far;
+  return flank;
+}
+
+/// @param faces that may be flanks
+Directions by_direction(const std::vector<ProfileFace>& faces, double lead, double period) {
+  Directions directions;
+  for (const ProfileFace& face : faces) {
+    FacesOfDirection& d = directions[profile_direction(face.normal)];
+    d.faces.push_back(&face);
+    d.area += face.area;
+    d.radial += face.area * face.normal.radial;
+    d.lift += face.area * face.normal.lift;
+  }
+  for (FacesOfDirection& d : directions)
+    for (const ProfileFace* face : d.faces) {
+      d.place += face->area * phase(d.normal(), along(d.normal(), face->centroid, lead), period);
+      d.angle += std::polar(face->area, face->centroid.angle);
+    }
+  return directions;
+}
+
+/// The directions of a run taken together.
+FacesOfDirection sum_of(const Directions& directions, const std::vector<std::size_t>& run) {
+  FacesOfDirection sum;
+  for (const std::size_t i : run) {
+    const FacesOfDirection& d = directions[i];
+    sum.area += std::abs(d.place);
+    sum.radial += d.radial;
+    sum.lift += d.lift;
+    sum.faces.insert(sum.faces.end(), d.faces.begin(), d.faces.end());
+  }
+  return sum;
+}
+
+/// The flank that the faces of one direction are of.
+ThreadAxis::Flank flank_of(const FacesOfDirection& d, double lead, double period) {
+  ThreadAxis::Flank flank{d.normal(), 0};
+  std::complex<double> place;
+  for (const ProfileFace* face : d.faces)
+    place += face->area * phase(flank.normal, along(flank.normal, face->centroid, lead), period);
+  flank.place = std::arg(place) / kTurn * flank.normal.lift * period;
+  return fitted(flank, d.faces, lead, period);
+}
+
+/// Makes the thread as long and as deep as the faces on its flank.
+void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vector<const ProfileFace*>& faces,
+            double period) {
+  for (const ProfileFace* face : faces) {
+    if (!on_flank(flank, *face, thread.lead, period)) continue;
+    for (const AxisPlace& corner : face->corner) {
+      thread.begin = std::min(thread.begin, corner.along);
+      thread.end = std::max(thread.end, corner.along);
+      thread.least = std::min(thread.least, corner.distance);
+      thread.most = std::max(thread.most, corner.distance);
+    }
+  }
+}
+
+/// @param faces that may be flanks
+std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, const RoundAxis& axis, double lead,
+                                        int starts) {
+  const double period = std::abs(lead) / starts;
+  const Directions directions = by_direction(faces, lead, period);
+  ThreadProfile found;
+  ThreadAxis& thread = found.thread;
+  thread.point = axis.point;
+  thread.direction = axis.direction;
+  thread.lead = lead;
+  thread.starts = starts;
+  thread.begin = thread.least = std::numeric_limits<double>::infinity();
+  thread.end = -thread.begin;
+  bool leads_on = false, leads_back = false;
+  for (const std::vector<std::size_t>& run : agreeing(directions)) {
+    const FacesOfDirection sum = sum_of(directions, run);
+    const ThreadAxis::Flank flank = flank_of(sum, lead, period);
+    extend(thread, flank, sum.faces, period);
+    thread.flanks.push_back(flank);
+    found.area += sum.area;
+    (flank.normal.lift > 0 ? leads_on : leads_back) = true;
+  }
+  if (!leads_on || !leads_back || thread.least > thread.most) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+ProfileFace profile_face(const AxisFrame& frame, const Triangle& t) {
+  ProfileFace face;
+  const Vec3 normal = normal_unscaled(t), centroid = (t[0] + t[1] + t[2]) / 3;
+  face.centroid = place_of(frame, centroid);
+  for (int i = 0; i < 3; ++i) face.corner[i] = place_of(frame, t[i]);
+  face.area = length(normal) / 2;
+  if (!(face.area > 0) || !(face.centroid.distance > 0)) return face;
+  const double radial = dot(normal, frame.across(centroid)) / face.centroid.distance;
+  const double lift = dot(normal, frame.direction);
+  const double size = std::hypot(radial, lift);
+  face.normal = size > face.area ? ProfileDirection{radial / size, lift / size} : ProfileDirection{0, 0};
+  return face;
+}
+
+bool may_be_flank(const ProfileFace& face) {
+  return std::abs(face.normal.lift) >= kLeastLift;
+}
+
+bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period) {
+  return std::all_of(std::begin(face.corner), std::end(face.corner), [&](const AxisPlace& corner) {
+    return std::abs(profiles_off(flank, corner, lead, period)) <= kOfPlace;
+  });
+}
+
+std::size_t profile_direction(ProfileDirection normal) {
+  const double turned = std::atan2(normal.lift, normal.radial) / kTurn + 0.5;
+  return std::min<std::size_t>(kProfileDirections - 1, static_cast<std::size_t>(turned * kProfileDirections));
+}
+
+void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces, const RoundAxis& axis,
+                     double lead) {
+  for (int starts = 1; starts <= kMostStarts; ++starts) {
+    std::optional<ThreadProfile> found = profile_of(faces, axis, lead, starts);
+    if (found && (!best || found->area > kMuchMore * best->area)) best = std::move(found);
+  }
+}
+
+}  // namespace dismantle

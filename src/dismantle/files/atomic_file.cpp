@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/files/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace dismantle {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr int kNameAttempts = 1000;
+
+/// Opens a new file in `folder` under a name that nobody else has; its mode follows the umask.
+std::pair<int, fs::path> open_temporary(const fs::path& folder) {
+  static std::atomic<unsigned> counter{0};
+  for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
+    fs::path name = folder / (".dismantle-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return {descriptor, std::move(name)};
+  }
+  return {-1, {}};
+}
+
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+Error AtomicFile::failure(std::string_view what) const {
+  return {ErrorKind::Failed, target_.string() + " cannot be written (" + std::string(what) +
+                                 "); check the folder, its permissions and the free space"};
+}
+
+Result<AtomicFile> AtomicFile::create(const fs::path& file) {
+  AtomicFile result;
+  std::error_code ignored;
+  result.target_ = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
+  if (result.target_.empty()) result.target_ = file;
+
+  const fs::file_status status = fs::status(result.target_, ignored);
+  if (fs::is_directory(status)) return result.failure("it is a folder");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    result.descriptor_ = ::open(result.target_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    std::tie(result.descriptor_, result.temporary_) = open_temporary(folder_of(result.target_));
+    if (fs::exists(status) && result.descriptor_ >= 0)
+      ::fchmod(result.descriptor_, static_cast<mode_t>(status.permissions()));
+  }
+  if (result.descriptor_ < 0) {
+    result.temporary_.clear();
+    return result.failure(std::strerror(errno));
+  }
+  return result;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept {
+  *this = std::move(other);
+}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  std::swap(target_, other.target_);
+  std::swap(temporary_, other.temporary_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(error_number_, other.error_number_);
+  return *this;
+}
+
+AtomicFile::~AtomicFile() {
+  discard();
+}
+
+void AtomicFile::discard() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  DISMANTLE_EXPECT(descriptor_ >= 0);
+  buffer_.append(bytes);
+  if (buffer_.size() >= kBufferBytes) flush();
+}
+
+void AtomicFile::flush() {
+  std::size_t written = 0;
+  while (error_number_ == 0 && written < buffer_.size()) {
+    const ssize_t n = ::write(descriptor_, buffer_.data() + written, buffer_.size() - written);
+    if (n > 0) {
+      written += static_cast<std::size_t>(n);
+    } else if (n == 0 || errno != EINTR) {
+      error_number_ = n == 0 ? EIO : errno;
+    }
+  }
+  buffer_.clear();
+}
+
+Result<Done> AtomicFile::commit() {
+  DISMANTLE_EXPECT(descriptor_ >= 0);
+  flush();
+  if (error_number_ == 0 && !temporary_.empty() && ::fsync(descriptor_) != 0) error_number_ = errno;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error_number_ == 0) error_number_ = errno;
+  if (error_number_ == 0 && !temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
+    error_number_ = errno;
+  if (error_number_ != 0) {
+    discard();
+    return failure(std::strerror(error_number_));
+  }
+  if (!temporary_.empty()) sync_folder(folder_of(target_));
+  temporary_.clear();
+  return Done{};
+}
+
+Result<Done> write_file(const fs::path& file, std::string_view bytes) {
+  Result<AtomicFile> out = AtomicFile::create(file);
+  if (!out) return out.error();
+  out->write(bytes);
+  return out->commit();
+}
+
+}  // namespace dismantle

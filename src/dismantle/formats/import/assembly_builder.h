@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/core/result.h"
+#include "dismantle/formats/import/import_options.h"
+#include "dismantle/formats/import/mesh_source.h"
+
+#include <optional>
+#include <string>
+
+namespace dismantle {
+
+/// The largest coordinate that a reader accepts [mm], a thousand kilometres: products of four coordinates stay far from
+/// overflow.
+constexpr double kLargestCoordinate = 1e9;
+
+/// That no coordinate, in a component's own frame or assembled, is larger than kLargestCoordinate. Errors: Unreadable.
+Result<Done> check_coordinates(const Assembly& assembly);
+
+/// Makes an Assembly of the parts that a mesh reader finds, in their order: scales them to millimetres, cleans them,
+/// keeps the limits, makes names unique, and builds a tree of one level.
+class AssemblyBuilder {
+ public:
+  /// `source_name` is the file's name without its folder (the tree's root); `file_units` what its numbers are in,
+  /// unless the options say otherwise. Errors: Usage for unknown units.
+  static Result<AssemblyBuilder> create(std::string source_name, std::string_view file_units,
+                                        const ImportOptions& options);
+
+  /// Appends a component that stands at `assembly_from_part` (in the file's units) in the assembly. A part that has no
+  /// triangle left after cleaning is dropped. An Error where a limit is passed or a coordinate is larger than
+  /// kLargestCoordinate.
+  std::optional<Error> add(MeshPart part, const RigidTransform& assembly_from_part = {});
+
+  /// Millimetres per unit of the file.
+  double scale() const { return scale_; }
+
+  /// The assembly. Errors: Unreadable where it has no component.
+  Result<Assembly> finish(std::string sha256);
+
+ private:
+  AssemblyBuilder() = default;
+
+  const ImportOptions* options_ = nullptr;
+  Assembly assembly_;
+  double scale_ = 1;
+  std::size_t triangles_ = 0;
+};
+
+}  // namespace dismantle

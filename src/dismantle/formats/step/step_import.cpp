@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/formats/step/step_import.h"
+
+#include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/units.h"
+#include "dismantle/formats/step/read_step.h"
+#include "dismantle/formats/step/step_mesh.h"
+#include "dismantle/formats/step/step_product_tree.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
+#include <Bnd_Box.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <Message_ProgressIndicator.hxx>
+#include <OSD_Parallel.hxx>
+#include <Precision.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <limits>
+#include <map>
+#include <streambuf>
+
+namespace dismantle {
+
+namespace {
+
+/// Edges of triangles are not made shorter than this part of the deflection [1]: OpenCASCADE's own 0.1 would keep the
+/// angular deflection from refining small round features.
+constexpr double kLeastEdge = 1e-3;
+
+/// Passes OpenCASCADE's progress on as one stage.
+class StageProgress : public Message_ProgressIndicator {
+ public:
+  StageProgress(const ProgressCallback& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
+
+ protected:
+  void Show(const Message_ProgressScope&, const Standard_Boolean) override {
+    report_progress(progress_, stage_, GetPosition());
+  }
+
+ private:
+  const ProgressCallback& progress_;
+  std::string stage_;
+};
+
+/// Text as a stream that reports how far it has been read.
+class TextBuffer : public std::streambuf {
+ public:
+  TextBuffer(std::string_view text, const ProgressCallback& progress) : text_(text), progress_(progress) {}
+
+ protected:
+  int_type underflow() override {
+    if (given_ == text_.size()) return traits_type::eof();
+    report_progress(progress_, "reading", static_cast<double>(given_) / static_cast<double>(text_.size()));
+    const std::size_t count = std::min(kPiece, text_.size() - given_);
+    char* piece = const_cast<char*>(text_.data()) + given_;  // a get area is never written to
+    setg(piece, piece, piece + count);
+    given_ += count;
+    return traits_type::to_int_type(*piece);
+  }
+
+ private:
+  static constexpr std::size_t kPiece = 1 << 18;
+  std::string_view text_;
+  const ProgressCallback& progress_;
+  std::size_t given_ = 0;
+};
+
+Error unreadable(const std::string& problem) {
+  return {ErrorKind::Unreadable, problem};
+}
+
+/// A length unit of a STEP file.
+struct LengthUnit {
+  double millimetres = 1;
+  std::string name = "mm";
+};
+
+/// The units that a STEP entity assigns to a representation; null where it is no such entity.
+Handle(StepRepr_GlobalUnitAssignedContext) assigned_units(const Handle(Standard_Transient) & entity) {
+  using WithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
+  using WithoutUncertainty = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
+  if (const auto* context = dynamic_cast<const WithUncertainty*>(entity.get()))
+    return context->GlobalUnitAssignedContext();
+  if (const auto* context = dynamic_cast<const WithoutUncertainty*>(entity.get()))
+    return context->GlobalUnitAssignedContext();
+  return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
+}
+
+/// The first length unit that a representation of the file is given in; mm where none is.
+LengthUnit length_unit(const Interface_InterfaceModel& model) {
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepRepr_GlobalUnitAssignedContext) units = assigned_units(model.Value(i));
+    if (units.IsNull()) continue;
+    STEPConstruct_UnitContext context;
+    if (context.ComputeFactors(units) != 0 || !context.LengthDone()) continue;
+    const double millimetres = context.LengthFactor();
+    for (const char* name : {"mm", "cm", "m", "um", "in", "ft"})
+      if (std::abs(*millimetres_per_unit(name) / millimetres - 1) < 1e-9) return {*millimetres_per_unit(name), name};
+    if (millimetres > 0) return {millimetres, std::to_string(millimetres) + " mm"};
+  }
+  return {};
+}
+
+/// Meshes all shapes at once and returns the deflection that was used [mm].
+double mesh_shapes(const std::vector<TopoDS_Shape>& shapes, double deflection, double angle,
+                   const ProgressCallback& progress) {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
+
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = deflection;
+  parameters.Angle = angle;
+  parameters.MinSize = std::max(kLeastEdge * deflection, Precision::Confusion());
+  parameters.InParallel = true;
+  BRepMesh_IncrementalMesh mesher;
+  mesher.SetShape(all);
+  mesher.ChangeParameters() = parameters;
+  const Handle(StageProgress) indicator = new StageProgress(progress, "meshing");
+  mesher.Perform(indicator->Start());
+  return deflection;
+}
+
+double assembly_diagonal(const StepProductTree& products) {
+  Bnd_Box box;
+  std::vector<Bnd_Box> shape_boxes(products.shapes.size());
+  for (std::size_t i = 0; i < products.shapes.size(); ++i) BRepBndLib::Add(products.shapes[i], shape_boxes[i], false);
+  for (const StepOccurrence& o : products.occurrences)
+    if (!shape_boxes[o.shape].IsVoid()) box.Add(shape_boxes[o.shape].Transformed(o.placement));
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
+/// The colour that most of the shape's surface has: a face's own, else its solid's, else the product's; none where
+/// none is set.
+std::optional<Color> surface_color(const TopoDS_Shape& shape, const StepProduct& product) {
+  const Color* whole = product.subshape_colors.Seek(shape);
+  const std::optional<Color> base = whole ? std::optional(*whole) : product.color;
+  if (product.subshape_colors.IsEmpty()) return base;
+
+  std::vector<std::pair<std::optional<Color>, double>> areas;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Shape face = faces.Current().Located(TopLoc_Location());
+    const Color* own = product.subshape_colors.Seek(face);
+    const std::optional<Color> color = own ? std::optional(*own) : base;
+    auto place = std::find_if(areas.begin(), areas.end(), [&](const auto& a) { return a.first == color; });
+    if (place == areas.end()) place = areas.insert(place, {color, 0.0});
+    place->second += triangulated_area(face);
+  }
+  const auto largest =
+      std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return largest == areas.end() ? base : largest->first;
+}
+
+Vec3 vec3(const gp_XYZ& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+/// The rigid part of a placement; the scale (negative: mirrored through the origin) is left to the mesh.
+RigidTransform rigid_part(const gp_Trsf& placement, double millimetres) {
+  const gp_Mat& m = placement.HVectorialPart();
+  return {{{vec3(m.Row(1)), vec3(m.Row(2)), vec3(m.Row(3))}}, millimetres * vec3(placement.TranslationPart())};
+}
+
+/// Meshes in the component's frame, made once for every shape and scale, and shared.
+class ComponentMeshes {
+ public:
+  struct Entry {
+    std::shared_ptr<const TriangleMesh> mesh;
+    MeshFaults faults;
+    double largest_coordinate = 0;
+  };
+
+  explicit ComponentMeshes(const std::vector<TopoDS_Shape>& shapes) : shapes_(shapes) {}
+
+  const Entry& get(std::uint32_t shape, double scale) {
+    const auto [place, is_new] = entries_.try_emplace({shape, scale});
+    if (!is_new) return place->second;
+    TriangleMesh mesh = mesh_from_shape(shapes_[shape]);
+    if (scale != 1)
+      for (Vec3& p : mesh.vertices) p *= scale;
+    if (scale < 0)
+      for (Face& f : mesh.faces) std::swap(f.v[1], f.v[2]);
+    CleanedMesh cleaned = clean_mesh(mesh);
+    for (const Vec3& p : cleaned.mesh.vertices)
+      place->second.largest_coordinate = is_finite(p) ? std::max(place->second.largest_coordinate, max_abs(p))
+                                                      : std::numeric_limits<double>::infinity();
+    place->second.mesh = std::make_shared<const TriangleMesh>(std::move(cleaned.mesh));
+    place->second.faults = cleaned.faults;
+    return place->second;
+  }
+
+ private:
+  const std::vector<TopoDS_Shape>& shapes_;
+  std::map<std::pair<std::uint32_t, double>, Entry> entries_;
+};
+
+/// A scale that is 1 but for the rounding of placements one after another is 1.
+double tidy_scale(double scale) {
+  return std::abs(std::abs(scale) - 1) < 1e-12 ? (scale < 0 ? -1.0 : 1.0) : scale;
+}
+
+/// Components from meshed shapes. `unit_scale`: mm in the assembly per mm of the shapes.
+Result<Assembly> build_assembly(StepProductTree products, double unit_scale, const ImportOptions& options) {
+  Assembly assembly;
+  assembly.tree = std::move(products.tree);
+  ComponentMeshes meshes(products.shapes);
+  std::size_t triangles = 0;
+  for (StepOccurrence& o : products.occurrences) {
+    const double scale = tidy_scale(o.placement.ScaleFactor());
+    const ComponentMeshes::Entry& entry = meshes.get(o.shape, scale * unit_scale);
+    triangles += entry.mesh->faces.size();
+    if (triangles > options.limits.triangles)
+      return unreadable("it has more than " + std::to_string(options.limits.triangles) +
+                        " triangles; mesh it with a larger deflection");
+    if (entry.mesh->faces.empty()) continue;
+    const RigidTransform placement = rigid_part(o.placement, unit_scale);
+    if (!(entry.largest_coordinate + max_abs(placement.translation) <= kLargestCoordinate))
+      return unreadable("\"" + o.name + "\" reaches further than a thousand kilometres; check its units");
+
+    Component c;
+    c.name = std::move(o.name);
+    c.mesh = entry.mesh;
+    c.faults = entry.faults;
+    c.assembly_from_mesh = placement;
+    c.tree_node = o.tree_node;
+    const std::optional<Color> own = surface_color(products.shapes[o.shape], products.products[o.product]);
+    c.color = o.instance_color.value_or(own.value_or(o.inherited_color.value_or(Color{})));
+    assembly.components.push_back(std::move(c));
+    assembly.deflection = std::max(assembly.deflection, std::abs(scale));
+  }
+  make_names_unique(assembly.components);
+  return assembly;
+}
+
+Result<Done> read_document(std::string_view text, const std::string& name, const ProgressCallback& progress,
+                           STEPCAFControl_Reader& reader, const Handle(TDocStd_Document) & document) {
+  reader.SetColorMode(true);
+  reader.SetNameMode(true);
+  reader.SetLayerMode(false);
+  reader.SetPropsMode(false);
+  reader.SetSHUOMode(true);
+  TextBuffer buffer(text, progress);
+  std::istream stream(&buffer);
+  if (reader.ChangeReader().ReadStream(name.c_str(), stream) != IFSelect_RetDone)
+    return unreadable("its entities break the grammar of STEP; export it again");
+  report_progress(progress, "translating", 0);
+  const Handle(StageProgress) indicator = new StageProgress(progress, "translating");
+  Handle(TDocStd_Document) target = document;
+  if (reader.NbRootsForTransfer() < 1 || !reader.Transfer(target, indicator->Start()))
+    return unreadable("it holds no product with a shape; export the solids with it");
+  return Done{};
+}
+
+}  // namespace
+
+Result<Assembly> import_step(std::string_view text, const std::string& name, const ImportOptions& options) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  OSD_Parallel::SetUseOcctThreads(true);  // TBB's threads may have been the parent's, and are not here
+  XCAFDoc_ShapeTool::SetAutoNaming(false);
+
+  STEPCAFControl_Reader reader;
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  const Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+  if (const auto read = read_document(text, name, options.progress, reader, document); !read) return read.error();
+  const LengthUnit unit = length_unit(*reader.Reader().Model());
+  const double unit_scale = options.units.empty() ? 1 : *millimetres_per_unit(options.units) / unit.millimetres;
+
+  Result<StepProductTree> products = walk_step_products(document, name, options.limits.components);
+  if (!products) return products.error();
+  const double diagonal = assembly_diagonal(*products);
+  const double deflection =
+      options.deflection > 0 ? options.deflection / unit_scale : std::max(kDefaultRelativeDeflection * diagonal, 1e-6);
+  const double angle = options.angular_deflection > 0 ? options.angular_deflection : kDefaultAngularDeflection;
+  mesh_shapes(products->shapes, deflection, angle, options.progress);
+
+  report_progress(options.progress, "building", 0);
+  Result<Assembly> assembly = build_assembly(std::move(*products), unit_scale, options);
+  if (!assembly) return assembly;
+  if (assembly->components.empty()) return unreadable("it holds no solid and no surface; export the solids with it");
+  assembly->deflection *= deflection * unit_scale;
+  assembly->source_units = options.units.empty() ? unit.name : options.units;
+  return assembly;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/loading/load_assembly.h"
+
+#include "dismantle/files/text_name.h"
+#include "dismantle/files/text_scan.h"
+#include "dismantle/formats/gltf/read_gltf.h"
+#include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/mesh_source.h"
+#include "dismantle/formats/mesh/read_mesh.h"
+#include "dismantle/formats/step/read_step.h"
+#include "dismantle/formats/urdf/read_urdf.h"
+
+#include <new>
+#include <stdexcept>
+
+namespace dismantle {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(file, ignored);
+  if (fs::is_directory(status)) return read_mesh_folder(file, options);
+  if (!fs::exists(status))
+    return Error{ErrorKind::Unreadable, file.string() + " cannot be read (no such file); check the path"};
+
+  if (is_mesh_file(file)) return read_mesh(file, options);
+  const std::string extension = lower_case(file.extension().string());
+  if (extension == ".step" || extension == ".stp") return read_step(file, options);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(file, options);
+  if (extension == ".urdf") return read_urdf(file, options);
+  return Error{ErrorKind::Unreadable,
+               file.string() + " is no assembly that dismantle reads (extension " + in_quotes(extension) +
+                   "); convert it to STEP, glTF, OBJ, STL, PLY or URDF, or give a folder of meshes"};
+}
+
+/// Names from files may hold anything; from here on they can stand in JSON and on a terminal.
+void clean_names(Assembly& assembly) {
+  for (TreeNode& node : assembly.tree) node.name = clean_name(node.name);
+  for (Component& component : assembly.components) component.name = clean_name(component.name);
+  make_names_unique(assembly.components);
+}
+
+}  // namespace
+
+Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
+  try {
+    Result<Assembly> assembly = dispatch(file, options);
+    if (!assembly) return assembly;
+    if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
+    clean_names(*assembly);
+    return assembly;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
+  } catch (const std::length_error&) {
+    return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};
+  }
+}
+
+}  // namespace dismantle

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/core/result.h"
+#include "dismantle/formats/import/import_options.h"
+
+#include <filesystem>
+
+namespace dismantle {
+
+/// Reads anything that docs/formats.md calls an assembly, by extension (any case) or as a folder of meshes: STEP,
+/// glTF/GLB, OBJ, STL, PLY, URDF. Vertices are welded, degenerate triangles dropped and counted; open and non-manifold
+/// meshes are reported in the component's faults, never refused. Errors: Unreadable with one sentence; never a crash, a
+/// hang or an allocation that the file's size does not justify.
+Result<Assembly> load_assembly(const std::filesystem::path& file, const ImportOptions& options = {});
+
+}  // namespace dismantle

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/math/nearest_twist.h"
+
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+constexpr int kSize = 6;
+
+/// A half-space is taken up where it is violated by more than this [of |wanted|, unit normals].
+constexpr double kViolation = 1e-12;
+/// A unit normal whose part outside the span of the active ones is shorter than this depends on them. Where no active
+/// row pushes against such a one, it is violated by at most kDependent |x|: its bound, like theirs, is at most 0.
+constexpr double kDependent = 0.25 * kNearestTwistSlack;
+/// Shares of an active normal in another unit normal that are smaller are rounding.
+constexpr double kWeightNoise = 1e-13;
+
+struct Vec6 {
+  double v[kSize] = {};
+};
+
+double dot(const Vec6& a, const Vec6& b) {
+  double sum = 0;
+  for (int i = 0; i < kSize; ++i) sum += a.v[i] * b.v[i];
+  return sum;
+}
+
+/// a + t b
+Vec6 advanced(Vec6 a, double t, const Vec6& b) {
+  for (int i = 0; i < kSize; ++i) a.v[i] += t * b.v[i];
+  return a;
+}
+
+/// The length, without over- or underflow on the way.
+double safe_length(const double (&v)[kSize]) {
+  double largest = 0;
+  for (const double c : v) largest = std::fmax(largest, std::fabs(c));
+  if (!(largest > 0)) return 0;
+  double sum = 0;
+  for (const double c : v) sum += (c / largest) * (c / largest);
+  return largest * std::sqrt(sum);
+}
+
+/// A half-space with unit normal and its bound as a share of |wanted|.
+struct Row {
+  Vec6 normal;
+  double bound = 0;
+};
+
+Row scaled_row(const HalfSpace& half_space, double scale) {
+  Row row;
+  const double length = safe_length(half_space.normal);
+  if (!(length > 0)) return row;
+  for (int i = 0; i < kSize; ++i) row.normal.v[i] = half_space.normal[i] / length;
+  row.bound = half_space.bound / length / scale;
+  return row;
+}
+
+/// The active rows: which they are, what they push with, and N = Q R of their unit normals.
+class ActiveSet {
+ public:
+  int count() const { return count_; }
+  int row(int k) const { return rows_[k]; }
+  bool contains(int row) const {
+    for (int k = 0; k < count_; ++k)
+      if (rows_[k] == row) return true;
+    return false;
+  }
+
+  /// How a unit normal stands to the span of the active ones.
+  struct Split {
+    Vec6 outside;                ///< Its part orthogonal to the span.
+    double length = 0;           ///< Of that part; 0 where the normal counts as dependent.
+    double along[kSize] = {};    ///< Q^T n
+    double weights[kSize] = {};  ///< R^-1 Q^T n: the span's part as a combination of active normals.
+  };
+
+  Split split(const Vec6& normal) const {
+    Split s;
+    s.outside = normal;
+    // The second pass takes off what the first one's rounding left in the span.
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int k = 0; k < count_; ++k) {
+        const double d = dot(q_[k], s.outside);
+        s.along[k] += d;
+        s.outside = advanced(s.outside, -d, q_[k]);
+      }
+    }
+    const double length = std::sqrt(dot(s.outside, s.outside));
+    s.length = count_ < kSize && length > kDependent ? length : 0;
+    for (int k = count_ - 1; k >= 0; --k) {
+      double rest = s.along[k];
+      for (int j = k + 1; j < count_; ++j) rest -= r_[k][j] * s.weights[j];
+      s.weights[k] = rest / r_[k][k];
+    }
+    return s;
+  }
+
+  /// The active row that is the first to push with nothing left when the entering one's multiplier grows.
+  struct Blocking {
+    int index = -1;
+    double step = std::numeric_limits<double>::infinity();
+  };
+  Blocking blocking(const Split& s) const {
+    Blocking first;
+    for (int k = 0; k < count_; ++k) {
+      if (!(s.weights[k] > kWeightNoise)) continue;
+      const double step = multipliers_[k] / s.weights[k];
+      if (step < first.step) first = {k, step};
+    }
+    return first;
+  }
+
+  void push(double step, const Split& s) {
+    for (int k = 0; k < count_; ++k) multipliers_[k] = std::fmax(0.0, multipliers_[k] - step * s.weights[k]);
+  }
+
+  /// @pre s.length > 0
+  void add(int row, const Row& scaled, double multiplier, const Split& s) {
+    DISMANTLE_EXPECT(count_ < kSize && s.length > 0);
+    for (int k = 0; k < count_; ++k) r_[k][count_] = s.along[k];
+    r_[count_][count_] = s.length;
+    for (int i = 0; i < kSize; ++i) q_[count_].v[i] = s.outside.v[i] / s.length;
+    rows_[count_] = row;
+    normals_[count_] = scaled.normal;
+    multipliers_[count_] = multiplier;
+    ++count_;
+  }
+
+  /// Takes the k-th row out; the ones after it are orthogonalised anew.
+  void drop(int k) {
+    const int last = count_;
+    count_ = k;
+    for (int j = k + 1; j < last; ++j) {
+      const Row row{normals_[j], 0};
+      const Split s = split(row.normal);
+      // Of fewer rows a row is no less independent, but rounding may see it on either side of the limit.
+      if (s.length > 0) add(rows_[j], row, multipliers_[j], s);
+    }
+  }
+
+ private:
+  int count_ = 0;
+  int rows_[kSize] = {};
+  Vec6 normals_[kSize];
+  double multipliers_[kSize] = {};
+  Vec6 q_[kSize];
+  double r_[kSize][kSize] = {};  // upper triangle: r_[i][j] for i <= j
+};
+
+/// The half-space that x violates most, by distance.
+struct Violated {
+  int index = -1;
+  double distance = 0;
+};
+
+class Search {
+ public:
+  Search(const double (&wanted)[kSize], double scale, Span<const HalfSpace> half_spaces)
+      : wanted_(wanted), half_spaces_(half_spaces), scale_(scale) {
+    for (int i = 0; i < kSize; ++i) x_.v[i] = wanted[i] / scale;
+  }
+
+  NearestTwist run() {
+    NearestTwist result;
+    while (true) {
+      const Violated worst = most_violated();
+      if (worst.index < 0) break;
+      const int before = result.iterations;
+      if (take_up(worst.index, result.iterations)) continue;
+      // Dependent and next to nothing, at once: then nothing else is violated by more either.
+      result.nearest = result.iterations == before + 1 && worst.distance <= 2 * kDependent;
+      break;
+    }
+    for (int k = 0; k < active_.count(); ++k) result.active[k] = active_.row(k);
+    result.active_count = active_.count();
+    const double share = std::fmin(feasible_share(), nearest_share());
+    if ((1 - share) * std::sqrt(dot(x_, x_)) > kNearestTwistSlack) result.nearest = false;
+    const bool untouched = result.iterations == 0 && share == 1;
+    for (int i = 0; i < kSize; ++i) result.x[i] = untouched ? wanted_[i] : x_.v[i] * share * scale_;
+    return result;
+  }
+
+ private:
+  /// Among equals the first.
+  Violated most_violated() const {
+    Violated worst;
+    double worst_squared = 0;
+    for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
+      const HalfSpace& h = half_spaces_[i];
+      double value = 0, squared_length = 0;
+      for (int c = 0; c < kSize; ++c) {
+        value += h.normal[c] * x_.v[c];
+        squared_length += h.normal[c] * h.normal[c];
+      }
+      const double below = h.bound / scale_ - value;
+      if (!(below > 0) || !(below * below > worst_squared * squared_length)) continue;
+      if (active_.contains(static_cast<int>(i))) continue;
+      const Row row = scaled_row(h, scale_);
+      const double distance = row.bound - dot(row.normal, x_);
+      if (distance > kViolation && distance > worst.distance) {
+        worst = {static_cast<int>(i), distance};
+        worst_squared = distance * distance;
+      }
+    }
+    return worst;
+  }
+
+  /// Makes a violated row active, letting others go where they would have to pull. False where it cannot be.
+  bool take_up(int index, int& iterations) {
+    const Row row = scaled_row(half_spaces_[static_cast<std::size_t>(index)], scale_);
+    double multiplier = 0;
+    while (iterations < kNearestTwistIterations) {
+      ++iterations;
+      const ActiveSet::Split split = active_.split(row.normal);
+      const ActiveSet::Blocking blocking = active_.blocking(split);
+      const double squared = split.length * split.length;
+      const double violation = row.bound - dot(row.normal, x_);
+      const double full =
+          split.length > 0 ? std::fmax(0.0, violation) / squared : std::numeric_limits<double>::infinity();
+      if (blocking.index < 0 && !(split.length > 0)) return false;
+      const double step = std::fmin(full, blocking.step);
+      if (split.length > 0) x_ = advanced(x_, step, split.outside);
+      active_.push(step, split);
+      multiplier += step;
+      if (full <= blocking.step) {
+        active_.add(index, row, multiplier, split);
+        return true;
+      }
+      active_.drop(blocking.index);
+    }
+    return false;
+  }
+
+  /// The largest share of x that is in every half-space: 0 is in all of them, and they are convex.
+  double feasible_share() const {
+    double share = 1;
+    for (const HalfSpace& h : half_spaces_) {
+      const Row row = scaled_row(h, scale_);
+      const double value = dot(row.normal, x_);
+      const double least = row.bound - kNearestTwistSlack / 2;
+      if (value < least) share = std::fmin(share, least / value);
+    }
+    return share;
+  }
+
+  /// The share of x that is nearest to the wanted twist: less than 1 only where rounding led the search astray.
+  double nearest_share() const {
+    Vec6 wanted;
+    for (int i = 0; i < kSize; ++i) wanted.v[i] = wanted_[i] / scale_;
+    const double along = dot(wanted, x_), squared = dot(x_, x_);
+    return along < squared ? std::fmax(0.0, along / squared) : 1;
+  }
+
+  const double (&wanted_)[kSize];
+  Span<const HalfSpace> half_spaces_;
+  double scale_;
+  Vec6 x_;  // in units of scale_
+  ActiveSet active_;
+};
+
+}  // namespace
+
+NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces) {
+  for ([[maybe_unused]] const HalfSpace& h : half_spaces) DISMANTLE_EXPECT(h.bound <= 0);
+  const double scale = safe_length(wanted);
+  if (!(scale > 0)) return {};
+  return Search(wanted, scale, half_spaces).run();
+}
+
+}  // namespace dismantle

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/removal_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+
+namespace dismantle {
+
+namespace {
+
+/// Which directions are asked: those of which nothing bad is expected, or all.
+enum class Hope { Good, Little };
+/// So many components are asked side by side, the smallest first.
+constexpr std::size_t kFewComponents = 8;
+
+/// Candidate sets by size, the smallest first; of equal ones the one found first.
+struct Waiting {
+  ComponentSet needed;
+  std::size_t order;
+  friend bool operator<(const Waiting& a, const Waiting& b) {
+    if (a.needed.size() != b.needed.size()) return a.needed.size() > b.needed.size();
+    return a.order > b.order;
+  }
+};
+
+ComponentSet all_but(const ComponentSet& inside) {
+  ComponentSet rest = ComponentSet::all(inside.universe());
+  rest.erase(inside.members());
+  return rest;
+}
+
+/// The best-first search of fewest_removals.
+class RemovalSearch {
+ public:
+  RemovalSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
+                const ComponentSet& never, const GoOn& go_on)
+      : table_(table), directions_(directions), present_(present), never_(never), go_on_(go_on) {}
+
+  std::optional<ComponentSet> find(Span<const ComponentId> targets) {
+    std::optional<ComponentSet> known = enough_for(targets);
+    if (known) most_ = known->size();
+    push(ComponentSet(present_.universe(), targets));
+    while (!waiting_.empty() && go_on_()) {
+      const ComponentSet needed = waiting_.top().needed;
+      if (needed.size() >= most_) break;
+      waiting_.pop();
+      const ComponentSet left = left_over(needed);
+      ComponentSet stuck(needed.universe());
+      for (const ComponentId c : needed.members())
+        if (left.has(c)) stuck.insert(c);
+      if (stuck.size() == 0) return needed;
+      widen(needed, left, stuck);
+    }
+    return known;
+  }
+
+ private:
+  /// Some set that does, found for little: all is taken out that can be until the targets are, then what was in
+  /// nobody's way is left where it is. No set that is not smaller has to be looked at.
+  std::optional<ComponentSet> enough_for(Span<const ComponentId> targets) {
+    ComponentSet left = present_;
+    std::vector<StraightRemoval> taken;
+    while (left.has_any(targets)) {
+      const std::vector<StraightRemoval> single =
+          free_components(table_, directions_, left, never_, Executor(), go_on_);
+      if (single.empty() || !go_on_()) return std::nullopt;
+      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      taken.insert(taken.end(), single.begin(), single.end());
+    }
+    ComponentSet needed(present_.universe(), targets);
+    for (std::size_t k = taken.size(); k-- > 0;) {
+      const ComponentId c = taken[k].components[0];
+      for (std::size_t later = k + 1; later < taken.size() && !needed.has(c); ++later) {
+        const ComponentId other = taken[later].components[0];
+        if (needed.has(other) && table_.blocks(other, taken[later].direction, c)) needed.insert(c);
+      }
+    }
+    return needed;
+  }
+
+  void push(ComponentSet needed) {
+    if (needed.size() >= most_) return;
+    if (known_.insert(needed.members()).second) waiting_.push({std::move(needed), known_.size()});
+  }
+
+  /// What of `present_` is left where only members of `needed` are taken out, as long as any can be.
+  ComponentSet left_over(const ComponentSet& needed) {
+    ComponentSet left = present_;
+    const ComponentSet others = all_but(needed);
+    while (go_on_()) {
+      const std::vector<StraightRemoval> single =
+          free_components(table_, directions_, left, others, Executor(), go_on_);
+      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      if (!single.empty()) continue;
+      const auto body = smallest_body(table_, directions_, left, others, go_on_);
+      if (!body) break;
+      left.erase(body->components);
+    }
+    return left;
+  }
+
+  /// Every set that holds `needed` and can be taken out takes one of the stuck components first, along some direction:
+  /// with what blocks it out before, or together with it.
+  void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
+    std::map<DirectionId, ComponentSet> ends;
+    const std::size_t most = std::min(left.size(), most_) - 1;
+    for (const ComponentId c : stuck.members()) {
+      for (const DirectionId d : directions_[c.value]) {
+        if (!go_on_()) return;
+        const std::vector<ComponentId> blockers = table_.blockers(c, d, left, most_ - needed.size());
+        if (never_.has_any(blockers)) continue;
+        if (!stuck.has_any(blockers)) push(with(needed, blockers));
+        const std::vector<ComponentId> together =
+            table_.moving_together(c, d, left, ends.try_emplace(d, never_).first->second, most);
+        if (!together.empty()) push(with(needed, together));
+      }
+    }
+  }
+
+  static ComponentSet with(ComponentSet set, const std::vector<ComponentId>& more) {
+    for (const ComponentId c : more) set.insert(c);
+    return set;
+  }
+
+  BlockingTable& table_;
+  const DirectionLists& directions_;
+  const ComponentSet& present_;
+  const ComponentSet& never_;
+  const GoOn& go_on_;
+  std::priority_queue<Waiting> waiting_;
+  std::set<std::vector<ComponentId>> known_;
+  std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< The size of the best set that is known.
+};
+
+}  // namespace
+
+std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const Executor& executor, const GoOn& go_on) {
+  std::vector<ComponentId> asked = present.members();
+  std::erase_if(asked, [&](ComponentId c) { return never.has(c); });
+  std::stable_sort(asked.begin(), asked.end(),
+                   [&](ComponentId a, ComponentId b) { return table.radius(a) < table.radius(b); });
+  const auto first_free = [&](ComponentId c, Hope hope) {
+    for (const DirectionId d : directions[c.value]) {
+      if (!go_on()) break;
+      if (hope == Hope::Good && table.expects_blocker(c, d, present)) continue;
+      if (!table.any_blocker(c, d, present)) return d;
+    }
+    return DirectionId();
+  };
+
+  std::vector<StraightRemoval> found;
+  for (const Hope hope : {Hope::Good, Hope::Little}) {
+    for (std::size_t first = 0; first < asked.size() && found.empty(); first += kFewComponents) {
+      const std::size_t count = std::min(kFewComponents, asked.size() - first);
+      std::vector<DirectionId> free(count);
+      executor.for_each_heavy(count, [&](std::size_t i) { free[i] = first_free(asked[first + i], hope); });
+      for (std::size_t i = 0; i < count; ++i)
+        if (free[i].valid()) found.push_back({{asked[first + i]}, free[i]});
+    }
+  }
+  return found;
+}
+
+std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const GoOn& go_on) {
+  std::optional<StraightRemoval> best;
+  std::map<DirectionId, ComponentSet> ends;
+  std::size_t most = present.size() - 1;
+  for (const ComponentId c : present.members()) {
+    if (never.has(c)) continue;
+    for (const DirectionId d : directions[c.value]) {
+      if (!go_on()) return std::nullopt;
+      ComponentSet& ends_it = ends.try_emplace(d, never).first->second;
+      if (ends_it.has(c)) continue;
+      std::vector<ComponentId> together = table.moving_together(c, d, present, ends_it, most);
+      if (together.empty()) continue;
+      most = together.size() - 1;
+      best = StraightRemoval{std::move(together), d};
+      if (most < 2) return best;
+    }
+  }
+  return best;
+}
+
+std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,
+                                            const ComponentSet& present, const ComponentSet& never,
+                                            Span<const ComponentId> targets, const GoOn& go_on) {
+  return RemovalSearch(table, directions, present, never, go_on).find(targets);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/sample_search.h"
+
+#include "dismantle/planner/search/search_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kHalfTurn = 3.14159265358979;
+/// Places nearer to each other than this share of the component's radius are one.
+constexpr double kSamePlace = 0.03;
+/// Random poses are within so many radii of where the component was assembled.
+constexpr double kRegion = 2.5;
+/// How far one motion goes [component's radii].
+constexpr double kReaches[] = {0.06, 0.25, 1};
+/// A straight way out is looked for from a place that is this share of the radius further out than all before it, and
+/// from one in so many of the others.
+constexpr double kFurtherOut = 0.1;
+constexpr std::size_t kExitPeriod = 48;
+/// Of so many places drawn, the one that is furthest out goes on.
+constexpr int kOutermostOf = 4;
+/// How much what was seldom tried is worth (UCB1).
+constexpr double kCuriosity = 0.5;
+/// What was learned longer ago than about so many tries is forgotten.
+constexpr double kMemory = 200;
+/// After so many motions that led nowhere new there is nothing left to find.
+constexpr int kMostInVain = 400;
+/// The way is made shorter in so many tries.
+constexpr int kShortenTries = 64;
+
+/// Where the next motion starts and aims.
+enum class Aim {
+  Anywhere,  ///< From the nearest place towards a random pose.
+  Shift,     ///< From a place far out along a random direction.
+  Turn,      ///< From there about a random axis.
+};
+constexpr Aim kAims[] = {Aim::Anywhere, Aim::Shift, Aim::Turn};
+
+/// Chooses among kinds of motions by what they gave.
+class Bandit {
+ public:
+  std::size_t choose() const {
+    double all = 0, best = -1;
+    for (const Arm& arm : arms_) all += arm.tries;
+    std::size_t chosen = 0;
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const Arm& arm = arms_[k];
+      const double worth = arm.tries < 1 ? std::numeric_limits<double>::infinity()
+                                         : arm.gain / arm.tries + kCuriosity * std::sqrt(std::log(all + 1) / arm.tries);
+      if (worth > best) {
+        best = worth;
+        chosen = k;
+      }
+    }
+    return chosen;
+  }
+
+  /// @param gain of the arm's last motion, 0 to 1
+  void learn(std::size_t arm, double gain) {
+    for (Arm& a : arms_) {
+      a.tries *= 1 - 1 / kMemory;
+      a.gain *= 1 - 1 / kMemory;
+    }
+    arms_[arm].tries += 1;
+    arms_[arm].gain += gain;
+  }
+
+  static constexpr std::size_t kCount = std::size(kAims) * std::size(kReaches);
+
+ private:
+  struct Arm {
+    double tries = 0, gain = 0;
+  };
+  std::array<Arm, kCount> arms_;
+};
+
+class SampleOut {
+ public:
+  SampleOut(Explorer& explorer, const BlockingTable& table, ComponentId component, std::size_t most_effort,
+            const GoOn& go_on)
+      : explorer_(explorer),
+        component_(component),
+        radius_(table.radius(component)),
+        way_out_(table.way_length(component)),
+        most_effort_(most_effort),
+        go_on_(go_on),
+        random_(most_effort),  // a longer search is not the same search again
+        places_(table.center(component), radius_),
+        out_(1) {}
+
+  const PlaceTree& places() const { return places_; }
+  /// Nothing new is found any more.
+  bool saturated() const { return in_vain_ > kMostInVain; }
+
+  std::optional<PlanStep> find() {
+    for (; goes_on(); ++in_vain_) {
+      const std::size_t arm = bandit_.choose();
+      const Aim aim = kAims[arm % std::size(kAims)];
+      const double reach = kReaches[arm / std::size(kAims)] * radius_;
+      const auto [from, target] = next_motion(aim, reach);
+      explorer_.go_back(places_[from].pose);
+      StepResult made = explorer_.slide(target);
+      double gain = 0;
+      if (!made.way.empty()) {
+        const double novelty = places_.nearest(made.pose).second;
+        gain = std::min(1.0, novelty / (kReaches[1] * radius_));
+        if (novelty > kSamePlace * radius_)
+          if (auto step = reach_place(from, std::move(made.way))) return step;
+      }
+      bandit_.learn(arm, gain);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool goes_on() const { return !saturated() && explorer_.effort() < most_effort_ && go_on_(); }
+
+  Vec3 random_direction() {
+    std::normal_distribution<double> normal;
+    Vec3 v;
+    do v = {normal(random_), normal(random_), normal(random_)};
+    while (length_squared(v) < 1e-6);
+    return normalized(v);
+  }
+  double random_share() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  /// The pose turned by `angle` about its center, which goes by `shift`.
+  Pose displaced(const Pose& pose, const Vec3& shift, const Vec3& axis, double angle) const {
+    const Vec3 center = places_.center_at(pose);
+    const Pose turn{center + shift, quat_about(axis, angle)};
+    return turn * Pose{-center, {}} * pose;
+  }
+
+  std::pair<std::size_t, Pose> next_motion(Aim aim, double reach) {
+    if (aim == Aim::Anywhere) {
+      const Vec3 shift = kRegion * radius_ * std::cbrt(random_share()) * random_direction();
+      const Pose goal = displaced({}, shift, random_direction(), kHalfTurn * random_share());
+      const auto [from, apart] = places_.nearest(goal);
+      return {from, pose_between(places_[from].pose, goal, std::min(1.0, reach / apart))};
+    }
+    std::size_t from = random_() % places_.size();
+    for (int k = 1; k < kOutermostOf; ++k) {
+      const std::size_t other = random_() % places_.size();
+      if (out_[other] > out_[from]) from = other;
+    }
+    const Vec3 direction = random_direction();
+    const bool turns = aim == Aim::Turn;
+    return {from, displaced(places_[from].pose, turns ? Vec3{} : reach * direction, direction,
+                            turns ? std::min(kHalfTurn, reach / radius_) : 0)};
+  }
+
+  /// Takes up a new place; the step where it is out, or goes straight out from it.
+  std::optional<PlanStep> reach_place(std::size_t from, std::vector<Pose> way) {
+    const Pose pose = way.back();
+    const Vec3 gone = places_.center_at(pose) - places_.center_at({});
+    places_.add({pose, from, std::move(way)});
+    out_.push_back(length(gone));
+    in_vain_ = 0;
+    const bool is_out = out_.back() > way_out_;
+    const bool further = out_.back() > outermost_ + kFurtherOut * radius_;
+    if (further) outermost_ = out_.back();
+    if (!is_out && !further && places_.size() % kExitPeriod != 0) return std::nullopt;
+    const Vec3 outwards = length(gone) > kSamePlace * radius_ ? normalized(gone) : random_direction();
+    for (const Vec3& exit : {outwards, random_direction()}) {
+      if (!is_out && !explorer_.exits(exit, 2 * way_out_)) continue;
+      return PlanStep{
+          {component_}, PlanTier::Sampled, PlanStep::kWhole, shortened(places_.way_to(places_.size() - 1)), exit};
+    }
+    return std::nullopt;
+  }
+
+  /// Replaces parts of the way by motions that go there at once.
+  std::vector<Pose> shortened(std::vector<Pose> way) {
+    for (int tries = 0; tries < kShortenTries && way.size() > 2 && go_on_(); ++tries) {
+      std::size_t first = random_() % way.size(), last = random_() % way.size();
+      if (first > last) std::swap(first, last);
+      if (last - first < 2) continue;
+      double as_it_is = 0;
+      for (std::size_t k = first; k < last; ++k) as_it_is += places_.distance(way[k], way[k + 1]);
+      explorer_.go_back(way[first]);
+      const StepResult made = explorer_.slide(way[last]);
+      if (!made.reached) continue;
+      double at_once = places_.distance(way[first], made.way.front());
+      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += places_.distance(made.way[k - 1], made.way[k]);
+      if (at_once >= as_it_is) continue;
+      const auto begin = way.begin() + static_cast<std::ptrdiff_t>(first) + 1;
+      const auto at = way.erase(begin, way.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+      way.insert(at, made.way.begin(), made.way.end());
+    }
+    return way;
+  }
+
+  Explorer& explorer_;
+  ComponentId component_;
+  double radius_, way_out_;
+  std::size_t most_effort_;
+  const GoOn& go_on_;
+  std::mt19937_64 random_;
+  Bandit bandit_;
+  PlaceTree places_;
+  std::vector<double> out_;  ///< How far the center is from where it was assembled, at each place [mm].
+  double outermost_ = 0;
+  int in_vain_ = 0;  ///< Motions since the last new place.
+};
+
+}  // namespace
+
+WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t most_effort,
+                     const GoOn& go_on) {
+  WaySearch search;
+  Explorer explorer(maker, component);
+  SampleOut sampling(explorer, table, component, most_effort, go_on);
+  search.step = sampling.find();
+  search.met = explorer.met();
+  search.furthest = sampling.places().furthest();
+  search.exhausted = sampling.saturated();
+  return search;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/screw_search.h"
+
+#include "dismantle/math/screw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+/// How near faces count as those of one thread, at first and at most: in tolerances, and as a share of the component's
+/// size. Loose threads have wide gaps.
+constexpr double kFirstReach = 2;
+constexpr double kLargestReach = 0.05;
+constexpr double kReachGrowth = 4;
+/// With so many pairs of faces there is enough to go by.
+constexpr std::size_t kEnoughContacts = 8192;
+
+/// A hand's turn [rad]; what makes less than a share of it is stuck, unless it was only once.
+constexpr double kHandTurn = 0.25;
+constexpr double kStuckShare = 0.3;
+constexpr int kStuckTurns = 3;
+/// After so much [rad] the lead that was made is known better than the one that was measured.
+constexpr double kTurnToLearn = 3;
+/// What turns so many times as often as its way out takes turns of the thread just spins.
+constexpr double kMostTurns = 2;
+/// Turns between looks whether the component is out of the thread.
+constexpr int kTurnsToLook = 12;
+
+/// The smooth parts of the faces that are near, of an assembled component.
+void add_samples(const Component& component, const std::set<FaceId>& near, std::vector<SurfaceSample>& samples) {
+  const TriangleMesh mesh = assembled_mesh(component);
+  std::vector<std::uint8_t> of_interest(mesh.faces.size());
+  for (const FaceId f : near) of_interest[f.value] = 1;
+  const std::vector<SurfaceSample> own = smooth_samples(mesh, of_interest);
+  samples.insert(samples.end(), own.begin(), own.end());
+}
+
+/// The motion by `angle` along a thread [rad].
+Pose screw_motion(const ThreadAxis& thread, double angle) {
+  Screw screw;
+  screw.reference = thread.point;
+  screw.velocity = angle / kTurn * thread.lead * thread.direction;
+  screw.axis = angle < 0 ? -thread.direction : thread.direction;
+  screw.angle = std::abs(angle);
+  return screw_at(screw, 1);
+}
+
+/// Turns one way, as long as that makes something.
+std::optional<PlanStep> turn_out(Explorer& explorer, ThreadAxis thread, double turn, double way_out,
+                                 const GoOn& go_on) {
+  const Vec3 exit = turn * thread.lead > 0 ? thread.direction : -thread.direction;
+  std::vector<Pose> way;
+  const double most_turned = kMostTurns * kTurn * (1 + way_out / std::abs(thread.lead));
+  double turned = 0, risen = 0;
+  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < most_turned && go_on(); ++turns) {
+    const Pose before = explorer.pose();
+    const StepResult made = explorer.slide(screw_motion(thread, turn) * before);
+    way.insert(way.end(), made.way.begin(), made.way.end());
+
+    const Screw screw = screw_between(before, made.pose);
+    const double angle = screw.angle * dot(screw.axis, thread.direction);
+    turned += angle;
+    risen += dot(screw.velocity + angle * cross(thread.direction, thread.point - screw.reference), thread.direction);
+    // The flanks know their lead best.
+    if (std::abs(turned) > kTurnToLearn) thread.lead = kTurn * risen / turned;
+    const bool moved = angle / turn > kStuckShare;
+    stuck = moved ? 0 : stuck + 1;
+    if (turns % kTurnsToLook == 0 && moved && explorer.exits(exit, way_out + std::abs(risen)))
+      return PlanStep{{}, PlanTier::Helical, PlanStep::kWhole, std::move(way), exit};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const CertificateEngine& engine, double radius,
+                                             double tolerance) {
+  struct Near {
+    ComponentId component;
+    std::set<FaceId> own, others;
+  };
+  std::map<ComponentId, ThreadAxis> threads;
+  for (double reach = kFirstReach * tolerance; reach < kLargestReach * radius; reach *= kReachGrowth) {
+    const std::vector<ContactPoint> contacts = engine.contacts(reach);
+    std::map<ComponentId, Near> faces;
+    for (const ContactPoint& c : contacts) {
+      if (threads.count(c.fixed) > 0) continue;
+      Near& near = faces[c.fixed];
+      near.component = c.moving;
+      near.own.insert(c.face_moving);
+      near.others.insert(c.face_fixed);
+    }
+    for (const auto& [neighbour, near] : faces) {
+      std::vector<SurfaceSample> samples;
+      add_samples(assembly[near.component], near.own, samples);
+      add_samples(assembly[neighbour], near.others, samples);
+      if (const auto thread = fit_thread(samples)) threads.emplace(neighbour, *thread);
+    }
+    if (contacts.size() > kEnoughContacts) break;
+  }
+  std::vector<NeighbourThread> found;
+  found.reserve(threads.size());
+  for (const auto& [neighbour, thread] : threads) found.push_back({neighbour, thread});
+  return found;
+}
+
+WaySearch screw_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
+                    const GoOn& go_on) {
+  WaySearch search;
+  std::set<ComponentId> met;
+  for (const double turn : {kHandTurn, -kHandTurn}) {
+    Explorer explorer(maker, component);
+    search.step = turn_out(explorer, thread, turn, table.way_length(component), go_on);
+    for (const ComponentId c : explorer.met()) met.insert(c);
+    if (!search.step) continue;
+    search.step->components = {component};
+    break;
+  }
+  search.met.assign(met.begin(), met.end());
+  return search;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/search_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dismantle {
+
+double PlaceTree::distance(const Pose& a, const Pose& b) const {
+  return length(center_at(a) - center_at(b)) + radius_ * screw_between(a, b).angle;
+}
+
+std::pair<std::size_t, double> PlaceTree::nearest(const Pose& pose) const {
+  std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
+  const Vec3 center = center_at(pose);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    // Turning is dear to work out: the centers alone often tell.
+    if (length(center_at(places_[k].pose) - center) >= best.second) continue;
+    const double apart = distance(places_[k].pose, pose);
+    if (apart < best.second) best = {k, apart};
+  }
+  return best;
+}
+
+std::optional<double> PlaceTree::furthest() const {
+  if (places_.size() == 1) return std::nullopt;
+  double most = 0;
+  for (const Place& place : places_) most = std::max(most, length(center_at(place.pose) - center_));
+  return most / radius_;
+}
+
+std::vector<Pose> PlaceTree::way_to(std::size_t place) const {
+  std::vector<std::size_t> back;
+  for (std::size_t k = place; k != 0; k = places_[k].from) back.push_back(k);
+  std::vector<Pose> whole;
+  for (auto k = back.rbegin(); k != back.rend(); ++k)
+    whole.insert(whole.end(), places_[*k].way.begin(), places_[*k].way.end());
+  return whole;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/slide_search.h"
+
+#include "dismantle/planner/search/search_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// One push is as long as this share of the component's radius, one turn takes the component's rim as far.
+constexpr double kHandShare = 0.25;
+/// What makes less than this share of a push is as far as it goes.
+constexpr double kStuckShare = 0.05;
+/// Places nearer to each other than this share of the component's radius are one.
+constexpr double kSamePlace = 0.05;
+/// A turn goes on for so long [rad].
+constexpr double kMostTurn = 6.4;
+/// A place on the way counts less than its end.
+constexpr double kEnd = 1, kOnTheWay = 0.5;
+/// Each place between this one and the assembled one counts against it.
+constexpr double kDepthShare = 0.1;
+/// What is within this share of the component's radius of a straight line is tried as one.
+constexpr double kStraight = 1e-6;
+
+/// One thing to do with a component.
+struct SlideMove {
+  Vec3 push;      ///< Unit, or zero.
+  TurnAxis axis;  ///< Where not pushed.
+};
+
+/// What a place promises.
+struct Promise {
+  double worth = 0;
+  double depth = 0;   ///< Places before it.
+  Quat held;          ///< How the hand holds it turned; walls may have turned it otherwise.
+  bool left = false;  ///< All was tried from here.
+};
+
+class SlideOut {
+ public:
+  SlideOut(Explorer& explorer, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+           const GoOn& go_on)
+      : explorer_(explorer),
+        component_(component),
+        radius_(table.radius(component)),
+        way_out_(table.way_length(component)),
+        most_effort_(moves.most_effort),
+        go_on_(go_on),
+        places_(table.center(component), radius_),
+        promises_(1) {
+    for (const Vec3& d : moves.directions) moves_.push_back({d, {}});
+    for (const TurnAxis& axis : moves.axes)
+      for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
+  }
+
+  const PlaceTree& places() const { return places_; }
+
+  std::optional<PlanStep> find() {
+    for (;;) {
+      const auto best = std::max_element(promises_.begin(), promises_.end(), [](const Promise& a, const Promise& b) {
+        return a.left != b.left ? a.left : a.worth < b.worth;
+      });
+      if (best->left) return std::nullopt;
+      best->left = true;
+      const auto index = static_cast<std::size_t>(best - promises_.begin());
+      for (const SlideMove& move : moves_) {
+        if (!goes_on()) return std::nullopt;
+        explorer_.go_back(places_[index].pose);
+        if (auto step = follow(index, move)) return step;
+      }
+    }
+  }
+
+ private:
+  bool goes_on() const { return explorer_.effort() < most_effort_ && go_on_(); }
+
+  /// Goes on with a move as long as it makes something.
+  std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
+    const bool pushed = length(move.push) > 0;
+    const Quat held = promises_[from].held;
+    std::vector<Pose> way;
+    std::vector<std::size_t> ends;  // of the hand's steps, in `way`
+    double turned = 0;
+    for (bool stuck = false; !stuck && turned < kMostTurn && goes_on();) {
+      const Pose before = explorer_.pose();
+      const StepResult made = explorer_.slide(target(before, held, move));
+      way.insert(way.end(), made.way.begin(), made.way.end());
+      stuck = places_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
+      if (made.way.empty()) break;
+      ends.push_back(way.size());
+      turned += pushed ? 0 : hand_turn(move.axis);
+      if (pushed && dot(places_.center_at(made.pose) - places_.center_at({}), move.push) > way_out_)
+        return step_out(from, way, move.push);
+    }
+    if (ends.empty()) return std::nullopt;
+    const auto until = [&](std::size_t end) {
+      return std::vector<Pose>(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    // The end first: what lies just before it is not another place.
+    if (reach(from, move, until(ends.back()), kEnd))
+      if (auto step = leave(places_.size() - 1)) return step;
+    ends.pop_back();
+    for (const std::size_t end : ends) reach(from, move, until(end), kOnTheWay);
+    return std::nullopt;
+  }
+
+  /// Straight out of the place where it is, if that goes.
+  std::optional<PlanStep> leave(std::size_t place) {
+    std::vector<Vec3> directions;
+    for (const SlideMove& move : moves_)
+      if (length(move.push) > 0) directions.push_back(move.push);
+    for (const Vec3& exit : explorer_.likely_exits(directions, 2 * way_out_))
+      if (goes_on() && explorer_.exits(exit, 2 * way_out_))
+        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, places_.way_to(place), exit};
+    return std::nullopt;
+  }
+
+  /// Where the hand goes next. What it pushes it keeps turned as it was, as well as the walls allow: at every corner
+  /// that it slides around it would be turned further, until it is stuck.
+  Pose target(const Pose& pose, const Quat& held, const SlideMove& move) const {
+    if (length(move.push) > 0) {
+      const Vec3 center = places_.center_at(pose) + kHandShare * radius_ * move.push;
+      return {center - places_.center_at({{}, held}), held};
+    }
+    Screw screw;
+    screw.reference = move.axis.point;
+    screw.axis = move.axis.direction;
+    screw.angle = hand_turn(move.axis);
+    return screw_at(screw, 1) * pose;
+  }
+
+  double hand_turn(const TurnAxis& axis) const {
+    const double arm = length(cross(axis.direction, places_.center_at({}) - axis.point)) + radius_;
+    return std::min(0.5, kHandShare * radius_ / arm);
+  }
+
+  /// Takes up a place, if it is new.
+  /// @param share that it counts
+  bool reach(std::size_t from, const SlideMove& move, std::vector<Pose> way, double share) {
+    const Pose pose = way.back();
+    const double nearest = places_.nearest(pose).second;
+    if (nearest < kSamePlace * radius_) return false;
+    const double depth = promises_[from].depth + 1;
+    const double apart = nearest + places_.distance({}, pose);
+    const Quat held = length(move.push) > 0 ? promises_[from].held : pose.rotation;
+    promises_.push_back({share * apart / radius_ - kDepthShare * depth, depth, held, false});
+    places_.add({pose, from, std::move(way)});
+    return true;
+  }
+
+  /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
+  PlanStep step_out(std::size_t from, const std::vector<Pose>& way, const Vec3& exit) {
+    std::vector<Pose> whole = places_.way_to(from);
+    whole.insert(whole.end(), way.begin(), way.end());
+
+    const Pose last = whole.back();
+    std::size_t first = whole.size() - 1;
+    const auto on_line = [&](const Pose& p) {
+      const Vec3 apart = last.position - p.position;
+      return p.rotation == last.rotation && length(apart - dot(apart, exit) * exit) < kStraight * radius_;
+    };
+    while (first > 0 && on_line(whole[first - 1])) --first;
+    explorer_.go_back(whole[first]);
+    if (explorer_.exits(exit, 2 * way_out_)) whole.resize(first + 1);
+    return {{component_}, PlanTier::Sliding, PlanStep::kWhole, std::move(whole), exit};
+  }
+
+  Explorer& explorer_;
+  ComponentId component_;
+  double radius_, way_out_;
+  std::size_t most_effort_;
+  const GoOn& go_on_;
+  std::vector<SlideMove> moves_;
+  PlaceTree places_;
+  std::vector<Promise> promises_;  ///< Of each place.
+};
+
+}  // namespace
+
+WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+                    const GoOn& go_on) {
+  WaySearch search;
+  Explorer explorer(maker, component);
+  SlideOut sliding(explorer, table, component, moves, go_on);
+  search.step = sliding.find();
+  search.met = explorer.met();
+  search.furthest = sliding.places().furthest();
+  search.exhausted = !search.step && explorer.effort() < moves.most_effort;
+  return search;
+}
+
+}  // namespace dismantle

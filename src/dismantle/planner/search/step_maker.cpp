@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/step_maker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// A long way is made in parts, short ones while things are close to each other.
+constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1};
+/// A way that was stopped goes on if a new start makes at least this share of the tolerance.
+constexpr double kNewStartShare = 0.1;
+constexpr int kMostStarts = 8;
+/// A sweep costs as much as so many tests, and one for so many pairs of its front.
+constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
+
+}  // namespace
+
+StepMaker::StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
+                     GoOn go_on)
+    : assembly_(assembly),
+      pairs_(pairs),
+      options_(options),
+      far_(far),
+      go_on_(std::move(go_on)),
+      engine_(assembly, pairs, options),
+      poses_(assembly.components.size()) {}
+
+void StepMaker::stand(const ComponentSet& present) {
+  for (std::uint32_t c = 0; c < poses_.size(); ++c)
+    poses_[c] = present.has(ComponentId(c)) ? Pose{} : Pose{{far_, 0, 0}, {}};
+  engine_.jump(poses_);
+}
+
+StepMaker::Trial StepMaker::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
+  engine_.hold(set);
+  held_ = set[0];
+  embedded_ = engine_.embedded_pairs();
+  Trial trial = trial_of(go_straight(direction, way), set);
+  put_back();
+  return trial;
+}
+
+StepMaker::Trial StepMaker::trial_of(const StepResult& made, Span<const ComponentId> set) const {
+  Trial trial{made.reached, {}};
+  const auto moves = [&](ComponentId c) { return std::find(set.begin(), set.end(), c) != set.end(); };
+  const auto add = [&](ComponentId a, ComponentId b) {
+    if (moves(a) != moves(b)) trial.against.emplace_back(moves(a) ? a : b, moves(a) ? b : a);
+  };
+  for (const CollisionContact& c : made.contacts) add(c.a, c.b);
+  // What has parted and meets again is stopped by a rule that names no faces.
+  if (!trial.free && trial.against.empty() && some_parted())
+    for (const ComponentPair& pair : embedded_) add(pair.a, pair.b);
+  std::sort(trial.against.begin(), trial.against.end());
+  trial.against.erase(std::unique(trial.against.begin(), trial.against.end()), trial.against.end());
+  return trial;
+}
+
+void StepMaker::put_back() {
+  // What has parted would be taken for parted where it stands in the other again.
+  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
+  engine_.jump(poses_);
+}
+
+StepResult StepMaker::step(const Pose& target, ResponseKind response) {
+  StepResult made = engine_.step(target, response);
+  effort_ += made.sizes.elementary_tests +
+             (kSweepEffort + made.sizes.front / kFrontShare) * static_cast<std::size_t>(made.sweeps);
+  return made;
+}
+
+StepResult StepMaker::go_straight(const Vec3& direction, double way) {
+  const Pose from = pose();
+  StepResult made;
+  for (const double part : kParts) {
+    if (!go_on_()) return {};
+    made = go_part({from.position + part * way * direction, from.rotation}, direction);
+    if (!made.reached) break;
+  }
+  return made;
+}
+
+StepResult StepMaker::go_part(const Pose& target, const Vec3& direction) {
+  for (int starts = 1;; ++starts) {
+    const Vec3 before = pose().position;
+    StepResult made = step(target, ResponseKind::Touch);
+    // Where one start stops, a new one may go on: see straight_contact.
+    const double progress = dot(made.pose.position - before, direction);
+    if (made.reached || starts == kMostStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
+  }
+}
+
+const CertificateEngine& StepMaker::hold(ComponentId component) {
+  engine_.hold({&component, 1});
+  return engine_;
+}
+
+void StepMaker::take(ComponentId component) {
+  engine_.hold({&component, 1});
+  held_ = component;
+  embedded_ = engine_.embedded_pairs();
+}
+
+void StepMaker::go_back(const Pose& pose) {
+  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
+  std::vector<Pose> poses = poses_;
+  poses[held_.value] = pose;
+  engine_.jump(poses);
+  engine_.hold({&held_, 1});
+}
+
+StepMaker::Trial StepMaker::try_exit(const Vec3& direction, double way) {
+  const Pose from = pose();
+  Trial trial = trial_of(go_straight(direction, way), {&held_, 1});
+  go_back(from);
+  return trial;
+}
+
+std::vector<Vec3> StepMaker::likely_exits(Span<const Vec3> directions, double way) {
+  std::vector<Vec3> open(directions.begin(), directions.end());
+  // A look at the first part costs little, and settles most.
+  for (const double part : {kParts[0], 1.0}) {
+    std::vector<Vec3> ways, free;
+    for (const Vec3& d : open) ways.push_back(part * way * d);
+    const std::vector<FirstContact> found = engine_.straight_contacts(ways);
+    effort_ += kSweepEffort * ways.size();
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (found[i].free) free.push_back(open[i]);
+    open = std::move(free);
+  }
+  return open;
+}
+
+}  // namespace dismantle

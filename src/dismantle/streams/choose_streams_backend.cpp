@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/streams/choose_streams_backend.h"
+
+#include "dismantle/exec/cuda_device.h"
+
+namespace dismantle {
+
+ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const CollisionOptions& options,
+                                            DeviceChoice choice) {
+  ChosenStreamsBackend chosen;
+  if (choice == DeviceChoice::Cuda ||
+      (choice == DeviceChoice::Auto && triangle_count(assembly) >= kCudaWorthTriangles)) {
+    const Result<std::string> name = cuda_device_name();
+    Result<std::unique_ptr<StreamsBackend>> backend = make_cuda_streams_backend(assembly, options);
+    if (name && backend) return {std::move(*backend), *name, ""};
+    if (choice == DeviceChoice::Cuda) chosen.why = backend.error().message;
+  }
+  chosen.backend = make_host_streams_backend(assembly, options);
+  chosen.device = "cpu";
+  return chosen;
+}
+
+}  // namespace dismantle

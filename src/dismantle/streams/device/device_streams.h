@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/streams/bvtt_front.h"
+#include "dismantle/streams/device/device_buffers.h"
+#include "dismantle/streams/matrix_stream.h"
+#include "dismantle/streams/streams_backend.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+/// All streams of method `streams` in a device's memory (Du et al. 2015, figure 3): only S_tm goes up and only contacts
+/// come down. A step is one recording of launches that is run whole, and one wait; it is run again where something was
+/// full, and goes on where the front needs more rounds than the recording has.
+///
+/// `Queue` is the device: HostQueue or CudaQueue. Nothing here knows which.
+template <class Queue>
+class ResidentStreams {
+ public:
+  /// @param bounds of all nodes in the assembled state
+  ResidentStreams(Queue queue, const TriangleStreams& fixed, Span<const Kdop16> bounds,
+                  const CollisionOptions& options);
+
+  /// As StreamsBackend has them.
+  void set_rules(PairRulesView rules);
+  StreamsStep step(Span<const RigidTransform> next, double path_deviation);
+  void commit();
+  void jump(Span<const RigidTransform> state);
+  Span<const RigidTransform> state() const { return matrices_.start(); }
+  std::vector<std::uint64_t> triangle_pairs() {
+    return brought_down(queue_, buffers_.sorted_pairs, counters().triangle_pairs);
+  }
+
+ private:
+  enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
+
+  const resident::StepCounters& counters() const { return report_.on_host()[0].counters; }
+  resident::StepCounters* shared_counters() { return &report_.on_device().data()->counters; }
+  FrontSproutKernel front_kernel(Span<const std::uint64_t> items) const;
+  resident::FrontSink front_sink(int round);
+
+  void order_vertices(Span<const RigidTransform> next);
+  void order_step(Span<const RigidTransform> next, double path_deviation);
+  void enqueue_vertices();
+  void enqueue_bounds();
+  void enqueue_rounds();
+  void enqueue_front_end();
+  void enqueue_narrow_phase();
+  void run_step();
+  bool finish_front();
+  void forget_recordings();
+  void watch_front_size();
+  StreamsStep result();
+
+  Queue queue_;
+  ElementaryTest test_;
+  MatrixStream matrices_;
+  resident::Geometry geometry_;
+  DeviceArray<Vec3> vertices_[2];  // S_v(n) is at start_
+  DeviceArray<Kdop16> bounds_;     // S_bv, S_bvh
+  DeviceArray<std::uint32_t> arrivals_;
+  DeviceArray<PairRuleEntry> rules_;
+  double tolerance_ = 0;  // of the rules
+  MirroredArray<resident::ComponentStep> components_;
+  MirroredArray<std::uint32_t> motion_class_;
+  MirroredArray<resident::StepOrder> order_;
+  MirroredArray<resident::StepReport> report_;
+  resident::Buffers buffers_;
+
+  std::size_t start_ = 0;
+  typename Queue::Recording recording_[2];    // of a step, for each place of S_v(n)
+  std::vector<std::uint32_t> front_classes_;  // that the front was made for
+  bool restart_front_ = true;
+  std::size_t fresh_size_ = 0;  // of the front after the last start
+  std::size_t excess_ = 0;      // nodes looked at beyond that since then, summed over the steps
+  std::size_t replays_ = 0;     // of the last step
+};
+
+template <class Queue>
+ResidentStreams<Queue>::ResidentStreams(Queue queue, const TriangleStreams& fixed, Span<const Kdop16> bounds,
+                                        const CollisionOptions& options)
+    : queue_(std::move(queue)),
+      test_(options.test),
+      matrices_(fixed.component_count()),
+      geometry_(queue_, fixed),
+      vertices_{DeviceArray<Vec3>(queue_, Span<const Vec3>(fixed.vertices)),
+                DeviceArray<Vec3>(queue_, Span<const Vec3>(fixed.vertices))},
+      bounds_(queue_, bounds),
+      arrivals_(queue_, Span<const std::uint32_t>(std::vector<std::uint32_t>(fixed.bvh.children.size(), 0))),
+      components_(queue_, fixed.component_count()),
+      motion_class_(queue_, fixed.component_count()),
+      order_(queue_, 1),
+      report_(queue_, 1),
+      buffers_(queue_, std::max<std::size_t>(options.initial_capacity, 1)) {
+  report_.on_host()[0] = {};
+  report_.copy_up(queue_);
+  queue_.wait();
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::set_rules(PairRulesView rules) {
+  rules_ = DeviceArray<PairRuleEntry>(queue_, rules.table);
+  tolerance_ = rules.tolerance;
+  forget_recordings();
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::forget_recordings() {
+  for (typename Queue::Recording& recording : recording_) recording.forget();
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::commit() {
+  matrices_.commit();
+  start_ = 1 - start_;
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::jump(Span<const RigidTransform> state) {
+  // By way of the candidate: its vertices are those that can be made. Bounds are left to the next step.
+  order_vertices(state);
+  order_.on_host()[0] = {};
+  enqueue_vertices();
+  queue_.wait();
+  commit();
+}
+
+template <class Queue>
+StreamsStep ResidentStreams<Queue>::step(Span<const RigidTransform> next, double path_deviation) {
+  order_step(next, path_deviation);
+  run_step();
+  watch_front_size();
+  return result();
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
+  const Span<resident::ComponentStep> components = components_.on_host();
+  for (std::size_t c = 0; c < components.size(); ++c) components[c] = {next[c], 0, 0};
+  for (const ComponentId c : matrices_.set_next(next)) components[c.value].make_vertices = 1;
+  const Span<const std::uint32_t> classes = matrices_.motion_class();
+  std::copy(classes.begin(), classes.end(), motion_class_.on_host().begin());
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::order_step(Span<const RigidTransform> next, double path_deviation) {
+  order_vertices(next);
+  for (const ComponentId c : matrices_.take_unfitted()) components_.on_host()[c.value].fit_bounds = 1;
+  const Span<const std::uint32_t> classes = matrices_.motion_class();
+  const bool same_classes =
+      front_classes_.size() == classes.size() && std::equal(classes.begin(), classes.end(), front_classes_.begin());
+  if (!same_classes) {
+    front_classes_.assign(classes.begin(), classes.end());
+    restart_front_ = true;
+  }
+  order_.on_host()[0] = {path_deviation, restart_front_ ? 1u : 0u};
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::run_step() {
+  replays_ = 0;
+  do {
+    queue_.replay(recording_[start_], [this] {
+      queue_.mark(kBegin);
+      enqueue_vertices();
+      queue_.mark(kVertices);
+      enqueue_bounds();
+      queue_.mark(kRefit);
+      queue_.launch(buffers_.front.size(),
+                    resident::LookAtFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
+      enqueue_rounds();
+      enqueue_front_end();
+      queue_.mark(kFront);
+      enqueue_narrow_phase();
+      queue_.mark(kEnd);
+    });
+    queue_.wait();
+  } while (!finish_front());
+  while (buffers_.grow_narrow_phase(queue_, counters())) {
+    ++replays_;
+    forget_recordings();
+    enqueue_narrow_phase();
+    queue_.wait();
+  }
+}
+
+/// Goes on with the front where it has rounds left. False where something was full: then the step must be run again.
+template <class Queue>
+bool ResidentStreams<Queue>::finish_front() {
+  while (counters().complete == 0) {
+    if (buffers_.grow_front(queue_, counters())) {
+      ++replays_;
+      forget_recordings();
+      return false;
+    }
+    queue_.launch(1, resident::PassOnPending{shared_counters()});
+    enqueue_rounds();
+    enqueue_front_end();
+    enqueue_narrow_phase();
+    queue_.wait();
+  }
+  return true;
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::enqueue_vertices() {
+  components_.copy_up(queue_);
+  motion_class_.copy_up(queue_);
+  order_.copy_up(queue_);
+  queue_.launch(1, resident::BeginStep{shared_counters(), order_.on_device().data(), buffers_.front.view(),
+                                       geometry_.first_front_node});
+  queue_.launch(geometry_.assembled.size(),
+                resident::MoveVertices{components_.on_device(), geometry_.component_of_vertex.view(),
+                                       geometry_.assembled.view(), vertices_[1 - start_].view()});
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::enqueue_bounds() {
+  const BvhRefitLeafKernel leaf_kernel{vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view(),
+                                       bounds_.view(), 0};
+  queue_.launch(geometry_.leaf_count, resident::FitBounds{leaf_kernel,
+                                                          {geometry_.tree(), bounds_.view()},
+                                                          components_.on_device(),
+                                                          geometry_.ranges.view(),
+                                                          geometry_.parents.view(),
+                                                          arrivals_.view()});
+}
+
+template <class Queue>
+FrontSproutKernel ResidentStreams<Queue>::front_kernel(Span<const std::uint64_t> items) const {
+  return {geometry_.tree(), bounds_.view(), motion_class_.on_device(), items};
+}
+
+/// Of the round that appends to pending[round].
+template <class Queue>
+resident::FrontSink ResidentStreams<Queue>::front_sink(int round) {
+  resident::StepCounters* counters = shared_counters();
+  return {{buffers_.triangle_pairs.view(), &counters->triangle_pairs},
+          {buffers_.kept.view(), &counters->kept},
+          {buffers_.sprouted.view(), &counters->sprouted},
+          {buffers_.pending[round % 2].view(), &counters->pending[round]}};
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::enqueue_rounds() {
+  static_assert(resident::kFrontRounds % 2 == 0, "the last round leaves its pairs where the first expects them");
+  for (int round = 1; round <= resident::kFrontRounds; ++round) {
+    const Span<const std::uint64_t> left = std::as_const(buffers_.pending[(round - 1) % 2]).view();
+    queue_.launch(left.size(),
+                  resident::ResumeFront{front_kernel(left), front_sink(round), &shared_counters()->pending[round - 1]});
+  }
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::enqueue_front_end() {
+  resident::StepCounters* counters = shared_counters();
+  queue_.launch(1, resident::CompleteFront{counters, buffers_.capacity()});
+  queue_.launch(
+      std::max(buffers_.kept.size(), buffers_.sprouted.size()),
+      resident::ReplaceSprouted{counters, buffers_.kept.view(), buffers_.sprouted.view(), buffers_.front.view()});
+  queue_.launch(1, resident::EndFront{counters});
+  const Span<std::uint64_t> pairs = buffers_.triangle_pairs.view();
+  queue_.launch(pairs.size(), resident::PadTrianglePairs{counters, pairs});
+  queue_.sort(pairs, buffers_.sorted_pairs.view(), geometry_.key_bits, buffers_.sort_scratch.view());
+}
+
+template <class Queue>
+void ResidentStreams<Queue>::enqueue_narrow_phase() {
+  resident::StepCounters* counters = shared_counters();
+  const std::size_t most_pairs = buffers_.sorted_pairs.size();
+  NarrowPhaseKernel kernel{buffers_.sorted_pairs.view(),
+                           {vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view()},
+                           bounds_.view(),
+                           geometry_.component_of_node.view(),
+                           geometry_.features.view(),
+                           motion_class_.on_device(),
+                           {rules_.view(), tolerance_},
+                           test_};
+  resident::NarrowSink sink{{buffers_.contacts.view(), &counters->contacts},
+                            {buffers_.intersections.view(), &counters->intersections},
+                            counters,
+                            0};
+  queue_.launch(1, resident::BeginNarrowPhase{counters});
+  for (std::size_t begin = 0; begin < most_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
+    queue_.launch(std::min(narrow_phase_round_end(begin), most_pairs) - begin,
+                  resident::TestTrianglePairs{kernel, sink, order_.on_device().data(), begin});
+  queue_.launch(buffers_.contacts.size(),
+                resident::ReportFirstContacts{
+                    counters,
+                    buffers_.contacts.view(),
+                    {{report_.on_device().data()->contacts, resident::kReportedContacts}, &counters->reported}});
+  report_.copy_down(queue_);
+}
+
+/// As Front has it: a front that has grown by too much is started anew.
+template <class Queue>
+void ResidentStreams<Queue>::watch_front_size() {
+  const std::size_t size = counters().front;
+  if (restart_front_) {
+    fresh_size_ = std::max<std::size_t>(size, 1);
+    excess_ = 0;
+  }
+  excess_ += size - std::min(size, fresh_size_);
+  restart_front_ = excess_ > kFrontRestartShare * fresh_size_;
+}
+
+template <class Queue>
+StreamsStep ResidentStreams<Queue>::result() {
+  const resident::StepCounters& counts = counters();
+  StreamsStep step;
+  if (counts.reported <= resident::kReportedContacts) {
+    const TrianglePairContact* contacts = report_.on_host()[0].contacts;
+    step.contacts.assign(contacts, contacts + counts.reported);
+  } else {
+    step.contacts = first_of(brought_down(queue_, buffers_.contacts, counts.contacts));
+  }
+  step.intersecting = brought_down(queue_, buffers_.intersections, counts.intersections);
+  step.timings.vertices = queue_.milliseconds(kBegin, kVertices);
+  step.timings.refit = queue_.milliseconds(kVertices, kRefit);
+  step.timings.front = queue_.milliseconds(kRefit, kFront);
+  step.timings.intersection = queue_.milliseconds(kFront, kEnd);
+  step.sizes.front = counts.front;
+  step.sizes.triangle_pairs = counts.triangle_pairs;
+  step.sizes.elementary_tests = counts.tests;
+  step.sizes.replays = replays_;
+  return step;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/streams/guarded_engine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+namespace dismantle {
+
+namespace {
+
+class GuardedEngine final : public CollisionEngine {
+ public:
+  GuardedEngine(std::unique_ptr<CollisionEngine> engine, VertexDepthGuard guard)
+      : engine_(std::move(engine)), guard_(std::move(guard)) {}
+
+  SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override {
+    SweepResult result = engine_->sweep(next, path_deviation);
+    if (!result.free) return result;
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<VertexContact> found = guard_.sweep(engine_->state(), next);
+    result.contacts.assign(found.begin(), found.end());
+    for (const CollisionContact& c : result.contacts) result.toi = std::min(result.toi, c.toi);
+    result.free = result.contacts.empty();
+    const double spent = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    result.timings.intersection += spent;
+    result.timings.overall += spent;
+    return result;
+  }
+  void commit() override {
+    engine_->commit();
+    guard_.commit();
+  }
+  void jump(Span<const RigidTransform> state) override {
+    engine_->jump(state);
+    guard_.jump();
+  }
+  Span<const RigidTransform> state() const override { return engine_->state(); }
+  std::vector<ComponentPair> embedded_pairs() const override { return engine_->embedded_pairs(); }
+
+ private:
+  std::unique_ptr<CollisionEngine> engine_;
+  VertexDepthGuard guard_;
+};
+
+}  // namespace
+
+std::unique_ptr<CollisionEngine> make_guarded_engine(std::unique_ptr<CollisionEngine> engine, const Assembly& assembly,
+                                                     const PairStates& pairs, const Executor& executor) {
+  VertexDepthGuard guard(assembly, pairs, solids_of(assembly, executor), executor);
+  if (guard.watches_nothing()) return engine;
+  return std::make_unique<GuardedEngine>(std::move(engine), std::move(guard));
+}
+
+}  // namespace dismantle

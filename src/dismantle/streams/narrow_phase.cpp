@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/streams/narrow_phase.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+
+namespace dismantle {
+
+namespace {
+
+constexpr std::size_t kPairsPerRange = 64;  // a pair costs 0.05-1 us
+
+/// Where the kernel's finds go, staged.
+class StagedSink {
+ public:
+  StagedSink(AppendView<TrianglePairContact> contacts, AppendView<std::uint64_t> intersections,
+             std::atomic<std::size_t>& tests)
+      : contacts_(contacts), intersections_(intersections), tests_(tests) {}
+  StagedSink(const StagedSink&) = delete;
+  StagedSink& operator=(const StagedSink&) = delete;
+  ~StagedSink() { tests_.fetch_add(count_, std::memory_order_relaxed); }
+
+  void contact(const TrianglePairContact& found) { contacts_.append(found); }
+  void intersection(std::uint64_t key) { intersections_.append(key); }
+  void tested(std::size_t count) { count_ += count; }
+
+ private:
+  StagedAppend<TrianglePairContact, 16> contacts_;
+  StagedAppend<std::uint64_t> intersections_;
+  std::atomic<std::size_t>& tests_;
+  std::size_t count_ = 0;
+};
+
+/// How far into the step it is worth to look where these contacts are known.
+double horizon(Span<const TrianglePairContact> contacts) {
+  double first = 1;
+  for (const TrianglePairContact& contact : contacts) first = std::min(first, contact.toi);
+  return horizon_after(first);
+}
+
+}  // namespace
+
+void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
+  const MovingStreams& streams = *input.streams;
+  NarrowPhaseKernel kernel{{},
+                           step_triangles(streams),
+                           streams.bounds(),
+                           streams.fixed().bvh.component_of,
+                           streams.fixed().features,
+                           streams.motion_class(),
+                           input.rules,
+                           input.test,
+                           input.path_deviation};
+  found_.clear();
+  intersecting_.clear();
+  tests_ = replays_ = 0;
+  const std::size_t count = input.triangle_pairs.size();
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    end = std::min(count, narrow_phase_round_end(begin));
+    kernel.pairs = input.triangle_pairs.subspan(begin, end - begin);
+    kernel.horizon = horizon(found_);
+    run_round(kernel, executor);
+  }
+}
+
+void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& executor) {
+  while (true) {
+    std::atomic<std::size_t> tests{0};
+    const AppendView<TrianglePairContact> contacts = contacts_.start();
+    const AppendView<std::uint64_t> intersections = intersections_.start();
+    executor.for_each_range(kernel.pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
+      StagedSink sink(contacts, intersections, tests);
+      for (std::size_t i = begin; i < end; ++i) kernel(i, sink);
+    });
+    if (!contacts_.overflowed() && !intersections_.overflowed()) {
+      tests_ += tests;
+      break;
+    }
+    if (contacts_.overflowed()) contacts_.grow();
+    if (intersections_.overflowed()) intersections_.grow();
+    ++replays_;
+  }
+  found_.insert(found_.end(), contacts_.values().begin(), contacts_.values().end());
+  intersecting_.insert(intersecting_.end(), intersections_.values().begin(), intersections_.values().end());
+}
+
+std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
+                                                 double from, const Executor& executor) {
+  if (pairs.empty()) return {};
+  const MovingStreams& streams = *input.streams;
+  const NodePair first = pair_of_key(pairs[0]);
+  const std::vector<std::uint32_t>& component_of = streams.fixed().bvh.component_of;
+  const bool a_moves = streams.motion_class()[component_of[first.a]] != 0;
+  const bool b_moves = streams.motion_class()[component_of[first.b]] != 0;
+  const double allowed = allowed_on_chords(input.rules.tolerance, input.path_deviation, a_moves, b_moves);
+  const PartedPairKernel kernel{pairs, step_triangles(streams), from, allowed};
+  AppendBuffer<TrianglePairContact> contacts(pairs.size());  // at most one a pair
+  const AppendView<TrianglePairContact> view = contacts.start();
+  executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (const std::optional<TrianglePairContact> found = kernel(i)) view.append(*found);
+  });
+  return {contacts.values().begin(), contacts.values().end()};
+}
+
+StepTriangles step_triangles(const MovingStreams& streams) {
+  return {streams.vertices_t0(), streams.vertices_t1(), streams.fixed().faces};
+}
+
+std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contacts) {
+  const double last = horizon(contacts);
+  std::vector<TrianglePairContact> first;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(first),
+               [&](const TrianglePairContact& contact) { return contact.toi <= last; });
+  return first;
+}
+
+std::vector<CollisionContact> collision_contacts(const TriangleStreams& streams,
+                                                 Span<const TrianglePairContact> contacts) {
+  std::vector<CollisionContact> result;
+  for (const TrianglePairContact& found : contacts) {
+    const NodePair p = pair_of_key(found.key);
+    result.push_back({ComponentId(streams.bvh.component_of[p.a]), ComponentId(streams.bvh.component_of[p.b]),
+                      streams.face_of[p.a], streams.face_of[p.b], found.toi});
+  }
+  std::sort(result.begin(), result.end(), [](const CollisionContact& x, const CollisionContact& y) {
+    if (x.a != y.a) return x.a < y.a;
+    if (x.b != y.b) return x.b < y.b;
+    return x.face_a != y.face_a ? x.face_a < y.face_a : x.face_b < y.face_b;
+  });
+  return result;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/streams/step_towards.h"
+
+#include "dismantle/math/screw.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+/// A motion that goes on to the contact ends this share of the tolerance before it [of path length], so that the next
+/// sweep does not start on the very edge of what is allowed; shorter ones are not worth a sweep of their own.
+constexpr double kTouchBackoffShare = 1e-3;
+/// How often a motion up to the contact is shortened by half where its own sweep does not come out free.
+constexpr int kMaximumTouchRetries = 4;
+
+/// One step's sweeps: knows the engine, the set, and adds up the cost.
+class Stepper {
+ public:
+  Stepper(CollisionEngine& engine, const RigidSet& set, StepResult& result)
+      : engine_(engine), set_(set), result_(result), next_(engine.state().begin(), engine.state().end()) {}
+
+  SweepResult sweep(const Pose& pose, double deviation) {
+    const RigidTransform transform = transform_from_pose(pose);
+    for (const ComponentId c : set_.components) next_[c.value] = transform;
+    SweepResult swept = engine_.sweep(next_, deviation);
+    ++result_.sweeps;
+    add_cost(swept);
+    return swept;
+  }
+
+  void commit(const Pose& pose) {
+    engine_.commit();
+    result_.pose = pose;
+  }
+
+ private:
+  void add_cost(const SweepResult& swept) {
+    StepTimings& t = result_.timings;
+    t.vertices += swept.timings.vertices;
+    t.refit += swept.timings.refit;
+    t.front += swept.timings.front;
+    t.intersection += swept.timings.intersection;
+    t.overall += swept.timings.overall;
+    StreamSizes& sizes = result_.sizes;
+    sizes.elementary_tests += swept.sizes.elementary_tests;
+    sizes.replays += swept.sizes.replays;
+    sizes.front = swept.sizes.front;
+    sizes.triangle_pairs = swept.sizes.triangle_pairs;
+    sizes.intersection_pairs = swept.sizes.intersection_pairs;
+  }
+
+  CollisionEngine& engine_;
+  const RigidSet& set_;
+  StepResult& result_;
+  std::vector<RigidTransform> next_;
+};
+
+}  // namespace
+
+RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> components) {
+  RigidSet set;
+  Aabb box;
+  for (const ComponentId c : components) box.extend(assembled_bounds(assembly[c]));
+  set.components = std::move(components);
+  if (box.empty()) return set;
+  set.center = box.center();
+  set.radius = diagonal(box) / 2;
+  return set;
+}
+
+int chord_count(double chord_deviation, double deviation) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(chord_deviation / deviation))));
+}
+
+StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
+                        ResponseKind response, double tolerance) {
+  DISMANTLE_EXPECT(response != ResponseKind::Slide);
+  DISMANTLE_EXPECT(tolerance > 0);
+  StepResult result;
+  result.pose = start;
+  if (start == target) {
+    result.reached = true;
+    return result;
+  }
+
+  const Screw screw = screw_between(start, target);
+  const double rho = screw_radius(screw, transform_from_pose(start) * set.center, set.radius);
+  const double travel = screw_path_length(screw, rho);
+  // The same share is kept back whatever the motion: a state reached by a translation must not be too deep for a
+  // rotation.
+  const double deviation = kPathDeviationShare * tolerance;
+  const int cuts = chord_count(screw_chord_deviation(screw, rho), deviation);
+
+  Stepper stepper(engine, set, result);
+  for (int k = 0; k < cuts; ++k) {
+    const Pose next = pose_between(start, target, (k + 1.0) / cuts);
+    SweepResult swept = stepper.sweep(next, deviation);
+    if (swept.free) {
+      stepper.commit(next);
+      continue;
+    }
+    result.contacts = std::move(swept.contacts);
+    const double backoff = kTouchBackoffShare * tolerance / (travel / cuts);
+    double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
+    for (int retry = 0; retry < kMaximumTouchRetries && share > backoff; ++retry) {
+      const Pose touching = pose_between(start, target, (k + share) / cuts);
+      if (stepper.sweep(touching, deviation).free) {
+        stepper.commit(touching);
+        break;
+      }
+      share /= 2;
+    }
+    return result;
+  }
+  result.reached = true;
+  return result;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/pair_state.h"
+#include "dismantle/core/span.h"
+#include "dismantle/engine/contact.h"
+#include "dismantle/engine/step_cost.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/math/rigid_transform.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace dismantle {
+
+/// Which continuous test decides a triangle pair of components that are ordinarily apart.
+enum class ElementaryTest {
+  Certified,   ///< ccd_triangle_triangle: no miss, with the pair's allowed penetration.
+  Elementary,  ///< The paper's 6 VF + 9 EE cubic tests, no penetration allowed. Pairs in contact or fit need an
+               ///< allowance and are tested with Certified all the same.
+};
+
+/// A sweep reports the contacts of this part of the motion, from the first one on: what comes after it would not
+/// happen.
+inline constexpr double kContactWindow = 0x1p-10;
+
+/// What one sweep found.
+struct SweepResult {
+  double toi = 1;  ///< The least toi of all contacts; 1 where the whole motion is free.
+  bool free = true;
+  /// Every triangle pair whose own toi is within kContactWindow of the least one, ordered by (a, b, face_a, face_b).
+  std::vector<CollisionContact> contacts;
+  StepTimings timings;
+  StreamSizes sizes;
+};
+
+/// Options of every method.
+struct CollisionOptions {
+  ElementaryTest test = ElementaryTest::Certified;
+  Executor executor;
+  std::size_t initial_capacity = 1 << 16;  ///< Of every append buffer; they grow as needed. Tests start from 1.
+};
+
+/// A collision method (docs/design/0000-overview.md): holds the assembly's current state and sweeps it to candidate
+/// next states.
+///   sweep(next)  tests the motion from the current state to `next`, linear vertex paths; the state stays as it is.
+///   commit()     makes the `next` of the last sweep the current state. @pre that sweep was free
+/// Same input, same results: for every executor, thread count and initial capacity.
+class CollisionEngine {
+ public:
+  virtual ~CollisionEngine() = default;
+
+  /// @param next one transform a component: x_next = next[c] * x_assembled
+  /// @param path_deviation how far a vertex's true path may be from the linear one [mm]; it is taken off every allowed
+  ///        penetration, so that Free holds for the true path. @pre less than half the tolerance
+  virtual SweepResult sweep(Span<const RigidTransform> next, double path_deviation) = 0;
+  virtual void commit() = 0;
+  /// Puts all components at `state` without a test (undo, jump to a recorded state known to be free). Embedded pairs
+  /// that are apart there leave the intersection stream.
+  virtual void jump(Span<const RigidTransform> state) = 0;
+
+  /// The current state, one transform a component.
+  virtual Span<const RigidTransform> state() const = 0;
+  /// The pairs that are still embedded: in the intersection stream S_i.
+  virtual std::vector<ComponentPair> embedded_pairs() const = 0;
+};
+
+/// The paper's method (docs/design/0004-streams.md), all components in the assembled state.
+std::unique_ptr<CollisionEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
+                                                     const CollisionOptions& options);
+
+}  // namespace dismantle

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candidates by the batch against the same motions swept one by one, on every executor, and on the CUDA device where
+// there is one.
+#include "dismantle/candidates/motion_batch.h"
+
+#include "dismantle/candidates/candidate_kernel.h"
+#include "dismantle/math/screw.h"
+#include "dismantle/streams/step_towards.h"
+#include "tests/support/engine_scene.h"
+#include "tests/support/executors.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+using scenes::pair_of;
+
+constexpr double kTolerance = 0.01;
+
+/// Batches on every executor, and on the CUDA device where there is one.
+std::vector<std::unique_ptr<MotionBatch>> all_batches(const Assembly& assembly, const PairStates& states) {
+  std::vector<std::unique_ptr<MotionBatch>> batches;
+  for (const Executor& executor : all_executors())
+    batches.push_back(make_motion_batch(assembly, states, executor, DeviceChoice::Cpu).batch);
+  if (auto cuda = make_cuda_motion_batch(assembly, states, Executor())) batches.push_back(std::move(*cuda));
+  return batches;
+}
+
+/// A random assembly of which two components are in hand, somewhere, and the rest is elsewhere.
+struct RandomState {
+  Assembly assembly;
+  PairStates states;
+  std::vector<Pose> poses;
+  std::vector<ComponentId> moving{ComponentId(3), ComponentId(4)};
+  explicit RandomState(std::mt19937_64& random) : assembly(scenes::random_assembly(random, 12, 9)), poses(12) {
+    states = scenes::states_by_brute_force(assembly, kTolerance);
+    for (Pose& pose : poses)
+      if (random() % 3 == 0) pose = scenes::random_pose(random, 2, 1);
+    poses[3] = poses[4] = scenes::random_pose(random, 2, 1);
+  }
+
+  /// What a sweep of method `streams` says about the way to a pose, in pieces as they are given.
+  FirstContact swept(const Pose& target, int pieces) const {
+    std::vector<RigidTransform> state;
+    for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
+    const std::unique_ptr<CollisionEngine> engine = make_streams_engine(assembly, states, {});
+    FirstContact result;
+    for (int k = 0; k < pieces && result.free; ++k) {
+      std::vector<RigidTransform> from = state, to = state;
+      for (const ComponentId c : moving) {
+        from[c.value] = transform_from_pose(pose_between(poses[3], target, static_cast<double>(k) / pieces));
+        to[c.value] = transform_from_pose(pose_between(poses[3], target, (k + 1.0) / pieces));
+      }
+      engine->jump(from);
+      const SweepResult sweep = engine->sweep(to, kPathDeviationShare * kTolerance);
+      result.free = sweep.free;
+      result.toi = (k + sweep.toi) / pieces;
+    }
+    return result;
+  }
+};
+
+void expect_agree(const FirstContact& batch, const FirstContact& swept) {
+  ASSERT_EQ(batch.free, swept.free);
+  EXPECT_NEAR(batch.toi, swept.toi, 1e-4);
+}
+
+TEST(MotionBatch, StopsStraightWaysWhereSweepsDoAndGivesTheSameBytesEverywhere) {
+  std::size_t free = 0, stopped_on_the_way = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    RandomState scene(random);
+    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Embedded; });
+    std::vector<Vec3> ways;
+    for (int i = 0; i < 60; ++i) ways.push_back(scenes::random_vector(random, i % 2 == 0 ? 0.3 : 30));
+    const auto batches = all_batches(scene.assembly, scene.states);
+    std::vector<FirstContact> expected;
+    for (const auto& batch : batches) {
+      batch->set_state(scene.poses, scene.moving);
+      const std::vector<FirstContact> contacts = batch->straight_contacts(ways);
+      if (expected.empty()) expected = contacts;
+      EXPECT_EQ(contacts, expected);
+    }
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      Pose target = scene.poses[3];
+      target.position = target.position + ways[i];
+      expect_agree(expected[i], scene.swept(target, 1));
+      free += expected[i].free ? 1 : 0;
+      stopped_on_the_way += !expected[i].free && expected[i].toi > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(free, 20u);
+  EXPECT_GT(stopped_on_the_way, 20u);
+}
+
+TEST(MotionBatch, StopsScrewsWhereSweepsDoAndGivesTheSameBytesEverywhere) {
+  std::size_t free = 0, stopped_on_the_way = 0;
+  for (unsigned seed = 11; seed <= 13; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    RandomState scene(random);
+    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Embedded; });
+    const RigidSet set = make_rigid_set(scene.assembly, scene.moving);
+    std::vector<Pose> targets;
+    for (int i = 0; i < 12; ++i) targets.push_back(scenes::random_pose(random, 4, 0.4) * scene.poses[3]);
+    const auto batches = all_batches(scene.assembly, scene.states);
+    std::vector<FirstContact> expected;
+    for (const auto& batch : batches) {
+      batch->set_state(scene.poses, scene.moving);
+      const std::vector<FirstContact> contacts = batch->screw_contacts(targets);
+      if (expected.empty()) expected = contacts;
+      EXPECT_EQ(contacts, expected);
+    }
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const Screw screw = screw_between(scene.poses[3], targets[i]);
+      const double rho = screw_radius(screw, transform_from_pose(scene.poses[3]) * set.center, set.radius);
+      const int pieces = chord_count(screw_chord_deviation(screw, rho), kPathDeviationShare * kTolerance);
+      expect_agree(expected[i], scene.swept(targets[i], pieces));
+      free += expected[i].free ? 1 : 0;
+      stopped_on_the_way += !expected[i].free && expected[i].toi > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(free, 3u);
+  EXPECT_GT(stopped_on_the_way, 3u);
+}
+
+TEST(MotionBatch, NamesTheComponentAndTheFacesThatMeetFirst) {
+  const Assembly assembly = scenes::assembly({scenes::component("far", scenes::box({9, 0, 0}, {10, 1, 1})),
+                                              scenes::component("near", scenes::box({5, 0, 0}, {6, 1, 1})),
+                                              scenes::component("hand", scenes::box({0, 0.2, 0.2}, {1, 0.8, 0.8}))});
+  const PairStates states{kTolerance, {}};
+  const ChosenMotionBatch chosen = make_motion_batch(assembly, states, Executor(), DeviceChoice::Cpu);
+  MotionBatch& batch = *chosen.batch;
+  batch.set_state(std::vector<Pose>(3), std::vector<ComponentId>{ComponentId(2)});
+  const std::vector<FirstContact> contacts =
+      batch.straight_contacts(std::vector<Vec3>{{8, 0, 0}, {-8, 0, 0}, {0, 0, 0}});
+  EXPECT_FALSE(contacts[0].free);
+  EXPECT_NEAR(contacts[0].toi, 0.5, kTolerance / 8);
+  EXPECT_EQ(contacts[0].moving, ComponentId(2));
+  EXPECT_EQ(contacts[0].fixed, ComponentId(1));
+  EXPECT_TRUE(contacts[1].free);
+  EXPECT_TRUE(contacts[2].free);
+}
+
+TEST(MotionBatch, LetsEmbeddedPairsGoAndHoldsFitsToTheirAllowance) {
+  const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-5, -5, -1}, {5, 5, 1})),
+                                              scenes::component("peg", scenes::box({-1, -1, -2}, {1, 1, 2}))});
+  const std::vector<ComponentId> peg{ComponentId(1)};
+  const std::vector<Vec3> ways{{2, 0, 0}, {0, 0, 9}};
+  const auto embedded =
+      make_motion_batch(assembly, {kTolerance, {pair_of(0, 1, PairState::Embedded, 0)}}, Executor(), DeviceChoice::Cpu);
+  embedded.batch->set_state(std::vector<Pose>(2), peg);
+  for (const FirstContact& contact : embedded.batch->straight_contacts(ways)) EXPECT_TRUE(contact.free);
+  const auto ordinary = make_motion_batch(assembly, {kTolerance, {}}, Executor(), DeviceChoice::Cpu);
+  ordinary.batch->set_state(std::vector<Pose>(2), peg);
+  for (const FirstContact& contact : ordinary.batch->straight_contacts(ways)) EXPECT_EQ(contact.toi, 0);
+}
+
+OverlapTimes times_of(double way, double allowed) {
+  OverlapTimes t;
+  t.meet({0, 1}, way, {3, 4}, allowed);
+  return t;
+}
+
+TEST(OverlapTimes, BeginAndEndWhereExtentsMeetAndPart) {
+  EXPECT_NEAR(times_of(8, 0).begin, 0.25, 1e-9);
+  EXPECT_NEAR(times_of(8, 0).end, 0.5, 1e-9);
+  EXPECT_LE(times_of(8, 0).begin, 0.25);  // never late
+  EXPECT_GE(times_of(8, 0).end, 0.5);
+  EXPECT_GT(times_of(1, 0).contact(), 1);   // it does not get there
+  EXPECT_GT(times_of(0, 0).contact(), 1);   // it stands apart
+  EXPECT_GT(times_of(-5, 0).contact(), 1);  // it goes away
+}
+
+TEST(OverlapTimes, AllowADepthOnTheSideThatThingsCameFrom) {
+  EXPECT_NEAR(times_of(8, 0.4).contact(), 0.3, 1e-9);
+  EXPECT_LE(times_of(8, 0.4).contact(), 0.3);
+  EXPECT_GT(times_of(2.3, 0.4).contact(), 1);
+  OverlapTimes sheet;  // through something without thickness
+  sheet.meet({0, 0}, 8, {2, 2}, 0.4);
+  EXPECT_NEAR(sheet.contact(), 0.3, 1e-9);
+  OverlapTimes resting;  // on it, and away
+  resting.meet({2, 3}, 8, {1, 2}, 0.4);
+  EXPECT_GT(resting.contact(), 1);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motions of the method `certificates` that ask a device against the same that do not, step by step: on devices that
+// executors play, and on the CUDA device where there is one.
+#include "dismantle/documents/motion_file.h"
+#include "dismantle/loading/load_assembly.h"
+#include "dismantle/math/vec3f.h"
+#include "tests/support/large_scenes.h"
+#include "tests/support/slide_drags.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <ostream>
+
+namespace dismantle {
+namespace {
+
+using namespace scenes;
+
+struct Device {
+  const char* name;
+  std::optional<Executor> played_by;  ///< None: it is the CUDA device.
+  friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
+};
+
+const Device kDevices[] = {{"Serial", Executor()},
+                           {"Shuffled", Executor(ExecutorKind::Shuffled)},
+                           {"Threads3", Executor(ExecutorKind::Threads, 3)},
+                           {"Cuda", std::nullopt}};
+
+/// How much a device was asked.
+struct Asked {
+  std::size_t sweeps = 0, failing = 0, answered = 0;
+  std::size_t tests = 0;         ///< Elementary tests that it answered,
+  std::size_t tests_taken = 0;   ///< those of them that steps asked for,
+  std::size_t tests_wanted = 0;  ///< and all that steps asked for.
+  std::size_t parents = 0;       ///< Pairs of nodes that it separated for merging.
+};
+
+/// What the host finds of the same faces, bit for bit.
+void expect_same_leaf(const LeafResult& found, const LeafResult& expected) {
+  EXPECT_EQ(found.free, expected.free);
+  EXPECT_EQ(found.gap, expected.gap);
+  EXPECT_EQ(found.harmless, expected.harmless);
+  EXPECT_EQ(found.contact.face_moving, expected.contact.face_moving);
+  EXPECT_EQ(found.contact.face_fixed, expected.contact.face_fixed);
+  EXPECT_EQ(found.contact.toi, expected.contact.toi);
+  EXPECT_EQ(found.contact.axis, expected.contact.axis);
+}
+
+/// Counts what goes through it, and looks at what no sweep may take.
+class CountedDevice final : public FrontDevice {
+ public:
+  CountedDevice(std::unique_ptr<FrontDevice> device, Asked& asked) : device_(std::move(device)), asked_(asked) {}
+  FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) override {
+    const FrontAnswers answers = device_->ask(fronts, to_the_end);
+    ++asked_.sweeps;
+    std::size_t part = 0;
+    for (const AskedFront<LeafSweep>& asked : fronts)
+      for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
+    return answers;
+  }
+  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
+                                      Span<const AskedParents> pairs) override {
+    asked_.parents += pairs.size();
+    return device_->separate(fronts, pairs);
+  }
+
+ private:
+  void count(const PartAnswers& part, Span<const LeafResult> leaves, const AskedFront<LeafSweep>& asked) {
+    std::vector<std::uint32_t> left = part.roots;
+    asked_.failing += left.size();
+    for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairAnswer::None ? 1 : 0;
+    while (!left.empty()) {
+      const PairAnswer& answer = part.answers[left.back()];
+      left.pop_back();
+      if (answer.first_child != PairAnswer::kNone)
+        left.insert(left.end(), {answer.first_child, answer.first_child + 1});
+      if (answer.leaf == PairAnswer::kNone) continue;
+      ++asked_.tests;
+      if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is not told
+      const LeafResult& found = leaves[answer.leaf];
+      const Vec3 hint = to_double(answer.separation.certificate.axis);
+      expect_same_leaf(found, asked.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
+    }
+  }
+
+  std::unique_ptr<FrontDevice> device_;
+  Asked& asked_;
+};
+
+class ResidentCertificates : public testing::TestWithParam<Device> {
+ protected:
+  void SetUp() override {
+    if (GetParam().played_by) return;
+    const auto cuda = make_cuda_front_device();
+    if (!cuda) GTEST_SKIP() << "nothing runs on CUDA: " << cuda.error().message;
+  }
+
+  std::unique_ptr<FrontDevice> device(Asked& asked) const {
+    auto device = GetParam().played_by ? make_played_front_device(*GetParam().played_by, 1)
+                                       : std::move(make_cuda_front_device(1).value());
+    return std::make_unique<CountedDevice>(std::move(device), asked);
+  }
+
+  /// Plays a motion on the CPU and with the device: every step must be the same.
+  Asked expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t least_pairs = 0) {
+    const PairStates states = states_of(assembly, tolerance);
+    Asked asked;
+    CertificateEngine plain(assembly, states);
+    CertificateEngine engine(assembly, states, {}, {device(asked), least_pairs});
+    const PlayedMotion expected = play_motion(assembly, states, motion, plain).value();
+    const PlayedMotion played = play_motion(assembly, states, motion, engine).value();
+    EXPECT_EQ(played.steps.size(), expected.steps.size());
+    for (std::size_t k = 0; k < played.steps.size() && !HasFailure(); ++k) {
+      SCOPED_TRACE(k);
+      expect_same_step(played.steps[k].result, expected.steps[k].result);
+      EXPECT_EQ(expected.steps[k].result.sizes.answered_tests, 0u);
+      asked.tests_taken += played.steps[k].result.sizes.answered_tests;
+      asked.tests_wanted += played.steps[k].result.sizes.elementary_tests;
+    }
+    return asked;
+  }
+
+ private:
+  static void expect_same_step(const StepResult& step, const StepResult& expected) {
+    EXPECT_EQ(step.pose, expected.pose);
+    EXPECT_EQ(step.reached, expected.reached);
+    EXPECT_EQ(step.way, expected.way);
+    EXPECT_EQ(step.contacts, expected.contacts);
+    EXPECT_EQ(step.touching, expected.touching);
+    EXPECT_EQ(step.sweeps, expected.sweeps);
+    EXPECT_EQ(step.clearance, expected.clearance);
+    EXPECT_EQ(step.sizes.front, expected.sizes.front);
+    EXPECT_EQ(step.sizes.elementary_tests, expected.sizes.elementary_tests);
+  }
+};
+
+std::string name_of_device(const testing::TestParamInfo<Device>& device) {
+  return device.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(On, ResidentCertificates, testing::ValuesIn(kDevices), name_of_device);
+
+TEST_P(ResidentCertificates, PullPegsOutAsTheCpuDoes) {
+  for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
+    const SlideScene peg = peg_in_hole(48, 0.01);
+    const Asked asked = expect_same(peg.assembly, 0.005, motion_of(peg, pull(Hand(peg, {}), 30), response));
+    EXPECT_GT(asked.sweeps, 5u);
+    EXPECT_GT(asked.failing, 50u);
+    EXPECT_GT(asked.answered, 0u);
+    EXPECT_GT(asked.tests, 1000u);
+    EXPECT_GT(asked.tests_taken, 0u);
+    // What comes after a contact, and pairs from which sweeps stop early, are the host's.
+    EXPECT_LT(asked.tests_taken, asked.tests_wanted);
+  }
+}
+
+TEST_P(ResidentCertificates, DrawKeysAndCornersAsTheCpuDoes) {
+  for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)}) {
+    const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
+    EXPECT_GT(asked.failing, 50u);
+    EXPECT_GT(asked.tests, 0u);
+  }
+}
+
+TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
+  const GearPair pair = gear_pair(0.05);
+  const SlideScene scene = meshing_gears(pair);
+  std::vector<Pose> targets;
+  for (int k = 1; k <= 25; ++k) targets.push_back(pair.rolled(0.01 * k, 0.2 * k));
+  const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
+  EXPECT_GT(asked.answered, 1000u);
+  EXPECT_GT(asked.parents, 100u);
+}
+
+TEST_P(ResidentCertificates, ScrewBoltsOutAsTheCpuDoes) {
+  const SlideScene bolt = bolt_in_nut(12'000, 0.02);
+  Hand hand(bolt, {0.5, 0.05, 0.01, 4});
+  std::vector<Pose> targets;
+  for (int k = 1; k <= 15; ++k) targets.push_back(hand.trembling(unscrewed(0.2 * k)));
+  EXPECT_GT(expect_same(bolt.assembly, 0.01, motion_of(bolt, targets)).answered, 1000u);
+}
+
+TEST_P(ResidentCertificates, AskTheDeviceForLargeFrontsOnly) {
+  const GearPair pair = gear_pair(0.05);
+  const SlideScene scene = meshing_gears(pair);
+  std::vector<Pose> targets;
+  for (int k = 1; k <= 10; ++k) targets.push_back(pair.rolled(0.01 * k));
+  const Motion motion = motion_of(scene, targets);
+  const Asked always = expect_same(scene.assembly, 0.01, motion);
+  const Asked sometimes = expect_same(scene.assembly, 0.01, motion, 300);
+  EXPECT_GT(sometimes.sweeps, 0u);
+  EXPECT_LT(sometimes.sweeps, always.sweeps);
+  EXPECT_EQ(expect_same(scene.assembly, 0.01, motion, 1'000'000'000).sweeps, 0u);
+}
+
+TEST_P(ResidentCertificates, PlayTheMicroscopesMotionAsTheCpuDoes) {
+  const std::string sample = DISMANTLE_SOURCE_DIR "/samples/microscope";
+  const Assembly assembly = load_assembly(sample + ".step").value();
+  Motion motion = read_motion(sample + ".motion.json").value();
+  for (MotionMove& move : motion.moves)
+    if (move.targets.size() > 12) move.targets.resize(12);
+  for (const ResponseKind response : {ResponseKind::Touch, ResponseKind::Slide}) {
+    motion.response = response;
+    EXPECT_GT(expect_same(assembly, 0.01, motion).answered, 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a hand must be able to do with close fits, and what no force may do. The whole table of clearances, tolerances
+// and facets is bench/soak_motion's; here is what runs in seconds.
+#include "dismantle/loading/load_assembly.h"
+#include "tests/support/slide_drags.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace dismantle {
+namespace {
+
+using namespace scenes;
+
+void expect_comes_out(const SlideScene& scene, double tolerance, const Hand::Options& options = {}) {
+  const int allowed = steps_allowed(scene, options.step);
+  const Drag made = drag(scene, tolerance, pull(Hand(scene, options), allowed));
+  const int steps = steps_until_out(scene, made);
+  EXPECT_GT(steps, 0) << "still at " << way_made(scene, made.played.steps.back().result.pose) << " of " << scene.way
+                      << " mm after " << allowed << " steps";
+  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+}
+
+/// A pull without end in one direction, trembling: how far the component gets in it [mm]. The audit must hold.
+double distance_under_force(const SlideScene& scene, double tolerance, Vec3 direction, int steps) {
+  SlideScene pulled = scene;
+  pulled.pull = normalized(direction);
+  const Drag made = drag(pulled, tolerance, pull(Hand(pulled, {1, 0.3, 0.06, 3}), steps));
+  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  double furthest = 0;
+  for (const PlayedStep& step : made.played.steps) furthest = std::max(furthest, way_made(pulled, step.result.pose));
+  return furthest;
+}
+
+TEST(Slide, TakesAPegWithAShoulderOutOfItsHole) {
+  for (const double clearance : {0.0, 0.001, 0.01, 0.05}) {
+    SCOPED_TRACE("clearance " + std::to_string(clearance));
+    expect_comes_out(peg_in_hole(24, clearance), 0.005);
+  }
+}
+
+TEST(Slide, TakesAKeyOutOfItsSlotEitherWay) {
+  for (const double clearance : {0.0, 0.01}) {
+    SCOPED_TRACE(clearance);
+    expect_comes_out(key_in_slot(clearance, {0, 1, 0}), 0.01);
+    expect_comes_out(key_in_slot(clearance, {0, 0, 1}), 0.01);
+  }
+}
+
+TEST(Slide, TakesADovetailOutOfItsWayAndNotThroughItsFlanks) {
+  for (const double clearance : {0.0, 0.01}) expect_comes_out(dovetail(clearance), 0.01);
+  EXPECT_LT(distance_under_force(dovetail(0.01), 0.01, {0, 1, 0}, 40), 0.2);
+}
+
+TEST(Slide, TakesAPressFittedPinOutAlongItsAxisOnly) {
+  const SlideScene pin = press_fit_pin(24, 0.02);
+  expect_comes_out(pin, 0.01);
+  for (const Vec3 sideways : {Vec3{1, 0, 0}, Vec3{0.3, -1, 0}})
+    EXPECT_LT(distance_under_force(pin, 0.01, sideways, 40), 0.2);
+}
+
+TEST(Slide, TakesAPlateOutOfASlotThatIsThinnerThanIt) {
+  expect_comes_out(plate_in_slot(0.0009), 0.01);
+  EXPECT_LT(distance_under_force(plate_in_slot(0.0009), 0.001, {1, 0, 0}, 20), 0.1);
+}
+
+TEST(Slide, LeavesACornerWithoutClearanceAndSlidesAlongItsWalls) {
+  const SlideScene corner = part_in_corner();
+  expect_comes_out(corner, 0.01);
+  EXPECT_LT(distance_under_force(corner, 0.01, {-1, -1, -1}, 40), 0.05);
+
+  // Along the x axis while the hand presses into the floor and the other wall.
+  std::vector<Pose> targets;
+  for (int k = 1; k <= 20; ++k) targets.push_back({{0.5 * k, -3, -3}, {}});
+  const Drag made = drag(corner, 0.01, targets);
+  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_NEAR(made.played.steps.back().result.pose.position.x, 10, 0.1);
+  EXPECT_NEAR(made.played.steps.back().result.pose.position.y, 0, 0.02);
+}
+
+TEST(Slide, DoesNotDriftOrJitterUnderASteadyForce) {
+  const SlideScene corner = part_in_corner();
+  const Drag made = drag(corner, 0.01, std::vector<Pose>(60, Pose{{-5, -3, -8}, {}}));
+  const Vec3 settled = made.played.steps[9].result.pose.position;
+  for (std::size_t k = 10; k < made.played.steps.size(); ++k)
+    EXPECT_LT(length(made.played.steps[k].result.pose.position - settled), 1e-3) << "step " << k;
+}
+
+TEST(Slide, TakesMeshingGearsApartWhileTheyRoll) {
+  const GearPair pair = gear_pair(0.05);
+  const SlideScene scene = meshing_gears(pair);
+  std::vector<Pose> targets;
+  const int steps = 60;
+  for (int k = 1; k <= steps; ++k) targets.push_back(pair.rolled(0.004 * k, 6.0 * k / steps));
+  const Drag made = drag(scene, 0.01, targets);
+  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  const Vec3 center = transform_from_pose(made.played.steps.back().result.pose) * Vec3{pair.distance(), 0, 0};
+  EXPECT_GT(length(center), pair.distance() + 4);
+}
+
+/// A nut on a bolt with real threads out of the data folder, the nut in hand and clear of the bolt; none without data.
+std::optional<SlideScene> real_nut(const std::string& name, double lift) {
+  const std::string parts = std::string(DISMANTLE_SOURCE_DIR "/../shared/data/assemblies/") + name + "/parts";
+  if (!std::filesystem::exists(parts)) return std::nullopt;
+  SlideScene scene;
+  scene.assembly = load_assembly(parts).value();
+  scene.assembly.components[1].assembly_from_mesh.translation.z += lift;
+  scene.moving = ComponentId(1);
+  scene.pull = {0, 0, 1};
+  scene.center = assembled_bounds(scene.assembly[scene.moving]).center();
+  return scene;
+}
+
+/// Pulled, it stays within its thread; screwed by 4.5 degrees a step, it follows.
+void expect_leaves_by_screwing_only(const SlideScene& nut, double pitch, int steps) {
+  const double tolerance = 0.005;
+  EXPECT_LT(distance_under_force(nut, tolerance, {0, 0, 1}, steps), pitch);
+  std::vector<Pose> targets;
+  for (int k = 1; k <= steps; ++k) targets.push_back({{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)});
+  const Drag made = drag(nut, tolerance, targets);
+  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_NEAR(made.played.steps.back().result.pose.position.z, pitch * steps / 80, 0.01 * pitch);
+}
+
+TEST(Slide, ScrewsAnM16NutOffItsBoltAndDoesNotPullItOff) {
+  const std::optional<SlideScene> nut = real_nut("factory_nut_bolt_m16", 0);
+  if (!nut) GTEST_SKIP() << "the data folder is not there";
+  expect_leaves_by_screwing_only(*nut, 2, 2);
+}
+
+TEST(Slide, ScrewsAnM8NutOffItsBoltAndDoesNotPullItOff) {
+  const std::optional<SlideScene> nut = real_nut("factory_nut_bolt_m8_loose", 0.9 * 1.25);  // the middle of its play
+  if (!nut) GTEST_SKIP() << "the data folder is not there";
+  expect_leaves_by_screwing_only(*nut, 1.25, 4);
+}
+
+TEST(Slide, ReachesEveryTargetThatAStraightMotionReaches) {
+  const SlideScene scene = peg_in_hole(24, 0.05);
+  const PairStates states = states_of(scene.assembly, 0.01);
+  CertificateEngine engine(scene.assembly, states);
+  const ComponentId moving[] = {scene.moving};
+  engine.hold({moving, 1});
+  Hand hand(scene, {});
+  for (int k = 0; k < 40; ++k) {
+    engine.step(hand.next(), ResponseKind::Slide);
+    for (const Vec3 away : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
+      const std::vector<Pose> before(engine.poses().begin(), engine.poses().end());
+      const Pose target = Pose{0.5 * away, {}} * before[scene.moving.value];
+      const std::vector<FirstContact> first = engine.first_contacts({&target, 1});
+      ASSERT_EQ(first.size(), 1u);
+      if (!first[0].free) continue;
+      const StepResult result = engine.step(target, ResponseKind::Slide);
+      EXPECT_TRUE(result.reached);
+      EXPECT_EQ(result.pose, target);
+      engine.jump(before);
+      engine.hold({moving, 1});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

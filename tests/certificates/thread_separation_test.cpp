@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/front/thread_separation.h"
+
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/surface/solid_tree.h"
+#include "tests/support/large_scenes.h"
+#include "tests/support/pair_motions.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+
+namespace dismantle {
+namespace {
+
+scenes::Winding winding(double wider, std::uint32_t sides, std::uint32_t turns) {
+  scenes::Winding w = scenes::thread(wider, 2);
+  w.sides = sides;
+  w.turns = turns;
+  return w;
+}
+
+struct Body {
+  Component component;
+  SolidTree solid;
+  explicit Body(TriangleMesh mesh)
+      : component(scenes::component("part", std::move(mesh))), solid(make_solid_tree(component, Executor())) {}
+};
+
+/// A bolt of six turns in a nut of three, apart by about `clearance`.
+struct Bolted {
+  std::unique_ptr<Body> bolt_body, nut_body;
+  const SolidTree& bolt() const { return bolt_body->solid; }
+  const SolidTree& nut() const { return nut_body->solid; }
+  explicit Bolted(double clearance, std::uint32_t sides, const Pose& frame = {}) {
+    scenes::Winding outer = winding(0, sides, 6);
+    outer.start = -outer.pitch;
+    bolt_body = std::make_unique<Body>(scenes::moved(scenes::wound_solid(outer), frame));
+    nut_body = std::make_unique<Body>(scenes::moved(scenes::wound_hole(winding(2 * clearance, sides, 3), 7), frame));
+  }
+};
+
+PairMotion motion_of(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end) {
+  return scenes::pair_motion(moving.tree, fixed.tree, start, end);
+}
+
+/// The least distance of the triangles under two nodes, at some times of the true screw.
+double least_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& fixed, std::uint32_t f,
+                      const Pose& start, const Pose& end) {
+  const ObbNode &a = moving.tree.nodes[m], &b = fixed.tree.nodes[f];
+  if (!a.leaf())
+    return std::min(least_distance(moving, a.child, fixed, f, start, end),
+                    least_distance(moving, a.child + 1, fixed, f, start, end));
+  if (!b.leaf())
+    return std::min(least_distance(moving, m, fixed, b.child, start, end),
+                    least_distance(moving, m, fixed, b.child + 1, start, end));
+  double least = 1e9;
+  for (const double time : {0.0, 0.25, 0.5, 0.8, 1.0}) {
+    const RigidTransform t = transform_from_pose(pose_between(start, end, time));
+    const Triangle own = moving.triangle(a.child);
+    const Triangle there{{t * own[0], t * own[1], t * own[2]}};
+    least = std::min(least, distance_triangle_triangle(there, fixed.triangle(b.child)).distance);
+  }
+  return least;
+}
+
+/// @return of how many pairs of small nodes something was claimed
+int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
+                std::uint64_t seed) {
+  const std::vector<ThreadMatch> matches =
+      match_threads(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin);
+  EXPECT_EQ(matches.size(), 1u);
+  const ThreadSweep sweep(matches.at(0), 0, motion_of(moving, fixed, start, end));
+  std::mt19937_64 random(seed);
+  int claims = 0;
+  const auto count = [](const SolidTree& solid) {
+    std::vector<std::size_t> counts(solid.tree.nodes.size(), 0);
+    for (std::uint32_t n = 0; n < counts.size(); ++n)
+      if (solid.tree.nodes[n].leaf())
+        for (std::uint32_t up = n; up != ObbNode::kNone; up = solid.tree.nodes[up].parent) ++counts[up];
+    return counts;
+  };
+  const std::vector<std::size_t> of_moving = count(moving), of_fixed = count(fixed);
+  // Claims are of nodes large and small; what is far apart says little.
+  for (int trial = 0; trial < 30000 && claims < 60; ++trial) {
+    const auto m = static_cast<std::uint32_t>(random() % moving.tree.nodes.size());
+    const auto f = static_cast<std::uint32_t>(random() % fixed.tree.nodes.size());
+    const double claimed = sweep.gap(m, f);
+    if (!(claimed > 0) || of_moving[m] * of_fixed[f] > 3000) continue;
+    const double gap = least_distance(moving, m, fixed, f, start, end);
+    EXPECT_GE(gap, claimed - 1e-6) << m << ' ' << f;
+    claims += gap < 1;
+  }
+  return claims;
+}
+
+TEST(ThreadSweep, NeverClaimsMoreThanTrianglesHave) {
+  std::mt19937_64 random(7);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Pose frame = scenes::random_pose(random, trial < 3 ? 0 : 100, 3);
+    const Bolted pair(trial % 2 == 0 ? 0.05 : 0.15, 20, frame);
+    const auto nearly = [&](double angle) {
+      return frame * (scenes::random_pose(random, 0.01, 0.002) * scenes::unscrewed(angle)) * inverse(frame);
+    };
+    const Pose start = nearly(0.1), end = nearly(0.1 + 0.3 * trial);
+    EXPECT_GT(expect_true(pair.bolt(), pair.nut(), start, end, random()), 20) << trial;
+    EXPECT_GT(expect_true(pair.nut(), pair.bolt(), inverse(start), inverse(end), random()), 20) << trial;
+  }
+}
+
+TEST(ThreadSweep, PartsFlanksOfAWholeBoltFromThoseOfItsNut) {
+  const Bolted pair(0.05, 64);
+  for (const bool nut_moves : {false, true}) {
+    const SolidTree &moving = nut_moves ? pair.nut() : pair.bolt(), &fixed = nut_moves ? pair.bolt() : pair.nut();
+    const std::vector<ThreadMatch> matches =
+        match_threads(*pair.bolt().round, pair.bolt().tree.origin, *pair.nut().round, pair.nut().tree.origin);
+    ASSERT_EQ(matches.size(), 1u);
+    const Pose out = scenes::unscrewed(2.5), end = nut_moves ? inverse(out) : out;
+    const ThreadSweep sweep(matches[0], nut_moves ? 1 : 0, motion_of(moving, fixed, {}, end));
+    ASSERT_TRUE(sweep.useful());
+    // The largest node of each part of a profile; of each component the first is what is no thread.
+    const auto part_roots = [](const SolidTree& solid) {
+      const std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, solid.round->threads());
+      std::vector<std::uint32_t> roots;
+      std::vector<std::set<std::uint8_t>> under(solid.tree.nodes.size());
+      for (std::uint32_t n = 0; n < solid.tree.nodes.size(); ++n)
+        if (solid.tree.nodes[n].leaf())
+          for (std::uint32_t up = n; up != ObbNode::kNone; up = solid.tree.nodes[up].parent)
+            under[up].insert(parts[solid.tree.nodes[n].child]);
+      for (std::uint32_t n = 1; n < solid.tree.nodes.size(); ++n)
+        if (under[n].size() == 1 && *under[n].begin() > 0 && under[solid.tree.nodes[n].parent].size() > 1)
+          roots.push_back(n);
+      return roots;
+    };
+    const std::vector<std::uint32_t> of_moving = part_roots(moving), of_fixed = part_roots(fixed);
+    ASSERT_EQ(part_roots(pair.bolt()).size(), 4u);
+    int parted = 0;
+    for (const std::uint32_t m : of_moving)
+      for (const std::uint32_t f : of_fixed) {
+        // The nut's ends wind along and are flanks too, but other turns pass them.
+        const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0],
+                                &other = matches[0].sides[nut_moves ? 0 : 1];
+        if (own.nodes[m].most > 5 || other.nodes[f].most > 5) continue;
+        EXPECT_GT(sweep.gap(m, f), 0.01) << m << ' ' << f;
+        ++parted;
+      }
+    EXPECT_GE(parted, 16);
+  }
+}
+
+TEST(ThreadSweep, SaysNothingOfWhatIsPulledStraightOrTilted) {
+  const Bolted pair(0.05, 64);
+  const std::vector<ThreadMatch> matches =
+      match_threads(*pair.bolt().round, pair.bolt().tree.origin, *pair.nut().round, pair.nut().tree.origin);
+  ASSERT_EQ(matches.size(), 1u);
+  const Pose pulled{{0, 0, 2}, {}}, tilted{{}, quat_about({1, 0, 0}, 0.1)}, aside{{1, 0, 0}, {}};
+  EXPECT_FALSE(ThreadSweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), {}, pulled)).useful());
+  EXPECT_FALSE(ThreadSweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), tilted, tilted)).useful());
+  EXPECT_FALSE(ThreadSweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), aside, aside)).useful());
+}
+
+TEST(MatchThreads, FindsThoseThatFit) {
+  const Bolted pair(0.05, 24);
+  const auto matches = [](const SolidTree& a, const SolidTree& b) {
+    return match_threads(*a.round, a.tree.origin, *b.round, b.tree.origin).size();
+  };
+  EXPECT_EQ(matches(pair.bolt(), pair.nut()), 1u);
+  EXPECT_EQ(matches(pair.bolt(), pair.bolt()), 0u) << "two outer threads";
+  scenes::Winding finer = winding(0.1, 24, 3);
+  finer.pitch = 1;
+  for (scenes::ProfilePoint& p : finer.profile) p.y *= 0.8;
+  const Body other(scenes::wound_hole(finer, 7)), plain(scenes::tube(7, 4.1, 0, 4, 24, 3));
+  EXPECT_EQ(matches(pair.bolt(), other.solid), 0u) << "another lead";
+  EXPECT_EQ(matches(pair.bolt(), plain.solid), 0u);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/engine/pair_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+namespace dismantle {
+namespace {
+
+ComponentPair pair(std::uint32_t a, std::uint32_t b, PairState state, double allowed) {
+  ComponentPair p;
+  p.a = ComponentId(a);
+  p.b = ComponentId(b);
+  p.state = state;
+  p.allowed_penetration = allowed;
+  return p;
+}
+
+TEST(PairRules, GiveEveryStateItsTest) {
+  PairStates states;
+  states.tolerance = 0.01;
+  states.pairs = {pair(0, 1, PairState::Near, 0.01), pair(0, 2, PairState::Contact, 0.01),
+                  pair(1, 2, PairState::Fit, 0.3),
+                  pair(1, 5, PairState::Embedded, std::numeric_limits<double>::infinity())};
+  const PairRules rules(states);
+  EXPECT_EQ(rules.view().find(0, 1).test, PairTest::Ordinary);
+  EXPECT_EQ(rules.view().find(0, 2).test, PairTest::Certified);
+  EXPECT_EQ(rules.view().find(1, 2).allowed_penetration, 0.3);
+  EXPECT_EQ(rules.view().find(1, 5).test, PairTest::Discrete);
+  EXPECT_EQ(rules.view().find(3, 4).test, PairTest::Ordinary);
+  EXPECT_EQ(rules.view().find(3, 4).allowed_penetration, 0.01);
+}
+
+TEST(PairRules, AllowAPartedPairTheToleranceForGood) {
+  PairStates states;
+  states.tolerance = 0.02;
+  states.pairs = {pair(3, 9, PairState::Embedded, std::numeric_limits<double>::infinity())};
+  PairRules rules(states);
+  rules.part(ComponentId(3), ComponentId(9));
+  EXPECT_EQ(rules.view().find(3, 9).test, PairTest::Certified);
+  EXPECT_EQ(rules.view().find(3, 9).allowed_penetration, 0.02);
+}
+
+TEST(PairRules, FindEveryPairOfManyAndNoOther) {
+  std::mt19937_64 random(3);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
+  while (listed.size() < 3000) {
+    const auto a = static_cast<std::uint32_t>(random() % 500), b = static_cast<std::uint32_t>(random() % 500);
+    if (a < b) listed.emplace(a, b);
+  }
+  PairStates states;
+  states.tolerance = 1;
+  for (const auto& [a, b] : listed) states.pairs.push_back(pair(a, b, PairState::Fit, 2 + a + 1000.0 * b));
+  const PairRules rules(states);
+  for (std::uint32_t a = 0; a < 500; ++a) {
+    for (std::uint32_t b = a + 1; b < 500; ++b) {
+      const double expected = listed.count({a, b}) > 0 ? 2 + a + 1000.0 * b : 1;
+      ASSERT_EQ(rules.view().find(a, b).allowed_penetration, expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

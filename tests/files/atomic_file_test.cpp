@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/files/atomic_file.h"
+
+#include "tests/support/scratch_folder.h"
+#include "tests/support/test_data.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace dismantle {
+
+TEST(AtomicFile, AppearsWholeAndLeavesNothingElse) {
+  const ScratchFolder folder;
+  const std::string large(3'000'000, 'x');
+  ASSERT_TRUE(write_file(folder / "a.txt", large).ok());
+  EXPECT_EQ(bytes_of(folder / "a.txt"), large);
+  EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+TEST(AtomicFile, IsNotThereBeforeItIsCommitted) {
+  const ScratchFolder folder;
+  auto file = AtomicFile::create(folder / "a.txt");
+  ASSERT_TRUE(file.ok());
+  file->write("half");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+}
+
+TEST(AtomicFile, LeavesTheOldFileAloneWhenItIsDropped) {
+  const ScratchFolder folder;
+  folder.put("a.txt", "old");
+  {
+    auto file = AtomicFile::create(folder / "a.txt");
+    ASSERT_TRUE(file.ok());
+    file->write("new");
+  }
+  EXPECT_EQ(bytes_of(folder / "a.txt"), "old");
+  EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+TEST(AtomicFile, ReplacesAndKeepsTheModeOfTheOldFile) {
+  const ScratchFolder folder;
+  ::chmod(folder.put("a.txt", "old").c_str(), 0640);
+  ASSERT_TRUE(write_file(folder / "a.txt", "new").ok());
+  EXPECT_EQ(bytes_of(folder / "a.txt"), "new");
+  EXPECT_EQ(std::filesystem::status(folder / "a.txt").permissions(), std::filesystem::perms(0640));
+}
+
+TEST(AtomicFile, WritesThroughASymbolicLink) {
+  const ScratchFolder folder;
+  folder.put("real.txt", "old");
+  std::filesystem::create_symlink("real.txt", folder / "link.txt");
+  ASSERT_TRUE(write_file(folder / "link.txt", "new").ok());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(bytes_of(folder / "real.txt"), "new");
+}
+
+TEST(AtomicFile, NeverReplacesADevice) {
+  ASSERT_TRUE(write_file("/dev/null", "gone").ok());
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, SaysThatTheDiskIsFull) {
+  DISMANTLE_NEED("/dev/full");
+  const auto result = write_file("/dev/full", "text");
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::Failed);
+  EXPECT_NE(result.error().message.find("No space left"), std::string::npos);
+}
+
+TEST(AtomicFile, RefusesAFolderAndAMissingFolder) {
+  const ScratchFolder folder;
+  const auto onto_folder = write_file(folder.path(), "text");
+  ASSERT_FALSE(onto_folder.ok());
+  EXPECT_NE(onto_folder.error().message.find("it is a folder"), std::string::npos);
+  const auto into_nowhere = write_file(folder / "missing/a.txt", "text");
+  ASSERT_FALSE(into_nowhere.ok());
+  EXPECT_NE(into_nowhere.error().message.find("No such file"), std::string::npos);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/formats/step/read_step.h"
+
+#include "tests/formats/step_writer.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+const double kPi = std::acos(-1.0);
+
+TopoDS_Shape block() {
+  return BRepPrimAPI_MakeBox(10.0, 20.0, 30.0).Shape();
+}
+
+TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Compound compound;
+  const BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  return compound;
+}
+
+/// The name and the names of what it is part of, from the leaf up.
+std::string tree_path(const Assembly& a, std::uint32_t node) {
+  std::string path = a.tree[node].name;
+  while (a.tree[node].parent != node) path += " < " + a.tree[node = a.tree[node].parent].name;
+  return path;
+}
+
+void expect_color(const Color& color, double r, double g, double b) {
+  EXPECT_NEAR(color.r, r, 1e-3);
+  EXPECT_NEAR(color.g, g, 1e-3);
+  EXPECT_NEAR(color.b, b, 1e-3);
+}
+
+void expect_box(const Aabb& box, Vec3 lower, Vec3 upper, double tolerance = 1e-9) {
+  EXPECT_LT(max_abs(box.lower - lower), tolerance);
+  EXPECT_LT(max_abs(box.upper - upper), tolerance);
+}
+
+// top -+- pair (at x = 100) -+- block (at 0)
+//      |                     +- block (a quarter turn about z, at y = 50)
+//      +- pair (at x = 200) ... the same
+//      +- ball
+class NestedStep : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    StepWriter writer;
+    const TDF_Label block_label = writer.part("block", block());
+    const TDF_Label ball = writer.part("ball", BRepPrimAPI_MakeSphere(5.0).Shape());
+    const TDF_Label pair = writer.assembly("pair");
+    writer.instance(pair, block_label, gp_Trsf(), "left");
+    const TDF_Label right =
+        writer.instance(pair, block_label, translation(0, 50, 0) * rotation_about_z(kPi / 2), "right");
+    const TDF_Label top = writer.assembly("top");
+    writer.instance(top, pair, translation(100, 0, 0), "first");
+    writer.instance(top, pair, translation(200, 0, 0), "second");
+    writer.instance(top, ball, translation(0, 0, 77), "the ball");
+    writer.color(block_label, 0.2, 0.4, 0.6);
+    writer.color(right, 1, 0, 0);
+    file_ = folder_ / "nested.step";
+    ASSERT_TRUE(writer.write(file_));
+  }
+  ScratchFolder folder_;
+  std::filesystem::path file_;
+};
+
+TEST_F(NestedStep, GivesAComponentForEachSolidOccurrence) {
+  const Result<Assembly> a = read_step(file_, {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  EXPECT_EQ(a->source_file, "nested.step");
+  EXPECT_EQ(a->source_sha256.size(), 64u);
+  EXPECT_EQ(a->source_units, "mm");
+  ASSERT_EQ(a->components.size(), 5u);
+  const char* names[] = {"block", "block#2", "block#3", "block#4", "ball"};
+  const char* paths[] = {"block < pair < top", "block < pair < top", "block < pair < top", "block < pair < top",
+                         "ball < top"};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(a->components[i].name, names[i]);
+    EXPECT_EQ(tree_path(*a, a->components[i].tree_node), paths[i]);
+    EXPECT_TRUE(a->components[i].faults.closed());
+  }
+  EXPECT_NE(a->components[0].tree_node, a->components[1].tree_node);
+}
+
+TEST_F(NestedStep, PlacesInstancesAndSharesTheirMesh) {
+  const Result<Assembly> a = read_step(file_, {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(a->components[0].mesh, a->components[static_cast<std::size_t>(i)].mesh);
+  EXPECT_EQ(a->components[0].mesh->faces.size(), 12u);
+  EXPECT_EQ(a->components[0].mesh->vertices.size(), 8u);
+  expect_box(assembled_bounds(a->components[0]), {100, 0, 0}, {110, 20, 30});
+  expect_box(assembled_bounds(a->components[1]), {80, 50, 0}, {100, 60, 30});
+  expect_box(assembled_bounds(a->components[2]), {200, 0, 0}, {210, 20, 30});
+  expect_box(assembled_bounds(a->components[3]), {180, 50, 0}, {200, 60, 30});
+  for (const Component& c : a->components) EXPECT_GT(signed_volume(assembled_mesh(c)), 0);
+}
+
+TEST_F(NestedStep, TakesColoursFromTheInstanceThenTheProduct) {
+  const Result<Assembly> a = read_step(file_, {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  expect_color(a->components[0].color, 0.2, 0.4, 0.6);
+  expect_color(a->components[1].color, 1, 0, 0);
+  EXPECT_EQ(a->components[4].color, Color{});
+}
+
+TEST_F(NestedStep, RefusesMoreComponentsOrTrianglesThanTheLimit) {
+  ImportOptions options;
+  options.limits.components = 4;
+  EXPECT_NE(read_step(file_, options).error().message.find("more than 4 components"), std::string::npos);
+  options.limits.components = 5;
+  options.limits.triangles = 40;
+  EXPECT_NE(read_step(file_, options).error().message.find("more than 40 triangles"), std::string::npos);
+}
+
+TEST_F(NestedStep, TellsItsProgressAndCanBeCancelled) {
+  ImportOptions options;
+  int calls = 0;
+  options.progress = [&](std::string_view, double) { return ++calls < 1; };
+  const Result<Assembly> a = read_step(file_, options);
+  EXPECT_EQ(calls, 1);
+  ASSERT_FALSE(a.ok());
+  EXPECT_EQ(a.error().kind, ErrorKind::Failed);
+  EXPECT_EQ(a.error().message, "cancelled");
+}
+
+TEST_F(NestedStep, ReadsTheSameBytesEveryTime) {
+  const Result<Assembly> a = read_step(file_, {}), b = read_step(file_, {});
+  ASSERT_TRUE(a.ok() && b.ok());
+  for (std::size_t i = 0; i < a->components.size(); ++i) EXPECT_EQ(*a->components[i].mesh, *b->components[i].mesh);
+}
+
+TEST(ReadStep, GivesAProductOfSeveralSolidsAComponentEachAndItsLooseFacesOneMore) {
+  const ScratchFolder folder;
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(50, 0, 0), 5.0).Shape();
+  const TopoDS_Shape open = BRepPrimAPI_MakeBox(gp_Pnt(-30, 0, 0), 1.0, 1.0, 1.0).Shell();
+  StepWriter writer;
+  writer.part("mixed", compound_of({block(), ball, open}));
+  ASSERT_TRUE(writer.write(folder / "mixed.stp"));
+  const Result<Assembly> a = read_step(folder / "mixed.stp", {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  ASSERT_EQ(a->components.size(), 3u);
+  EXPECT_EQ(a->components[0].name, "mixed");
+  EXPECT_EQ(a->components[2].name, "mixed#3");
+  EXPECT_EQ(tree_path(*a, a->components[1].tree_node), "mixed < mixed");
+}
+
+TEST(ReadStep, TakesTheColourOfMostOfTheSurface) {
+  const ScratchFolder folder;
+  const TopoDS_Shape shape = block();
+  StepWriter writer;
+  const TDF_Label part = writer.part("painted", shape);
+  TopExp_Explorer faces(shape, TopAbs_FACE);  // two of 600 mm^2, two of 300, two of 200
+  writer.color(part, 0, 0, 1);
+  writer.color(part, faces.Current(), 1, 0, 0);
+  ASSERT_TRUE(writer.write(folder / "painted.step"));
+  Result<Assembly> a = read_step(folder / "painted.step", {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  expect_color(a->components[0].color, 0, 0, 1);  // but for 600 mm^2 of 2200
+
+  faces.Next();
+  writer.color(part, faces.Current(), 1, 0, 0);
+  ASSERT_TRUE(writer.write(folder / "painted.step"));
+  a = read_step(folder / "painted.step", {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  expect_color(a->components[0].color, 1, 0, 0);  // 1200 mm^2 of 2200
+}
+
+TEST(ReadStep, ConvertsUnitsAndLetsTheUserOverrideThem) {
+  const ScratchFolder folder;
+  for (const auto& [written, name] : {std::pair("MM", "mm"), {"INCH", "in"}, {"M", "m"}, {"CM", "cm"}}) {
+    StepWriter writer;
+    const TDF_Label top = writer.assembly("top");
+    writer.instance(top, writer.part("block", block()), translation(254, 0, 0));
+    ASSERT_TRUE(writer.write(folder / "unit.step", written));
+    const Result<Assembly> a = read_step(folder / "unit.step", {});
+    ASSERT_TRUE(a.ok()) << a.error().message;
+    EXPECT_EQ(a->source_units, name);
+    expect_box(assembled_bounds(*a), {254, 0, 0}, {264, 20, 30}, 1e-6);
+  }
+  ImportOptions options;
+  options.units = "in";  // the file is in centimetres
+  const Result<Assembly> a = read_step(folder / "unit.step", options);
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  EXPECT_EQ(a->source_units, "in");
+  expect_box(assembled_bounds(*a), 2.54 * Vec3{254, 0, 0}, 2.54 * Vec3{264, 20, 30}, 1e-6);
+  options.units = "furlong";
+  EXPECT_EQ(read_step(folder / "unit.step", options).error().kind, ErrorKind::Usage);
+}
+
+TEST(ReadStep, MeshesCurvedFacesClosedAndWithinTheDeflection) {
+  const ScratchFolder folder;
+  const double radius = 20, height = 50;
+  StepWriter writer;
+  writer.part("all", compound_of({BRepPrimAPI_MakeCylinder(radius, height).Shape(),
+                                  BRepPrimAPI_MakeSphere(gp_Pnt(100, 0, 0), 10.0).Shape(),
+                                  BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(200, 0, 0), gp_Dir(0, 0, 1)), 10, 0, 30).Shape(),
+                                  BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(300, 0, 0), gp_Dir(0, 1, 0)), 20, 5).Shape()}));
+  ASSERT_TRUE(writer.write(folder / "curved.step"));
+  std::size_t coarser = 0;
+  for (const double deflection : {0.2, 0.01}) {
+    ImportOptions options;
+    options.deflection = deflection;
+    const Result<Assembly> a = read_step(folder / "curved.step", options);
+    ASSERT_TRUE(a.ok()) << a.error().message;
+    EXPECT_EQ(a->deflection, deflection);
+    ASSERT_EQ(a->components.size(), 4u);
+    for (const Component& c : a->components) EXPECT_TRUE(c.faults.closed()) << c.name;
+    for (const Component& c : a->components) EXPECT_FALSE(c.faults.inside_out) << c.name;
+
+    double depth = 0;  // of edge midpoints under the cylinder's wall
+    const TriangleMesh& m = *a->components[0].mesh;
+    for (std::size_t f = 0; f < m.faces.size(); ++f) {
+      const Triangle t = m.triangle(f);
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 p = t[k], q = t[(k + 1) % 3], mid = 0.5 * (p + q);
+        if (std::hypot(p.x, p.y) < radius - 1e-6 || std::hypot(q.x, q.y) < radius - 1e-6) continue;
+        if (std::abs(normalized(normal_unscaled(t)).z) > 0.5) continue;  // a cap
+        depth = std::max(depth, radius - std::hypot(mid.x, mid.y));
+      }
+    }
+    EXPECT_GT(depth, 0);
+    EXPECT_LE(depth, deflection);
+    EXPECT_GT(triangle_count(*a), coarser);
+    coarser = triangle_count(*a);
+  }
+}
+
+TEST(ReadStep, UsesOneDocumentedDeflectionByDefault) {
+  const ScratchFolder folder;
+  StepWriter writer;
+  writer.part("block", block());
+  ASSERT_TRUE(writer.write(folder / "block.step"));
+  const Result<Assembly> a = read_step(folder / "block.step", {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  EXPECT_NEAR(a->deflection, kDefaultRelativeDeflection * std::sqrt(100 + 400 + 900), 1e-6);
+}
+
+TEST(ReadStep, RefinesByAngleWhatTheDeflectionLeavesCoarse) {
+  const ScratchFolder folder;
+  StepWriter writer;
+  writer.part("pin", BRepPrimAPI_MakeCylinder(1.0, 5.0).Shape());
+  ASSERT_TRUE(writer.write(folder / "pin.step"));
+  ImportOptions options;
+  options.deflection = 10;
+  options.angular_deflection = 2 * kPi / 60;
+  const Result<Assembly> a = read_step(folder / "pin.step", options);
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  EXPECT_GE(a->components[0].mesh->vertices.size(), 120u);  // 60 a rim
+  options.angular_deflection = 0;
+  EXPECT_GE(read_step(folder / "pin.step", options)->components[0].mesh->vertices.size(), 36u);
+}
+
+TEST(ReadStep, KeepsNamesOfOtherScripts) {
+  const ScratchFolder folder;
+  StepWriter writer;
+  writer.part("Gehäuse 螺栓 'x'", block());
+  ASSERT_TRUE(writer.write(folder / "names.step"));
+  const Result<Assembly> a = read_step(folder / "names.step", {});
+  ASSERT_TRUE(a.ok()) << a.error().message;
+  EXPECT_EQ(a->components[0].name, "Gehäuse 螺栓 'x'");
+}
+
+}  // namespace
+}  // namespace dismantle

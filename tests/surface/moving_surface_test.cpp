@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/moving_surface.h"
+
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+/// One component, standing still.
+struct Solid {
+  TriangleStreams streams;
+  std::vector<Kdop16> bounds;
+  explicit Solid(TriangleMesh mesh)
+      : streams(make_triangle_streams(scenes::assembly({scenes::component("solid", std::move(mesh))}), {})),
+        bounds(bounds_at(streams, streams.vertices, 0, {})) {}
+  MomentaryTriangles now() const { return {&streams, {streams.vertices, streams.vertices, streams.faces}, bounds, 0}; }
+  bool holds(Vec3 p) const { return point_in_component(now(), p, ComponentId(0)); }
+};
+
+TEST(PointInComponent, TellsInsideFromOutsideOfATurnedTube) {
+  std::mt19937_64 random(4);
+  const Pose pose = scenes::random_pose(random, 5, 3);
+  const Solid tube(scenes::moved(scenes::tube(3, 1, -2, 2, 64, 5), pose));
+  const RigidTransform t = transform_from_pose(pose);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p = scenes::random_vector(random, 4);
+    const double r = std::hypot(p.x, p.y);
+    if (std::abs(r - 3) < 0.01 || std::abs(r - 1) < 0.01 || std::abs(std::abs(p.z) - 2) < 1e-9) continue;
+    ASSERT_EQ(tube.holds(t * p), r < 3 && r > 1 && std::abs(p.z) < 2);
+  }
+}
+
+TEST(PointInComponent, DecidesPointsThatRaysLeaveThroughVerticesAndEdges) {
+  const Solid box(scenes::box({0, 0, 0}, {2, 2, 2}));
+  for (int i = -2; i <= 10; ++i) {
+    for (int j = -2; j <= 10; ++j) {
+      const Vec3 p{0.25 * i, 0.25 * j, 1};
+      if (i == 0 || j == 0 || i == 8 || j == 8) continue;
+      ASSERT_EQ(box.holds(p), i > 0 && i < 8 && j > 0 && j < 8);
+    }
+  }
+}
+
+TEST(SurfaceWithin, AgreesWithTheDistanceToABox) {
+  const Solid box(scenes::box({0, 0, 0}, {2, 2, 2}));
+  const auto within = [&](Vec3 p, double d) { return surface_within(box.now(), p, ComponentId(0), d); };
+  EXPECT_TRUE(within({1, 1, 2.5}, 0.51));
+  EXPECT_FALSE(within({1, 1, 2.5}, 0.49));
+  EXPECT_TRUE(within({1, 1, 1}, 1.01));
+  EXPECT_FALSE(within({1, 1, 1}, 0.99));
+  EXPECT_TRUE(within({3, 3, 3}, 1.7321));
+  EXPECT_FALSE(within({3, 3, 3}, 1.7320));
+}
+
+TEST(ShellVertices, GiveOneVertexOfEachConnectedPart) {
+  TriangleMesh mesh = scenes::box({0, 0, 0}, {1, 1, 1});
+  const TriangleMesh second = scenes::box({5, 0, 0}, {6, 1, 1});
+  for (const Vec3& p : second.vertices) mesh.vertices.push_back(p);
+  for (const Face& f : second.faces) mesh.faces.push_back({{f.v[0] + 8, f.v[1] + 8, f.v[2] + 8}});
+  const Solid solid(mesh);
+  const std::vector<std::uint32_t> shells = shell_vertices(solid.streams, ComponentId(0));
+  ASSERT_EQ(shells.size(), 2u);
+  EXPECT_NE(solid.streams.vertices[shells[0]].x > 3, solid.streams.vertices[shells[1]].x > 3);
+}
+
+}  // namespace
+}  // namespace dismantle
