@@ -16,9 +16,9 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kCapacity = 1 << 16;  // as the methods have it
+constexpr std::size_t kCapacity = 1 << 16;  // as in the methods
 
-/// One variant on whatever it runs on.
+/// One variant, on the CPU or on a device.
 class TimedAppender {
  public:
   TimedAppender(AppendVariant variant, const Executor& executor) : on_host_(variant, kCapacity), executor_(executor) {}
@@ -27,12 +27,13 @@ class TimedAppender {
     on_device_ = std::move(device);
   }
 
-  /// The least time of some runs [ms].
-  double least_ms(const FrontSproutKernel& kernel, int repeats) {
-    double least = std::numeric_limits<double>::infinity();
+  /// The shortest time of some runs [ms].
+  double shortest_ms(const FrontSproutKernel& kernel, int repeats) {
+    double shortest = std::numeric_limits<double>::infinity();
     if (on_device_) on_device_->set_input(kernel);
-    for (int i = 0; i < repeats; ++i) least = std::min(least, on_device_ ? on_device_->run(kernel.items) : run(kernel));
-    return least;
+    for (int i = 0; i < repeats; ++i)
+      shortest = std::min(shortest, on_device_ ? on_device_->run(kernel.items) : run(kernel));
+    return shortest;
   }
   std::size_t value_count() const {
     std::size_t count = 0;
@@ -51,11 +52,11 @@ class TimedAppender {
 
   FrontAppender on_host_;
   Executor executor_;
-  std::unique_ptr<DeviceAppender> on_device_;  // instead, if it is there
+  std::unique_ptr<DeviceAppender> on_device_;  // used instead of on_host_ where there is one
 };
 
 Result<std::deque<TimedAppender>> make_appenders(const AppendRuns& runs, const Executor& executor) {
-  std::deque<TimedAppender> appenders;  // they cannot be moved
+  std::deque<TimedAppender> appenders;  // TimedAppender cannot be moved
   for (const AppendVariant variant : runs.variants) {
     if (!runs.on_device) {
       appenders.emplace_back(variant, executor);
@@ -89,12 +90,12 @@ Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const Appe
     streams.refit(executor);
     const FrontInput input{BvhView(streams.fixed().bvh), streams.bounds(), streams.motion_class()};
     FrontSproutKernel kernel{input.tree, input.bounds, input.motion_class, start};
-    for (std::size_t v = 0; v < times.size() && k > 0; ++v) {  // the first step has no front to keep
+    for (std::size_t v = 0; v < times.size() && k > 0; ++v) {  // the first step has no front to update
       kernel.items = start;
-      times[v].start_ms += appenders[v].least_ms(kernel, runs.repeats);
+      times[v].start_ms += appenders[v].shortest_ms(kernel, runs.repeats);
       times[v].started = appenders[v].value_count();
       kernel.items = front.active();
-      times[v].update_ms += appenders[v].least_ms(kernel, runs.repeats);
+      times[v].update_ms += appenders[v].shortest_ms(kernel, runs.repeats);
       times[v].updated = appenders[v].value_count();
     }
     front.update(input, executor);

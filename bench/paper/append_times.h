@@ -9,25 +9,25 @@
 
 namespace dismantle {
 
-/// What appending cost with one variant.
+/// Times of appending with one variant.
 struct AppendTime {
   AppendVariant variant = AppendVariant::GlobalLock;
-  double start_ms = 0;      ///< Of a front that starts from the root: everything is appended. Mean over the steps.
-  double update_ms = 0;     ///< Of a front that is kept: little is. Mean over the steps.
+  double start_ms = 0;      ///< A front that starts from the root: everything is appended. Mean over the steps.
+  double update_ms = 0;     ///< A front that is updated: little is appended. Mean over the steps.
   std::size_t started = 0;  ///< Values appended by the last start, all streams together.
   std::size_t updated = 0;  ///< Values appended by the last update.
 };
 
-/// What appends, and how often.
+/// Settings of time_appends().
 struct AppendRuns {
-  std::vector<AppendVariant> variants{std::begin(kAppendVariants), std::end(kAppendVariants)};
+  std::vector<AppendVariant> variants{std::begin(kAppendVariants), std::end(kAppendVariants)};  ///< In this order.
   bool on_device = false;  ///< On the CUDA device instead of `cores`.
-  int cores = 1;
-  int repeats = 1;  ///< Of each launch; the least time counts.
+  int cores = 1;           ///< Threads on the CPU.
+  int repeats = 1;         ///< Of each launch; the shortest time counts.
 };
 
-/// Looks at the front of every step of the scene's first move, a start and an update with each variant, one after the
-/// other. Errors: Failed where there is no CUDA device to run on.
+/// Sprouts the front of every step of the scene's first move with each variant in turn: from the root, and from the
+/// front of the step before. Errors: Failed where there is no CUDA device to run on.
 Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const AppendRuns& runs);
 
 }  // namespace dismantle

@@ -22,7 +22,7 @@ constexpr PaperMethod kMethods[] = {PaperMethod::FrontBased,        PaperMethod:
 constexpr PaperMethod kContinuous[] = {PaperMethod::FrontBased, PaperMethod::FrontBasedRigid,
                                        PaperMethod::StreamsElementary, PaperMethod::StreamsCertified,
                                        PaperMethod::Certificates};
-constexpr const char* kCoreScene = "lathe";  // the largest
+constexpr const char* kCoreScene = "lathe";  // the largest of the samples
 constexpr int kSizeSteps = 30;
 constexpr std::size_t kAppendTriangles = 120'000;
 constexpr int kAppendSteps = 10;
@@ -43,10 +43,10 @@ void add_row(ResultTable& table, std::vector<std::string> row) {
 using Runs = std::map<PaperMethod, MethodRun>;
 
 void add_steps(Evaluation& e, const std::string& assembly, std::size_t triangles, const MethodRun& run) {
-  const StepCost mean = mean_cost(run);
+  const TableTimes mean = mean_times(run);
   add_row(e.steps,
           {assembly, std::to_string(triangles), std::string(name_of(run.method)), std::to_string(run.cores),
-           std::to_string(run.costs.size()), std::to_string(run.reached), number(mean.refit), number(mean.intersection),
+           std::to_string(run.times.size()), std::to_string(run.reached), number(mean.refit), number(mean.intersection),
            number(mean.overall), number(overall_quantile(run, 0.5)), number(overall_quantile(run, 0.99))});
 }
 
@@ -71,15 +71,15 @@ Runs run_all(Evaluation& e, const EvaluationOptions& options, const BenchScene& 
 }
 
 void add_speed_ups(Evaluation& e, const BenchScene& scene, const Runs& runs) {
-  const double base = mean_cost(runs.at(PaperMethod::FrontBased)).overall;
+  const double base = mean_times(runs.at(PaperMethod::FrontBased)).overall;
   const std::size_t triangles = triangle_count(scene.assembly);
   e.speed_up_chart.groups.push_back(fmt::format("{} {:.0f}k", scene.name, static_cast<double>(triangles) / 1000));
   std::vector<std::string> row{scene.name, std::to_string(triangles)};
   for (std::size_t s = 0; s + 1 < std::size(kContinuous); ++s) {
-    const double ratio = base / mean_cost(runs.at(kContinuous[s + 1])).overall;
+    const double ratio = base / mean_times(runs.at(kContinuous[s + 1])).overall;
     row.push_back(number(ratio));
     e.speed_up_chart.series[s].y.push_back(ratio);
-    if (kContinuous[s + 1] == PaperMethod::StreamsElementary) e.least_speed_up = std::min(e.least_speed_up, ratio);
+    if (kContinuous[s + 1] == PaperMethod::StreamsElementary) e.min_speed_up = std::min(e.min_speed_up, ratio);
   }
   e.speed_up.rows.push_back(std::move(row));
 }
@@ -106,7 +106,7 @@ void measure_cores(Evaluation& e, const EvaluationOptions& options, const BenchS
     double on_one = 0;
     for (int cores = 1; cores <= options.cores; ++cores) {
       const double ms =
-          mean_cost(cores == options.cores ? on_all.at(method) : run_method(method, scene, cores, options.repeats))
+          mean_times(cores == options.cores ? on_all.at(method) : run_method(method, scene, cores, options.repeats))
               .overall;
       if (cores == 1) on_one = ms;
       series.x.push_back(cores);
@@ -146,15 +146,15 @@ Result<Done> measure_sizes(Evaluation& e, const EvaluationOptions& options) {
     MethodRun base;
     for (std::size_t s = 0; s < std::size(kContinuous); ++s) {
       const MethodRun run = run_method(kContinuous[s], scene, options.cores, options.repeats);
-      const double ms = mean_cost(run).overall;
+      const double ms = mean_times(run).overall;
       if (run.method == PaperMethod::FrontBased) base = run;
       if (run.method == PaperMethod::StreamsElementary) {
-        e.least_speed_up_of_shafts = std::min(e.least_speed_up_of_shafts, mean_cost(base).overall / ms);
+        e.min_speed_up_of_shafts = std::min(e.min_speed_up_of_shafts, mean_times(base).overall / ms);
         e.equal_poses = e.equal_poses && run.poses == base.poses;
       }
       e.size_chart.series[s].x.push_back(static_cast<double>(count));
       e.size_chart.series[s].y.push_back(ms);
-      add_row(e.sizes, {std::to_string(count), e.size_chart.series[s].name, std::to_string(run.costs.size()),
+      add_row(e.sizes, {std::to_string(count), e.size_chart.series[s].name, std::to_string(run.times.size()),
                         std::to_string(run.reached), number(ms), number(overall_quantile(run, 0.99))});
     }
   }
@@ -204,8 +204,8 @@ Evaluation empty_evaluation() {
   e.appends.columns = {"variant", "cores", "start", "values at the start", "update", "values at an update"};
   e.tunnels.columns = {"case", "method", "steps", "meeting", "tunnels", "false stops"};
   e.speed_up_chart = {"Speed-up over the front-based baseline", "times as fast", {}, {}};
-  e.core_chart = {"Time a step and cores", "cores", "ms a step", {}};
-  e.size_chart = {"Time a step and triangles: a shaft in its hole", "triangles", "ms a step", {}};
+  e.core_chart = {"Time of a step and cores", "cores", "ms per step", {}};
+  e.size_chart = {"Time of a step and triangles: a shaft in its hole", "triangles", "ms per step", {}};
   return e;
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Evaluation against Du et al. 2015
 
-What the paper's table 1 and figure 9 have, measured again on our own models of its four assemblies ([samples](../samples/README.md)),
-with its baselines. Every number on this page was printed by one command, which also wrote the page, the pictures and the
+Table 1 and figure 9 of the paper, measured again with its baselines on our own models of its four assemblies
+([samples](../samples/README.md)). One command printed every number on this page and wrote the page, the pictures and the
 [tables](evaluation/):
 
     cmake --preset release && cmake --build --preset release --target bench_paper
@@ -28,88 +28,85 @@ with its baselines. Every number on this page was printed by one command, which 
 {date}; {processor}, {cores} cores (load {load_before:.1f} before, {load_after:.1f} after: other work on the machine
 lengthens times); {compiler}. {device}
 
-## What is compared
-Each method plays an assembly's bundled motion with the paper's response: a step that meets something is not made. Wall time of one step
+## Methods
+Each method plays an assembly's bundled motion with the paper's response: a step that collides is not made. Wall time of one step
 in ms, all its sweeps together; the first step of each move, which builds fronts, is left out.
 
-- *front-based*: multi-core continuous detection by front-based decomposition (Tang, Manocha, Tong 2010), the paper's baseline: everything
-  refit, the front cut into one part a core, elementary cubic tests with representative triangles. Its hierarchy is that of *streams*. Where the
-  original prunes, it starts its front anew by the rule of *streams*.
-- *front-based (rigid)*: the same, told which components move: what stands still is neither refit nor looked at. No published method; it shows
-  what that alone is worth.
+- *front-based*: multi-core continuous detection by front-based decomposition (Tang, Manocha, Tong 2010), the paper's baseline: the whole
+  hierarchy is refit, the front cut into one part for each core; elementary cubic tests with representative triangles. Its hierarchy is that of
+  *streams*. Where the original prunes, it restarts its front by the rule of *streams*.
+- *front-based (rigid)*: the same with knowledge of which components move: stationary ones are neither refit nor tested. No published method;
+  it shows the effect of that knowledge alone.
 - *streams (elementary)*: the paper's method on the CPU, with the paper's tests. *streams (certified)*: with tests that miss nothing.
-- *certificates*: our own method, as it is by default. It also guards vertices inside solids, which the others here do not.
-- *boxes (discrete)*: trees of oriented boxes down to the triangles, at the targets alone, as earlier disassembly systems did; pairs that
-  touch when assembled are left out. It is fast because it does not look at what is on the way.
+- *certificates*: the default method. It also guards vertices inside solids, which the others here do not.
+- *boxes (discrete)*: trees of oriented boxes down to the triangles, tested at the targets alone, as in earlier disassembly systems; pairs that
+  touch when assembled are ignored. It is fast because it does not test the motion between targets.
 
-Pairs that touch, fit or overlap when assembled are decided by certified and discrete tests in all methods with fronts, which the original baseline
-does not know. {equal}
+Pairs that touch, fit or overlap when assembled are decided by certified and discrete tests in all methods with fronts; the original baseline
+does not handle them. {equal}
 )";
 
 constexpr const char* kTable1 = R"(
 ## Table 1: the paper's method, stage by stage
 *streams (elementary)* on {cores} cores; *intersection test* is the front and the tests of triangles. Beside it the paper's times of its own models,
-simplified, on a Tesla K20c: another machine and other models, so no more than a measure of scale.
+simplified, on a Tesla K20c: another machine and other models, so only an indication of scale.
 
 {ours}
 {paper}
 ## All methods
-`reached`: steps that reached their targets. Methods with other tests stop at other places, and go on from there.
+`reached`: steps that reached their targets. Methods with different tests stop at different poses and continue from there.
 
 {all}
 ## Figure 9: speed-up over the front-based baseline
-Mean overall time of the baseline over that of the method, on {cores} cores. *streams (elementary)* is at least {least:.1f} times as fast on the assemblies and
-{least_of_shafts:.1f} times on the shafts [below](#size), at equal results. (The paper reports 6 to 8 times for its GPU over four cores.)
+Mean overall time of the baseline over that of the method, on {cores} cores. *streams (elementary)* is at least {min:.1f} times as fast on the assemblies and
+{min_of_shafts:.1f} times on the shafts [below](#size), at equal results. (The paper reports 6 to 8 times for its GPU over four cores.)
 
 ![Speed-up over the front-based baseline](pictures/evaluation-figure9.svg)
 
 {speed_up}
-## Where it comes from
-Means of the stages, in ms:
+## Stages
+Mean times of the stages, in ms:
 
 {stages}
-From *front-based* to *front-based (rigid)*: most components stand still, and most of the front is between neighbours that do. From there to *streams*: an axis is
-asked for a whole pair of triangles before its features are tested one by one, and once a contact is known certified tests of what comes later look no
-further than that contact (tests); nodes that rest are kept out of the list that is walked, and those next in it are asked for ahead (front).
+From *front-based* to *front-based (rigid)*: most components are stationary, and most of the front lies between stationary neighbours. From there to
+*streams*: a separating axis is tested for a whole pair of triangles before its features are tested one by one, and once a contact is known,
+certified tests end at its time (tests); resting nodes are kept out of the list that is traversed, and the next ones of it are prefetched (front).
 )";
 
 constexpr const char* kCurves = R"(
 ## Cores
-![Time a step and cores](pictures/evaluation-cores.svg)
+![Time of a step and cores](pictures/evaluation-cores.svg)
 
 {core_table}
 ## Size
-A shaft slides and wobbles in its hole with 0.1 mm of clearance, on {cores} cores. Larger sizes: `--largest`.
+A shaft slides and wobbles in its hole with a clearance of 0.1 mm, on {cores} cores. Larger sizes: `--largest`.
 
-![Time a step and triangles](pictures/evaluation-sizes.svg)
+![Time of a step and triangles](pictures/evaluation-sizes.svg)
 
 {size_table}
 ## Appending to streams
-The paper appends by atomic additions to global memory and compares with buffers local to a group (Tang, Manocha, Lin, Tong 2011). The same kernel of the front
-over the shaft, on the CPU and, where there is one, on the GPU: a front that starts from its root, and one that is kept. Mean ms a launch; values appended by the last.
+The paper appends by atomic additions to global memory and compares with buffers local to a group (Tang, Manocha, Lin, Tong 2011). The kernel of the
+front over the shaft, on the CPU and, if there is one, on the GPU: a front that starts from its root, and one that is updated. Mean ms of a launch, and
+values appended by the last.
 
 {append_table}
 ## Tunnels
-Single steps: a cube through a thin plate; a shaft torn out of its housing, along the bore or through the wall. `meeting`: steps on whose way the two are deeper in each
-other than allowed, by the [audit](guarantee.md), which shares nothing with the methods. `tunnels`: those of them that a method lets through. `false stops`: steps
-that it stops though nothing is on the way.
+Single steps: a cube through a thin plate; a shaft out of its housing, along the bore or through the wall. `meeting`: steps on which the two overlap more
+than allowed, by the [audit](guarantee.md), which shares no code with the methods. `tunnels`: of these, steps that a method lets pass. `false stops`:
+steps that it stops although nothing is in the way.
 
 {tunnel_table}
-## What a GPU is for
+## GPU
 {gpu}
 )";
 
-constexpr const char* kNoGpu =
-    "**No GPU was available: nothing here ran on one**, and nothing is said about when one would win.";
+constexpr const char* kNoGpu = "**No GPU was available: nothing here ran on one.**";
 constexpr const char* kNoGpuTimes =
-    "Not measured: no GPU was available. *streams* and *certificates* are there for CUDA devices "
-    "([docs/gpu.md](gpu.md)) and have been compiled, not run; `tools/gpu_check` is to compare\nthem with the CPU bit "
-    "by "
-    "bit on a GPU.";
+    "Not measured: no GPU was available. *streams* and *certificates* run on CUDA devices too ([docs/gpu.md](gpu.md)); "
+    "`tools/gpu_check` compares them\nwith the CPU bit by bit on a GPU.";
 constexpr const char* kGpuTimes =
     "The rows *streams (elementary, CUDA)* and *certificates (CUDA)* under [All methods](#all-methods) are those of "
-    "the "
-    "GPU ([docs/gpu.md](gpu.md)).";
+    "the GPU ([docs/gpu.md](gpu.md)).";
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -119,11 +116,11 @@ std::string processor_name() {
 }
 
 ResultTable rows_of(const ResultTable& table, const std::string& column, const std::string& value) {
-  const auto place =
+  const auto index =
       static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin());
   ResultTable chosen{table.columns, {}};
   for (const std::vector<std::string>& row : table.rows)
-    if (row[place] == value) chosen.rows.push_back(row);
+    if (row[index] == value) chosen.rows.push_back(row);
   return chosen;
 }
 
@@ -160,7 +157,7 @@ std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
   const std::string equal =
       e.equal_poses
           ? "After every step of every motion *front-based*, *front-based (rigid)* and *streams (elementary)* had the "
-            "set in hand at the same pose, bit for bit."
+            "moving set at the same pose, bit for bit."
           : "**Methods that must stop at the same poses did not: the times cannot be compared.**";
   std::string page =
       fmt::format(kIntroduction, arg("command", s.command), arg("date", s.date), arg("processor", s.processor),
@@ -172,7 +169,7 @@ std::string evaluation_page(const Evaluation& e, const EvaluationSetting& s) {
                       arg("ours", markdown_of(columns_of(
                                       ours, {"assembly", "triangles", "BVH refit", "intersection test", "overall"}))),
                       arg("paper", markdown_of(paper_rows())), arg("all", markdown_of(e.steps)),
-                      arg("least", e.least_speed_up), arg("least_of_shafts", e.least_speed_up_of_shafts),
+                      arg("min", e.min_speed_up), arg("min_of_shafts", e.min_speed_up_of_shafts),
                       arg("speed_up", markdown_of(e.speed_up)), arg("stages", markdown_of(e.stages)));
   page += fmt::format(kCurves, arg("cores", s.cores), arg("core_table", markdown_of(e.cores)),
                       arg("size_table", markdown_of(e.sizes)), arg("append_table", markdown_of(e.appends)),

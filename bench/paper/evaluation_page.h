@@ -7,28 +7,28 @@
 
 namespace dismantle {
 
-/// Where and how an evaluation was made.
+/// Machine, date and command of an evaluation.
 struct EvaluationSetting {
   std::string date, processor, compiler, command;
   std::string gpu;  ///< The CUDA device's name; empty where nothing ran on one.
   int cores = 1;
-  double load_before = 0, load_after = 0;  ///< Average over a minute.
+  double load_before = 0, load_after = 0;  ///< Of the machine, averaged over a minute.
 };
 
-/// This machine, now, with nothing measured yet. @param command as the user gave it
+/// This machine and its load now; load_after is not set. @param command as the user gave it
 EvaluationSetting present_setting(const std::string& command, int cores);
-/// The machine's load, averaged over a minute.
+/// The load of the machine now, averaged over a minute.
 double present_load();
 
-/// The page docs/evaluation.md: all that was measured, and in words what it is.
+/// The text of the page docs/evaluation.md.
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationSetting& setting);
 
-/// A file of the evaluation, its path under docs.
+/// A file of the evaluation. The path is relative to docs.
 struct EvaluationFile {
   std::string path, text;
 };
 
-/// The page, its pictures and its tables as CSV.
+/// The tables as CSV, the pictures, and at last the page.
 std::vector<EvaluationFile> evaluation_files(const Evaluation& evaluation, const EvaluationSetting& setting);
 
 }  // namespace dismantle

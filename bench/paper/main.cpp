@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's evaluation in one command: plays the four sample assemblies' motions with every method and writes
-// docs/evaluation.md with its tables and pictures. Prints every row as it is measured, and the page in the end.
+// The evaluation of Du et al. 2015 in one command: plays the motions of the four sample assemblies with every method
+// and writes docs/evaluation.md with its tables and pictures.
 //   bench_paper [--cores N] [--repeats N] [--largest TRIANGLES] [--docs FOLDER]
-// Takes some ten minutes on two cores; ten million triangles need `--largest 10000000` and 10 GB of memory.
+// Prints every row as it is measured, and the page at the end. Takes some ten minutes on two cores; ten million
+// triangles need `--largest 10000000` and 10 GB of memory.
+#include "bench/command_line.h"
 #include "bench/paper/evaluation_page.h"
 #include "dismantle/files/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -23,22 +24,12 @@ struct Settings {
 bool parse(int argc, char** argv, Settings& settings) {
   settings.options.cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   settings.options.samples_folder = DISMANTLE_SOURCE_DIR "/samples";
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 == argc) return false;
-    const std::string option = argv[i], value = argv[i + 1];
-    if (option == "--cores") {
-      settings.options.cores = std::max(1, std::atoi(value.c_str()));
-    } else if (option == "--repeats") {
-      settings.options.repeats = std::max(1, std::atoi(value.c_str()));
-    } else if (option == "--largest") {
-      settings.options.largest = std::strtoull(value.c_str(), nullptr, 10);
-    } else if (option == "--docs") {
-      settings.docs = value;
-    } else {
-      return false;
-    }
-  }
-  return true;
+  bench::CommandLine line("bench_paper [--cores N] [--repeats N] [--largest TRIANGLES] [--docs FOLDER]");
+  line.option("--cores", settings.options.cores, 1);
+  line.option("--repeats", settings.options.repeats, 1);
+  line.option("--largest", settings.options.largest, 1);
+  line.option("--docs", settings.docs);
+  return line.parse(argc, argv);
 }
 
 /// The command as it was given.
@@ -55,7 +46,7 @@ Result<Done> run(const Settings& settings, const std::string& command) {
   setting.load_after = present_load();
   for (const EvaluationFile& file : evaluation_files(*evaluation, setting)) {
     const std::filesystem::path path = std::filesystem::path(settings.docs) / file.path;
-    std::error_code ignored;  // writing tells
+    std::error_code ignored;  // writing reports it
     std::filesystem::create_directories(path.parent_path(), ignored);
     const Result<Done> written = write_file(path, file.text);
     if (!written) return written.error();
@@ -70,10 +61,7 @@ Result<Done> run(const Settings& settings, const std::string& command) {
 int main(int argc, char** argv) {
   using namespace dismantle;
   Settings settings;
-  if (!parse(argc, argv, settings)) {
-    std::fprintf(stderr, "usage: bench_paper [--cores N] [--repeats N] [--largest TRIANGLES] [--docs FOLDER]\n");
-    return 2;
-  }
+  if (!parse(argc, argv, settings)) return bench::kExitUsage;
   const Result<Done> done = run(settings, command_of(argc, argv));
   if (done) return 0;
   std::fprintf(stderr, "bench_paper: %s\n", done.error().message.c_str());

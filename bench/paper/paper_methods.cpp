@@ -3,40 +3,41 @@
 
 #include "bench/baselines/front_based_engine.h"
 #include "bench/baselines/obb_discrete_engine.h"
+#include "bench/timing.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/streams/stage_clock.h"
 #include "dismantle/streams/streams_backend.h"
 #include "dismantle/streams/streams_motion_engine.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace dismantle {
 
 namespace {
 
-/// Plays the scene once and keeps what was least.
+/// Plays the scene once and keeps the shorter time of each step.
 void play(const BenchScene& scene, MotionEngine& engine, MethodRun& run) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const BenchMove& move : scene.moves) {
     engine.hold(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
       StageClock clock;
       const StepResult result = engine.step(move.targets[k], ResponseKind::Stop);
       const double overall = clock.total();
-      if (k == 0) continue;  // it builds the front
+      if (k == 0) continue;  // builds the front
       const StepTimings& t = result.timings;
-      const StepCost cost{t.vertices + t.refit, t.front + t.intersection, overall};
-      if (place == run.costs.size()) {
-        run.costs.push_back(cost);
+      const TableTimes times{t.vertices + t.refit, t.front + t.intersection, overall};
+      if (index == run.times.size()) {
+        run.times.push_back(times);
         run.stages.push_back(t);
         run.poses.push_back(result.pose);
         run.reached += result.reached ? 1 : 0;
-      } else if (overall < run.costs[place].overall) {
-        run.costs[place] = cost;
-        run.stages[place] = t;
+      } else if (overall < run.times[index].overall) {
+        run.times[index] = times;
+        run.stages[index] = t;
       }
-      ++place;
+      ++index;
     }
   }
 }
@@ -107,23 +108,21 @@ MethodRun run_method(PaperMethod method, const BenchScene& scene, int cores, int
   return run;
 }
 
-StepCost mean_cost(const MethodRun& run) {
-  StepCost sum;
-  for (const StepCost& c : run.costs) {
+TableTimes mean_times(const MethodRun& run) {
+  TableTimes sum;
+  for (const TableTimes& c : run.times) {
     sum.refit += c.refit;
     sum.intersection += c.intersection;
     sum.overall += c.overall;
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(1, run.costs.size()));
+  const auto count = static_cast<double>(std::max<std::size_t>(1, run.times.size()));
   return {sum.refit / count, sum.intersection / count, sum.overall / count};
 }
 
 double overall_quantile(const MethodRun& run, double q) {
   std::vector<double> ms;
-  for (const StepCost& c : run.costs) ms.push_back(c.overall);
-  if (ms.empty()) return 0;
-  std::sort(ms.begin(), ms.end());
-  return ms[static_cast<std::size_t>(std::lround(q * static_cast<double>(ms.size() - 1)))];
+  for (const TableTimes& times : run.times) ms.push_back(times.overall);
+  return bench::quantile(std::move(ms), q);
 }
 
 }  // namespace dismantle

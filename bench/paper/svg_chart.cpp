@@ -22,11 +22,11 @@ constexpr const char* kColors[kChartColors] = {"#0072b2", "#e69f00", "#009e73", 
 /// A logarithmic axis over whole decades.
 class LogAxis {
  public:
-  LogAxis(double least, double most)
-      : low_(std::floor(std::log10(least) + 1e-9)), high_(std::max(low_ + 1, std::ceil(std::log10(most) - 1e-9))) {}
+  LogAxis(double min, double max)
+      : low_(std::floor(std::log10(min) + 1e-9)), high_(std::max(low_ + 1, std::ceil(std::log10(max) - 1e-9))) {}
 
-  /// Where the value is along the axis, in [0, 1].
-  double place(double value) const { return (std::log10(value) - low_) / (high_ - low_); }
+  /// The position of a value along the axis, in [0, 1].
+  double position(double value) const { return (std::log10(value) - low_) / (high_ - low_); }
   /// The decades.
   std::vector<double> ticks() const {
     std::vector<double> values;
@@ -39,20 +39,20 @@ class LogAxis {
 };
 
 struct Range {
-  double least = 1e300, most = 1e-300;
+  double min = 1e300, max = 1e-300;
   void extend(double value) {
     DISMANTLE_EXPECT(value > 0);
-    least = std::min(least, value);
-    most = std::max(most, value);
+    min = std::min(min, value);
+    max = std::max(max, value);
   }
 };
 
-double x_at(double place) {
-  return kLeft + place * kPlotWidth;
+double x_at(double position) {
+  return kLeft + position * kPlotWidth;
 }
 
-double y_at(double place) {
-  return kTop + (1 - place) * kPlotHeight;
+double y_at(double position) {
+  return kTop + (1 - position) * kPlotHeight;
 }
 
 std::string text_at(double x, double y, const std::string& anchor, const std::string& text) {
@@ -64,7 +64,7 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
                      color);
 }
 
-/// What every chart begins with: its ground, title and vertical axis.
+/// The beginning of a chart: background, title and vertical axis.
 std::string head(const std::string& title, const std::string& y_label, const LogAxis& y_axis) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
@@ -72,7 +72,7 @@ std::string head(const std::string& title, const std::string& y_label, const Log
       kWidth, kHeight);
   svg += text_at(kLeft, 22, "start", title);
   for (const double tick : y_axis.ticks()) {
-    const double y = y_at(y_axis.place(tick));
+    const double y = y_at(y_axis.position(tick));
     svg += line(kLeft, y, kLeft + kPlotWidth, y, "#dddddd");
     svg += text_at(kLeft - 6, y + 4, "end", fmt::format("{:g}", tick));
   }
@@ -102,10 +102,10 @@ std::string svg_of(const LineChart& chart) {
     for (const double x : series.x) xs.extend(x);
     for (const double y : series.y) ys.extend(y);
   }
-  const LogAxis x_axis(xs.least, xs.most), y_axis(ys.least, ys.most);
+  const LogAxis x_axis(xs.min, xs.max), y_axis(ys.min, ys.max);
   std::string svg = head(chart.title, chart.y_label, y_axis);
   for (const double tick : x_axis.ticks()) {
-    const double x = x_at(x_axis.place(tick));
+    const double x = x_at(x_axis.position(tick));
     svg += line(x, y_at(0), x, y_at(1), "#dddddd");
     svg += text_at(x, y_at(0) + 18, "middle", fmt::format("{:L}", static_cast<long long>(std::llround(tick))));
   }
@@ -114,7 +114,7 @@ std::string svg_of(const LineChart& chart) {
     const ChartSeries& series = chart.series[s];
     std::string points;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      const double x = x_at(x_axis.place(series.x[i])), y = y_at(y_axis.place(series.y[i]));
+      const double x = x_at(x_axis.position(series.x[i])), y = y_at(y_axis.position(series.y[i]));
       points += fmt::format("{:.1f},{:.1f} ", x, y);
       svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x, y, kColors[s]);
     }
@@ -130,15 +130,15 @@ std::string svg_of(const BarChart& chart) {
   ys.extend(1);
   for (const ChartSeries& series : chart.series)
     for (const double y : series.y) ys.extend(y);
-  const LogAxis y_axis(ys.least, ys.most);
+  const LogAxis y_axis(ys.min, ys.max);
   std::string svg = head(chart.title, chart.y_label, y_axis);
   const double group_width = kPlotWidth / static_cast<double>(chart.groups.size());
   const double bar_width = 0.8 * group_width / static_cast<double>(chart.series.size());
-  const double base = y_at(y_axis.place(1));
+  const double base = y_at(y_axis.position(1));
   for (std::size_t g = 0; g < chart.groups.size(); ++g) {
     const double left = kLeft + group_width * (static_cast<double>(g) + 0.1);
     for (std::size_t s = 0; s < chart.series.size(); ++s) {
-      const double value = y_at(y_axis.place(chart.series[s].y[g]));
+      const double value = y_at(y_axis.position(chart.series[s].y[g]));
       svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
                          left + bar_width * static_cast<double>(s), std::min(base, value), bar_width - 1,
                          std::abs(value - base), kColors[s]);

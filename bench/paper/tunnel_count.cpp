@@ -15,41 +15,43 @@ namespace {
 constexpr double kTolerance = 0.01;  // [mm]
 constexpr int kStepsPerCase = 200;
 
-/// A cube of 2 mm, somewhere before a plate of 0.1 mm, that goes by 3 mm, obliquely and turning a little.
+/// A cube of 2 mm in front of a plate of 0.1 mm moves by 3 mm, obliquely and turning a little.
 TunnelCase thin_wall() {
   TunnelCase made{"thin wall", {}};
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> before(1.2, 6);
+  std::uniform_real_distribution<double> distance(1.2, 6);
   for (int k = 0; k < kStepsPerCase; ++k) {
-    const Pose place = Pose{{0, 0, -before(random)}, {}} * scenes::random_pose(random, 0.1, 0.1);
+    const Pose start = Pose{{0, 0, -distance(random)}, {}} * scenes::random_pose(random, 0.1, 0.1);
     const Pose motion = Pose{{0, 0, 3}, {}} * scenes::random_pose(random, 0.5, 0.2);
     scenes::OneStep step;
     step.fixed = scenes::box({-20, -20, 0}, {20, 20, 0.1});
-    step.moving = scenes::moved(scenes::box({-1, -1, -1}, {1, 1, 1}), place);
-    step.target = place * motion * inverse(place);
+    step.moving = scenes::moved(scenes::box({-1, -1, -1}, {1, 1, 1}), start);
+    step.target = start * motion * inverse(start);
     made.steps.push_back(std::move(step));
   }
   return made;
 }
 
-/// A shaft of radius 10 in a housing with a wall of 10 mm, gone by 60 mm: along the bore, or any other way.
+/// A shaft of radius 10 mm in a housing with a wall of 10 mm moves by 60 mm along the bore or in any other direction.
 TunnelCase fast_motion() {
   TunnelCase made{"fast motion", {}};
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> angle(0, 2 * std::acos(-1.0));
   for (int k = 0; k < kStepsPerCase; ++k) {
-    const double around = angle(random), up = angle(random);
-    const Vec3 sideways{std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)};
+    const double azimuth = angle(random), elevation = angle(random);
+    const Vec3 direction{std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+                         std::sin(elevation)};
     scenes::OneStep step;
     step.fixed = scenes::tube(20, 10, 0, 40, 32, 4);
     step.moving = scenes::tube(9.9, 0, 0, 40, 32, 4);
-    step.target.position = 60.0 * (k % 4 == 0 ? Vec3{0, 0, 1} : sideways);
+    step.target.position = 60.0 * (k % 4 == 0 ? Vec3{0, 0, 1} : direction);
     made.steps.push_back(std::move(step));
   }
   return made;
 }
 
-bool meets(const Assembly& assembly, const PairStates& states, const Pose& target) {
+/// True if the audit finds a violation on the motion of component 1 to the target.
+bool collides(const Assembly& assembly, const PairStates& states, const Pose& target) {
   Path path = empty_path(assembly, states);
   path.moves.push_back({"step", {assembly.components[1].name}, {{0, {}}, {1, target}}});
   return !audit_path(assembly, path).holds();
@@ -84,7 +86,7 @@ std::vector<TunnelCount> count_tunnels(const TunnelCase& tunnel_case, const std:
   const ComponentId moving(1);
   for (const scenes::OneStep& step : tunnel_case.steps) {
     const Assembly assembly = scenes::assembly_of(step);
-    const bool blocked = meets(assembly, states, step.target);
+    const bool blocked = collides(assembly, states, step.target);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const std::unique_ptr<MotionEngine> engine = methods[m].make(assembly, states);
       engine->hold({&moving, 1});

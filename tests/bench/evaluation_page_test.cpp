@@ -12,8 +12,8 @@ Evaluation small_evaluation() {
   Evaluation e;
   e.steps.columns = {"assembly", "triangles", "method", "BVH refit", "intersection test", "overall"};
   e.steps.rows = {{"vice", "77", "front-based", "8", "9", "17"}, {"vice", "77", "streams (elementary)", "1", "2", "3"}};
-  e.least_speed_up = 5.67;
-  e.least_speed_up_of_shafts = 2.5;
+  e.min_speed_up = 5.67;
+  e.min_speed_up_of_shafts = 2.5;
   e.speed_up_chart = {"bars", "y", {"vice 77"}, {{"streams", {}, {5.67}}}};
   e.core_chart = {"cores", "x", "y", {{"streams", {1, 2}, {3, 2}}}};
   e.size_chart = {"sizes", "x", "y", {{"streams", {10, 100}, {3, 2}}}};

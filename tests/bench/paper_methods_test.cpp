@@ -17,7 +17,7 @@ TEST(PaperMethods, StopAtTheSamePosesWithElementaryTests) {
   ASSERT_TRUE(scene.ok());
   const MethodRun expected = run_method(PaperMethod::StreamsElementary, scene->simplified, 1, 1);
   EXPECT_GT(expected.poses.size(), 1000u);
-  EXPECT_EQ(expected.costs.size(), expected.poses.size());
+  EXPECT_EQ(expected.times.size(), expected.poses.size());
   EXPECT_GT(expected.reached, 500u);
   EXPECT_LT(expected.reached, expected.poses.size());
   for (const PaperMethod method : kElementary) {
@@ -27,15 +27,15 @@ TEST(PaperMethods, StopAtTheSamePosesWithElementaryTests) {
   }
 }
 
-TEST(PaperMethods, KeepTheLeastTimeOfEachStepWhenTheyRepeat) {
+TEST(PaperMethods, KeepTheShortestTimeOfEachStepWhenTheyRepeat) {
   const Result<std::vector<BenchScene>> made = make_bench_scenes("shaft_100um", {1000, 20}, "");
   ASSERT_TRUE(made.ok());
   for (const PaperMethod method :
        {PaperMethod::StreamsCertified, PaperMethod::Certificates, PaperMethod::ObbDiscrete}) {
     const MethodRun run = run_method(method, made->front(), 1, 3);
-    EXPECT_EQ(run.costs.size(), 20u);
+    EXPECT_EQ(run.times.size(), 20u);
     EXPECT_EQ(run.reached, 20u);
-    EXPECT_GT(mean_cost(run).overall, 0);
+    EXPECT_GT(mean_times(run).overall, 0);
     EXPECT_LE(overall_quantile(run, 0), overall_quantile(run, 0.5));
     EXPECT_LE(overall_quantile(run, 0.5), overall_quantile(run, 1));
   }
