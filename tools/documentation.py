@@ -24,6 +24,19 @@ def private_headers():
             yield from ((ROOT / name).parent / header for header in headers.split())
 
 
+def components():
+    """The components of the library: folder below src/dismantle -> (name, names of the components that it depends on)."""
+    found = {}
+    for name in repository_files(LIBRARY + "**/CMakeLists.txt"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        call = re.search(r"dismantle_component\((\w+)([^()]*)\)", text)
+        if call:
+            depends = re.search(r"\bDEPENDS((?:\s+[a-z][a-z_]*)*)", call.group(2))
+            folder = str(pathlib.PurePosixPath(name).parent).removeprefix(LIBRARY)
+            found[folder] = (call.group(1), depends.group(1).split() if depends else [])
+    return found
+
+
 def run_doxygen(settings):
     """Runs Doxygen with docs/Doxyfile and further settings, a dict; gives its messages, with paths from the repository's root."""
     text = (ROOT / "docs" / "Doxyfile").read_text(encoding="utf-8")
