@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single steps at, past and through thin walls whose exact time of contact is known: the verdicts of our continuous
-// test and of FCL's two, from the identity and from start poses, near the origin and far from it.
+// Single steps at, past and through thin walls whose exact time of contact is known: the verdicts of method
+// `certificates` and of FCL's two continuous tests, from the identity and from start poses, near the origin and far
+// from it.
 //   bench_tunnelling
 // Two tables, tab-separated: one row a step, distance from the origin and kind of start pose; then, after an empty
 // line, one row a method with the number of its verdicts of each kind.
@@ -21,7 +22,7 @@
 namespace dismantle {
 namespace {
 
-constexpr double kTolerance = 1e-4;  // of our test: a tenth of the thinnest wall [mm]
+constexpr double kTolerance = 1e-4;  // of method `certificates`: a tenth of the thinnest wall [mm]
 constexpr double kRight = 0.01;      // how far from the exact contact a right verdict may stop [mm]
 
 /// Result of a continuous test: free, or the time of the stop.
@@ -35,7 +36,7 @@ struct Method {
   std::function<StepTest(const scenes::OneStep&)> test;
 };
 
-StepTest ours(const scenes::OneStep& step) {
+StepTest certificates_test(const scenes::OneStep& step) {
   const Assembly assembly = scenes::assembly_of(step);
   CertificateEngine engine(assembly, PairStates{kTolerance, {}});
   const Pose poses[] = {Pose{}, step.start};
@@ -47,7 +48,7 @@ StepTest ours(const scenes::OneStep& step) {
 }
 
 std::vector<Method> methods() {
-  std::vector<Method> all{{"ours", ours}};
+  std::vector<Method> all{{"certificates", certificates_test}};
 #ifdef DISMANTLE_WITH_FCL
   const auto fcl = [](FclSolver solver) {
     return [solver](const scenes::OneStep& step) {
