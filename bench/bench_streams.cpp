@@ -69,7 +69,7 @@ void run(const Settings& settings, std::size_t triangles) {
   const CollisionOptions options{settings.test, executor, 1 << 16};
   ChosenStreamsBackend chosen = choose_streams_backend(assembly, options, settings.device);
   if (!chosen.why.empty()) std::fprintf(stderr, "bench_streams: on the CPU (%s)\n", chosen.why.c_str());
-  const std::unique_ptr<CollisionEngine> engine =
+  const std::unique_ptr<SweepEngine> engine =
       make_streams_engine(assembly, states_for(settings), options, std::move(chosen.backend));
   const double build_ms = building.ms();
 

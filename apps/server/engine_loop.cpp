@@ -5,7 +5,7 @@ namespace dismantle::server {
 
 namespace {
 
-constexpr std::size_t kMostTasks = 1000;
+constexpr std::size_t kMaxTasks = 1000;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Result<std::uint32_t> EngineLoop::search(Jobs& jobs, const Search& wanted) {
 bool EngineLoop::post(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    if (tasks_.size() >= kMostTasks) return false;
+    if (tasks_.size() >= kMaxTasks) return false;
     tasks_.push_back(std::move(task));
   }
   wake_.notify_one();

@@ -8,7 +8,7 @@ namespace dismantle::server {
 namespace {
 
 constexpr std::size_t kAnswersKept = 256;
-constexpr int kMostFaults = 100;
+constexpr int kMaxFaults = 100;
 constexpr std::chrono::seconds kControlKept{10};
 /// Clients that were gone for longer are forgotten.
 constexpr std::chrono::minutes kClientKept{10};
@@ -108,7 +108,7 @@ Result<Json> Hub::take_control(const std::string& key) {
 void Hub::fault(Client& client, const std::string& why) {
   if (client.socket == nullptr) return;
   client.socket->send_text(shared(text_of(Json{{"event", "error"}, {"error", why}})));
-  if (++client.faults >= kMostFaults) client.socket->close(CloseReason::Malformed);
+  if (++client.faults >= kMaxFaults) client.socket->close(CloseReason::Malformed);
 }
 
 void Hub::take_binary(const std::string& key, std::string_view bytes) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLargestJournal = std::size_t{2} << 30;
 /// Viewers of one assembly that run at the same time.
-constexpr int kMostViewers = 8;
+constexpr int kMaxViewers = 8;
 constexpr std::size_t kHashDigits = 24;
 
 std::string stem_of(const JournalHeader& header) {
@@ -45,7 +45,7 @@ Result<bool> JournalStore::attach(Session& session) {
   const JournalHeader header = session.journal_header();
   Result<std::unique_ptr<Journal>> journal = Error{};
   std::optional<JournalContents> contents;
-  for (int viewer = 1; viewer <= kMostViewers && !journal; ++viewer) {
+  for (int viewer = 1; viewer <= kMaxViewers && !journal; ++viewer) {
     file_ = *folder_ / file_name(header, viewer);
     contents = read_journal(file_, header);
     const bool goes_on = contents && !contents->is_closed;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostRecent = 20;
+constexpr std::size_t kMaxRecent = 20;
 constexpr std::size_t kLargestList = 1 << 20;
 
 }  // namespace
@@ -38,7 +38,7 @@ void RecentFiles::add(const fs::path& opened) const {
   std::vector<fs::path> files = list();
   std::erase(files, real);
   files.insert(files.begin(), real);
-  files.resize(std::min(files.size(), kMostRecent));
+  files.resize(std::min(files.size(), kMaxRecent));
   nlohmann::json json = nlohmann::json::array();
   for (const fs::path& file : files) json.push_back(file.string());
   fs::create_directories(file_.parent_path(), error);

@@ -32,7 +32,7 @@ namespace {
 constexpr std::chrono::seconds kTick{1};
 constexpr int kPortTries = 20;
 /// More at a time are closed at once; a page has a few.
-constexpr long kMostConnections = 256;
+constexpr long kMaxConnections = 256;
 constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30, kLargestGuide = std::uint64_t{256} << 20;
 /// How long the sockets' goodbyes may take when the server stops.
 constexpr std::chrono::milliseconds kGoodbyeTime{500};
@@ -167,7 +167,7 @@ class Server::Body final : public Site, private EngineListener {
   void accept(Tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](ErrorCode error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
-      if (!error && connections_.use_count() <= kMostConnections)
+      if (!error && connections_.use_count() <= kMaxConnections)
         serve_connection(std::move(socket), *this, connections_);
       accept(acceptor);
     });

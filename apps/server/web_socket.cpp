@@ -20,7 +20,7 @@ namespace websocket = beast::websocket;
 using ErrorCode = boost::system::error_code;
 
 constexpr std::size_t kLargestMessage = std::size_t{1} << 20;
-constexpr std::size_t kMostUnread = std::size_t{16} << 20;  // queued for a client that does not read [bytes]
+constexpr std::size_t kMaxUnread = std::size_t{16} << 20;  // queued for a client that does not read [bytes]
 constexpr std::chrono::seconds kHandshakeTime{10};
 
 /// A connected socket. It lives as long as something is read or written; the hub knows it from its handshake to its
@@ -52,7 +52,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   void send_text(SharedText text) override {
     if (is_closing_) return;
     unread_ += text->size();
-    if (unread_ > kMostUnread) return drop();
+    if (unread_ > kMaxUnread) return drop();
     texts_.push_back(std::move(text));
     write();
   }

@@ -91,7 +91,7 @@ std::string encode(const RateMessage& m) {
 }
 
 std::string encode(const PoseMessage& m) {
-  DISMANTLE_EXPECT(m.contacts.size() <= kMostContacts);
+  DISMANTLE_EXPECT(m.contacts.size() <= kMaxContacts);
   Writer out;
   out << kPose << m.flags << static_cast<std::uint16_t>(m.contacts.size()) << m.state << m.grip << m.answered << m.time
       << m.pose << m.clearance << m.step_us << m.steps_per_second;

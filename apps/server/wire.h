@@ -54,18 +54,18 @@ struct PoseMessage {
   double clearance = 0;  ///< [mm]
   float step_us = 0;
   float steps_per_second = 0;
-  std::vector<ContactMessage> contacts;  ///< At most kMostContacts.
+  std::vector<ContactMessage> contacts;  ///< At most kMaxContacts.
   friend bool operator==(const PoseMessage&, const PoseMessage&) = default;
 };
 
 inline constexpr std::size_t kTargetBytes = 72, kRateBytes = 64, kPoseBytes = 96, kContactBytes = 48;
-inline constexpr std::size_t kMostContacts = 64;
+inline constexpr std::size_t kMaxContacts = 64;
 /// Numbers of a client beyond this are refused: positions [mm], velocities [mm/s].
 inline constexpr double kLargestWireNumber = 1e7;
 
 std::string encode(const TargetMessage& message);
 std::string encode(const RateMessage& message);
-/// @pre at most kMostContacts contacts
+/// @pre at most kMaxContacts contacts
 std::string encode(const PoseMessage& message);
 
 /// A client's struct. None where the bytes are no such struct, a number is not finite or larger than

@@ -252,7 +252,7 @@ std::vector<ContactMessage> Workbench::contact_messages(const StepResult& step) 
     points = session().engine().contacts(kContactReach * session().pairs().tolerance);
   std::stable_sort(points.begin(), points.end(),
                    [](const ContactPoint& a, const ContactPoint& b) { return a.gap < b.gap; });
-  points.resize(std::min(points.size(), kMostContacts));
+  points.resize(std::min(points.size(), kMaxContacts));
   std::vector<ContactMessage> messages;
   messages.reserve(points.size());
   for (const ContactPoint& p : points) messages.push_back(contact_message(p));

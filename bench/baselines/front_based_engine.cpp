@@ -29,13 +29,13 @@ void append(std::vector<T>& to, const std::vector<T>& values) {
   to.insert(to.end(), values.begin(), values.end());
 }
 
-class FrontBasedEngine final : public CollisionEngine {
+class FrontBasedEngine final : public SweepEngine {
  public:
   FrontBasedEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options,
                    FrontBasedWork work)
       : options_(options),
         work_(work),
-        fixed_(make_triangle_streams(assembly, options.executor)),
+        fixed_(make_assembly_triangles(assembly, options.executor)),
         start_vertices_(fixed_.vertices),
         end_vertices_(fixed_.vertices),
         start_(fixed_.component_count()),
@@ -70,7 +70,7 @@ class FrontBasedEngine final : public CollisionEngine {
 
   CollisionOptions options_;
   FrontBasedWork work_;
-  TriangleStreams fixed_;
+  AssemblyTriangles fixed_;
   std::vector<Vec3> start_vertices_, end_vertices_;
   std::vector<RigidTransform> start_, end_;
   std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds are of
@@ -219,8 +219,8 @@ void FrontBasedEngine::jump(Span<const RigidTransform> state) {
 
 }  // namespace
 
-std::unique_ptr<CollisionEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
-                                                         const CollisionOptions& options, FrontBasedWork work) {
+std::unique_ptr<SweepEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
+                                                     const CollisionOptions& options, FrontBasedWork work) {
   return std::make_unique<FrontBasedEngine>(assembly, pairs, options, work);
 }
 

@@ -27,8 +27,8 @@ enum class FrontBasedWork {
 ///
 /// Guarantee: free or not, and the remaining embedded pairs, are those of `streams` with the same options; where every
 /// pair is ordinary and the test is elementary, so are contacts and times, bit for bit.
-std::unique_ptr<CollisionEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
-                                                         const CollisionOptions& options,
-                                                         FrontBasedWork work = FrontBasedWork::AllComponents);
+std::unique_ptr<SweepEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
+                                                     const CollisionOptions& options,
+                                                     FrontBasedWork work = FrontBasedWork::AllComponents);
 
 }  // namespace dismantle

@@ -161,7 +161,7 @@ TEST(IntervalTree, HalvesTimeInOrderWithoutGaps) {
     }
     const Interval& time = tree[i];
     EXPECT_EQ(time.first + time.s, reached);
-    EXPECT_EQ(time.duration, std::ldexp(1.0, -IntervalTree::kMostHalvings));
+    EXPECT_EQ(time.duration, std::ldexp(1.0, -IntervalTree::kMaxHalvings));
     const RigidTransform expected = scene.pair.motions[time.first].at(time.s + time.duration);
     EXPECT_LT(length(time.motion.at(1) * Vec3{1, 2, 3} - expected * Vec3{1, 2, 3}), 1e-12);
     reached = time.first + time.s + time.duration;

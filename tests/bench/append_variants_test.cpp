@@ -23,7 +23,7 @@ TEST(AppendVariants, PutTheSameIntoEveryStreamOnEveryExecutorFromCapacityOne) {
   const Assembly assembly = scenes::assembly({scenes::component("tube", scenes::tube(10, 5, 0, 20, 48, 8)),
                                               scenes::component("peg", scenes::tube(5, 0, 0, 20, 48, 8)),
                                               scenes::component("still", scenes::tube(12, 9, 0, 20, 24, 2))});
-  const TriangleStreams streams = make_triangle_streams(assembly, Executor());
+  const AssemblyTriangles streams = make_assembly_triangles(assembly, Executor());
   const std::vector<Kdop16> bounds = bounds_at(streams, streams.vertices, 0.01, Executor());
   const std::vector<std::uint32_t> motion_class{0, 1, 0};
   const NodeIndex root = streams.bvh.root();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTolerance = 0.01;
 
-std::vector<RigidTransform> shaken(std::mt19937_64& random, const CollisionEngine& engine) {
+std::vector<RigidTransform> shaken(std::mt19937_64& random, const SweepEngine& engine) {
   std::vector<RigidTransform> next(engine.state().begin(), engine.state().end());
   for (RigidTransform& t : next)
     if (random() % 5 == 0) t = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * t;
@@ -28,7 +28,7 @@ TEST(FrontBasedEngine, FindsTheContactsOfStreamsBitForBitWhereEveryPairIsOrdinar
     const Assembly assembly = scenes::random_assembly(random, 10, 4.5);
     const PairStates states{kTolerance, {}};
     const auto streams = make_streams_engine(assembly, states, {ElementaryTest::Elementary, {}, 1});
-    std::vector<std::unique_ptr<CollisionEngine>> engines;
+    std::vector<std::unique_ptr<SweepEngine>> engines;
     for (const FrontBasedWork work : {FrontBasedWork::AllComponents, FrontBasedWork::MovingComponents})
       for (const Executor& executor : all_executors())
         engines.push_back(make_front_based_engine(assembly, states, {ElementaryTest::Elementary, executor, 1}, work));

@@ -20,7 +20,7 @@ std::vector<std::uint64_t> sorted(Span<const std::uint64_t> keys) {
   return values;
 }
 
-std::vector<std::uint64_t> overlapping_leaves(const TriangleStreams& streams, Span<const Kdop16> bounds) {
+std::vector<std::uint64_t> overlapping_leaves(const AssemblyTriangles& streams, Span<const Kdop16> bounds) {
   std::vector<std::uint64_t> keys;
   const Bvh& bvh = streams.bvh;
   for (NodeIndex a = 0; a < bvh.leaf_count(); ++a)
@@ -33,7 +33,7 @@ TEST(FrontParts, HoldsAllPairsOfLeavesThatOverlapAtEveryStepForAnyNumberOfParts)
   std::mt19937_64 random(3);
   const Assembly assembly = scenes::random_assembly(random, 9, 4);
   const Executor serial;
-  const TriangleStreams streams = make_triangle_streams(assembly, serial);
+  const AssemblyTriangles streams = make_assembly_triangles(assembly, serial);
   std::vector<std::pair<Executor, FrontParts>> fronts;
   for (const Executor& executor : all_executors()) fronts.emplace_back(executor, FrontParts(executor.thread_count()));
   std::vector<Vec3> vertices = streams.vertices;
@@ -57,7 +57,7 @@ TEST(FrontParts, HoldsAllPairsOfLeavesThatOverlapAtEveryStepForAnyNumberOfParts)
 }
 
 TEST(FrontParts, TakesAnAssemblyOfNothing) {
-  const TriangleStreams streams = make_triangle_streams(scenes::assembly({}), Executor());
+  const AssemblyTriangles streams = make_assembly_triangles(scenes::assembly({}), Executor());
   FrontParts front(2);
   front.update({BvhView(streams.bvh), {}, {}}, Executor());
   EXPECT_TRUE(front.triangle_pairs().empty());

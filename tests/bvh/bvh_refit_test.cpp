@@ -21,14 +21,14 @@ bool holds(const Kdop16& k, Vec3 p) {
 }
 
 struct Step {
-  TriangleStreams streams;
+  AssemblyTriangles streams;
   std::vector<Vec3> end;
   BvhRefitInput input(double margin = 0) const { return {streams.vertices, end, streams.faces, margin}; }
 };
 
 Step random_step(unsigned seed) {
   std::mt19937_64 random(seed);
-  Step step{make_triangle_streams(scenes::random_assembly(random, 9, 6), {}), {}};
+  Step step{make_assembly_triangles(scenes::random_assembly(random, 9, 6), {}), {}};
   step.end = step.streams.vertices;
   for (std::uint32_t c = 0; c < step.streams.component_count(); ++c) {
     const RigidTransform t = transform_from_pose(scenes::random_pose(random, 2, 1));
@@ -74,10 +74,10 @@ TEST(BvhRefit, OfSomeComponentsGivesWhatFittingAllGives) {
 }
 
 TEST(BvhRefit, IsTheSameOnEveryExecutorAndAcrossBlocks) {
-  const TriangleStreams streams =
-      make_triangle_streams(scenes::assembly({scenes::component("a", scenes::tube(10, 5, 0, 20, 100, 50)),
-                                              scenes::component("b", scenes::tube(4, 3, 0, 20, 64, 20))}),
-                            {});
+  const AssemblyTriangles streams =
+      make_assembly_triangles(scenes::assembly({scenes::component("a", scenes::tube(10, 5, 0, 20, 100, 50)),
+                                                scenes::component("b", scenes::tube(4, 3, 0, 20, 64, 20))}),
+                              {});
   EXPECT_GT(streams.refit_plan.blocks.size(), 10u);
   EXPECT_GT(streams.refit_plan.rest.size(), 10u);
   const std::vector<Kdop16> expected = bounds_at(streams, streams.vertices, 0.5, {});
@@ -90,7 +90,7 @@ TEST(BvhRefit, TakesOneTriangle) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.faces = {{{0, 1, 2}}};
-  const TriangleStreams streams = make_triangle_streams(scenes::assembly({scenes::component("t", mesh)}), {});
+  const AssemblyTriangles streams = make_assembly_triangles(scenes::assembly({scenes::component("t", mesh)}), {});
   EXPECT_EQ(bvh_validate(streams.bvh, bounds_at(streams, streams.vertices, 0, {})), "");
 }
 

@@ -14,13 +14,13 @@ namespace {
 using LeafPairs = std::vector<std::pair<NodeIndex, NodeIndex>>;
 
 struct Scene {
-  TriangleStreams streams;
+  AssemblyTriangles streams;
   std::vector<Kdop16> bounds;
 };
 
 Scene random_scene(unsigned seed, double margin) {
   std::mt19937_64 random(seed);
-  Scene scene{make_triangle_streams(scenes::random_assembly(random, 10, 3), {}), {}};
+  Scene scene{make_assembly_triangles(scenes::random_assembly(random, 10, 3), {}), {}};
   scene.bounds = bounds_at(scene.streams, scene.streams.vertices, margin, {});
   return scene;
 }
@@ -86,8 +86,8 @@ TEST(BvhTraverse, FindsTheComponentsWhoseBoundsOverlap) {
 }
 
 TEST(BvhTraverse, OfOneComponentOrNoneFindsNothing) {
-  const TriangleStreams one =
-      make_triangle_streams(scenes::assembly({scenes::component("a", scenes::box({0, 0, 0}, {1, 1, 1}))}), {});
+  const AssemblyTriangles one =
+      make_assembly_triangles(scenes::assembly({scenes::component("a", scenes::box({0, 0, 0}, {1, 1, 1}))}), {});
   const std::vector<Kdop16> bounds = bounds_at(one, one.vertices, 0, {});
   bvh_traverse(BvhView(one.bvh), bounds, {one.bvh.root(), one.bvh.root()}, [](NodeIndex, NodeIndex) { FAIL(); });
   bvh_traverse_components(one.bvh, bounds, [](ComponentId, ComponentId) { FAIL(); });

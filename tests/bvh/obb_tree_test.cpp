@@ -127,7 +127,7 @@ TEST(ObbTree, ConesTellWhichDirectionsEveryNormalFaces) {
     for (std::uint32_t up = leaf; up != ObbNode::kNone; up = tree.nodes[up].parent) {
       if (dot(unit, tree.cones[up].axis) < tree.cones[up].ahead) continue;
       ++faced;
-      EXPECT_GE(dot(normal, w), NormalCone::kLeastAhead - 1e-5);
+      EXPECT_GE(dot(normal, w), NormalCone::kMinAhead - 1e-5);
     }
   }
   EXPECT_GT(faced, 100u);

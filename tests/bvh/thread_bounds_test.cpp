@@ -100,7 +100,7 @@ TEST(ThreadFrame, KeepsOneOfDirectionsThatAreNearlyTheSame) {
   frame.add_direction({1e-3, 1});
   EXPECT_EQ(frame.direction_count, 1);
   for (int i = 0; i < 20; ++i) frame.add_direction({std::cos(0.3 * i), std::sin(0.3 * i)});
-  EXPECT_EQ(frame.direction_count, ThreadFrame::kMostDirections);
+  EXPECT_EQ(frame.direction_count, ThreadFrame::kMaxDirections);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ struct RandomState {
   FirstContact swept(const Pose& target, int pieces) const {
     std::vector<RigidTransform> state;
     for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
-    const std::unique_ptr<CollisionEngine> engine = make_streams_engine(assembly, states, {});
+    const std::unique_ptr<SweepEngine> engine = make_streams_engine(assembly, states, {});
     FirstContact result;
     for (int k = 0; k < pieces && result.free; ++k) {
       std::vector<RigidTransform> from = state, to = state;

@@ -35,9 +35,9 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
   motion.allowed = kAllowed;
   const PreparedSweep sweep = front.begin_sweep(motion);
   FacePairs found;
-  const LeafTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f, std::uint32_t) {
+  const TrianglePairTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f, std::uint32_t) {
     found.insert({face_a, face_b});
-    LeafVerdict verdict;
+    TrianglePairVerdict verdict;
     verdict.free = false;
     verdict.certificate.offset = kNoCertificate;
     return verdict;
@@ -117,19 +117,19 @@ INSTANTIATE_TEST_SUITE_P(All, CertificateFrontSides,
                          testing::Values(SideRule::Normals, SideRule::Memory, SideRule::Free));
 
 /// A body with all that is round of it in parts of their own.
-struct RoundBody : Body {
-  explicit RoundBody(TriangleMesh of) : Body{std::move(of), {}} {
-    const std::vector<RoundAxis> axes = round_axes(mesh.vertices, mesh.faces);
+struct RevolutionBody : Body {
+  explicit RevolutionBody(TriangleMesh of) : Body{std::move(of), {}} {
+    const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
     std::vector<std::uint8_t> parts;
     add_cylinder_parts(mesh.vertices, mesh.faces, axes, parts);
     tree = obb_tree_build(mesh.vertices, mesh.faces, Executor(), parts);
-    round = std::make_unique<RoundShape>(mesh.vertices, mesh.faces, tree.nodes, axes, std::vector<ThreadAxis>{});
+    round = std::make_unique<RevolutionSurface>(mesh.vertices, mesh.faces, tree.nodes, axes, std::vector<ThreadAxis>{});
   }
-  std::unique_ptr<RoundShape> round;
+  std::unique_ptr<RevolutionSurface> round;
 };
 
 TEST(CertificateFront, LeavesWhatGetsTooDeepInABoreToTheLeafTestAndIsAFewPairsWhereNothingDoes) {
-  const RoundBody shaft(scenes::tube(2, 1, 0, 4, 48, 1)), bush(scenes::tube(4, 2.002, 1, 6, 48, 1));
+  const RevolutionBody shaft(scenes::tube(2, 1, 0, 4, 48, 1)), bush(scenes::tube(4, 2.002, 1, 6, 48, 1));
   CertificateFront front(shaft.tree, bush.tree, SideRule::Normals, shaft.round.get(), bush.round.get());
   std::mt19937_64 random(20261122);
   Pose pose;
@@ -184,8 +184,8 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
   motion.allowed = kAllowed;
-  const LeafTest blocks = [](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
-    LeafVerdict verdict;
+  const TrianglePairTest blocks = [](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
+    TrianglePairVerdict verdict;
     verdict.free = false;
     verdict.certificate.offset = kNoCertificate;
     return verdict;
@@ -256,7 +256,7 @@ TEST(CertificateFront, LooksWithoutChanging) {
     front.look(front.begin_look(motion), front_kernels(widest_lanes()),
                [&](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
                  ++*count;
-                 return LeafVerdict{};
+                 return TrianglePairVerdict{};
                });
   EXPECT_EQ(first, second);
   EXPECT_EQ(front.size(), 1u);

@@ -26,7 +26,7 @@ TEST(ChooseCertificateDevice, TakesCudaForEverySweepOrSaysWhyNot) {
       choose_certificate_device(assembly_of(scenes::box({0, 0, 0}, {1, 1, 1})), DeviceChoice::Cuda);
   const Result<std::string> cuda = cuda_device_name();
   EXPECT_EQ(chosen.use.fronts != nullptr, cuda.ok());
-  EXPECT_EQ(chosen.use.least_pairs, 0u);
+  EXPECT_EQ(chosen.use.min_pairs, 0u);
   EXPECT_EQ(chosen.device, cuda ? *cuda : "cpu");
   EXPECT_EQ(chosen.why.empty(), cuda.ok());
 }
@@ -40,7 +40,7 @@ TEST(ChooseCertificateDevice, TakesCudaByItselfOnlyForManyTrianglesAndThenForLar
       choose_certificate_device(assembly_of(scenes::tube(10, 5, 0, 20, 300, 100)), DeviceChoice::Auto);
   const Result<std::string> cuda = cuda_device_name();
   EXPECT_EQ(many.use.fronts != nullptr, cuda.ok());
-  EXPECT_EQ(many.use.least_pairs, cuda ? kCudaWorthPairs : 0);
+  EXPECT_EQ(many.use.min_pairs, cuda ? kCudaWorthPairs : 0);
   EXPECT_EQ(many.device, cuda ? *cuda : "cpu");
   EXPECT_EQ(many.why, "");
 }

@@ -19,7 +19,7 @@ using namespace scenes;
 
 struct Device {
   const char* name;
-  std::optional<Executor> played_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
 
@@ -38,7 +38,7 @@ struct Asked {
 };
 
 /// What the host finds of the same faces, bit for bit.
-void expect_same_leaf(const LeafResult& found, const LeafResult& expected) {
+void expect_same_leaf(const TrianglePairResult& found, const TrianglePairResult& expected) {
   EXPECT_EQ(found.free, expected.free);
   EXPECT_EQ(found.gap, expected.gap);
   EXPECT_EQ(found.harmless, expected.harmless);
@@ -52,34 +52,35 @@ void expect_same_leaf(const LeafResult& found, const LeafResult& expected) {
 class CountedDevice final : public FrontDevice {
  public:
   CountedDevice(std::unique_ptr<FrontDevice> device, Asked& asked) : device_(std::move(device)), asked_(asked) {}
-  FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) override {
-    const FrontAnswers answers = device_->ask(fronts, to_the_end);
+  FrontResults ask(Span<const FrontQuery<TrianglePairSweep>> fronts, bool to_the_end) override {
+    const FrontResults answers = device_->ask(fronts, to_the_end);
     ++asked_.sweeps;
     std::size_t part = 0;
-    for (const AskedFront<LeafSweep>& asked : fronts)
+    for (const FrontQuery<TrianglePairSweep>& asked : fronts)
       for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
     return answers;
   }
-  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
-                                      Span<const AskedParents> pairs) override {
+  Span<const NodeSeparation> separate(Span<const FrontQuery<TrianglePairSweep>> fronts,
+                                      Span<const MergeCandidate> pairs) override {
     asked_.parents += pairs.size();
     return device_->separate(fronts, pairs);
   }
 
  private:
-  void count(const PartAnswers& part, Span<const LeafResult> leaves, const AskedFront<LeafSweep>& asked) {
+  void count(const PartResults& part, Span<const TrianglePairResult> leaves,
+             const FrontQuery<TrianglePairSweep>& asked) {
     std::vector<std::uint32_t> left = part.roots;
     asked_.failing += left.size();
-    for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairAnswer::None ? 1 : 0;
+    for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairResult::None ? 1 : 0;
     while (!left.empty()) {
-      const PairAnswer& answer = part.answers[left.back()];
+      const PairResult& answer = part.answers[left.back()];
       left.pop_back();
-      if (answer.first_child != PairAnswer::kNone)
+      if (answer.first_child != PairResult::kNone)
         left.insert(left.end(), {answer.first_child, answer.first_child + 1});
-      if (answer.leaf == PairAnswer::kNone) continue;
+      if (answer.leaf == PairResult::kNone) continue;
       ++asked_.tests;
       if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is not told
-      const LeafResult& found = leaves[answer.leaf];
+      const TrianglePairResult& found = leaves[answer.leaf];
       const Vec3 hint = to_double(answer.separation.certificate.axis);
       expect_same_leaf(found, asked.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
     }
@@ -89,26 +90,26 @@ class CountedDevice final : public FrontDevice {
   Asked& asked_;
 };
 
-class ResidentCertificates : public testing::TestWithParam<Device> {
+class DeviceCertificates : public testing::TestWithParam<Device> {
  protected:
   void SetUp() override {
-    if (GetParam().played_by) return;
+    if (GetParam().emulated_by) return;
     const auto cuda = make_cuda_front_device();
     if (!cuda) GTEST_SKIP() << "nothing runs on CUDA: " << cuda.error().message;
   }
 
   std::unique_ptr<FrontDevice> device(Asked& asked) const {
-    auto device = GetParam().played_by ? make_played_front_device(*GetParam().played_by, 1)
-                                       : std::move(make_cuda_front_device(1).value());
+    auto device = GetParam().emulated_by ? make_emulated_front_device(*GetParam().emulated_by, 1)
+                                         : std::move(make_cuda_front_device(1).value());
     return std::make_unique<CountedDevice>(std::move(device), asked);
   }
 
   /// Plays a motion on the CPU and with the device: every step must be the same.
-  Asked expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t least_pairs = 0) {
+  Asked expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t min_pairs = 0) {
     const PairStates states = states_of(assembly, tolerance);
     Asked asked;
     CertificateEngine plain(assembly, states);
-    CertificateEngine engine(assembly, states, {}, {device(asked), least_pairs});
+    CertificateEngine engine(assembly, states, {}, {device(asked), min_pairs});
     const PlayedMotion expected = play_motion(assembly, states, motion, plain).value();
     const PlayedMotion played = play_motion(assembly, states, motion, engine).value();
     EXPECT_EQ(played.steps.size(), expected.steps.size());
@@ -140,9 +141,9 @@ std::string name_of_device(const testing::TestParamInfo<Device>& device) {
   return device.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(On, ResidentCertificates, testing::ValuesIn(kDevices), name_of_device);
+INSTANTIATE_TEST_SUITE_P(On, DeviceCertificates, testing::ValuesIn(kDevices), name_of_device);
 
-TEST_P(ResidentCertificates, PullPegsOutAsTheCpuDoes) {
+TEST_P(DeviceCertificates, PullPegsOutAsTheCpuDoes) {
   for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
     const SlideScene peg = peg_in_hole(48, 0.01);
     const Asked asked = expect_same(peg.assembly, 0.005, motion_of(peg, pull(Hand(peg, {}), 30), response));
@@ -156,7 +157,7 @@ TEST_P(ResidentCertificates, PullPegsOutAsTheCpuDoes) {
   }
 }
 
-TEST_P(ResidentCertificates, DrawKeysAndCornersAsTheCpuDoes) {
+TEST_P(DeviceCertificates, DrawKeysAndCornersAsTheCpuDoes) {
   for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)}) {
     const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
     EXPECT_GT(asked.failing, 50u);
@@ -164,7 +165,7 @@ TEST_P(ResidentCertificates, DrawKeysAndCornersAsTheCpuDoes) {
   }
 }
 
-TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
+TEST_P(DeviceCertificates, RollGearsApartAsTheCpuDoes) {
   const GearPair pair = gear_pair(0.05);
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
@@ -174,7 +175,7 @@ TEST_P(ResidentCertificates, RollGearsApartAsTheCpuDoes) {
   EXPECT_GT(asked.parents, 100u);
 }
 
-TEST_P(ResidentCertificates, ScrewBoltsOutAsTheCpuDoes) {
+TEST_P(DeviceCertificates, ScrewBoltsOutAsTheCpuDoes) {
   const SlideScene bolt = bolt_in_nut(12'000, 0.02);
   Hand hand(bolt, {0.5, 0.05, 0.01, 4});
   std::vector<Pose> targets;
@@ -182,7 +183,7 @@ TEST_P(ResidentCertificates, ScrewBoltsOutAsTheCpuDoes) {
   EXPECT_GT(expect_same(bolt.assembly, 0.01, motion_of(bolt, targets)).answered, 1000u);
 }
 
-TEST_P(ResidentCertificates, AskTheDeviceForLargeFrontsOnly) {
+TEST_P(DeviceCertificates, AskTheDeviceForLargeFrontsOnly) {
   const GearPair pair = gear_pair(0.05);
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
@@ -195,7 +196,7 @@ TEST_P(ResidentCertificates, AskTheDeviceForLargeFrontsOnly) {
   EXPECT_EQ(expect_same(scene.assembly, 0.01, motion, 1'000'000'000).sweeps, 0u);
 }
 
-TEST_P(ResidentCertificates, PlayTheMicroscopesMotionAsTheCpuDoes) {
+TEST_P(DeviceCertificates, PlayTheMicroscopesMotionAsTheCpuDoes) {
   const std::string sample = DISMANTLE_SOURCE_DIR "/samples/microscope";
   const Assembly assembly = load_assembly(sample + ".step").value();
   Motion motion = read_motion(sample + ".motion.json").value();

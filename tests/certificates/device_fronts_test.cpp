@@ -20,7 +20,7 @@ constexpr double kAllowed = 0.01;
 
 struct Device {
   const char* name;
-  std::optional<Executor> played_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
   std::size_t capacity;
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
@@ -36,11 +36,11 @@ ObbTree tree_of(const TriangleMesh& mesh) {
   return obb_tree_build(mesh.vertices, mesh.faces, Executor());
 }
 
-class ResidentFronts : public testing::TestWithParam<Device> {
+class DeviceFronts : public testing::TestWithParam<Device> {
  protected:
   void SetUp() override {
-    if (GetParam().played_by) {
-      device_ = make_played_front_device(*GetParam().played_by, GetParam().capacity);
+    if (GetParam().emulated_by) {
+      device_ = make_emulated_front_device(*GetParam().emulated_by, GetParam().capacity);
       return;
     }
     auto cuda = make_cuda_front_device(GetParam().capacity);
@@ -55,26 +55,26 @@ std::string name_of_device(const testing::TestParamInfo<Device>& device) {
   return device.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(On, ResidentFronts, testing::ValuesIn(kDevices), name_of_device);
+INSTANTIATE_TEST_SUITE_P(On, DeviceFronts, testing::ValuesIn(kDevices), name_of_device);
 
 /// What a sweep of a whole front came to.
 struct Swept {
-  float least_gap = 3e38f;
+  float min_gap = 3e38f;
   std::size_t blocked = 0;
   bool complete = true, touching = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
   std::size_t parents = 0;  ///< Pairs of nodes of which a device was asked for merging: nothing that was found.
   friend bool operator==(const Swept& x, const Swept& y) {
-    return x.least_gap == y.least_gap && x.blocked == y.blocked && x.complete == y.complete &&
-           x.touching == y.touching && x.tested == y.tested;
+    return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.touching == y.touching &&
+           x.tested == y.tested;
   }
 };
 
 /// Every third pair of triangles blocks.
-LeafTest leaf_test(Swept& swept) {
+TrianglePairTest triangle_pair_test(Swept& swept) {
   return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t) {
     swept.tested.emplace_back(moving, fixed);
-    LeafVerdict verdict;
+    TrianglePairVerdict verdict;
     verdict.free = (moving + fixed) % 3 != 0;
     verdict.certificate.axis = hint;
     verdict.certificate.offset = length_squared(hint) > 0 ? kForgottenCertificate : kNoCertificate;
@@ -83,7 +83,7 @@ LeafTest leaf_test(Swept& swept) {
 }
 
 void add(Swept& swept, const FrontSweep& found) {
-  swept.least_gap = std::min(swept.least_gap, found.least_gap);
+  swept.min_gap = std::min(swept.min_gap, found.min_gap);
   swept.blocked += found.blocked;
   swept.complete &= found.complete;
   swept.touching |= found.touching;
@@ -94,8 +94,8 @@ bool free_of(const Swept& swept) {
 }
 
 /// What siblings of the parts may merge into, for a device.
-std::vector<AskedParents> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
-  std::vector<AskedParents> parents;
+std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
+  std::vector<MergeCandidate> parents;
   for (const std::vector<Siblings>& of_part : siblings)
     for (const Siblings& s : of_part) parents.push_back({0, s.parent.a, s.parent.b, s.hint});
   return parents;
@@ -103,11 +103,12 @@ std::vector<AskedParents> parents_of(const std::vector<std::vector<Siblings>>& s
 
 /// Merges by what a device says; gives of how many pairs it was asked.
 std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
-  const AskedFront<LeafSweep> asked{&front, &linear};
+  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
   std::vector<std::vector<Siblings>> siblings;
   for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
-  const std::vector<AskedParents> parents = parents_of(siblings);
-  const Span<const NodeSeparation> found = device.separate(Span<const AskedFront<LeafSweep>>(&asked, 1), parents);
+  const std::vector<MergeCandidate> parents = parents_of(siblings);
+  const Span<const NodeSeparation> found =
+      device.separate(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), parents);
   std::size_t begin = 0;
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     const std::size_t count = siblings[part].size();
@@ -121,15 +122,15 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
-  Span<const PartAnswers> answers;
-  const AskedFront<LeafSweep> asked{&front, &linear};
+  Span<const PartResults> answers;
+  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
   if (device) {
     swept.parents = merge_by(*device, front, linear);
-    answers = device->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), to_the_end).parts;
+    answers = device->ask(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), to_the_end).parts;
   }
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     if (!device) front.merge_part(part, linear, kernels);
-    add(swept, front.sweep_part(part, linear, kernels, leaf_test(swept), device ? &answers[part] : nullptr));
+    add(swept, front.sweep_part(part, linear, kernels, triangle_pair_test(swept), device ? &answers[part] : nullptr));
   }
   front.end_sweep(linear, free_of(swept));
   return swept;
@@ -151,13 +152,13 @@ void expect_same_fronts(CertificateFront& front, CertificateFront& expected) {
 
 // A shaft that a trembling hand presses against its bore: fronts of several parts that grow, merge, are cut and joined,
 // and change who moves; sweeps that ask and sweeps that do not.
-TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
+TEST_P(DeviceFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 64, 16)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 64, 16));
   for (const SideRule sides : {SideRule::Normals, SideRule::Memory, SideRule::Free}) {
     CertificateFront front(a, b, sides), expected(a, b, sides);
     std::mt19937_64 random(20261123);
     Pose pose;
-    std::size_t most_parts = 0, tests = 0, blocked = 0, parents = 0;
+    std::size_t max_parts = 0, tests = 0, blocked = 0, parents = 0;
     bool exchanged = false;
     for (int step = 0; step < 50 && !HasFailure(); ++step) {
       SCOPED_TRACE(step);
@@ -178,47 +179,48 @@ TEST_P(ResidentFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
       const Swept found = sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0);
       EXPECT_EQ(found, wanted);
       expect_same_fronts(front, expected);
-      most_parts = std::max(most_parts, front.part_count());
+      max_parts = std::max(max_parts, front.part_count());
       tests += wanted.tested.size();
       blocked += wanted.blocked;
       parents += found.parents;
       pose = next;
     }
-    EXPECT_GT(most_parts, 1u);
+    EXPECT_GT(max_parts, 1u);
     EXPECT_GT(tests, 1000u);
     EXPECT_GT(blocked, 100u);
     EXPECT_GT(parents, 100u);
   }
 }
 
-TEST_P(ResidentFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
+TEST_P(DeviceFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
   CertificateFront front(a, b, SideRule::Normals);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
-  const AskedFront<LeafSweep> asked{&front, &linear};
-  const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(&asked, 1), true).parts;
+  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
+  const Span<const PartResults> answers =
+      device_->ask(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), true).parts;
   ASSERT_EQ(answers.size(), 1u);
   ASSERT_EQ(answers[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
   std::vector<std::uint32_t> left = answers[0].roots;
   while (!left.empty()) {
-    const PairAnswer& answer = answers[0].answers[left.back()];
+    const PairResult& answer = answers[0].answers[left.back()];
     left.pop_back();
     ++of_kind[answer.kind];
-    if (answer.kind != PairAnswer::Split) continue;
-    ASSERT_NE(answer.first_child, PairAnswer::kNone);
+    if (answer.kind != PairResult::Split) continue;
+    ASSERT_NE(answer.first_child, PairResult::kNone);
     left.insert(left.end(), {answer.first_child, answer.first_child + 1});
   }
-  EXPECT_EQ(of_kind[PairAnswer::None], 0u);
-  EXPECT_GT(of_kind[PairAnswer::Boxes], 100u);
-  EXPECT_GT(of_kind[PairAnswer::Triangles], 100u);
-  EXPECT_EQ(of_kind[PairAnswer::Split] + 1, of_kind[PairAnswer::Boxes] + of_kind[PairAnswer::Triangles]);
+  EXPECT_EQ(of_kind[PairResult::None], 0u);
+  EXPECT_GT(of_kind[PairResult::Boxes], 100u);
+  EXPECT_GT(of_kind[PairResult::Triangles], 100u);
+  EXPECT_EQ(of_kind[PairResult::Split] + 1, of_kind[PairResult::Boxes] + of_kind[PairResult::Triangles]);
 }
 
 // A front that has moved away merges by what it is told alone: nothing where no parents are said to be apart.
-TEST_P(ResidentFronts, MergeByWhatTheDeviceSaysOfParents) {
+TEST_P(DeviceFronts, MergeByWhatTheDeviceSaysOfParents) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
   CertificateFront front(a, b, SideRule::Normals);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.01, 0, 0}, {}});
@@ -242,7 +244,7 @@ TEST_P(ResidentFronts, MergeByWhatTheDeviceSaysOfParents) {
   expect_same_fronts(front, expected);
 }
 
-TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
+TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 24, 6)),
                 c = tree_of(scenes::box({-3, -3, 4.5}, {3, 3, 6}));
   CertificateFront in_bore(a, b, SideRule::Normals), to_box(a, c, SideRule::Free);
@@ -254,8 +256,9 @@ TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
       motion.allowed = kAllowed;
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
-    const AskedFront<LeafSweep> asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartAnswers> answers = device_->ask(Span<const AskedFront<LeafSweep>>(asked, 2), true).parts;
+    const FrontQuery<TrianglePairSweep> asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
+    const Span<const PartResults> answers =
+        device_->ask(Span<const FrontQuery<TrianglePairSweep>>(asked, 2), true).parts;
     ASSERT_EQ(answers.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {
@@ -263,8 +266,8 @@ TEST_P(ResidentFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
       Swept found, wanted;
       const FrontKernels kernels = front_kernels(widest_lanes());
       for (std::size_t p = 0; p < fronts[f]->part_count(); ++p, ++part) {
-        add(wanted, expected.sweep_part(p, sweeps[f], kernels, leaf_test(wanted)));
-        add(found, fronts[f]->sweep_part(p, sweeps[f], kernels, leaf_test(found), &answers[part]));
+        add(wanted, expected.sweep_part(p, sweeps[f], kernels, triangle_pair_test(wanted)));
+        add(found, fronts[f]->sweep_part(p, sweeps[f], kernels, triangle_pair_test(found), &answers[part]));
       }
       EXPECT_EQ(found, wanted);
       expect_same_fronts(*fronts[f], expected);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a hand must be able to do with close fits, and what no force may do. The whole table of clearances, tolerances
-// and facets is bench/soak_motion's; here is what runs in seconds.
+// Close fits that a user must be able to take apart by dragging, and motions that no drag may make. The whole table of
+// clearances, tolerances and facets is in bench/soak_motion.cpp; these run in seconds.
 #include "dismantle/loading/load_assembly.h"
 #include "tests/support/slide_drags.h"
+#include "tests/support/test_data.h"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
 
 namespace dismantle {
 namespace {
@@ -99,40 +98,53 @@ TEST(Slide, TakesMeshingGearsApartWhileTheyRoll) {
   EXPECT_GT(length(center), pair.distance() + 4);
 }
 
-/// A nut on a bolt with real threads out of the data folder, the nut in hand and clear of the bolt; none without data.
-std::optional<SlideScene> real_nut(const std::string& name, double lift) {
-  const std::string parts = std::string(DISMANTLE_SOURCE_DIR "/../shared/data/assemblies/") + name + "/parts";
-  if (!std::filesystem::exists(parts)) return std::nullopt;
+/// A nut on a bolt with real threads, from the data folder. The nut moves; it can be screwed upwards.
+struct RealNut {
+  std::filesystem::path parts;
+  double pitch;     ///< [mm]
+  double lift = 0;  ///< That puts the nut in the middle of its axial play [mm].
+};
+const RealNut kM16{data_folder() / "assemblies/factory_nut_bolt_m16/parts", 2};
+const RealNut kM8{data_folder() / "assemblies/factory_nut_bolt_m8_loose/parts", 1.25, 0.9 * 1.25};
+constexpr double kNutTolerance = 0.005;  ///< [mm]
+
+SlideScene scene_of(const RealNut& nut) {
   SlideScene scene;
-  scene.assembly = load_assembly(parts).value();
-  scene.assembly.components[1].assembly_from_mesh.translation.z += lift;
+  scene.assembly = load_assembly(nut.parts).value();
+  scene.assembly.components[1].assembly_from_mesh.translation.z += nut.lift;
   scene.moving = ComponentId(1);
   scene.pull = {0, 0, 1};
   scene.center = assembled_bounds(scene.assembly[scene.moving]).center();
   return scene;
 }
 
-/// Pulled, it stays within its thread; screwed by 4.5 degrees a step, it follows.
-void expect_leaves_by_screwing_only(const SlideScene& nut, double pitch, int steps) {
-  const double tolerance = 0.005;
-  EXPECT_LT(distance_under_force(nut, tolerance, {0, 0, 1}, steps), pitch);
+/// Turns the nut by quarters of a turn. It must arrive where its thread leads; returns its final pose.
+Pose turned(const RealNut& nut, const SlideScene& scene, int quarters) {
   std::vector<Pose> targets;
-  for (int k = 1; k <= steps; ++k) targets.push_back({{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)});
-  const Drag made = drag(nut, tolerance, targets);
+  for (int k = 1; k <= quarters; ++k)
+    targets.push_back({{0, 0, nut.pitch * k / 4}, quat_about({0, 0, 1}, kTurn * k / 4)});
+  const Drag made = drag(scene, kNutTolerance, targets);
   EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
-  EXPECT_NEAR(made.played.steps.back().result.pose.position.z, pitch * steps / 80, 0.01 * pitch);
-}
-
-TEST(Slide, ScrewsAnM16NutOffItsBoltAndDoesNotPullItOff) {
-  const std::optional<SlideScene> nut = real_nut("factory_nut_bolt_m16", 0);
-  if (!nut) GTEST_SKIP() << "the data folder is not there";
-  expect_leaves_by_screwing_only(*nut, 2, 2);
+  for (std::size_t k = 0; k < made.played.steps.size(); ++k)
+    EXPECT_NEAR(made.played.steps[k].result.pose.position.z, targets[k].position.z, 0.01 * nut.pitch)
+        << "quarter " << k;
+  return made.played.steps.back().result.pose;
 }
 
 TEST(Slide, ScrewsAnM8NutOffItsBoltAndDoesNotPullItOff) {
-  const std::optional<SlideScene> nut = real_nut("factory_nut_bolt_m8_loose", 0.9 * 1.25);  // the middle of its play
-  if (!nut) GTEST_SKIP() << "the data folder is not there";
-  expect_leaves_by_screwing_only(*nut, 1.25, 4);
+  DISMANTLE_NEED(kM8.parts);
+  const SlideScene scene = scene_of(kM8);
+  EXPECT_LT(distance_under_force(scene, kNutTolerance, {0, 0, 1}, 4), 0.2 * kM8.pitch) << "more than its play";
+  const Pose end = turned(kM8, scene, 55);
+  const double bolt_top = assembled_bounds(scene.assembly.components[0]).upper.z;
+  EXPECT_GT(assembled_bounds(scene.assembly[scene.moving]).lower.z + end.position.z, bolt_top);
+}
+
+TEST(Slide, TurnsAnM16NutOnceOnItsBoltAndDoesNotPullItAlong) {
+  DISMANTLE_NEED(kM16.parts);
+  const SlideScene scene = scene_of(kM16);
+  EXPECT_LT(distance_under_force(scene, kNutTolerance, {0, 0, 1}, 4), 0.02 * kM16.pitch) << "more than its play";
+  turned(kM16, scene, 4);
 }
 
 TEST(Slide, ReachesEveryTargetThatAStraightMotionReaches) {

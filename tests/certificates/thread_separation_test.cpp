@@ -47,15 +47,15 @@ PairMotion motion_of(const SolidTree& moving, const SolidTree& fixed, const Pose
 }
 
 /// The least distance of the triangles under two nodes, at some times of the true screw.
-double least_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& fixed, std::uint32_t f,
-                      const Pose& start, const Pose& end) {
+double min_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& fixed, std::uint32_t f,
+                    const Pose& start, const Pose& end) {
   const ObbNode &a = moving.tree.nodes[m], &b = fixed.tree.nodes[f];
   if (!a.leaf())
-    return std::min(least_distance(moving, a.child, fixed, f, start, end),
-                    least_distance(moving, a.child + 1, fixed, f, start, end));
+    return std::min(min_distance(moving, a.child, fixed, f, start, end),
+                    min_distance(moving, a.child + 1, fixed, f, start, end));
   if (!b.leaf())
-    return std::min(least_distance(moving, m, fixed, b.child, start, end),
-                    least_distance(moving, m, fixed, b.child + 1, start, end));
+    return std::min(min_distance(moving, m, fixed, b.child, start, end),
+                    min_distance(moving, m, fixed, b.child + 1, start, end));
   double least = 1e9;
   for (const double time : {0.0, 0.25, 0.5, 0.8, 1.0}) {
     const RigidTransform t = transform_from_pose(pose_between(start, end, time));
@@ -89,7 +89,7 @@ int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& sta
     const auto f = static_cast<std::uint32_t>(random() % fixed.tree.nodes.size());
     const double claimed = sweep.gap(m, f);
     if (!(claimed > 0) || of_moving[m] * of_fixed[f] > 3000) continue;
-    const double gap = least_distance(moving, m, fixed, f, start, end);
+    const double gap = min_distance(moving, m, fixed, f, start, end);
     EXPECT_GE(gap, claimed - 1e-6) << m << ' ' << f;
     claims += gap < 1;
   }

@@ -19,7 +19,7 @@ namespace dismantle {
 namespace {
 
 /// A step of a random assembly whose components overlap.
-class DeviceStreams : public testing::Test {
+class StreamsOnTheDevice : public testing::Test {
  protected:
   void SetUp() override {
     const Result<std::string> name = cuda_device_name();
@@ -61,7 +61,7 @@ std::vector<T> sorted(Span<const T> values) {
   return copy;
 }
 
-TEST_F(DeviceStreams, MoveVerticesToTheSameBits) {
+TEST_F(StreamsOnTheDevice, MoveVerticesToTheSameBits) {
   const RigidTransform transform = transform_from_pose({{1, -2, 3}, quat_about(normalized(Vec3{1, 2, 3}), 0.7)});
   std::vector<Vec3> expected;
   for (const Vec3& v : streams_->fixed().vertices) expected.push_back(transform * v);
@@ -69,13 +69,13 @@ TEST_F(DeviceStreams, MoveVerticesToTheSameBits) {
   EXPECT_TRUE(same_bits<Vec3>(moved, expected));
 }
 
-TEST_F(DeviceStreams, FitBoundsToTheSameBits) {
-  const TriangleStreams& fixed = streams_->fixed();
+TEST_F(StreamsOnTheDevice, FitBoundsToTheSameBits) {
+  const AssemblyTriangles& fixed = streams_->fixed();
   const std::vector<Kdop16> expected = bvh_fit(fixed.bvh, fixed.refit_plan, refit_input(), Executor());
   EXPECT_TRUE(same_bits<Kdop16>(device::fitted_bounds(fixed.bvh, refit_input()), expected));
 }
 
-TEST_F(DeviceStreams, SproutTheSameFrontWithEveryWayOfAppendingFromCapacityOne) {
+TEST_F(StreamsOnTheDevice, SproutTheSameFrontWithEveryWayOfAppendingFromCapacityOne) {
   const NodeIndex root = streams_->fixed().bvh.root();
   root_ = {pair_key(root, root)};
   FrontAppender expected(AppendVariant::GlobalLock, 1 << 16);
@@ -107,12 +107,12 @@ bool earlier(const TrianglePairContact& x, const TrianglePairContact& y) {
   return x.key < y.key;
 }
 
-TEST_F(DeviceStreams, TestTrianglePairsToTheSameBitsWithBothTestsFromCapacityOne) {
+TEST_F(StreamsOnTheDevice, TestTrianglePairsToTheSameBitsWithBothTestsFromCapacityOne) {
   const NodeIndex root = streams_->fixed().bvh.root();
   root_ = {pair_key(root, root)};
   FrontAppender front(AppendVariant::GlobalLock, 1 << 16);
   front.run(front_kernel(), Executor());
-  const TriangleStreams& fixed = streams_->fixed();
+  const AssemblyTriangles& fixed = streams_->fixed();
   PairStates states = states_;
   states.pairs.resize(states.pairs.size() / 2);  // the others that are in each other are in contact
   const PairRules rules(states);

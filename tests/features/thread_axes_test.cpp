@@ -13,7 +13,7 @@ namespace dismantle {
 namespace {
 
 std::vector<ThreadAxis> threads_of(const TriangleMesh& mesh) {
-  return thread_axes(mesh.vertices, mesh.faces, round_axes(mesh.vertices, mesh.faces));
+  return thread_axes(mesh.vertices, mesh.faces, revolution_axes(mesh.vertices, mesh.faces));
 }
 
 scenes::Winding winding(std::uint32_t sides, std::uint32_t turns) {

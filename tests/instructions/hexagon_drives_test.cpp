@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-const RoundAxis kAxis{{}, {0, 0, 1}, 0};
+const RevolutionAxis kAxis{{}, {0, 0, 1}, 0};
 const double kFlats = std::sqrt(3);  // across flats of a hexagon whose corners are 1 from its axis
 
 /// The surfaces of two meshes.

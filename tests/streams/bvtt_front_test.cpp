@@ -17,12 +17,12 @@ using Keys = std::vector<std::uint64_t>;
 
 /// An assembly that is moved about, with its bounds over the current step.
 struct MovingScene {
-  TriangleStreams streams;
+  AssemblyTriangles streams;
   std::vector<Vec3> start, end;
   std::vector<Kdop16> bounds;
   std::vector<std::uint32_t> motion_class;
 
-  explicit MovingScene(const Assembly& assembly) : streams(make_triangle_streams(assembly, {})) {
+  explicit MovingScene(const Assembly& assembly) : streams(make_assembly_triangles(assembly, {})) {
     start = end = streams.vertices;
     motion_class.assign(streams.component_count(), 0);
   }

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace dismantle::resident {
+namespace dismantle::device_code {
 namespace {
 
 TEST(FitBounds, GivesTheBitsOfTheHostsRefitAndForgetsWhoArrived) {
@@ -112,4 +112,4 @@ TEST(WordOfTime, KeepsTheOrderAndTheValueOfTimes) {
 }
 
 }  // namespace
-}  // namespace dismantle::resident
+}  // namespace dismantle::device_code

@@ -20,7 +20,7 @@ constexpr double kTolerance = 0.01;
 
 struct Device {
   const char* name;
-  std::optional<Executor> played_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
 
@@ -65,13 +65,13 @@ class Comparison {
   std::vector<RigidTransform> state() const { return {engine_->state().begin(), engine_->state().end()}; }
 
  private:
-  std::unique_ptr<CollisionEngine> expected_, engine_;
+  std::unique_ptr<SweepEngine> expected_, engine_;
 };
 
-class ResidentStreams : public testing::TestWithParam<Device> {
+class DeviceStreams : public testing::TestWithParam<Device> {
  protected:
   void SetUp() override {
-    if (GetParam().played_by) return;
+    if (GetParam().emulated_by) return;
     const auto cuda = make_cuda_streams_backend(scenes::assembly({}), {});
     if (!cuda) GTEST_SKIP() << "nothing runs on CUDA: " << cuda.error().message;
   }
@@ -79,8 +79,8 @@ class ResidentStreams : public testing::TestWithParam<Device> {
   static Comparison compared(const Assembly& assembly, const PairStates& states, ElementaryTest test,
                              std::size_t capacity) {
     const CollisionOptions options{test, Executor(), capacity};
-    if (GetParam().played_by)
-      return {assembly, states, options, make_resident_streams_backend(assembly, options, *GetParam().played_by)};
+    if (GetParam().emulated_by)
+      return {assembly, states, options, make_device_streams_backend(assembly, options, *GetParam().emulated_by)};
     return {assembly, states, options, std::move(make_cuda_streams_backend(assembly, options).value())};
   }
 };
@@ -89,9 +89,9 @@ std::string name_of_device(const testing::TestParamInfo<Device>& device) {
   return device.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(On, ResidentStreams, testing::ValuesIn(kDevices), name_of_device);
+INSTANTIATE_TEST_SUITE_P(On, DeviceStreams, testing::ValuesIn(kDevices), name_of_device);
 
-TEST_P(ResidentStreams, GiveTheContactsOfTheHostsStreamsFromEveryCapacity) {
+TEST_P(DeviceStreams, GiveTheContactsOfTheHostsStreamsFromEveryCapacity) {
   for (const ElementaryTest test : {ElementaryTest::Certified, ElementaryTest::Elementary}) {
     std::mt19937_64 random(21);
     const Assembly assembly = scenes::random_assembly(random, 12, 4);
@@ -130,7 +130,7 @@ struct PegInTube {
 
 // One component in hand for many steps: the front is kept, grows, and is started anew, which takes more rounds of it
 // than are recorded.
-TEST_P(ResidentStreams, KeepTheirFrontFromStepToStepAndStartItAnewWhenItHasGrown) {
+TEST_P(DeviceStreams, KeepTheirFrontFromStepToStepAndStartItAnewWhenItHasGrown) {
   const PegInTube scene;
   Comparison engines = compared(scene.assembly, scene.states, ElementaryTest::Certified, 64);
   std::size_t largest = 0, last = 0;
@@ -148,14 +148,14 @@ TEST_P(ResidentStreams, KeepTheirFrontFromStepToStepAndStartItAnewWhenItHasGrown
 }
 
 // More contacts than the report of a step has room for.
-TEST_P(ResidentStreams, BringDownAnyNumberOfContactsFromCapacityOne) {
+TEST_P(DeviceStreams, BringDownAnyNumberOfContactsFromCapacityOne) {
   const PegInTube scene;
   Comparison engines = compared(scene.assembly, scene.states, ElementaryTest::Certified, 1);
   const SweepResult blocked = engines.sweep({{}, transform_from_pose(shift(1, 0, 0))});
   EXPECT_GT(blocked.contacts.size(), 256u);
 }
 
-TEST_P(ResidentStreams, FollowEmbeddedPairsUntilTheyPartFromCapacityOne) {
+TEST_P(DeviceStreams, FollowEmbeddedPairsUntilTheyPartFromCapacityOne) {
   const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-10, -10, -3}, {10, 10, 0})),
                                               scenes::component("peg", scenes::tube(1.5, 0, -2, 6, 24, 6)),
                                               scenes::component("core", scenes::box({5, 5, -2}, {6, 6, -1}))});
@@ -169,7 +169,7 @@ TEST_P(ResidentStreams, FollowEmbeddedPairsUntilTheyPartFromCapacityOne) {
   EXPECT_TRUE(engines.move(peg_at(4)).free);
 }
 
-TEST_P(ResidentStreams, TakeAssembliesOfNoneAndOneComponent) {
+TEST_P(DeviceStreams, TakeAssembliesOfNoneAndOneComponent) {
   const PairStates states{kTolerance, {}};
   const Assembly none = scenes::assembly({});
   EXPECT_TRUE(compared(none, states, ElementaryTest::Certified, 1).sweep({}).free);

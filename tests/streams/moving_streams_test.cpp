@@ -14,7 +14,7 @@ namespace {
 /// What the streams must hold, computed afresh.
 void expect_fresh(const MovingStreams& streams, const std::vector<RigidTransform>& start,
                   const std::vector<RigidTransform>& end) {
-  const TriangleStreams& fixed = streams.fixed();
+  const AssemblyTriangles& fixed = streams.fixed();
   std::vector<Vec3> vertices_t0 = fixed.vertices, vertices_t1 = fixed.vertices;
   for (std::uint32_t c = 0; c < fixed.component_count(); ++c) {
     for (std::uint32_t v = fixed.vertex_begin[c]; v < fixed.vertex_begin[c + 1]; ++v) {

@@ -244,7 +244,7 @@ TEST(StreamsEngine, GivesTheSameBytesOnEveryExecutorFromEveryCapacity) {
     const Assembly assembly = scenes::random_assembly(random, 12, 4);
     const PairStates states = scenes::states_by_brute_force(assembly, kTolerance);
     EXPECT_GT(states.pairs.size(), 3u);
-    std::vector<std::unique_ptr<CollisionEngine>> engines;
+    std::vector<std::unique_ptr<SweepEngine>> engines;
     for (const Executor& executor : all_executors())
       for (const std::size_t capacity : {1u, 100'000u})
         engines.push_back(make_streams_engine(assembly, states, {test, executor, capacity}));

@@ -49,8 +49,8 @@ class EngineScene {
   void jump(const Poses& poses) { engine_->jump(with(poses)); }
 
   const Assembly& assembly() const { return assembly_; }
-  CollisionEngine& engine() { return *engine_; }
-  const CollisionEngine& engine() const { return *engine_; }
+  SweepEngine& engine() { return *engine_; }
+  const SweepEngine& engine() const { return *engine_; }
 
  private:
   static Assembly assembly_of(const Parts& parts) {
@@ -65,7 +65,7 @@ class EngineScene {
   }
 
   Assembly assembly_;
-  std::unique_ptr<CollisionEngine> engine_;
+  std::unique_ptr<SweepEngine> engine_;
 };
 
 /// The pairs whose surfaces intersect: Contact within the tolerance, else Embedded; every triangle pair is tested.

@@ -161,7 +161,7 @@ inline Real overlap(const Corners& a, const Corners& b, int unit) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) axes.push_back(cross(a[(i + 1) % 3] - a[i], b[(j + 1) % 3] - b[j]));
   bool found = false;
-  Integer least = 0, least_scale = 1;  // The squared depth is least / least_scale.
+  Integer least = 0, min_scale = 1;  // The squared depth is least / min_scale.
   for (const Point& n : axes) {
     if (is_zero(n)) continue;
     Integer a_lower = dot(n, a[0]), a_upper = a_lower, b_lower = dot(n, b[0]), b_upper = b_lower;
@@ -175,10 +175,10 @@ inline Real overlap(const Corners& a, const Corners& b, int unit) {
     const Integer forward = a_upper - b_lower, backward = b_upper - a_lower;
     const Integer overlap = forward < backward ? forward : backward;
     const Integer square = overlap * overlap, scale = dot(n, n);
-    if (!found || square * least_scale < least * scale) least = square, least_scale = scale;
+    if (!found || square * min_scale < least * scale) least = square, min_scale = scale;
     found = true;
   }
-  return found ? ldexp(sqrt(Real(least) / Real(least_scale)), unit) : Real(0);
+  return found ? ldexp(sqrt(Real(least) / Real(min_scale)), unit) : Real(0);
 }
 
 /// The least of some fractions of positive denominator.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/certificates/front/round_separation.h"
+#include "dismantle/certificates/front/radial_separation.h"
 #include "dismantle/math/screw.h"
 
 namespace dismantle::scenes {

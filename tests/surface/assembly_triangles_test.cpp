@@ -11,11 +11,11 @@
 namespace dismantle {
 namespace {
 
-TEST(TriangleStreams, HoldEveryTriangleOfEveryComponentWhereItIsAssembled) {
+TEST(AssemblyTriangles, HoldEveryTriangleOfEveryComponentWhereItIsAssembled) {
   std::mt19937_64 random(1);
   Assembly assembly = scenes::random_assembly(random, 7, 5);
   assembly.components[3].assembly_from_mesh = transform_from_pose(scenes::random_pose(random, 10, 3));
-  const TriangleStreams streams = make_triangle_streams(assembly, {});
+  const AssemblyTriangles streams = make_assembly_triangles(assembly, {});
   EXPECT_EQ(bvh_validate(streams.bvh), "");
   ASSERT_EQ(streams.faces.size(), triangle_count(assembly));
   std::vector<std::vector<bool>> seen;
@@ -36,12 +36,12 @@ TEST(TriangleStreams, HoldEveryTriangleOfEveryComponentWhereItIsAssembled) {
   }
 }
 
-TEST(TriangleStreams, AreTheSameOnEveryExecutor) {
+TEST(AssemblyTriangles, AreTheSameOnEveryExecutor) {
   std::mt19937_64 random(2);
   const Assembly assembly = scenes::random_assembly(random, 20, 9);
-  const TriangleStreams expected = make_triangle_streams(assembly, {});
+  const AssemblyTriangles expected = make_assembly_triangles(assembly, {});
   for (const Executor& executor : all_executors()) {
-    const TriangleStreams streams = make_triangle_streams(assembly, executor);
+    const AssemblyTriangles streams = make_assembly_triangles(assembly, executor);
     EXPECT_EQ(streams.vertices, expected.vertices);
     EXPECT_EQ(streams.faces, expected.faces);
     EXPECT_EQ(streams.face_of, expected.face_of);
@@ -50,9 +50,9 @@ TEST(TriangleStreams, AreTheSameOnEveryExecutor) {
   }
 }
 
-TEST(TriangleStreams, TakeAnEmptyAssemblyAndAnEmptyMesh) {
-  EXPECT_EQ(make_triangle_streams(scenes::assembly({}), {}).faces.size(), 0u);
-  const TriangleStreams streams = make_triangle_streams(
+TEST(AssemblyTriangles, TakeAnEmptyAssemblyAndAnEmptyMesh) {
+  EXPECT_EQ(make_assembly_triangles(scenes::assembly({}), {}).faces.size(), 0u);
+  const AssemblyTriangles streams = make_assembly_triangles(
       scenes::assembly({scenes::component("none", {}), scenes::component("box", scenes::box({0, 0, 0}, {1, 1, 1}))}),
       {});
   EXPECT_EQ(bvh_validate(streams.bvh), "");

@@ -10,10 +10,10 @@ namespace {
 
 /// One component, standing still.
 struct Solid {
-  TriangleStreams streams;
+  AssemblyTriangles streams;
   std::vector<Kdop16> bounds;
   explicit Solid(TriangleMesh mesh)
-      : streams(make_triangle_streams(scenes::assembly({scenes::component("solid", std::move(mesh))}), {})),
+      : streams(make_assembly_triangles(scenes::assembly({scenes::component("solid", std::move(mesh))}), {})),
         bounds(bounds_at(streams, streams.vertices, 0, {})) {}
   MomentaryTriangles now() const { return {&streams, {streams.vertices, streams.vertices, streams.faces}, bounds, 0}; }
   bool holds(Vec3 p) const { return point_in_component(now(), p, ComponentId(0)); }

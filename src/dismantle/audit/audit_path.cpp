@@ -14,9 +14,9 @@ namespace dismantle {
 namespace {
 
 double resolution_of(const Assembly& assembly, const Path& path) {
-  const double least = kAuditLeastTolerance * diagonal(assembled_bounds(assembly));
+  const double least = kAuditMinTolerance * diagonal(assembled_bounds(assembly));
   const double resolution = kAuditResolution * (path.tolerance > least ? path.tolerance : least);
-  return resolution > 0 ? resolution : kAuditResolution * kAuditLeastTolerance;
+  return resolution > 0 ? resolution : kAuditResolution * kAuditMinTolerance;
 }
 
 std::vector<std::unique_ptr<const audit::AuditBody>> make_bodies(const Assembly& assembly, const Executor& executor) {

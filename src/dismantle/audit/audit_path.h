@@ -14,7 +14,7 @@ inline constexpr double kAuditResolution = 0.1;
 
 /// The least tolerance that the audit's resolution goes by, relative to the assembly's diagonal: with a tolerance of 0
 /// samples would otherwise be infinitely close.
-inline constexpr double kAuditLeastTolerance = 1e-7;
+inline constexpr double kAuditMinTolerance = 1e-7;
 
 struct AuditOptions {
   Executor executor;          ///< The report is the same for every one, but for the time.

@@ -88,7 +88,7 @@ IntervalTree::IntervalTree(const PairSweep& pair, const std::vector<MotionSpan>&
 }
 
 bool IntervalTree::can_split(std::uint32_t i) const {
-  return !intervals_[i].one_segment() || intervals_[i].duration > std::ldexp(1.0, -kMostHalvings);
+  return !intervals_[i].one_segment() || intervals_[i].duration > std::ldexp(1.0, -kMaxHalvings);
 }
 
 const std::uint32_t (&IntervalTree::halves(std::uint32_t i))[2] {

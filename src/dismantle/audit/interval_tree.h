@@ -37,7 +37,7 @@ Interval interval_of(const RelativeMotion& motion);
 class IntervalTree {
  public:
   /// A screw is halved this often at most.
-  static constexpr int kMostHalvings = 6;
+  static constexpr int kMaxHalvings = 6;
 
   /// @param spans as motion_spans makes them; both must outlive the tree
   IntervalTree(const PairSweep& pair, const std::vector<MotionSpan>& spans);

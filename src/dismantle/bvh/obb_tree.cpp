@@ -89,7 +89,7 @@ class Builder {
     double cosine = 1;
     for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normals_[f]));
     // Between w and the axis there may be the angle that is left by the widest normal.
-    const double left = std::acos(NormalCone::kLeastAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double left = std::acos(NormalCone::kMinAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
     return {to_float(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
   }
 
@@ -170,7 +170,7 @@ class Builder {
   /// The triangles of a range, of a large one an even choice.
   template <class Visit>
   void for_samples(const Range& range, Visit visit) const {
-    const std::uint32_t stride = 1 + range.size() / kMostSamples;
+    const std::uint32_t stride = 1 + range.size() / kMaxSamples;
     for (std::uint32_t i = range.begin; i < range.end; i += stride) visit(order_[i]);
   }
 
@@ -180,7 +180,7 @@ class Builder {
     const auto begin = order_.begin() + range.begin, end = order_.begin() + range.end;
     auto middle = std::partition(begin, end, [&](std::uint32_t f) { return cut.before(f); });
     const std::ptrdiff_t least = std::min(middle - begin, end - middle);
-    if (least == 0 || (cut.of == &centroids_ && least * kLeastShare < end - begin)) {
+    if (least == 0 || (cut.of == &centroids_ && least * kMinShare < end - begin)) {
       middle = begin + range.size() / 2;
       std::nth_element(begin, middle, end, [&](std::uint32_t f, std::uint32_t g) {
         const double x = dot(cut.axis, centroids_[f]), y = dot(cut.axis, centroids_[g]);
@@ -196,8 +196,8 @@ class Builder {
   static constexpr double kThinner = 0.7;
   /// Thinner than this, of the longest half edge, is flat.
   static constexpr double kFlat = 1e-4;
-  static constexpr std::uint32_t kMostSamples = 1024;
-  static constexpr std::ptrdiff_t kLeastShare = 64;
+  static constexpr std::uint32_t kMaxSamples = 1024;
+  static constexpr std::ptrdiff_t kMinShare = 64;
 
   Span<const Vec3> vertices_;
   Span<const Face> faces_;

@@ -26,10 +26,10 @@ struct ObbNode {
   DISMANTLE_HOST_DEVICE bool leaf() const { return size < 0; }
 };
 
-/// The directions of a node's outward normals: every unit w with w.axis >= ahead has a cosine of at least kLeastAhead
+/// The directions of a node's outward normals: every unit w with w.axis >= ahead has a cosine of at least kMinAhead
 /// with each of them.
 struct NormalCone {
-  static constexpr double kLeastAhead = 0.3;
+  static constexpr double kMinAhead = 0.3;
   /// What `ahead` is where no direction has.
   static constexpr float kNever = 2;
 

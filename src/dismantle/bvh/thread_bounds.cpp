@@ -101,19 +101,19 @@ class ThreadTriangle {
     const double sine = std::sin(std::min((high - low) / 2, kTurn / 4));
     const double middle = frame_->axis.angle(across_[0]) + (low + high) / 2;
     const Vec3 out = frame_->axis.at(middle), around = cross(frame_->axis.direction, out);
-    double outs[3], arounds[3], most_out = 0, most_around = 0;  // squares
+    double outs[3], arounds[3], max_out = 0, max_around = 0;  // squares
     for (int i = 0; i < 3; ++i) {
       const Vec3 step = across_[(i + 1) % 3] - across_[i];
       const double o = dot(step, out) * dot(step, out), a = dot(step, around) * dot(step, around);
       outs[i] = (1 + sine) * (o + sine * a);
       arounds[i] = (1 + sine) * (a + sine * o);
-      most_out = std::max(most_out, outs[i]);
-      most_around = std::max(most_around, arounds[i]);
+      max_out = std::max(max_out, outs[i]);
+      max_around = std::max(max_around, arounds[i]);
     }
-    distance_bend_ = most_around / (6 * least_);
-    if (!(most_around > 0)) return;
+    distance_bend_ = max_around / (6 * least_);
+    if (!(max_around > 0)) return;
     // 2 x y <= w x^2 + y^2 / w, with the w that is best for the longest steps.
-    const double w = std::sqrt(most_around / std::max(most_out, 1e-12 * most_around));
+    const double w = std::sqrt(max_around / std::max(max_out, 1e-12 * max_around));
     double most = 0;
     for (int i = 0; i < 3; ++i) most = std::max(most, w * outs[i] + arounds[i] / w);
     lift_bend_ = std::abs(frame_->lead) / kTurn * most / (6 * least_ * least_);
@@ -157,7 +157,7 @@ void ThreadFrame::add_direction(ProfileDirection direction) {
   for (int k = 0; k < direction_count; ++k)
     if (std::abs(directions[k].radial * direction.radial + directions[k].lift * direction.lift) >= kSameDirection)
       return;
-  if (direction_count < kMostDirections) directions[direction_count++] = direction;
+  if (direction_count < kMaxDirections) directions[direction_count++] = direction;
 }
 
 ThreadNodes::ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,

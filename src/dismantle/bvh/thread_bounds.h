@@ -11,14 +11,14 @@ namespace dismantle {
 
 /// The coordinates in which threads about an axis are seen: the distance from it, and the lift, which repeats.
 struct ThreadFrame {
-  static constexpr int kMostDirections = 6;
+  static constexpr int kMaxDirections = 6;
 
   AxisFrame axis;
   double lead = 0;    ///< Along the axis a turn [mm]; not 0.
   double period = 0;  ///< Lifts that differ by it are the same [mm]; above 0, and the lead is a multiple of it.
   /// The directions in the plane of both along which nodes are bounded; the first is that of the lift.
   int direction_count = 1;
-  ProfileDirection directions[kMostDirections];
+  ProfileDirection directions[kMaxDirections];
 
   /// Adds a direction if there is room, and none that is nearly the same.
   void add_direction(ProfileDirection direction);
@@ -30,7 +30,7 @@ struct ThreadNode {
   float begin = 0, end = 0;   ///< And its place along the axis [mm].
   /// And (distance, lift) along each direction, one whole number of periods added to all lifts of a triangle [mm];
   /// without bounds where nothing is known.
-  float low[ThreadFrame::kMostDirections], high[ThreadFrame::kMostDirections];
+  float low[ThreadFrame::kMaxDirections], high[ThreadFrame::kMaxDirections];
 };
 
 /// The nodes of a tree in one thread's frame. Of small nodes nothing is known.

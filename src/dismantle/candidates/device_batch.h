@@ -13,11 +13,11 @@
 
 namespace dismantle {
 
-/// MotionBatch over a queue, as ResidentStreams is: HostQueue or CudaQueue.
+/// MotionBatch over a queue, as DeviceStreams is: HostQueue or CudaQueue.
 template <class Queue>
-class ResidentBatch final : public MotionBatch {
+class DeviceBatch final : public MotionBatch {
  public:
-  ResidentBatch(Queue queue, const Assembly& assembly, const PairStates& pairs, const Executor& executor)
+  DeviceBatch(Queue queue, const Assembly& assembly, const PairStates& pairs, const Executor& executor)
       : queue_(std::move(queue)),
         executor_(executor),
         assembly_(assembly),
@@ -42,7 +42,7 @@ class ResidentBatch final : public MotionBatch {
   const Assembly& assembly_;
   PairRules rules_;
   MovingStreams host_;
-  resident::Geometry geometry_;
+  device_code::Geometry geometry_;
   DeviceArray<PairRuleEntry> rule_table_;
   DeviceArray<Vec3> vertices_;
   DeviceArray<Kdop16> bounds_;
@@ -54,7 +54,7 @@ class ResidentBatch final : public MotionBatch {
 };
 
 template <class Queue>
-void ResidentBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentId> moving) {
+void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentId> moving) {
   DISMANTLE_EXPECT(!moving.empty() && poses.size() == host_.fixed().component_count());
   std::vector<RigidTransform> state;
   for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
@@ -76,7 +76,7 @@ void ResidentBatch<Queue>::set_state(Span<const Pose> poses, Span<const Componen
 }
 
 template <class Queue>
-CandidateScene ResidentBatch<Queue>::scene() const {
+CandidateScene DeviceBatch<Queue>::scene() const {
   return {geometry_.tree(),
           bounds_.view(),
           geometry_.assembled.view(),
@@ -90,7 +90,7 @@ CandidateScene ResidentBatch<Queue>::scene() const {
 }
 
 template <class Queue>
-std::vector<FirstContact> ResidentBatch<Queue>::straight_contacts(Span<const Vec3> ways) {
+std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> ways) {
   const DeviceArray<Vec3> ways_there(queue_, ways);
   DeviceArray<CandidateContact> found(queue_, ways.size());
   queue_.launch(ways.size(), SweepStraight{scene(), ways_there.view(), found.view()});
@@ -99,7 +99,7 @@ std::vector<FirstContact> ResidentBatch<Queue>::straight_contacts(Span<const Vec
 
 /// The poses between which the set's chords are near enough to its arcs; the start first.
 template <class Queue>
-std::vector<Pose> ResidentBatch<Queue>::stations_to(const Pose& target) const {
+std::vector<Pose> DeviceBatch<Queue>::stations_to(const Pose& target) const {
   const Screw screw = screw_between(start_, target);
   const double rho = screw_radius(screw, transform_from_pose(start_) * set_.center, set_.radius);
   const int pieces = chord_count(screw_chord_deviation(screw, rho), path_deviation());
@@ -109,7 +109,7 @@ std::vector<Pose> ResidentBatch<Queue>::stations_to(const Pose& target) const {
 }
 
 template <class Queue>
-std::vector<FirstContact> ResidentBatch<Queue>::screw_contacts(Span<const Pose> targets) {
+std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> targets) {
   std::vector<RigidTransform> stations;
   std::vector<std::uint32_t> begin{0};
   for (const Pose& target : targets) {
@@ -124,7 +124,7 @@ std::vector<FirstContact> ResidentBatch<Queue>::screw_contacts(Span<const Pose> 
 }
 
 template <class Queue>
-std::vector<FirstContact> ResidentBatch<Queue>::brought_down_contacts(const DeviceArray<CandidateContact>& found) {
+std::vector<FirstContact> DeviceBatch<Queue>::brought_down_contacts(const DeviceArray<CandidateContact>& found) {
   std::vector<FirstContact> contacts;
   contacts.reserve(found.size());
   for (const CandidateContact& contact : brought_down(queue_, found, found.size()))
@@ -133,10 +133,10 @@ std::vector<FirstContact> ResidentBatch<Queue>::brought_down_contacts(const Devi
 }
 
 template <class Queue>
-FirstContact ResidentBatch<Queue>::contact_of(const CandidateContact& found) const {
+FirstContact DeviceBatch<Queue>::contact_of(const CandidateContact& found) const {
   FirstContact contact;
   if (found.key == CandidateContact::kFree) return contact;
-  const TriangleStreams& fixed = host_.fixed();
+  const AssemblyTriangles& fixed = host_.fixed();
   NodePair leaves = pair_of_key(found.key);
   if (in_hand_[fixed.bvh.component_of[leaves.a]] == 0) std::swap(leaves.a, leaves.b);
   contact.toi = found.toi;

@@ -16,7 +16,7 @@ ChosenMotionBatch make_motion_batch(const Assembly& assembly, const PairStates& 
     if (name && batch) return {std::move(*batch), *name, ""};
     if (choice == DeviceChoice::Cuda) chosen.why = batch.error().message;
   }
-  chosen.batch = std::make_unique<ResidentBatch<HostQueue>>(HostQueue(executor), assembly, pairs, executor);
+  chosen.batch = std::make_unique<DeviceBatch<HostQueue>>(HostQueue(executor), assembly, pairs, executor);
   chosen.device = "cpu";
   return chosen;
 }

@@ -10,7 +10,7 @@ Result<std::unique_ptr<MotionBatch>> make_cuda_motion_batch(const Assembly& asse
   if (!device) return device.error();
   try {
     return std::unique_ptr<MotionBatch>(
-        std::make_unique<ResidentBatch<CudaQueue>>(CudaQueue(), assembly, pairs, executor));
+        std::make_unique<DeviceBatch<CudaQueue>>(CudaQueue(), assembly, pairs, executor));
   } catch (const CudaError& error) {
     return Error{ErrorKind::Failed, error.what()};
   }

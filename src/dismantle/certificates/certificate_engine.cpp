@@ -54,7 +54,7 @@ std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
 }
 
 Clearance CertificateEngine::clearance(double limit) const {
-  return least_clearance(body_->sweeper, limit);
+  return min_clearance(body_->sweeper, limit);
 }
 
 std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> targets) const {

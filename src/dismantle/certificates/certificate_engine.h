@@ -51,7 +51,7 @@ struct CertificateOptions {
 /// A device that keeps copies of fronts, and when sweeps ask it.
 struct CertificateDevice {
   std::unique_ptr<FrontDevice> fronts;  ///< None: all is computed on the CPU.
-  std::size_t least_pairs = 0;          ///< Sweeps of fewer pairs of nodes do not ask it.
+  std::size_t min_pairs = 0;            ///< Sweeps of fewer pairs of nodes do not ask it.
 };
 
 /// The method `certificates` (docs/design/0006-certificates.md) with responses Stop, Touch and Slide: a front of

@@ -90,7 +90,7 @@ std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, dou
   return contacts;
 }
 
-Clearance least_clearance(const CertificateSweeper& sweeper, double limit) {
+Clearance min_clearance(const CertificateSweeper& sweeper, double limit) {
   Clearance least;
   least.distance = kInfinite;
   for (const ApartPair& pair : apart_pairs(sweeper, limit)) {
@@ -116,7 +116,7 @@ namespace {
 /// What touches from the start and is stopped goes on if a new start gets so many tolerances further: which of two
 /// overlapping faces is on which side is chosen where a sweep begins.
 constexpr double kNewStart = 8;
-constexpr int kMostStarts = 8;
+constexpr int kMaxStarts = 8;
 /// Each look for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
 /// contacts that are ever so little nearer would go on for ever.
 constexpr double kShorter = 0.05;
@@ -154,7 +154,7 @@ std::optional<StraightContact> contact_from_fit(const CertificateSweeper& sweepe
     const double next = std::min(to, from + kNewStart * sweeper.tolerance() / whole);
     if (const auto contact = contact_between(sweeper, asked, from, next, search)) return contact;
     const auto contact = contact_between(sweeper, asked, next, to, StraightSearch::First);
-    if (!contact || starts == kMostStarts) return contact;
+    if (!contact || starts == kMaxStarts) return contact;
     from = contact->distance / whole;
   }
 }

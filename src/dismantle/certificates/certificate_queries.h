@@ -12,7 +12,7 @@ namespace dismantle {
 std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach);
 
 /// The clearance of CertificateEngine::clearance.
-Clearance least_clearance(const CertificateSweeper& sweeper, double limit);
+Clearance min_clearance(const CertificateSweeper& sweeper, double limit);
 
 /// The batch of CertificateEngine::first_contacts.
 std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets);

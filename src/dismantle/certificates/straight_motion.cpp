@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kVertices = 48;
 
 /// Beyond so many pairs of nodes the shadows are not told apart.
-constexpr std::size_t kMostShadows = 20'000;
+constexpr std::size_t kMaxShadows = 20'000;
 /// What rounding may take from a gap, relative to the coordinates.
 constexpr double kRounding = 1e-5;
 
@@ -80,9 +80,9 @@ class Shadows {
     if (from_a > to_b + margin || from_b - whole_ > to_a + margin) return true;
     const auto parts = [&](Vec3 edge) {
       const Vec3 w = cross(ahead_, edge);
-      const auto [least_a, most_a] = span(a, w);
-      const auto [least_b, most_b] = span(b, w);
-      return std::max(least_a - most_b, least_b - most_a) > margin * length(w);
+      const auto [min_a, max_a] = span(a, w);
+      const auto [min_b, max_b] = span(b, w);
+      return std::max(min_a - max_b, min_b - max_a) > margin * length(w);
     };
     for (int k = 0; k < 3; ++k)
       if (parts(a[(k + 1) % 3] - a[k]) || parts(b[(k + 1) % 3] - b[k])) return true;
@@ -145,7 +145,7 @@ bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
     open.pop_back();
     if (shadows.apart(a, b)) continue;
     const ObbNode &node_a = tree.nodes[a], &node_b = fixed.tree.nodes[b];
-    if ((node_a.leaf() && node_b.leaf()) || seen == kMostShadows) return false;
+    if ((node_a.leaf() && node_b.leaf()) || seen == kMaxShadows) return false;
     const bool split_a = node_a.size >= node_b.size;
     for (std::uint32_t k = 0; k < 2; ++k)
       split_a ? open.emplace_back(node_a.child + k, b) : open.emplace_back(a, node_b.child + k);

@@ -20,7 +20,8 @@ Pose read_pose(JsonReader& in, const JsonNode& frame) {
   if (in.size(rotation) != 4 && in.ok()) in.fail(rotation, "not four numbers");
   if (!in.ok()) return {};
   const Vec3 p{in.number(position.at(0)), in.number(position.at(1)), in.number(position.at(2))};
-  const Quat q{in.number(rotation.at(0)), in.number(rotation.at(1)), in.number(rotation.at(2)), in.number(rotation.at(3))};
+  const Quat q{in.number(rotation.at(0)), in.number(rotation.at(1)), in.number(rotation.at(2)),
+               in.number(rotation.at(3))};
   const double squared = dot(q, q);
   if (in.ok() && !(std::abs(std::sqrt(squared) - 1) <= kUnitQuaternionTolerance))
     in.fail(rotation, "not a quaternion of unit length");

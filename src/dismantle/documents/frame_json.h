@@ -15,7 +15,8 @@ constexpr double kUnitQuaternionTolerance = 1e-6;
 /// At least one component name, none twice; else the reader fails.
 std::vector<std::string> read_component_names(JsonReader& in, const JsonNode& array);
 
-/// Frames as docs/formats.md has them: at least one, t from 0 on and never decreasing, unit quaternions; else the reader fails.
+/// Frames as docs/formats.md has them: at least one, t from 0 on and never decreasing, unit quaternions; else the
+/// reader fails.
 std::vector<Frame> read_frames(JsonReader& in, const JsonNode& array);
 
 /// The members t, position and rotation of a frame as docs/formats.md has them.

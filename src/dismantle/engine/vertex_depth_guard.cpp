@@ -31,7 +31,7 @@ constexpr double kHeldShare = 0.1;
 /// How often, in quarters, a way is shortened for one face to hold it.
 constexpr int kFaceTries = 4;
 
-double least_altitude(const TriangleMesh& mesh) {
+double min_altitude(const TriangleMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Triangle t = mesh.triangle(f);
@@ -234,7 +234,7 @@ void VertexDepthGuard::prepare() {
 
 double VertexDepthGuard::thinnest(ComponentId component) {
   double& known = thinnest_[component.value];
-  if (known < 0) known = least_altitude(*(*assembly_)[component].mesh);
+  if (known < 0) known = min_altitude(*(*assembly_)[component].mesh);
   return known;
 }
 
@@ -276,7 +276,7 @@ void VertexDepthGuard::begin_anew(Side& side) {
 namespace {
 
 template <class Watched>
-double least_slack(const std::vector<Watched>& watched) {
+double min_slack(const std::vector<Watched>& watched) {
   double least = std::numeric_limits<double>::infinity();
   for (const Watched& w : watched) least = std::min(least, w.slack);
   return least;
@@ -324,7 +324,7 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const Course&
   side.watched = std::move(start);
   side.watched_end = std::move(end);
   side.spent = side.spent_end = 0;
-  side.least = least_slack(side.watched);
+  side.least = min_slack(side.watched);
   return first;
 }
 
@@ -404,7 +404,7 @@ void VertexDepthGuard::commit() {
     side.watched = std::move(side.watched_end);
     side.watched_end.clear();
     merge(side);
-    side.least = least_slack(side.watched);
+    side.least = min_slack(side.watched);
   }
 }
 

@@ -100,7 +100,7 @@ Result<SweptVolume> swept_volume(const Assembly& assembly, const TimelineMove& m
   const Aabb all = passed_box(surface, close_poses(move, surface.box, rough), rough);
   const double tolerance = options.tolerance > 0 ? options.tolerance : kSweptShare * diagonal(all);
   const double side = tolerance / kSides;
-  const std::optional<CellGrid> empty = CellGrid::around(all, side, kMostSweptCells);
+  const std::optional<CellGrid> empty = CellGrid::around(all, side, kMaxSweptCells);
   if (!empty) return too_fine(tolerance);
 
   CellGrid grid = *empty;

@@ -25,10 +25,10 @@ inline constexpr double kSweptShare = 0.02;
 /// The volume that a move's components pass, solids with their insides, from its first frame to its last. Conservative:
 /// it holds every point of them at every time; and no point of it is further than the tolerance from one of these.
 /// Found on a grid, whose steps its surface shows. Errors: Usage where the tolerance is too fine for the size
-/// (kMostSweptCells), Failed where it was cancelled.
+/// (kMaxSweptCells), Failed where it was cancelled.
 Result<SweptVolume> swept_volume(const Assembly& assembly, const TimelineMove& move,
                                  const SweptVolumeOptions& options = {});
 
-inline constexpr std::size_t kMostSweptCells = std::size_t{1} << 27;
+inline constexpr std::size_t kMaxSweptCells = std::size_t{1} << 27;
 
 }  // namespace dismantle

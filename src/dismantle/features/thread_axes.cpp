@@ -21,30 +21,30 @@ namespace {
 /// An edge is along a helix where its ends' distances from the axis differ by no more than this share of them,
 constexpr double kSameDistance = 2e-3;
 /// the angle between them is between these [rad],
-constexpr double kLeastAngle = 1e-3, kMostAngle = 1.3;
+constexpr double kMinAngle = 1e-3, kMaxAngle = 1.3;
 /// and the lead that it has is between these shares of the distance.
-constexpr double kLeastLead = 0.03, kMostLead = 6;
+constexpr double kMinLead = 0.03, kMaxLead = 6;
 /// Leads agree that differ by no more than this share.
 constexpr double kSameLead = 1e-3;
 /// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
 /// and no further apart than this share of the lead.
 constexpr double kMatingLead = 5e-3, kMatingSine = 0.02, kMatingShare = 0.25;
 /// So many axes of a mesh are looked at, those with the longest turns,
-constexpr std::size_t kMostAxes = 16;
+constexpr std::size_t kMaxAxes = 16;
 /// and so many leads of each, those with the longest edges [rad],
-constexpr std::size_t kMostLeads = 3;
+constexpr std::size_t kMaxLeads = 3;
 /// if these are at least a turn long, and this share of all such edges.
-constexpr double kLeastTurn = kTurn, kLeastShare = 0.05;
+constexpr double kMinTurn = kTurn, kMinShare = 0.05;
 /// No more than so many edges are looked at, of all axes together: an even choice of them.
-constexpr std::size_t kMostEdges = 4'000'000;
+constexpr std::size_t kMaxEdges = 4'000'000;
 
 /// A mesh without edges along helices may have a thread if it has so many faces. Its fit is made with no more than so
 /// many of the curved places,
-constexpr std::size_t kFewestFaces = 400, kMostSamples = 40'000;
+constexpr std::size_t kFewestFaces = 400, kMaxSamples = 40'000;
 /// its lead sought no further from the fit's than this share of it, in steps for which so many parts of a turn add up
 /// along the thread; with no more than so many faces at first, and then with more, so often a third closer.
 constexpr double kLeadRange = 0.12, kLeadStep = 0.05;
-constexpr std::size_t kMostScanned = 2000, kMostFitted = 10'000;
+constexpr std::size_t kMaxScanned = 2000, kMaxFitted = 10'000;
 constexpr int kCloser = 20;
 
 /// Edges along helices of one lead.
@@ -86,9 +86,9 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
       const double distance = length(from), other = length(to);
       if (!(rise != 0) || !(std::abs(distance - other) <= kSameDistance * distance)) continue;
       const double angle = std::atan2(dot(frame.direction, cross(from, to)), dot(from, to));
-      if (!(std::abs(angle) >= kLeastAngle && std::abs(angle) <= kMostAngle)) continue;
+      if (!(std::abs(angle) >= kMinAngle && std::abs(angle) <= kMaxAngle)) continue;
       const double lead = kTurn * rise / angle, size = std::abs(lead);
-      if (!(size >= kLeastLead * distance && size <= kMostLead * distance)) continue;
+      if (!(size >= kMinLead * distance && size <= kMaxLead * distance)) continue;
       const auto place = static_cast<std::int64_t>(std::floor(std::log(size) * cell_count));
       const double turn = std::abs(angle) * static_cast<double>(stride);
       const double low = frame.along(vertices[v]), high = low + rise;
@@ -100,7 +100,7 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
   for (const auto& [cell, votes] : cells) {
     Helices sum = votes;
     if (const auto next = cells.find(cell + 2); next != cells.end()) sum.add(next->second);
-    if (!(sum.turn >= std::max(kLeastTurn, kLeastShare * all))) continue;
+    if (!(sum.turn >= std::max(kMinTurn, kMinShare * all))) continue;
     sum.lead /= sum.turn;
     sums.push_back(sum);
   }
@@ -109,12 +109,12 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
     const bool known = std::any_of(found.begin(), found.end(), [&](const Helices& other) {
       return std::abs(other.lead - sum.lead) <= 3 * kSameLead * std::abs(sum.lead);
     });
-    if (!known && found.size() < kMostLeads) found.push_back(sum);
+    if (!known && found.size() < kMaxLeads) found.push_back(sum);
   }
   return found;
 }
 
-std::optional<ThreadProfile> best_profile(Span<const Vec3> vertices, Span<const Face> faces, const RoundAxis& axis,
+std::optional<ThreadProfile> best_profile(Span<const Vec3> vertices, Span<const Face> faces, const RevolutionAxis& axis,
                                           std::size_t stride) {
   const AxisFrame frame(axis.point, axis.direction);
   std::optional<ThreadProfile> best;
@@ -172,7 +172,7 @@ class Agreement {
 /// The lead near a rough one with which the most area agrees. The peak is narrow: few faces tell about where it is.
 /// @param turns how many turns the thread has
 double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double turns) {
-  const Agreement few(faces, kMostScanned), many(faces, kMostFitted);
+  const Agreement few(faces, kMaxScanned), many(faces, kMaxFitted);
   const double step = kLeadStep / std::max(1.0, turns);
   double best = rough, most = 0;
   for (double off = -kLeadRange; off <= kLeadRange; off += step) {
@@ -197,7 +197,7 @@ double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double
 /// far it leads.
 std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
   if (faces.size() < kFewestFaces) return std::nullopt;
-  const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMostSamples));
+  const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMaxSamples));
   if (!rough) return std::nullopt;
   const AxisFrame frame(rough->point, rough->direction);
   std::vector<ProfileFace> near;
@@ -215,9 +215,10 @@ std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const
 
 }  // namespace
 
-std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes) {
+std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces,
+                                    Span<const RevolutionAxis> axes) {
   std::vector<ThreadAxis> threads;
-  const std::size_t count = std::min(axes.size(), kMostAxes), stride = 1 + 3 * faces.size() * count / kMostEdges;
+  const std::size_t count = std::min(axes.size(), kMaxAxes), stride = 1 + 3 * faces.size() * count / kMaxEdges;
   for (std::size_t i = 0; i < count; ++i)
     if (const std::optional<ThreadProfile> profile = best_profile(vertices, faces, axes[i], stride))
       threads.push_back(profile->thread);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 
 #include <cstdint>
 #include <vector>
@@ -41,7 +41,7 @@ struct ThreadAxis {
 /// tessellations of modelled threads have them, and by flanks that keep to their place in the profile all around. Where
 /// there are none, the one whose surface goes along itself by a screw motion (fit_thread), if most of what is curved
 /// does: meshes that were cut anew have no such edges. What is given is only where to look: one may be missing.
-std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes);
+std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RevolutionAxis> axes);
 
 /// Whether two threads are those of a screw and its nut: one outer, one inner, of nearly the same lead, as many starts
 /// and nearly the same axis.

@@ -29,10 +29,10 @@ constexpr std::size_t kFewestSamples = 24;
 constexpr double kOff[] = {1, 0.3, 0.3, 0.1, 0.1, 0.1, 0.05, 0.05, 0.05, 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.01};
 /// What is off by less belongs to the thread, and so much of all must.
 constexpr double kOnThread = 0.03;
-constexpr double kLeastShare = 0.4;
+constexpr double kMinShare = 0.4;
 /// Flanks, whose normals lie between these parts along the axis, tell the rise; so much of all must be flanks.
 constexpr double kFlank[] = {0.1, 0.995};
-constexpr double kLeastFlanks = 0.2;
+constexpr double kMinFlanks = 0.2;
 /// The rise of a thread is between these shares of its radius.
 constexpr double kRise[] = {0.01, 3};
 /// What is added to keep a shift along a plain bore, which costs nothing, out of it.
@@ -58,7 +58,7 @@ Mat3 inverse_of(const Mat3& a) {
 }
 
 /// The unit vector of a symmetric matrix' least eigenvalue: the power iteration of its inverse.
-Vec3 least_direction(Mat3 a, double ridge) {
+Vec3 min_direction(Mat3 a, double ridge) {
   for (int i = 0; i < 3; ++i) a.row[i][i] += ridge;
   const Mat3 inverse = inverse_of(a);
   Vec3 best;
@@ -76,7 +76,7 @@ struct Twist {
 };
 
 /// The twist of unit turn with the least velocities along the normals.
-Twist least_twist(const Moments& sums) {
+Twist min_twist(const Moments& sums) {
   Mat3 nn = sums.nn;
   const double trace = nn.row[0].x + nn.row[1].y + nn.row[2].z;
   for (int i = 0; i < 3; ++i) nn.row[i][i] += kRidge * trace;
@@ -84,7 +84,7 @@ Twist least_twist(const Moments& sums) {
   Mat3 rest = transposed(sums.nm) * v_from_w;
   for (int i = 0; i < 3; ++i) rest.row[i] = sums.mm.row[i] - rest.row[i];
   const double size = sums.mm.row[0].x + sums.mm.row[1].y + sums.mm.row[2].z;
-  const Vec3 w = least_direction(rest, kRidge * size);
+  const Vec3 w = min_direction(rest, kRidge * size);
   return {-(v_from_w * w), w};
 }
 
@@ -111,7 +111,7 @@ bool is_thread(const std::vector<Centred>& samples, const Twist& twist, double r
     if (along > kFlank[0] && along < kFlank[1]) flanks += s.weight;
   }
   const double slope = std::abs(rise) / radius;
-  return on > kLeastShare * all && flanks > kLeastFlanks * all && slope > kRise[0] && slope < kRise[1];
+  return on > kMinShare * all && flanks > kMinFlanks * all && slope > kRise[0] && slope < kRise[1];
 }
 
 /// Where the samples that are on the thread are.
@@ -190,7 +190,7 @@ std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples) {
       const double ratio = twist.w == Vec3{} ? 0 : off(s, twist) / half;
       sums.add(s.normal, s.moment, s.weight / (1 + ratio * ratio));
     }
-    twist = least_twist(sums);
+    twist = min_twist(sums);
   }
   const Vec3 foot = cross(twist.w, twist.v);
   double radius = 0;

@@ -11,20 +11,20 @@ namespace dismantle {
 namespace {
 
 /// A flank takes no more than this many directions of the profile.
-constexpr int kMostOfFlank = 6;
+constexpr int kMaxOfFlank = 6;
 /// What has less than this share of the area of the largest flank is none.
-constexpr double kLeastOfLargest = 0.1;
+constexpr double kMinOfLargest = 0.1;
 /// The least share of the normal along the axis that a flank has.
-constexpr double kLeastLift = 0.15;
+constexpr double kMinLift = 0.15;
 /// How well the faces of a flank agree about its place: 1 for all at one, 0 for all over the profile.
-constexpr double kLeastAgreement = 0.75;
+constexpr double kMinAgreement = 0.75;
 /// How little they agree about the angle around the axis.
-constexpr double kMostOneSided = 0.3;
+constexpr double kMaxOneSided = 0.3;
 /// Faces of which the centroid is no further off a flank, in profiles, tell where it is.
 constexpr double kNearPlace = 0.12;
 /// The corners of a face of a flank are no further off it, in profiles.
 constexpr double kOfPlace = 0.02;
-constexpr int kMostStarts = 4;
+constexpr int kMaxStarts = 4;
 /// Another lead or number of starts is taken where flanks have so many times the area with it.
 constexpr double kMuchMore = 1.5;
 
@@ -57,10 +57,10 @@ std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   for (const FacesOfDirection& d : directions) all += d.area;
   for (std::size_t i = 0; i < kProfileDirections; ++i) {
     const FacesOfDirection& d = directions[i];
-    const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kLeastAgreement * d.area &&
-                        std::abs(d.angle) <= kMostOneSided * d.area;
+    const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kMinAgreement * d.area &&
+                        std::abs(d.angle) <= kMaxOneSided * d.area;
     if (!agrees) continue;
-    const bool goes_on = !runs.empty() && runs.back().back() + 1 == i && runs.back().size() < kMostOfFlank &&
+    const bool goes_on = !runs.empty() && runs.back().back() + 1 == i && runs.back().size() < kMaxOfFlank &&
                          directions[i - 1].lift * d.lift > 0;
     if (goes_on) {
       runs.back().push_back(i);
@@ -75,7 +75,7 @@ std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   };
   double most = 0;
   for (const std::vector<std::size_t>& run : runs) most = std::max(most, area(run));
-  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kLeastOfLargest * most; });
+  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kMinOfLargest * most; });
   return runs;
 }
 
@@ -168,7 +168,7 @@ void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vecto
 }
 
 /// @param faces that may be flanks
-std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, const RoundAxis& axis, double lead,
+std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, const RevolutionAxis& axis, double lead,
                                         int starts) {
   const double period = std::abs(lead) / starts;
   const Directions directions = by_direction(faces, lead, period);
@@ -210,7 +210,7 @@ ProfileFace profile_face(const AxisFrame& frame, const Triangle& t) {
 }
 
 bool may_be_flank(const ProfileFace& face) {
-  return std::abs(face.normal.lift) >= kLeastLift;
+  return std::abs(face.normal.lift) >= kMinLift;
 }
 
 bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period) {
@@ -224,9 +224,9 @@ std::size_t profile_direction(ProfileDirection normal) {
   return std::min<std::size_t>(kProfileDirections - 1, static_cast<std::size_t>(turned * kProfileDirections));
 }
 
-void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces, const RoundAxis& axis,
-                     double lead) {
-  for (int starts = 1; starts <= kMostStarts; ++starts) {
+void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces,
+                     const RevolutionAxis& axis, double lead) {
+  for (int starts = 1; starts <= kMaxStarts; ++starts) {
     std::optional<ThreadProfile> found = profile_of(faces, axis, lead, starts);
     if (found && (!best || found->area > kMuchMore * best->area)) best = std::move(found);
   }

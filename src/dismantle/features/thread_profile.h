@@ -63,7 +63,7 @@ struct ThreadProfile {
 
 /// Takes the thread that faces, which may be flanks, have about an axis with some lead, if it leads on and back, for
 /// the best one so far where far more area agrees about it; with every number of starts. @param lead signed [mm]
-void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces, const RoundAxis& axis,
-                     double lead);
+void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces,
+                     const RevolutionAxis& axis, double lead);
 
 }  // namespace dismantle

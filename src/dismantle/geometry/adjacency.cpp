@@ -51,7 +51,7 @@ struct Rim {
 /// slivers left out leave open.
 constexpr double kCrackWidth = 1e-4;
 /// So many rims are looked at; a mesh with more is open.
-constexpr std::size_t kMostRims = 20000;
+constexpr std::size_t kMaxRims = 20000;
 
 double distance_to_segment(Vec3 p, const Rim& rim) {
   const Vec3 along = rim.to - rim.from;
@@ -61,7 +61,7 @@ double distance_to_segment(Vec3 p, const Rim& rim) {
 
 /// The rims that no others run along the other way.
 std::size_t count_open(std::vector<Rim> rims, double width) {
-  if (rims.size() > kMostRims) return rims.size();
+  if (rims.size() > kMaxRims) return rims.size();
   const auto lowest = [](const Rim& r) { return std::min(r.from.x, r.to.x); };
   const auto highest = [](const Rim& r) { return std::max(r.from.x, r.to.x); };
   std::sort(rims.begin(), rims.end(), [&](const Rim& a, const Rim& b) { return lowest(a) < lowest(b); });

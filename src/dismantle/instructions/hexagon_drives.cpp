@@ -20,7 +20,7 @@ constexpr double kSameFace = 0.02;
 /// A side of a hexagon reaches this share of its distance aside, and no more than by the second share further.
 constexpr double kSideReach = 0.5773502691896258, kSideSlack = 0.02;
 /// The six faces have at least this share of all surface at their distance, and each this share of a sixth.
-constexpr double kLeastShare = 0.95, kLeastSide = 0.6;
+constexpr double kMinShare = 0.95, kMinSide = 0.6;
 
 const double kSixth = std::acos(-1.0) / 3;
 
@@ -66,12 +66,12 @@ bool is_hexagon(Span<const FlatFace> faces) {
     sides[static_cast<std::size_t>(nearest + 12) % 6] += face.area;
   }
   const double least = *std::min_element(sides.begin(), sides.end());
-  return on_sides > kLeastShare * all && least > kLeastSide * all / 6;
+  return on_sides > kMinShare * all && least > kMinSide * all / 6;
 }
 
 }  // namespace
 
-std::vector<HexagonDrive> hexagon_drives(const TriangleMesh& mesh, const RoundAxis& axis) {
+std::vector<HexagonDrive> hexagon_drives(const TriangleMesh& mesh, const RevolutionAxis& axis) {
   const std::vector<FlatFace> faces = faces_along(mesh, AxisFrame(axis.point, axis.direction));
   std::vector<HexagonDrive> drives;
   for (auto first = faces.begin(); first != faces.end();) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 
 #include <vector>
 
@@ -19,6 +19,6 @@ struct HexagonDrive {
 
 /// The hexagons of a mesh about an axis: six plane faces around it at one distance, which all the surface along the
 /// axis at that distance belongs to. Of several at one distance, one. A surface that is cut up otherwise may hide one.
-std::vector<HexagonDrive> hexagon_drives(const TriangleMesh& mesh, const RoundAxis& axis);
+std::vector<HexagonDrive> hexagon_drives(const TriangleMesh& mesh, const RevolutionAxis& axis);
 
 }  // namespace dismantle

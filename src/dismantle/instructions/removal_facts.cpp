@@ -12,7 +12,7 @@ namespace {
 /// What is gone stands so many diagonals of the assembly off.
 constexpr double kFarAway = 100;
 /// So many screws of a way are looked at, at most: of more, every n-th.
-constexpr std::size_t kMostPlaces = 60;
+constexpr std::size_t kMaxPlaces = 60;
 
 bool has(Span<const ComponentId> set, ComponentId c) {
   return std::find(set.begin(), set.end(), c) != set.end();
@@ -37,7 +37,7 @@ WayClearance RemovalFacts::clearance(const WorkStep& step, const RemovalMove& re
   const double near = kNearShare * diagonal(box);
   const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
   const std::vector<WayPlace> places = places_along(removal, box.center(), pieces);
-  const std::size_t stride = 1 + places.size() / kMostPlaces;
+  const std::size_t stride = 1 + places.size() / kMaxPlaces;
   std::vector<Pose> poses = with_gone(step.before, put_aside_before(step, removal));
   WayClearance found;
   for (std::size_t i = 0; i < places.size(); i += stride) {

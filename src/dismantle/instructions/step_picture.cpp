@@ -24,11 +24,11 @@ constexpr int kWayPieces = 24;
 /// A set is shown where it is past the boxes of all components around it by this share of its own size, but no further
 /// than so many of its sizes from home, unless that is less than the share of the surroundings; and no nearer than the
 /// share of its size, or its arrow would not be seen.
-constexpr double kPast = 0.35, kMostSizes = 3, kLeastReach = 0.25, kLeastSizes = 0.8;
+constexpr double kPast = 0.35, kMaxSizes = 3, kMinReach = 0.25, kMinSizes = 0.8;
 /// The place where it is past them is found by so many halvings of a screw.
 constexpr int kHalvings = 24;
 /// A close picture shows this share more around what moves, and at least this share of the surroundings.
-constexpr double kAround = 0.35, kLeastRegion = 0.15;
+constexpr double kAround = 0.35, kMinRegion = 0.15;
 /// One that would show more than this share of the surroundings shows all of them.
 constexpr double kAlmostAll = 0.6;
 /// Arrows have this share of the picture's diagonal as radius, but are so many radii long; ways shorter than so many of
@@ -42,10 +42,10 @@ constexpr int kJudgedWidth = 120, kJudgedHeight = 90;
 /// others than the last, count less.
 constexpr double kSeenWorth = 1, kEndWorth = 0.4, kWayWorth = 0.6, kBelowCost = 0.3, kChangeCost = 0.15;
 /// A set of which less is seen, of what could be, is shown through what hides it.
-constexpr double kLeastSeen = 0.12;
+constexpr double kMinSeen = 0.12;
 constexpr float kSeeThrough = 0.25f;
 /// An arrow around an axis turns by no more [rad].
-constexpr double kMostTurn = 4.7;
+constexpr double kMaxTurn = 4.7;
 
 /// Views from around, 30 degrees from above and 25 from below, and from the top.
 std::vector<Vec3> candidate_views() {
@@ -67,11 +67,11 @@ std::vector<WayPlace> shown_way(const Assembly& assembly, const RemovalMove& rem
   Aabb all;
   for (const Aabb& box : around) all.extend(box);
   const double size = diagonal(bounds_of(assembly, removal.components));
-  const double most = std::max(kMostSizes * size, kLeastReach * diagonal(all));
+  const double most = std::max(kMaxSizes * size, kMinReach * diagonal(all));
   const auto is_out = [&](const WayPlace& place) {
     if (place.distance >= most) return true;
     const Aabb own = inflated(bounds_of(assembly, removal.components, place.pose), kPast * size / 2);
-    return place.distance >= kLeastSizes * size &&
+    return place.distance >= kMinSizes * size &&
            std::none_of(around.begin(), around.end(), [&](const Aabb& box) { return overlaps(own, box); });
   };
   const auto out = std::find_if(places.begin(), places.end(), is_out);
@@ -100,7 +100,7 @@ std::vector<Vec3> line_of(const std::vector<WayPlace>& places, const Vec3& middl
 /// An arc around the axis of a leg that turns, at the set's outer end, in the sense in which it is gone.
 std::vector<Vec3> arc_of(const Leg& leg, const Aabb& box, PathDirection direction) {
   const Vec3 axis = leg.direction;
-  const double turn = std::min(leg.angle, kMostTurn);
+  const double turn = std::min(leg.angle, kMaxTurn);
   const Vec3 middle = leg.axis_point + dot(box.center() - leg.axis_point, axis) * axis;
   const Vec3 across = normalized(cross(axis, std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
   double radius = 0;
@@ -180,7 +180,7 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
         subject.lines.push_back(arc_of(leg, bounds_of(assembly_, removal.components, way.back().pose), direction));
   }
   subject.surroundings.extend(subject.region);
-  const double least = kLeastRegion * diagonal(subject.surroundings);
+  const double least = kMinRegion * diagonal(subject.surroundings);
   subject.region =
       inflated(subject.region, std::max(kAround * diagonal(subject.region), least - diagonal(subject.region)) / 2);
   if (diagonal(subject.region) > kAlmostAll * diagonal(subject.surroundings)) subject.region = subject.surroundings;
@@ -261,7 +261,7 @@ StepPictures StepPictureTaker::take(const WorkStep& step, PathDirection directio
   Subject subject = subject_of(step, direction);
   StepPictures pictures;
   pictures.view = last_view_ = best_view(subject);
-  if (seen_share(subject, pictures.view) < kLeastSeen)
+  if (seen_share(subject, pictures.view) < kMinSeen)
     for (std::size_t i = 0; i < subject.moving.front(); ++i) subject.scene.items[i].color.a = kSeeThrough;
   const bool is_part = !(subject.region == subject.surroundings);
   pictures.close = take(subject, pictures.view, corners_of(subject.region), 1);

@@ -14,14 +14,14 @@ namespace {
 /// Directions are the same within this sine.
 constexpr double kSameDirection = 0.02;
 /// A screw turns where it does so by more, in all [rad].
-constexpr double kLeastTurn = 1e-4;
+constexpr double kMinTurn = 1e-4;
 /// Ways of more legs are not told one by one.
-constexpr std::size_t kMostLegs = 4;
+constexpr std::size_t kMaxLegs = 4;
 const double kTurn = 2 * std::acos(-1.0);
 
 Leg leg_of(const Pose& from, const Pose& to, const Vec3& middle) {
   const Screw screw = screw_between(from, to);
-  if (screw.angle > kLeastTurn)
+  if (screw.angle > kMinTurn)
     return {screw.axis, dot(screw.velocity, screw.axis), screw.angle, screw_axis_point(screw)};
   const Vec3 way = transform_from_pose(to) * middle - transform_from_pose(from) * middle;
   return {normalized(way), length(way), 0, {}};
@@ -87,7 +87,7 @@ std::string direction_words(const Vec3& unit) {
 
 std::string way_text(const std::vector<Leg>& legs, PathDirection direction) {
   if (legs.empty()) return "It stays where it is.";
-  if (legs.size() > kMostLegs) {
+  if (legs.size() > kMaxLegs) {
     double length = 0, angle = 0;
     for (const Leg& leg : legs) {
       length += std::abs(leg.length);

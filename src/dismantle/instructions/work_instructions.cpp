@@ -22,13 +22,13 @@ using Kind = InstructionNote::Kind;
 /// A drive or a thread is of use to a motion along it, within this sine.
 constexpr double kAlong = 0.02;
 /// Of more names, the rest is counted.
-constexpr std::size_t kMostNames = 6;
+constexpr std::size_t kMaxNames = 6;
 /// So much of the checksum tells versions apart.
 constexpr std::size_t kChecksumDigits = 12;
 
 /// "a, b and c"; of many, the first and how many more.
 std::string names_text(const std::vector<std::string>& names) {
-  const std::size_t named = names.size() <= kMostNames ? names.size() : kMostNames - 1;
+  const std::size_t named = names.size() <= kMaxNames ? names.size() : kMaxNames - 1;
   std::string text;
   for (std::size_t i = 0; i < named; ++i) {
     if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
@@ -195,7 +195,7 @@ class Writer {
     const Component& c = assembly_[removal.components[0]];
     const Mat3 turned = transform_from_pose(removal.way.front()).rotation * c.assembly_from_mesh.rotation;
     std::map<std::string, std::set<double>> tools;
-    for (const RoundAxis& axis : round_axes(c.mesh->vertices, c.mesh->faces)) {
+    for (const RevolutionAxis& axis : revolution_axes(c.mesh->vertices, c.mesh->faces)) {
       if (!lies_along(turned * axis.direction, legs.front())) continue;
       for (const HexagonDrive& drive : hexagon_drives(*c.mesh, axis)) {
         const bool is_head = drive.kind == HexagonDrive::Kind::Head;
@@ -211,7 +211,7 @@ class Writer {
 
   void note_thread(const Component& c, const Mat3& turned, const std::vector<Leg>& legs,
                    Instruction& instruction) const {
-    const std::vector<RoundAxis> axes = round_axes(c.mesh->vertices, c.mesh->faces);
+    const std::vector<RevolutionAxis> axes = revolution_axes(c.mesh->vertices, c.mesh->faces);
     for (const ThreadAxis& thread : thread_axes(c.mesh->vertices, c.mesh->faces, axes)) {
       if (!lies_along(turned * thread.direction, legs.front())) continue;
       std::string text = "Thread of " + number_text(2 * thread.most) + " mm, " + number_text(std::abs(thread.lead)) +
@@ -267,7 +267,7 @@ class Writer {
 
   void note_overlaps(const WorkStep& step, Instruction& instruction) const {
     const std::vector<CountedOverlap> overlaps = overlaps_of(step);
-    const std::size_t told = overlaps.size() <= kMostNames ? overlaps.size() : kMostNames - 1;
+    const std::size_t told = overlaps.size() <= kMaxNames ? overlaps.size() : kMaxNames - 1;
     for (std::size_t i = 0; i < told; ++i) {
       const CountedOverlap& o = overlaps[i];
       instruction.notes.push_back(

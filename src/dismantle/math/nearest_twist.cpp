@@ -167,7 +167,7 @@ class Search {
   NearestTwist run() {
     NearestTwist result;
     while (true) {
-      const Violated worst = most_violated();
+      const Violated worst = max_violated();
       if (worst.index < 0) break;
       const int before = result.iterations;
       if (take_up(worst.index, result.iterations)) continue;
@@ -186,7 +186,7 @@ class Search {
 
  private:
   /// Among equals the first.
-  Violated most_violated() const {
+  Violated max_violated() const {
     Violated worst;
     double worst_squared = 0;
     for (std::size_t i = 0; i < half_spaces_.size(); ++i) {

@@ -42,7 +42,7 @@ CcdResult decided_in_double(const EdgeEdgeMotion& motion) {
 template <class Motion>
 CcdBatchResult decide(Span<const Motion> motions, LaneCount lanes) {
   CcdBatchResult result;
-  std::uint32_t undecided[kChunk + kMostLanes];
+  std::uint32_t undecided[kChunk + kMaxLanes];
   for (std::size_t start = 0; start < motions.size(); start += kChunk) {
     const auto up_to_chunk = [&](std::size_t from) {
       return static_cast<std::uint32_t>(std::min<std::size_t>(kChunk, motions.size() - from));

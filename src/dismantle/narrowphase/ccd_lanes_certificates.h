@@ -21,21 +21,21 @@ inline constexpr float kLaneMiddleError = 224 * 0x1p-24f;
 inline constexpr float kLaneUnderflow = 0x1p-110f;
 
 /// The least reach: stands for coordinates that underflow on the way to float.
-inline constexpr float kLaneLeastReach = 0x1p-100f;
+inline constexpr float kLaneMinReach = 0x1p-100f;
 
 /// Where the coordinates of the reach add up to less, no product of three overflows.
-inline constexpr float kLaneMostReach = 0x1p40f;
+inline constexpr float kLaneMaxReach = 0x1p40f;
 
 template <int N>
 LaneVec<N> select(LaneMask<N> mask, LaneVec<N> a, LaneVec<N> b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
-/// The largest absolute value of each coordinate over all points and both ends, at least kLaneLeastReach; infinite
+/// The largest absolute value of each coordinate over all points and both ends, at least kLaneMinReach; infinite
 /// where one is.
 template <int N>
 LaneVec<N> reach_of(const RelativePoints<N>& points) {
-  const Lanes<N> least = kLaneLeastReach;
+  const Lanes<N> least = kLaneMinReach;
   LaneVec<N> reach = {least, least, least};
   for (const auto& end : points.at)
     for (const LaneVec<N>& p : end) reach = {max(reach.x, abs(p.x)), max(reach.y, abs(p.y)), max(reach.z, abs(p.z))};
@@ -65,7 +65,7 @@ LaneMask<N> never_coplanar(const RelativePoints<N>& points, LaneVec<N> reach) {
   const L corner = kLaneCornerError * volume + underflow, middle = kLaneMiddleError * volume + underflow;
   const LaneMask<N> above = (c0 > corner) & (thrice_c1 > middle) & (thrice_c2 > middle) & (c3 > corner);
   const LaneMask<N> below = (c0 < -corner) & (thrice_c1 < -middle) & (thrice_c2 < -middle) & (c3 < -corner);
-  return (above | below) & (size < L(kLaneMostReach));
+  return (above | below) & (size < L(kLaneMaxReach));
 }
 
 /// An axis looked at: the pair is apart along it during the whole motion where `gap` exceeds `error`.

@@ -9,11 +9,11 @@ namespace dismantle {
 inline constexpr int kMotionDoubles = 24;
 
 /// The most lanes that a kernel works in.
-inline constexpr int kMostLanes = 16;
+inline constexpr int kMaxLanes = 16;
 
 /// Looks at `count` motions one after another in memory (VertexFaceMotion as its doubles, shape
 /// [count][kMotionDoubles]) in kLanes lanes of float, and writes the numbers (0 to count - 1, ascending) of those that
-/// it cannot prove free to `undecided`, which has room for count + kMostLanes of them. All others are certainly free.
+/// it cannot prove free to `undecided`, which has room for count + kMaxLanes of them. All others are certainly free.
 /// Gives how many are undecided. They are the same at every width.
 /// @param next how many motions behind these come next: meanwhile they are brought into the second-level cache
 template <int kLanes>

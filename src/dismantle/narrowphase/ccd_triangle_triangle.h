@@ -80,7 +80,7 @@ class TrianglePair {
       consider_if_apart(best, now, cross(along_b, normal_b));
       for (int j = 0; j < 3; ++j) consider_if_apart(best, now, cross(along_a, now.b[(j + 1) % 3] - now.b[j]));
     }
-    if (best.end() >= t + kLeastProgress) return;
+    if (best.end() >= t + kMinProgress) return;
     for (int i = 0; i < 3; ++i) {
       consider_if_apart(best, now, some_normal(now.a[(i + 1) % 3] - now.a[i]));
       consider_if_apart(best, now, some_normal(now.b[(i + 1) % 3] - now.b[i]));

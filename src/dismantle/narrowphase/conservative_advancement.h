@@ -7,12 +7,12 @@
 namespace dismantle {
 
 /// A step that gains less than this part of the motion counts as no progress.
-inline constexpr double kLeastProgress = 0x1p-26;
+inline constexpr double kMinProgress = 0x1p-26;
 
 /// When a test calls the rest of the motion contact. Whatever they are, it is never too late, only too early.
 struct AdvancementLimits {
-  int steps = 64;                          ///< After so many steps.
-  double least_progress = kLeastProgress;  ///< After a step that gains less than this part of the motion.
+  int steps = 64;                      ///< After so many steps.
+  double min_progress = kMinProgress;  ///< After a step that gains less than this part of the motion.
 };
 
 /// How a certified test ended, and the axis that it ended on: the one to try first on the pair's next motion.
@@ -39,12 +39,12 @@ struct OutwardNormals {
   Span<const Vec3> around_a, around_b;  ///< Unit normals of the faces at the corners.
 
   /// Least cosine between a normal and the axis: what turns during a motion, and faces seen edge-on, still count.
-  static constexpr double kLeastCosine = -0.05;
+  static constexpr double kMinCosine = -0.05;
   /// A neighbour has to face the axis by more than that.
-  static constexpr double kLeastCosineAround = 0.3;
+  static constexpr double kMinCosineAround = 0.3;
 
   /// An axis is against a normal where the cosine between them is less than minus this.
-  static constexpr double kLeastCosineAgainst = 0.3;
+  static constexpr double kMinCosineAgainst = 0.3;
   static constexpr double kBehind = 3;
 
   DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const { return ahead(w, a, around_a) && ahead(-w, b, around_b); }
@@ -58,14 +58,14 @@ struct OutwardNormals {
   DISMANTLE_HOST_DEVICE static bool against(Vec3 w, Vec3 normal) {
     const double along = dot(w, normal);
     return along < 0 &&
-           along * along > (kLeastCosineAgainst * kLeastCosineAgainst) * length_squared(w) * length_squared(normal);
+           along * along > (kMinCosineAgainst * kMinCosineAgainst) * length_squared(w) * length_squared(normal);
   }
   DISMANTLE_HOST_DEVICE static bool ahead(Vec3 w, Vec3 normal, Span<const Vec3> around) {
     const double along = dot(w, normal), square = length_squared(w);
-    if (along >= 0 || along * along <= square * (kLeastCosine * kLeastCosine) * length_squared(normal)) return true;
+    if (along >= 0 || along * along <= square * (kMinCosine * kMinCosine) * length_squared(normal)) return true;
     for (const Vec3& n : around) {
       const double cosine = dot(w, n);
-      if (cosine > 0 && cosine * cosine > square * (kLeastCosineAround * kLeastCosineAround)) return true;
+      if (cosine > 0 && cosine * cosine > square * (kMinCosineAround * kMinCosineAround)) return true;
     }
     return false;
   }
@@ -105,7 +105,7 @@ class FurthestAxis {
     const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowance_of(w));
     if (projections.separates_throughout()) {
       if (!refused(w)) keep(w, 1);
-    } else if (!facing_ || normals_.allow(w) || projections.separates_until(now_) > now_ + kLeastProgress) {
+    } else if (!facing_ || normals_.allow(w) || projections.separates_until(now_) > now_ + kMinProgress) {
       keep_if_further(projections, w);
     }
   }
@@ -140,7 +140,7 @@ class FurthestAxis {
     } else if (projections.separates_until(now_) > end_) {
       // Worth something only where it gets further: at a contact the axis has to be one that the normals allow.
       const AxisProjections<kCountA, kCountB> bare(hulls_, w, allowance_of(w));
-      if (bare.separates_until(now_) > now_ + kLeastProgress) keep_if_further(bare, w);
+      if (bare.separates_until(now_) > now_ + kMinProgress) keep_if_further(bare, w);
     }
   }
 
@@ -194,13 +194,13 @@ DISMANTLE_HOST_DEVICE AxisCcdResult conservative_advancement(Pair& pair, typenam
 
     pair.look_ahead(best, t);
     double reached = best.end() > t ? best.end() : t;
-    if (i == 1 || reached >= t + limits.least_progress) reached = pair.advance(reached);
-    if (reached < t + limits.least_progress && !guess.interior) {
+    if (i == 1 || reached >= t + limits.min_progress) reached = pair.advance(reached);
+    if (reached < t + limits.min_progress && !guess.interior) {
       pair.consider_all(best, t);
       reached = best.end() > reached ? best.end() : reached;
     }
     if (reached >= 1) return {{CcdStatus::Free, 1, i}, best.axis()};
-    if (reached < t + limits.least_progress) return {{CcdStatus::Contact, t, i}, best.axis()};
+    if (reached < t + limits.min_progress) return {{CcdStatus::Contact, t, i}, best.axis()};
     t = reached;
     best.start(t);
   }

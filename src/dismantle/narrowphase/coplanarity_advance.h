@@ -16,7 +16,7 @@ namespace detail {
 inline constexpr int kClippingLimit = 12;
 
 /// A cut that gains less than this is the last.
-inline constexpr double kClippingLeastProgress = 0x1p-27;
+inline constexpr double kClippingMinProgress = 0x1p-27;
 
 /// How far before the root that it expects a first cut is made, as a part of the way.
 inline constexpr double kBeforeRoot = 1 - 0x1p-34;
@@ -109,7 +109,7 @@ DISMANTLE_HOST_DEVICE inline double coplanarity_advance(const BernsteinCubic& cu
     if (!(next > t)) return t;
     const double gain = next - t;
     t = next;
-    if (gain < detail::kClippingLeastProgress) return t;
+    if (gain < detail::kClippingMinProgress) return t;
     rest = detail::heights_of_rest(cubic.c, t, error);
   }
   return t;

@@ -114,34 +114,34 @@ struct AxisProjections {
     // Most axes that are only tried end here; of few points all differences cost less.
     if constexpr (kCountA * kCountB > 4)
       if (!(rounded_gap_at(now) > 0)) return -1;
-    double least_now = kLargestBound, least_at_end = kLargestBound, until = 1;
+    double min_now = kLargestBound, min_at_end = kLargestBound, until = 1;
     for (int i = 0; i < kCountA; ++i)
       for (int j = 0; j < kCountB; ++j) {
         const double start = (b[0][j] - a[0][i]) + margin[0], finish = (b[1][j] - a[1][i]) + margin[1];
         const double from_start = (1 - now) * start, from_finish = now * finish;
         const double here = (from_start + from_finish) - kMeanError * (absolute(from_start) + absolute(from_finish));
-        least_now = here < least_now ? here : least_now;
-        least_at_end = finish < least_at_end ? finish : least_at_end;
+        min_now = here < min_now ? here : min_now;
+        min_at_end = finish < min_at_end ? finish : min_at_end;
         const double last = start / (start - (finish < 0 ? finish : 0));
         until = last < until ? last : until;
       }
-    if (!usable || !(least_now > 0)) return -1;
-    return least_at_end > 0 ? 1 : until * kRoundDown - kUnderflowError;
+    if (!usable || !(min_now > 0)) return -1;
+    return min_at_end > 0 ? 1 : until * kRoundDown - kUnderflowError;
   }
 
  private:
   /// The certified gap at `now` but for rounding: of no use as a proof.
   DISMANTLE_HOST_DEVICE double rounded_gap_at(double now) const {
-    double least_b = kLargestBound, most_a = -kLargestBound;
+    double min_b = kLargestBound, max_a = -kLargestBound;
     for (int j = 0; j < kCountB; ++j) {
       const double x = (1 - now) * b[0][j] + now * b[1][j];
-      least_b = x < least_b ? x : least_b;
+      min_b = x < min_b ? x : min_b;
     }
     for (int i = 0; i < kCountA; ++i) {
       const double x = (1 - now) * a[0][i] + now * a[1][i];
-      most_a = x > most_a ? x : most_a;
+      max_a = x > max_a ? x : max_a;
     }
-    return (least_b - most_a) + ((1 - now) * margin[0] + now * margin[1]);
+    return (min_b - max_a) + ((1 - now) * margin[0] + now * margin[1]);
   }
 
   template <int kCount>

@@ -2,7 +2,7 @@
 #include "dismantle/planner/plan_disassembly.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/search/candidate_directions.h"
 #include "dismantle/planner/search/removal_search.h"
@@ -30,8 +30,8 @@ constexpr std::size_t kShared = 8;
 /// How much less each next one of a component's directions counts for that.
 constexpr double kRankWeight = 0.9;
 /// A sliding component is pushed along so many of its directions and turned about so many axes at most.
-constexpr std::size_t kMostPushes = 12;
-constexpr std::size_t kMostTurns = 4;
+constexpr std::size_t kMaxPushes = 12;
+constexpr std::size_t kMaxTurns = 4;
 /// The search for a way that is not straight may cost so much for each component, little for all of them first.
 constexpr std::size_t kFirstEffort = 40'000, kEffortGrowth = 4;
 /// A longer search that gets no further than so many times as far as the one before is the last one.
@@ -238,7 +238,7 @@ class Planner {
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
     return find_long(body, staying, sliding_, [&](ComponentId c, std::size_t effort) {
       SlideMoves moves = slide_moves(c, body);
-      moves.most_effort = effort;
+      moves.max_effort = effort;
       return slide_out(maker_, table_, c, moves, [this] { return go_on(); });
     });
   }
@@ -257,29 +257,29 @@ class Planner {
   SlideMoves slide_moves(ComponentId c, const ComponentSet& body) {
     SlideMoves moves;
     for (const DirectionId d : directions_[c.value])
-      if (moves.directions.size() < kMostPushes) moves.directions.push_back(table_.direction(d));
-    const auto add = [&](const RoundAxis& axis) {
+      if (moves.directions.size() < kMaxPushes) moves.directions.push_back(table_.direction(d));
+    const auto add = [&](const RevolutionAxis& axis) {
       const auto same = [&](const TurnAxis& known) {
         return length(cross(known.direction, axis.direction)) < kSameDirectionAngle &&
                length(cross(axis.direction, known.point - axis.point)) <
                    kSameDirectionAngle * features_[c.value].radius;
       };
-      if (moves.axes.size() < kMostTurns && std::none_of(moves.axes.begin(), moves.axes.end(), same))
+      if (moves.axes.size() < kMaxTurns && std::none_of(moves.axes.begin(), moves.axes.end(), same))
         moves.axes.push_back({axis.point, axis.direction});
     };
-    for (const RoundAxis& axis : round_of(c)) add(axis);
+    for (const RevolutionAxis& axis : round_of(c)) add(axis);
     for (const ComponentId near : contacts_[c.value].neighbours)
       if (body.has(near))
-        for (const RoundAxis& axis : round_of(near)) add(axis);
+        for (const RevolutionAxis& axis : round_of(near)) add(axis);
     for (const WeightedDirection& axis : features_[c.value].axes) add({features_[c.value].center, axis.direction, 0});
     return moves;
   }
 
-  const std::vector<RoundAxis>& round_of(ComponentId c) {
-    std::optional<std::vector<RoundAxis>>& known = round_[c.value];
+  const std::vector<RevolutionAxis>& round_of(ComponentId c) {
+    std::optional<std::vector<RevolutionAxis>>& known = round_[c.value];
     if (!known) {
       const TriangleMesh mesh = assembled_mesh(assembly_[c]);
-      known = round_axes(mesh.vertices, mesh.faces);
+      known = revolution_axes(mesh.vertices, mesh.faces);
     }
     return *known;
   }
@@ -461,7 +461,7 @@ class Planner {
   // Of every component, once they are asked for.
   std::vector<std::optional<std::vector<NeighbourThread>>> threads_;
   std::vector<std::optional<std::vector<ThreadAxis>>> modelled_;
-  std::vector<std::optional<std::vector<RoundAxis>>> round_;
+  std::vector<std::optional<std::vector<RevolutionAxis>>> round_;
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by those screwed apart in vain
   Plan plan_;

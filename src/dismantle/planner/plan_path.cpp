@@ -12,7 +12,7 @@ namespace {
 
 /// A move over the assembly's diagonal takes so long [s]; none takes less than the least.
 constexpr double kTimePerDiagonal = 2;
-constexpr double kLeastTime = 0.2;
+constexpr double kMinTime = 0.2;
 /// A turn by a right angle counts as much as this share of the assembly's diagonal.
 constexpr double kTurnShare = 0.5;
 
@@ -42,7 +42,7 @@ Path plan_path(const Assembly& assembly, const PairStates& pairs, const Plan& pl
     for (const Pose& pose : way) {
       const Frame& before = move.frames.back();
       const Pose next = base * pose;
-      const double least = &pose == &way.back() ? kLeastTime : 0;
+      const double least = &pose == &way.back() ? kMinTime : 0;
       move.frames.push_back({before.time + std::max(least, time_between(before.pose, next, size)), next});
     }
     ends.push_back(move.frames.back().pose);

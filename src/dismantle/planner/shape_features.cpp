@@ -10,10 +10,10 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kMostNormals = 12;
-constexpr std::size_t kMostAxes = 8;
+constexpr std::size_t kMaxNormals = 12;
+constexpr std::size_t kMaxAxes = 8;
 /// Faces that meet at less [sine] are taken for one plane, whose cross product is noise.
-constexpr double kLeastSine = 5e-3;
+constexpr double kMinSine = 5e-3;
 
 }  // namespace
 
@@ -29,9 +29,9 @@ ShapeFeatures shape_features(const TriangleMesh& mesh) {
     const Vec3 a = area_vectors[pair.face[0]], b = area_vectors[pair.face[1]];
     const double areas = length(a) * length(b);
     const Vec3 axis = cross(a, b);
-    if (areas > 0 && length(axis) > kLeastSine * areas) axes.add(axis, length(axis) / std::sqrt(areas));
+    if (areas > 0 && length(axis) > kMinSine * areas) axes.add(axis, length(axis) / std::sqrt(areas));
   }
-  ShapeFeatures features{normals.heaviest(kMostNormals), axes.heaviest(kMostAxes), {}, 0, 0};
+  ShapeFeatures features{normals.heaviest(kMaxNormals), axes.heaviest(kMaxAxes), {}, 0, 0};
   for (const Vec3& a : area_vectors) features.area += length(a);
   for (const Vec3& p : mesh.vertices) features.center += p / static_cast<double>(mesh.vertices.size());
   for (const Vec3& p : mesh.vertices) features.radius = std::max(features.radius, length(p - features.center));

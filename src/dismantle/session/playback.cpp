@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// advance() comes back after about this long, wherever it is then.
-constexpr std::chrono::milliseconds kMostTime{8};
+constexpr std::chrono::milliseconds kMaxTime{8};
 
 /// What is in the way of a set.
 ComponentId blocker(const StepResult& step, Span<const ComponentId> set) {
@@ -129,7 +129,7 @@ bool Playback::go(MotionEngine& engine, const TimelinePlace& next, StepResult& r
 
 StepResult Playback::advance(MotionEngine& engine, double dt) {
   StepResult result;
-  const Clock::time_point end = Clock::now() + kMostTime;
+  const Clock::time_point end = Clock::now() + kMaxTime;
   const double goal = std::clamp(time_ + speed_ * dt, 0.0, timeline_.duration());
   engine.hold(moving());
   bool is_there = false;

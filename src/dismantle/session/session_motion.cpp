@@ -22,11 +22,11 @@ constexpr double kTargetRate = 60;
 /// Between two parked sets, as a share of the assembly's diagonal.
 constexpr double kParkGap = 0.02;
 /// A motion by itself ends after so many targets in a row that it did not reach.
-constexpr int kMostStuck = 6;
+constexpr int kMaxStuck = 6;
 /// Contacts whose normals are tried as directions: nearer than so many tolerances.
 constexpr double kContactReach = 3;
 /// One advance of a motion by itself comes back after about this long.
-constexpr std::chrono::milliseconds kMostTime{8};
+constexpr std::chrono::milliseconds kMaxTime{8};
 
 /// Appends targets along a straight line that begin and end gently.
 void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
@@ -219,14 +219,14 @@ StepResult Session::follow(const Frame& target) {
 
 StepResult Session::advance_automatic(double dt) {
   Automatic& a = *automatic_;
-  const Clock::time_point end = Clock::now() + kMostTime;
+  const Clock::time_point end = Clock::now() + kMaxTime;
   StepResult last;
   last.pose = poses()[moving_[0].value];
   a.clock += dt;
   while (a.next < a.targets.size() && a.targets[a.next].time <= a.clock && Clock::now() < end) {
     last = follow(a.targets[a.next++]);
     a.stuck = last.reached ? 0 : a.stuck + 1;
-    if (a.stuck < kMostStuck) continue;
+    if (a.stuck < kMaxStuck) continue;
     finish_automatic(false);
     return last;
   }

@@ -15,13 +15,13 @@ namespace {
 constexpr double kMarginShare = 0.02;
 /// Directions within about 2.5 degrees are the same.
 constexpr double kSameDirection = 0.999;
-constexpr std::size_t kMostDirections = 32;
+constexpr std::size_t kMaxDirections = 32;
 /// Free for less than this share of the way out is stuck.
 constexpr double kNowhereShare = 0.01;
 
 void add_direction(std::vector<Vec3>& list, const Vec3& direction) {
   const double l = length(direction);
-  if (!(l > 0) || list.size() >= kMostDirections) return;
+  if (!(l > 0) || list.size() >= kMaxDirections) return;
   const Vec3 unit = direction / l;
   for (const Vec3& known : list)
     if (dot(known, unit) > kSameDirection) return;

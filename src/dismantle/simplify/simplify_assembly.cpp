@@ -14,7 +14,7 @@ namespace dismantle {
 namespace {
 
 // The search for the error: from this part of the assembly's size to all of it, by so many halvings of the exponent.
-constexpr double kLeastError = 1e-6;
+constexpr double kMinError = 1e-6;
 constexpr int kErrorSteps = 40;
 
 /// A mesh, how often it occurs, and what becomes of it.
@@ -76,7 +76,7 @@ std::size_t total_of(const std::vector<SharedMesh>& meshes, const std::vector<st
 void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double size, std::size_t minimum) {
   std::vector<std::size_t> above, below = counts_at(meshes, 1, size, minimum);  // the budget, and not above it
   for (const SharedMesh& m : meshes) above.push_back(original_count(m));
-  double least = std::log(kLeastError), largest = 0;
+  double least = std::log(kMinError), largest = 0;
   for (int step = 0; step < kErrorSteps; ++step) {
     const double middle = (least + largest) / 2;
     std::vector<std::size_t> counts = counts_at(meshes, std::exp(middle), size, minimum);

@@ -10,7 +10,7 @@ namespace dismantle {
 namespace {
 
 // A solid that keeps less than this part of its volume has lost its shape.
-constexpr double kLeastVolume = 0.5;
+constexpr double kMinVolume = 0.5;
 // By how much the goal grows for each further try.
 constexpr double kBackOff = 1.3;
 
@@ -29,7 +29,7 @@ TriangleMesh simplify_mesh(const TriangleMesh& mesh, const SimplifyGoal& goal) {
   auto triangles = static_cast<double>(goal.triangles);
   while (triangles < static_cast<double>(mesh.faces.size())) {
     TriangleMesh result = collapsed(mesh, {static_cast<std::size_t>(triangles), goal.error});
-    if (!solid || signed_volume(result) >= kLeastVolume * volume) return result;
+    if (!solid || signed_volume(result) >= kMinVolume * volume) return result;
     triangles = kBackOff * static_cast<double>(result.faces.size()) + 1;
   }
   return mesh;

@@ -12,7 +12,7 @@ namespace dismantle {
 
 /// One step of the whole assembly, as its embedded pairs are asked about it.
 struct EmbeddedStep {
-  const TriangleStreams* streams = nullptr;
+  const AssemblyTriangles* streams = nullptr;
   StepTriangles triangles;
   Span<const Kdop16> bounds;              ///< Of the whole step.
   Span<const RigidTransform> start, end;  ///< Of each component.

@@ -10,9 +10,9 @@ namespace dismantle {
 
 namespace {
 
-class GuardedEngine final : public CollisionEngine {
+class GuardedEngine final : public SweepEngine {
  public:
-  GuardedEngine(std::unique_ptr<CollisionEngine> engine, VertexDepthGuard guard)
+  GuardedEngine(std::unique_ptr<SweepEngine> engine, VertexDepthGuard guard)
       : engine_(std::move(engine)), guard_(std::move(guard)) {}
 
   SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override {
@@ -40,14 +40,14 @@ class GuardedEngine final : public CollisionEngine {
   std::vector<ComponentPair> embedded_pairs() const override { return engine_->embedded_pairs(); }
 
  private:
-  std::unique_ptr<CollisionEngine> engine_;
+  std::unique_ptr<SweepEngine> engine_;
   VertexDepthGuard guard_;
 };
 
 }  // namespace
 
-std::unique_ptr<CollisionEngine> make_guarded_engine(std::unique_ptr<CollisionEngine> engine, const Assembly& assembly,
-                                                     const PairStates& pairs, const Executor& executor) {
+std::unique_ptr<SweepEngine> make_guarded_engine(std::unique_ptr<SweepEngine> engine, const Assembly& assembly,
+                                                 const PairStates& pairs, const Executor& executor) {
   VertexDepthGuard guard(assembly, pairs, solids_of(assembly, executor), executor);
   if (guard.watches_nothing()) return engine;
   return std::make_unique<GuardedEngine>(std::move(engine), std::move(guard));

@@ -9,7 +9,7 @@
 namespace dismantle {
 
 /// `engine`, with the guard's findings among its contacts; `engine` itself where the guard has nothing to watch.
-std::unique_ptr<CollisionEngine> make_guarded_engine(std::unique_ptr<CollisionEngine> engine, const Assembly& assembly,
-                                                     const PairStates& pairs, const Executor& executor);
+std::unique_ptr<SweepEngine> make_guarded_engine(std::unique_ptr<SweepEngine> engine, const Assembly& assembly,
+                                                 const PairStates& pairs, const Executor& executor);
 
 }  // namespace dismantle

@@ -22,7 +22,7 @@ class HostStreamsBackend final : public StreamsBackend {
   void commit() override { streams_.commit(); }
   void jump(Span<const RigidTransform> state) override { streams_.jump(state, executor_); }
   Span<const RigidTransform> state() const override { return streams_.state(); }
-  const TriangleStreams& fixed() const override { return streams_.fixed(); }
+  const AssemblyTriangles& fixed() const override { return streams_.fixed(); }
   Span<const std::uint64_t> triangle_pairs() override { return front_.triangle_pairs(); }
   const MovingStreams& on_host() override { return streams_; }
 

@@ -14,7 +14,7 @@ constexpr std::uint32_t kVerticesPerRange = 8192;  // a vertex costs 2-3 ns: les
 }  // namespace
 
 MovingStreams::MovingStreams(const Assembly& assembly, const Executor& executor)
-    : fixed_(make_triangle_streams(assembly, executor)),
+    : fixed_(make_assembly_triangles(assembly, executor)),
       matrices_(fixed_.component_count()),
       vertices_t0_(fixed_.vertices),
       vertices_t1_(fixed_.vertices),

@@ -25,7 +25,7 @@ class MovingStreams {
   /// Puts the current state and the candidate at `state`; the bounds are those of that moment.
   void jump(Span<const RigidTransform> state, const Executor& executor);
 
-  const TriangleStreams& fixed() const { return fixed_; }
+  const AssemblyTriangles& fixed() const { return fixed_; }
   Span<const RigidTransform> state() const { return matrices_.start(); }
   Span<const Vec3> vertices_t0() const { return vertices_t0_; }
   Span<const Vec3> vertices_t1() const { return vertices_t1_; }
@@ -37,7 +37,7 @@ class MovingStreams {
   void bring(std::vector<Vec3>& vertices, Span<const RigidTransform> transforms,
              const std::vector<ComponentId>& components, const Executor& executor) const;
 
-  TriangleStreams fixed_;
+  AssemblyTriangles fixed_;
   MatrixStream matrices_;
   std::vector<Vec3> vertices_t0_, vertices_t1_;
   std::vector<Kdop16> bounds_;

@@ -116,7 +116,7 @@ std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contac
   return first;
 }
 
-std::vector<CollisionContact> collision_contacts(const TriangleStreams& streams,
+std::vector<CollisionContact> collision_contacts(const AssemblyTriangles& streams,
                                                  Span<const TrianglePairContact> contacts) {
   std::vector<CollisionContact> result;
   for (const TrianglePairContact& found : contacts) {

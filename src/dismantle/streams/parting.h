@@ -9,7 +9,7 @@ namespace dismantle {
 
 /// A pair of components of S_i during one step.
 struct EmbeddedMotion {
-  const TriangleStreams* streams = nullptr;
+  const AssemblyTriangles* streams = nullptr;
   StepTriangles step;
   Span<const Kdop16> bounds;                      ///< Of the whole step.
   ComponentId a, b;                               ///< a < b

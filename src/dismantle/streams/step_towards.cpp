@@ -19,7 +19,7 @@ constexpr int kMaximumTouchRetries = 4;
 /// One step's sweeps: knows the engine, the set, and adds up the cost.
 class Stepper {
  public:
-  Stepper(CollisionEngine& engine, const RigidSet& set, StepResult& result)
+  Stepper(SweepEngine& engine, const RigidSet& set, StepResult& result)
       : engine_(engine), set_(set), result_(result), next_(engine.state().begin(), engine.state().end()) {}
 
   SweepResult sweep(const Pose& pose, double deviation) {
@@ -52,7 +52,7 @@ class Stepper {
     sizes.intersection_pairs = swept.sizes.intersection_pairs;
   }
 
-  CollisionEngine& engine_;
+  SweepEngine& engine_;
   const RigidSet& set_;
   StepResult& result_;
   std::vector<RigidTransform> next_;
@@ -75,7 +75,7 @@ int chord_count(double chord_deviation, double deviation) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(chord_deviation / deviation))));
 }
 
-StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
+StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
                         ResponseKind response, double tolerance) {
   DISMANTLE_EXPECT(response != ResponseKind::Slide);
   DISMANTLE_EXPECT(tolerance > 0);

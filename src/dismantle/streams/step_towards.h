@@ -34,7 +34,7 @@ int chord_count(double chord_deviation, double deviation);
 /// returned pose holds the engine's guarantee, the deviation of the true arcs included. Stop: up to the last sweep that
 /// was free as a whole. Touch: on to the first contact within the sweep that was not.
 /// @pre response is Stop or Touch; tolerance > 0 [mm]
-StepResult step_towards(CollisionEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
+StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
                         ResponseKind response, double tolerance);
 
 }  // namespace dismantle

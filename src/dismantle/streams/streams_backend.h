@@ -37,7 +37,7 @@ class StreamsBackend {
   virtual Span<const RigidTransform> state() const = 0;
 
   /// What stays the same from step to step, on the host.
-  virtual const TriangleStreams& fixed() const = 0;
+  virtual const AssemblyTriangles& fixed() const = 0;
   /// S_t of the last step on the host: keys, ascending. It may have to be brought there.
   virtual Span<const std::uint64_t> triangle_pairs() = 0;
   /// The streams of the last step, or after a jump those of the state, on the host. They may have to be made there.
@@ -54,13 +54,13 @@ Result<std::unique_ptr<StreamsBackend>> make_cuda_streams_backend(const Assembly
 
 /// On a device that the threads of an executor play: all that CUDA runs but its copies and launches, where there is no
 /// GPU.
-std::unique_ptr<StreamsBackend> make_resident_streams_backend(const Assembly& assembly, const CollisionOptions& options,
-                                                              const Executor& device);
+std::unique_ptr<StreamsBackend> make_device_streams_backend(const Assembly& assembly, const CollisionOptions& options,
+                                                            const Executor& device);
 
 /// The paper's method over any backend of the same assembly, all components in the assembled state.
-std::unique_ptr<CollisionEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
-                                                     const CollisionOptions& options,
-                                                     std::unique_ptr<StreamsBackend> backend);
+std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
+                                                 const CollisionOptions& options,
+                                                 std::unique_ptr<StreamsBackend> backend);
 /// The same with responses Stop and Touch. The assembly must outlive the engine.
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options,

@@ -10,7 +10,7 @@ namespace dismantle {
 namespace {
 
 /// Du et al. 2015, algorithm 1, one step at a time: what S_i says, over streams that may be anywhere.
-class StreamsEngine final : public CollisionEngine {
+class StreamsEngine final : public SweepEngine {
  public:
   StreamsEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options,
                 std::unique_ptr<StreamsBackend> backend)
@@ -108,14 +108,14 @@ void StreamsEngine::jump(Span<const RigidTransform> state) {
 
 }  // namespace
 
-std::unique_ptr<CollisionEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
-                                                     const CollisionOptions& options,
-                                                     std::unique_ptr<StreamsBackend> backend) {
+std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
+                                                 const CollisionOptions& options,
+                                                 std::unique_ptr<StreamsBackend> backend) {
   return std::make_unique<StreamsEngine>(assembly, pairs, options, std::move(backend));
 }
 
-std::unique_ptr<CollisionEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
-                                                     const CollisionOptions& options) {
+std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
+                                                 const CollisionOptions& options) {
   return make_streams_engine(assembly, pairs, options, make_host_streams_backend(assembly, options));
 }
 

@@ -11,7 +11,7 @@ namespace dismantle {
 /// A collision method as the loop of a host program sees it, with responses Stop and Touch. The assembly must outlive
 /// the engine. @pre `engine` is of this assembly, all components in the assembled state; tolerance > 0 [mm]
 std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
-                                                          std::unique_ptr<CollisionEngine> engine);
+                                                          std::unique_ptr<SweepEngine> engine);
 
 /// `streams` (docs/design/0004-streams.md) with responses Stop and Touch, all components in the assembled state. The
 /// assembly must outlive the engine.

@@ -48,9 +48,9 @@ struct CollisionOptions {
 ///   sweep(next)  tests the motion from the current state to `next`, linear vertex paths; the state stays as it is.
 ///   commit()     makes the `next` of the last sweep the current state. @pre that sweep was free
 /// Same input, same results: for every executor, thread count and initial capacity.
-class CollisionEngine {
+class SweepEngine {
  public:
-  virtual ~CollisionEngine() = default;
+  virtual ~SweepEngine() = default;
 
   /// @param next one transform a component: x_next = next[c] * x_assembled
   /// @param path_deviation how far a vertex's true path may be from the linear one [mm]; it is taken off every allowed
@@ -68,7 +68,7 @@ class CollisionEngine {
 };
 
 /// The paper's method (docs/design/0004-streams.md), all components in the assembled state.
-std::unique_ptr<CollisionEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
-                                                     const CollisionOptions& options);
+std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
+                                                 const CollisionOptions& options);
 
 }  // namespace dismantle

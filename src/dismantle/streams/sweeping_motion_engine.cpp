@@ -13,7 +13,7 @@ namespace {
 /// Sweeps of the whole assembly, of which one set moves.
 class SweepingMotionEngine final : public MotionEngine {
  public:
-  SweepingMotionEngine(const Assembly& assembly, double tolerance, std::unique_ptr<CollisionEngine> engine)
+  SweepingMotionEngine(const Assembly& assembly, double tolerance, std::unique_ptr<SweepEngine> engine)
       : assembly_(assembly), tolerance_(tolerance), engine_(std::move(engine)), poses_(assembly.components.size()) {}
 
   void hold(Span<const ComponentId> components) override {
@@ -50,7 +50,7 @@ class SweepingMotionEngine final : public MotionEngine {
  private:
   const Assembly& assembly_;
   double tolerance_;
-  std::unique_ptr<CollisionEngine> engine_;
+  std::unique_ptr<SweepEngine> engine_;
   RigidSet set_;
   std::vector<Pose> poses_;
 };
@@ -58,7 +58,7 @@ class SweepingMotionEngine final : public MotionEngine {
 }  // namespace
 
 std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
-                                                          std::unique_ptr<CollisionEngine> engine) {
+                                                          std::unique_ptr<SweepEngine> engine) {
   return std::make_unique<SweepingMotionEngine>(assembly, tolerance, std::move(engine));
 }
 

@@ -15,7 +15,7 @@ Aabb box_of(const TriangleMesh& mesh, std::size_t face) {
 }
 
 /// Fills one component's ranges of the streams from its mesh in the assembled state, in leaf order.
-void fill_component(TriangleStreams& streams, const TriangleMesh& mesh, ComponentId id) {
+void fill_component(AssemblyTriangles& streams, const TriangleMesh& mesh, ComponentId id) {
   const BvhComponent& range = streams.bvh.components[id.value];
   const std::vector<std::uint8_t> features = representative_features(mesh);
   std::vector<std::uint32_t> place(mesh.vertices.size(), Id<VertexTag>::kInvalid);
@@ -39,8 +39,8 @@ void fill_component(TriangleStreams& streams, const TriangleMesh& mesh, Componen
 
 }  // namespace
 
-TriangleStreams make_triangle_streams(const Assembly& assembly, const Executor& executor) {
-  TriangleStreams streams;
+AssemblyTriangles make_assembly_triangles(const Assembly& assembly, const Executor& executor) {
+  AssemblyTriangles streams;
   const std::size_t count = assembly.components.size();
   std::vector<std::uint32_t> face_begin(count + 1, 0);
   streams.vertex_begin.assign(count + 1, 0);
@@ -68,7 +68,7 @@ TriangleStreams make_triangle_streams(const Assembly& assembly, const Executor& 
   return streams;
 }
 
-std::vector<Kdop16> bounds_at(const TriangleStreams& streams, Span<const Vec3> vertices, double margin,
+std::vector<Kdop16> bounds_at(const AssemblyTriangles& streams, Span<const Vec3> vertices, double margin,
                               const Executor& executor) {
   return bvh_fit(streams.bvh, streams.refit_plan, {vertices, vertices, streams.faces, margin}, executor);
 }

@@ -15,7 +15,7 @@ namespace dismantle {
 /// The triangles of a whole assembly as streams, with the hierarchy over them: what stays the same from step to step.
 /// Triangles are in the hierarchy's leaf order and vertices in the order of their first use by it, so that neighbours
 /// in space are neighbours in memory. A component's triangles and vertices are one range each.
-struct TriangleStreams {
+struct AssemblyTriangles {
   std::vector<Vec3> vertices;               ///< S_v0: in the assembled state [mm, assembly frame].
   std::vector<std::uint32_t> vertex_begin;  ///< Shape [component_count + 1].
   std::vector<Face> faces;                  ///< Vertex indices of each leaf's triangle.
@@ -32,12 +32,12 @@ struct TriangleStreams {
 
 /// Lays out the streams and builds the hierarchy in the assembled state. The result depends on the assembly alone.
 /// @pre fewer than 2^31 triangles
-TriangleStreams make_triangle_streams(const Assembly& assembly, const Executor& executor);
+AssemblyTriangles make_assembly_triangles(const Assembly& assembly, const Executor& executor);
 
 /// Bounds of all nodes at one moment, leaves grown by `margin` [mm]: two triangles nearer than twice the margin have
 /// overlapping bounds.
 /// @param vertices at that moment, in the streams' order
-std::vector<Kdop16> bounds_at(const TriangleStreams& streams, Span<const Vec3> vertices, double margin,
+std::vector<Kdop16> bounds_at(const AssemblyTriangles& streams, Span<const Vec3> vertices, double margin,
                               const Executor& executor);
 
 }  // namespace dismantle

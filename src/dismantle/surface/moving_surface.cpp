@@ -90,7 +90,7 @@ bool surface_within(const MomentaryTriangles& now, Vec3 point, ComponentId compo
   return found;
 }
 
-std::vector<std::uint32_t> shell_vertices(const TriangleStreams& streams, ComponentId component) {
+std::vector<std::uint32_t> shell_vertices(const AssemblyTriangles& streams, ComponentId component) {
   const std::uint32_t begin = streams.vertex_begin[component.value];
   std::vector<std::uint32_t> parent(streams.vertex_begin[component.value + 1] - begin);
   std::iota(parent.begin(), parent.end(), 0u);

@@ -30,7 +30,7 @@ struct StepTriangles {
 
 /// The triangles of a step at one time of it, with bounds that hold for the whole step; vertices go linearly.
 struct MomentaryTriangles {
-  const TriangleStreams* streams = nullptr;
+  const AssemblyTriangles* streams = nullptr;
   StepTriangles step;
   Span<const Kdop16> bounds;
   double s = 0;  ///< Time in the step, 0 to 1.
@@ -51,6 +51,6 @@ bool surface_within(const MomentaryTriangles& now, Vec3 point, ComponentId compo
 
 /// One vertex of each connected part of each component's surface: where surfaces do not meet, they say for their
 /// whole part on which side of another surface it is. @return vertex indices in the streams' order
-std::vector<std::uint32_t> shell_vertices(const TriangleStreams& streams, ComponentId component);
+std::vector<std::uint32_t> shell_vertices(const AssemblyTriangles& streams, ComponentId component);
 
 }  // namespace dismantle

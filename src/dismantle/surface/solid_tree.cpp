@@ -29,14 +29,14 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   solid.vertices = assembled_vertices(component);
   solid.faces = component.mesh->faces;
   solid.has_outside = component.faults.bounds_solid();
-  std::vector<RoundAxis> axes = round_axes(solid.vertices, solid.faces);
+  std::vector<RevolutionAxis> axes = revolution_axes(solid.vertices, solid.faces);
   std::vector<ThreadAxis> threads = thread_axes(solid.vertices, solid.faces, axes);
   std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, threads);
   add_cylinder_parts(solid.vertices, solid.faces, axes, parts);
   solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
   if (!solid.tree.empty())
-    solid.round = std::make_unique<RoundShape>(solid.vertices, solid.faces, solid.tree.nodes, std::move(axes),
-                                               std::move(threads));
+    solid.round = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes, std::move(axes),
+                                                      std::move(threads));
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

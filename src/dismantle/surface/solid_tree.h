@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
-#include "dismantle/bvh/round_bounds.h"
+#include "dismantle/bvh/radial_bounds.h"
 #include "dismantle/exec/executor.h"
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct SolidTree {
   Span<const Face> faces;
   bool has_outside = false;  ///< It encloses a volume, and its normals point out of it (MeshFaults::bounds_solid).
   ObbTree tree;
-  std::unique_ptr<const RoundShape> round;  ///< What of it turns about an axis; null where it has no faces.
-  std::vector<Vec3> normals;                ///< Unit, of each face; where it has an outside.
+  std::unique_ptr<const RevolutionSurface> round;  ///< What of it turns about an axis; null where it has no faces.
+  std::vector<Vec3> normals;                       ///< Unit, of each face; where it has an outside.
   std::vector<std::uint32_t> around_begin;  ///< Where each vertex's faces begin in `around`, and the end of the last.
   std::vector<std::uint32_t> around;        ///< The faces at each vertex.
 

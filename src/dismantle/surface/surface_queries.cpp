@@ -69,7 +69,7 @@ class VertexRegions {
 
 AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor) {
   AssemblySurface s;
-  s.streams = make_triangle_streams(assembly, executor);
+  s.streams = make_assembly_triangles(assembly, executor);
   s.bounds = bounds_at(s.streams, s.streams.vertices, 0, executor);
   return s;
 }

@@ -11,7 +11,7 @@ namespace dismantle {
 
 /// The assembled state with its hierarchy: what questions about components' surfaces are asked of.
 struct AssemblySurface {
-  TriangleStreams streams;
+  AssemblyTriangles streams;
   std::vector<Kdop16> bounds;  ///< Of each node, without margin.
 
   Triangle leaf_triangle(NodeIndex leaf) const {

@@ -9,9 +9,9 @@ namespace dismantle::audit {
 namespace {
 
 /// A run that turns less is not worth trees of its own [rad].
-constexpr double kLeastTurn = 2;
+constexpr double kMinTurn = 2;
 /// Segments that turn less say too little about their axis [rad].
-constexpr double kLeastAngle = 1e-3;
+constexpr double kMinAngle = 1e-3;
 
 /// What climbs by less than this part of the resolution in all does not climb.
 constexpr double kFlatPart = 1e-3;
@@ -55,17 +55,17 @@ std::vector<SegmentRun> helical_runs(const std::vector<MotionSegment>& segments,
   for (std::uint32_t first = 0, next = 0; first < count; first = next) {
     next = first + 1;
     const Screw& screw = segments[first].screw;
-    if (screw.angle < kLeastAngle) continue;
+    if (screw.angle < kMinAngle) continue;
     const Vec3 center = transform_from_pose(segments[first].start) * body.center();
     const Twist twist(screw, center);
     double turned = screw.angle;
-    for (; next < count && segments[next].screw.angle >= kLeastAngle; ++next) {
+    for (; next < count && segments[next].screw.angle >= kMinAngle; ++next) {
       const Twist other(segments[next].screw, center);
       const double off = length(other.velocity - twist.velocity) + length(other.axis - twist.axis) * body.node(0).reach;
       if (off > tolerance) break;
       turned += segments[next].screw.angle;
     }
-    if (turned >= kLeastTurn) runs.push_back({first, next - first});
+    if (turned >= kMinTurn) runs.push_back({first, next - first});
   }
   return runs;
 }

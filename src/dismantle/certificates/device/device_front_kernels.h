@@ -10,9 +10,9 @@
 
 #include <cstring>
 
-/// The bodies of a sweep of fronts that have copies on a device (ResidentFronts), with all counts in the device's
+/// The bodies of a sweep of fronts that have copies on a device (DeviceFronts), with all counts in the device's
 /// memory, so that a sweep is enqueued without knowing them.
-namespace dismantle::resident_front {
+namespace dismantle::device_front {
 
 /// A page: one block of a part's certificates, and their pairs.
 struct Page {
@@ -65,7 +65,7 @@ struct AskedPair {
 };
 
 /// Two faces to be tested.
-struct AskedLeaf {
+struct TrianglePairRequest {
   std::uint32_t moving = 0, fixed = 0;
   std::uint32_t front = 0;
   Vec3f hint;
@@ -107,39 +107,39 @@ struct BeginSweep {
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i == 0) *counters = {};
-    least[i] = word_of_gap(CertificateCheck().least_gap);
+    least[i] = word_of_gap(CertificateCheck().min_gap);
   }
 };
 
 /// Pairs to be looked at, and room for what is found of them.
 struct PairSink {
   Span<AskedPair> pairs;
-  Span<PairAnswer> answers;
+  Span<PairResult> answers;
   std::uint64_t* needed;
 
   /// Room for so many; where there is none they are counted only. @return the first place; none for no room
   DISMANTLE_HOST_DEVICE std::uint32_t take(std::uint32_t count) const {
     const std::uint64_t place = atomic_add(needed, count);
     if (place + count <= pairs.size()) return static_cast<std::uint32_t>(place);
-    for (std::uint64_t k = place; k < pairs.size(); ++k) put(static_cast<std::uint32_t>(k), {}, 0, PairAnswer::kNone);
-    return PairAnswer::kNone;
+    for (std::uint64_t k = place; k < pairs.size(); ++k) put(static_cast<std::uint32_t>(k), {}, 0, PairResult::kNone);
+    return PairResult::kNone;
   }
   DISMANTLE_HOST_DEVICE void put(std::uint32_t at, const AskedPair& pair, std::uint32_t part,
                                  std::uint32_t place) const {
     pairs[at] = pair;
-    answers[at] = {PairAnswer::None, part, place, PairAnswer::kNone, PairAnswer::kNone, {}};
+    answers[at] = {PairResult::None, part, place, PairResult::kNone, PairResult::kNone, {}};
   }
 };
 
 /// Faces to be tested.
 struct LeafSink {
-  Span<AskedLeaf> leaves;
+  Span<TrianglePairRequest> leaves;
   std::uint64_t* needed;
 
   /// Where there is no room it is counted only. @return its place; none for no room
-  DISMANTLE_HOST_DEVICE std::uint32_t append(const AskedLeaf& leaf) const {
+  DISMANTLE_HOST_DEVICE std::uint32_t append(const TrianglePairRequest& leaf) const {
     const std::uint64_t place = atomic_add(needed, 1);
-    if (place >= leaves.size()) return PairAnswer::kNone;
+    if (place >= leaves.size()) return PairResult::kNone;
     leaves[place] = leaf;
     return static_cast<std::uint32_t>(place);
   }
@@ -162,13 +162,13 @@ struct CheckCertificates {
     const Page& page = pages[at.page];
     const LinearSweep& sweep = fronts[at.front].sweep;
     Lanes<1> kind;
-    const Lanes<1> gap = least_gaps<1>(CertificateBlocks{page.fields}, k, sweep, kind);
+    const Lanes<1> gap = min_gaps<1>(CertificateBlocks{page.fields}, k, sweep, kind);
     if (any(certify<1>(gap, kind, sweep))) {
       atomic_lower(&least[at.part], word_of_gap(gap.r));
       return;
     }
     const std::uint32_t place = sink.take(1);
-    if (place != PairAnswer::kNone)
+    if (place != PairResult::kNone)
       sink.put(place, asked(at, page, k), at.part, at.begin + static_cast<std::uint32_t>(k));
   }
 
@@ -213,12 +213,12 @@ struct SeparatePairs {
     if (at >= counters->end || sink.pairs[at].a == AskedPair::kDead) return;
     const AskedPair pair = sink.pairs[at];
     const FrontOrder& front = fronts[pair.front];
-    PairAnswer& answer = sink.answers[at];
+    PairResult& answer = sink.answers[at];
     if (pair.of_triangles == 0) {
       const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
       separate_box_lanes<1>(&query, 1, front.sweep, &answer.separation);
       if (front.trees.certifies(answer.separation, pair.hint, false, front.sweep)) {
-        answer.kind = PairAnswer::Boxes;
+        answer.kind = PairResult::Boxes;
         return;
       }
       if (!front.trees.leaves(pair.a, pair.b)) {
@@ -228,22 +228,22 @@ struct SeparatePairs {
     }
     const TrianglePairQuery query = front.trees.triangle_query(pair.a, pair.b, pair.hint);
     separate_triangle_lanes<1>(&query, 1, front.sweep, &answer.separation);
-    answer.kind = PairAnswer::Triangles;
+    answer.kind = PairResult::Triangles;
     if (front.tests_leaves != 0 && !front.trees.certifies(answer.separation, pair.hint, pair.on_edge != 0, front.sweep))
       answer.leaf = leaves.append(asked(pair, front.trees, answer.separation));
   }
 
  private:
   /// With the hint that the front's own sweep has.
-  DISMANTLE_HOST_DEVICE static AskedLeaf asked(const AskedPair& pair, const PairedTrees& trees,
-                                               const NodeSeparation& found) {
+  DISMANTLE_HOST_DEVICE static TrianglePairRequest asked(const AskedPair& pair, const PairedTrees& trees,
+                                                         const NodeSeparation& found) {
     const BoxPairQuery faces = trees.box_query(pair.a, pair.b, {});
     return {faces.a->child, faces.b->child, pair.front, trees.leaf_hint(pair.hint, found)};
   }
-  DISMANTLE_HOST_DEVICE void split(const AskedPair& pair, const PairedTrees& trees, PairAnswer& answer) const {
-    answer.kind = PairAnswer::Split;
+  DISMANTLE_HOST_DEVICE void split(const AskedPair& pair, const PairedTrees& trees, PairResult& answer) const {
+    answer.kind = PairResult::Split;
     answer.first_child = sink.take(2);
-    if (answer.first_child == PairAnswer::kNone) return;
+    if (answer.first_child == PairResult::kNone) return;
     const bool splits_of_a = trees.splits_a(pair.a, pair.b);
     for (std::uint32_t k = 0; k < 2; ++k) {
       AskedPair half = pair;
@@ -252,19 +252,19 @@ struct SeparatePairs {
       } else {
         half.b = trees.b.nodes[pair.b].child + k;
       }
-      sink.put(answer.first_child + k, half, answer.part, PairAnswer::kNone);
+      sink.put(answer.first_child + k, half, answer.part, PairResult::kNone);
     }
   }
 };
 
 /// Separates the boxes of pairs that siblings may merge into. Item: one of them.
 struct SeparateParents {
-  Span<const AskedParents> asked;
+  Span<const MergeCandidate> asked;
   Span<const FrontOrder> fronts;
   Span<NodeSeparation> found;
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const AskedParents& pair = asked[i];
+    const MergeCandidate& pair = asked[i];
     const FrontOrder& front = fronts[pair.front];
     const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
     separate_box_lanes<1>(&query, 1, front.sweep, &found[i]);
@@ -287,16 +287,16 @@ struct NextLeaves {
 template <class Kernel, class Found>
 struct TestLeaves {
   const SweepCounters* counters;
-  Span<const AskedLeaf> asked;
+  Span<const TrianglePairRequest> asked;
   Span<const Kernel> kernels;  ///< Of each front asked.
   Span<Found> found;
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::size_t at = counters->leaves_begin + i;
     if (at >= counters->leaves_end) return;
-    const AskedLeaf& leaf = asked[at];
+    const TrianglePairRequest& leaf = asked[at];
     found[at] = kernels[leaf.front].test(leaf.moving, leaf.fixed, {leaf.hint.x, leaf.hint.y, leaf.hint.z}, 1);
   }
 };
 
-}  // namespace dismantle::resident_front
+}  // namespace dismantle::device_front

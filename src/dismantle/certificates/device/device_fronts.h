@@ -20,21 +20,21 @@ namespace dismantle {
 /// says so. It has the types `Sweep`, which tests pairs of triangles of a sweep, `Kernel`, the same in the device's
 /// memory, whose test(moving, fixed, hint, horizon) gives a `Found`, and kernel(queue, sweep), which makes it.
 template <class Queue, class Leaves>
-class ResidentFronts {
+class DeviceFronts {
  public:
-  using Asked = AskedFront<typename Leaves::Sweep>;
+  using Asked = FrontQuery<typename Leaves::Sweep>;
   using Kernel = typename Leaves::Kernel;
   using Found = typename Leaves::Found;
 
   /// @param capacity that everything starts with
-  ResidentFronts(Queue queue, std::size_t capacity);
+  DeviceFronts(Queue queue, std::size_t capacity);
 
   /// Checks all certificates of the fronts, and so on: see FrontDevice::ask().
   /// @return of each part, front by front; holds until the next call
-  Span<const PartAnswers> ask(Span<const Asked> fronts, bool to_the_end);
+  Span<const PartResults> ask(Span<const Asked> fronts, bool to_the_end);
   /// Separates pairs of nodes as boxes: see FrontDevice::separate().
-  Span<const NodeSeparation> separate(Span<const Asked> fronts, Span<const AskedParents> pairs);
-  /// What elementary tests found in that: PairAnswer::leaf is an index of these.
+  Span<const NodeSeparation> separate(Span<const Asked> fronts, Span<const MergeCandidate> pairs);
+  /// What elementary tests found in that: PairResult::leaf is an index of these.
   Span<const Found> leaves() const { return found_leaves_.on_host().subspan(0, stored_leaves()); }
 
  private:
@@ -49,19 +49,17 @@ class ResidentFronts {
   static constexpr int kRounds = 6;  // of a recording
   static constexpr std::size_t kReportedAnswers = 512;
   static constexpr std::size_t kReportedLeaves = 128;
-  static constexpr std::size_t kMostPairs = std::size_t{1} << 18;   // 60 MB; more is left to the host
-  static constexpr std::size_t kMostLeaves = std::size_t{1} << 17;  // 20 MB
+  static constexpr std::size_t kMaxPairs = std::size_t{1} << 18;   // 60 MB; more is left to the host
+  static constexpr std::size_t kMaxLeaves = std::size_t{1} << 17;  // 20 MB
 
-  const resident_front::SweepCounters& counters() const { return counters_.on_host()[0]; }
+  const device_front::SweepCounters& counters() const { return counters_.on_host()[0]; }
   std::size_t stored() const { return std::min<std::size_t>(counters().needed, pairs_.size()); }
   std::size_t stored_leaves() const { return std::min<std::size_t>(counters().leaves_needed, asked_leaves_.size()); }
-  resident_front::PairSink sink() {
-    return {pairs_.view(), answers_.on_device(), &counters_.on_device().data()->needed};
-  }
-  resident_front::LeafSink leaf_sink() { return {asked_leaves_.view(), &counters_.on_device().data()->leaves_needed}; }
+  device_front::PairSink sink() { return {pairs_.view(), answers_.on_device(), &counters_.on_device().data()->needed}; }
+  device_front::LeafSink leaf_sink() { return {asked_leaves_.view(), &counters_.on_device().data()->leaves_needed}; }
 
   ObbTreeView tree(const ObbTree& tree);
-  resident_front::FrontOrder order_of(const Asked& asked);
+  device_front::FrontOrder order_of(const Asked& asked);
   void order(Span<const Asked> fronts);
   void order_part(CertificatePart& part, std::vector<std::uint32_t>& pages);
   void send_order();
@@ -87,33 +85,33 @@ class ResidentFronts {
   std::uint32_t page_count_ = 0, pages_sent_ = 0;
 
   // What the host says of a sweep.
-  std::vector<resident_front::FrontOrder> orders_;
+  std::vector<device_front::FrontOrder> orders_;
   std::vector<Kernel> leaf_kernels_;
-  std::vector<resident_front::CheckedPage> checked_;
-  std::vector<resident_front::PageEdit> edits_;
+  std::vector<device_front::CheckedPage> checked_;
+  std::vector<device_front::PageEdit> edits_;
   std::size_t part_count_ = 0;
 
-  DeviceArray<resident_front::Page> pages_;
-  MirroredArray<resident_front::FrontOrder> fronts_;
+  DeviceArray<device_front::Page> pages_;
+  MirroredArray<device_front::FrontOrder> fronts_;
   MirroredArray<Kernel> kernels_;
-  MirroredArray<resident_front::CheckedPage> checked_pages_;
-  MirroredArray<resident_front::PageEdit> page_edits_;
-  MirroredArray<resident_front::SweepOrder> order_;
-  MirroredArray<resident_front::SweepCounters> counters_;
+  MirroredArray<device_front::CheckedPage> checked_pages_;
+  MirroredArray<device_front::PageEdit> page_edits_;
+  MirroredArray<device_front::SweepOrder> order_;
+  MirroredArray<device_front::SweepCounters> counters_;
   MirroredArray<std::uint64_t> least_;
-  DeviceArray<resident_front::AskedPair> pairs_;
-  MirroredArray<PairAnswer> answers_;
-  DeviceArray<resident_front::AskedLeaf> asked_leaves_;
+  DeviceArray<device_front::AskedPair> pairs_;
+  MirroredArray<PairResult> answers_;
+  DeviceArray<device_front::TrianglePairRequest> asked_leaves_;
   MirroredArray<Found> found_leaves_;
-  MirroredArray<AskedParents> parents_;
+  MirroredArray<MergeCandidate> parents_;
   MirroredArray<NodeSeparation> parent_separations_;
   typename Queue::Recording recording_;
 
-  std::vector<PartAnswers> found_;
+  std::vector<PartResults> found_;
 };
 
 template <class Queue, class Leaves>
-ResidentFronts<Queue, Leaves>::ResidentFronts(Queue queue, std::size_t capacity)
+DeviceFronts<Queue, Leaves>::DeviceFronts(Queue queue, std::size_t capacity)
     : queue_(std::move(queue)),
       pages_(queue_, std::max<std::size_t>(capacity, 1)),
       fronts_(queue_, 1),
@@ -134,18 +132,18 @@ ResidentFronts<Queue, Leaves>::ResidentFronts(Queue queue, std::size_t capacity)
 
 /// What is brought down has to be something.
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::make_pair_room(std::size_t count) {
-  pairs_ = DeviceArray<resident_front::AskedPair>(queue_, count);
-  answers_ = MirroredArray<PairAnswer>(queue_, count);
-  std::fill(answers_.on_host().begin(), answers_.on_host().end(), PairAnswer{});
+void DeviceFronts<Queue, Leaves>::make_pair_room(std::size_t count) {
+  pairs_ = DeviceArray<device_front::AskedPair>(queue_, count);
+  answers_ = MirroredArray<PairResult>(queue_, count);
+  std::fill(answers_.on_host().begin(), answers_.on_host().end(), PairResult{});
   answers_.copy_up(queue_);
   queue_.wait();
   recording_.forget();
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::make_leaf_room(std::size_t count) {
-  asked_leaves_ = DeviceArray<resident_front::AskedLeaf>(queue_, count);
+void DeviceFronts<Queue, Leaves>::make_leaf_room(std::size_t count) {
+  asked_leaves_ = DeviceArray<device_front::TrianglePairRequest>(queue_, count);
   found_leaves_ = MirroredArray<Found>(queue_, count);
   std::fill(found_leaves_.on_host().begin(), found_leaves_.on_host().end(), Found{});
   found_leaves_.copy_up(queue_);
@@ -154,7 +152,7 @@ void ResidentFronts<Queue, Leaves>::make_leaf_room(std::size_t count) {
 }
 
 template <class Queue, class Leaves>
-Span<const PartAnswers> ResidentFronts<Queue, Leaves>::ask(Span<const Asked> fronts, bool to_the_end) {
+Span<const PartResults> DeviceFronts<Queue, Leaves>::ask(Span<const Asked> fronts, bool to_the_end) {
   order(fronts);
   send_order();
   run(to_the_end);
@@ -163,7 +161,7 @@ Span<const PartAnswers> ResidentFronts<Queue, Leaves>::ask(Span<const Asked> fro
 }
 
 template <class Queue, class Leaves>
-ObbTreeView ResidentFronts<Queue, Leaves>::tree(const ObbTree& tree) {
+ObbTreeView DeviceFronts<Queue, Leaves>::tree(const ObbTree& tree) {
   auto known = trees_.find(&tree);
   if (known == trees_.end())
     known = trees_
@@ -176,8 +174,8 @@ ObbTreeView ResidentFronts<Queue, Leaves>::tree(const ObbTree& tree) {
 }
 
 template <class Queue, class Leaves>
-Span<const NodeSeparation> ResidentFronts<Queue, Leaves>::separate(Span<const Asked> fronts,
-                                                                   Span<const AskedParents> pairs) {
+Span<const NodeSeparation> DeviceFronts<Queue, Leaves>::separate(Span<const Asked> fronts,
+                                                                 Span<const MergeCandidate> pairs) {
   const std::size_t count = pairs.size();
   make_room(fronts_, fronts.size());
   make_room(parents_, count);
@@ -186,17 +184,17 @@ Span<const NodeSeparation> ResidentFronts<Queue, Leaves>::separate(Span<const As
                  [this](const Asked& asked) { return order_of(asked); });
   std::copy(pairs.begin(), pairs.end(), parents_.on_host().begin());
   fronts_.copy_up(queue_);
-  const Span<AskedParents> parents = parents_.on_device().subspan(0, count);
+  const Span<MergeCandidate> parents = parents_.on_device().subspan(0, count);
   const Span<NodeSeparation> separations = parent_separations_.on_device().subspan(0, count);
-  queue_.copy_up(parents.data(), parents_.on_host().data(), count * sizeof(AskedParents));
-  queue_.launch(count, resident_front::SeparateParents{parents, fronts_.on_device(), separations});
+  queue_.copy_up(parents.data(), parents_.on_host().data(), count * sizeof(MergeCandidate));
+  queue_.launch(count, device_front::SeparateParents{parents, fronts_.on_device(), separations});
   queue_.copy_down(parent_separations_.on_host().data(), separations.data(), count * sizeof(NodeSeparation));
   queue_.wait();
   return parent_separations_.on_host().subspan(0, count);
 }
 
 template <class Queue, class Leaves>
-resident_front::FrontOrder ResidentFronts<Queue, Leaves>::order_of(const Asked& asked) {
+device_front::FrontOrder DeviceFronts<Queue, Leaves>::order_of(const Asked& asked) {
   PairedTrees trees = asked.front->trees();
   trees.a = tree(asked.front->tree_a());
   trees.b = tree(asked.front->tree_b());
@@ -204,7 +202,7 @@ resident_front::FrontOrder ResidentFronts<Queue, Leaves>::order_of(const Asked& 
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::order(Span<const Asked> fronts) {
+void DeviceFronts<Queue, Leaves>::order(Span<const Asked> fronts) {
   orders_.clear();
   leaf_kernels_.clear();
   checked_.clear();
@@ -225,7 +223,7 @@ void ResidentFronts<Queue, Leaves>::order(Span<const Asked> fronts) {
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::order_part(CertificatePart& part, std::vector<std::uint32_t>& pages) {
+void DeviceFronts<Queue, Leaves>::order_part(CertificatePart& part, std::vector<std::uint32_t>& pages) {
   constexpr std::size_t kBlock = CertificateBlocks::kBlock;
   const std::size_t count = part.block_count();
   drop_pages(pages, count);
@@ -234,8 +232,8 @@ void ResidentFronts<Queue, Leaves>::order_part(CertificatePart& part, std::vecto
     const bool is_new = k == pages.size();
     if (is_new) pages.push_back(new_page());
     if (part.take_changed(k) || is_new) {
-      resident_front::PageEdit& edit = edits_.emplace_back();
-      std::copy_n(part.blocks().data + CertificateBlocks::place(begin, 0), resident_front::EditPages::kItems,
+      device_front::PageEdit& edit = edits_.emplace_back();
+      std::copy_n(part.blocks().data + CertificateBlocks::place(begin, 0), device_front::EditPages::kItems,
                   edit.content.fields);
       for (std::size_t i = 0; i < kBlock; ++i) edit.content.pairs[i] = part.pair(begin + std::min(i, of_page - 1));
       edit.page = pages[k];
@@ -247,7 +245,7 @@ void ResidentFronts<Queue, Leaves>::order_part(CertificatePart& part, std::vecto
 }
 
 template <class Queue, class Leaves>
-std::uint32_t ResidentFronts<Queue, Leaves>::new_page() {
+std::uint32_t DeviceFronts<Queue, Leaves>::new_page() {
   if (free_pages_.empty()) return page_count_++;
   const std::uint32_t page = free_pages_.back();
   free_pages_.pop_back();
@@ -255,23 +253,23 @@ std::uint32_t ResidentFronts<Queue, Leaves>::new_page() {
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::drop_pages(std::vector<std::uint32_t>& pages, std::size_t count) {
+void DeviceFronts<Queue, Leaves>::drop_pages(std::vector<std::uint32_t>& pages, std::size_t count) {
   for (; pages.size() > count; pages.pop_back()) free_pages_.push_back(pages.back());
 }
 
 template <class Queue, class Leaves>
 template <class T>
-void ResidentFronts<Queue, Leaves>::make_room(MirroredArray<T>& array, std::size_t count) {
+void DeviceFronts<Queue, Leaves>::make_room(MirroredArray<T>& array, std::size_t count) {
   if (count <= array.on_host().size()) return;
   array = MirroredArray<T>(queue_, count + count / 2);
   recording_.forget();
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::send_order() {
+void DeviceFronts<Queue, Leaves>::send_order() {
   if (page_count_ > pages_.size()) {
-    DeviceArray<resident_front::Page> larger(queue_, page_count_ + page_count_ / 2);
-    queue_.copy(larger.view().data(), pages_.view().data(), pages_sent_ * sizeof(resident_front::Page));
+    DeviceArray<device_front::Page> larger(queue_, page_count_ + page_count_ / 2);
+    queue_.copy(larger.view().data(), pages_.view().data(), pages_sent_ * sizeof(device_front::Page));
     queue_.wait();
     pages_ = std::move(larger);
     recording_.forget();
@@ -287,14 +285,14 @@ void ResidentFronts<Queue, Leaves>::send_order() {
   std::copy(edits_.begin(), edits_.end(), page_edits_.on_host().begin());
   order_.on_host()[0] = {static_cast<std::uint32_t>(checked_.size())};
 
-  const Span<resident_front::PageEdit> edits = page_edits_.on_device().subspan(0, edits_.size());
-  queue_.copy_up(edits.data(), page_edits_.on_host().data(), edits.size() * sizeof(resident_front::PageEdit));
-  queue_.launch(edits.size() * resident_front::EditPages::kItems, resident_front::EditPages{edits, pages_.view()});
+  const Span<device_front::PageEdit> edits = page_edits_.on_device().subspan(0, edits_.size());
+  queue_.copy_up(edits.data(), page_edits_.on_host().data(), edits.size() * sizeof(device_front::PageEdit));
+  queue_.launch(edits.size() * device_front::EditPages::kItems, device_front::EditPages{edits, pages_.view()});
   pages_sent_ = page_count_;
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::run(bool to_the_end) {
+void DeviceFronts<Queue, Leaves>::run(bool to_the_end) {
   for (bool again = true; again;) {
     queue_.replay(recording_, [this] { enqueue_sweep(); });
     queue_.wait();
@@ -308,47 +306,47 @@ void ResidentFronts<Queue, Leaves>::run(bool to_the_end) {
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::enqueue_sweep() {
+void DeviceFronts<Queue, Leaves>::enqueue_sweep() {
   fronts_.copy_up(queue_);
   kernels_.copy_up(queue_);
   checked_pages_.copy_up(queue_);
   order_.copy_up(queue_);
-  queue_.launch(least_.on_host().size(), resident_front::BeginSweep{counters_.on_device().data(), least_.on_device()});
+  queue_.launch(least_.on_host().size(), device_front::BeginSweep{counters_.on_device().data(), least_.on_device()});
   queue_.launch(checked_pages_.on_host().size() * CertificateBlocks::kBlock,
-                resident_front::CheckCertificates{order_.on_device().data(), checked_pages_.on_device(), pages_.view(),
-                                                  fronts_.on_device(), least_.on_device(), sink()});
+                device_front::CheckCertificates{order_.on_device().data(), checked_pages_.on_device(), pages_.view(),
+                                                fronts_.on_device(), least_.on_device(), sink()});
   enqueue_rounds();
   least_.copy_down(queue_);
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::enqueue_rounds() {
+void DeviceFronts<Queue, Leaves>::enqueue_rounds() {
   for (int round = 0; round < kRounds; ++round) {
-    queue_.launch(1, resident_front::NextRound{counters_.on_device().data(), pairs_.size()});
-    queue_.launch(pairs_.size(), resident_front::SeparatePairs{counters_.on_device().data(), fronts_.on_device(),
-                                                               sink(), leaf_sink()});
+    queue_.launch(1, device_front::NextRound{counters_.on_device().data(), pairs_.size()});
+    queue_.launch(pairs_.size(),
+                  device_front::SeparatePairs{counters_.on_device().data(), fronts_.on_device(), sink(), leaf_sink()});
   }
-  queue_.launch(1, resident_front::NextLeaves{counters_.on_device().data(), asked_leaves_.size()});
+  queue_.launch(1, device_front::NextLeaves{counters_.on_device().data(), asked_leaves_.size()});
   queue_.launch(asked_leaves_.size(),
-                resident_front::TestLeaves<Kernel, Found>{counters_.on_device().data(), asked_leaves_.view(),
-                                                          kernels_.on_device(), found_leaves_.on_device()});
+                device_front::TestLeaves<Kernel, Found>{counters_.on_device().data(), asked_leaves_.view(),
+                                                        kernels_.on_device(), found_leaves_.on_device()});
   counters_.copy_down(queue_);
   queue_.copy_down(answers_.on_host().data(), answers_.on_device().data(),
-                   std::min(kReportedAnswers, pairs_.size()) * sizeof(PairAnswer));
+                   std::min(kReportedAnswers, pairs_.size()) * sizeof(PairResult));
   queue_.copy_down(found_leaves_.on_host().data(), found_leaves_.on_device().data(),
                    std::min(kReportedLeaves, found_leaves_.on_host().size()) * sizeof(Found));
 }
 
 /// Makes room where there was not enough. True where it made some: then the sweep must be run again.
 template <class Queue, class Leaves>
-bool ResidentFronts<Queue, Leaves>::grow() {
+bool DeviceFronts<Queue, Leaves>::grow() {
   const auto room_for = [](std::size_t needed, std::size_t room, std::size_t most) {
     return needed <= room || room >= most ? room : std::min(needed + needed / 2, most);
   };
   // All that do not hold have to be known.
-  const std::size_t most = std::max(kMostPairs, checked_.size() * CertificateBlocks::kBlock);
+  const std::size_t most = std::max(kMaxPairs, checked_.size() * CertificateBlocks::kBlock);
   const std::size_t pairs = room_for(counters().needed, pairs_.size(), most);
-  const std::size_t leaves = room_for(counters().leaves_needed, asked_leaves_.size(), kMostLeaves);
+  const std::size_t leaves = room_for(counters().leaves_needed, asked_leaves_.size(), kMaxLeaves);
   const bool grows = pairs > pairs_.size() || leaves > asked_leaves_.size();
   if (pairs > pairs_.size()) make_pair_room(pairs);
   if (leaves > asked_leaves_.size()) make_leaf_room(leaves);
@@ -358,26 +356,26 @@ bool ResidentFronts<Queue, Leaves>::grow() {
 /// Brings down what did not come with the counts.
 template <class Queue, class Leaves>
 template <class T>
-void ResidentFronts<Queue, Leaves>::bring_rest(MirroredArray<T>& array, std::size_t brought, std::size_t count) {
+void DeviceFronts<Queue, Leaves>::bring_rest(MirroredArray<T>& array, std::size_t brought, std::size_t count) {
   if (count <= brought) return;
   queue_.copy_down(array.on_host().data() + brought, array.on_device().data() + brought, (count - brought) * sizeof(T));
   queue_.wait();
 }
 
 template <class Queue, class Leaves>
-void ResidentFronts<Queue, Leaves>::collect() {
+void DeviceFronts<Queue, Leaves>::collect() {
   const std::size_t count = stored();
   bring_rest(answers_, kReportedAnswers, count);
   bring_rest(found_leaves_, kReportedLeaves, stored_leaves());
-  const Span<const PairAnswer> answers(answers_.on_host().data(), count);
+  const Span<const PairResult> answers(answers_.on_host().data(), count);
   found_.assign(part_count_, {});
   for (std::size_t p = 0; p < part_count_; ++p) {
-    found_[p].least_gap = resident_front::gap_of_word(least_.on_host()[p]);
+    found_[p].min_gap = device_front::gap_of_word(least_.on_host()[p]);
     found_[p].answers = answers;
   }
   for (std::uint32_t k = 0; k < count; ++k)
-    if (answers[k].place != PairAnswer::kNone) found_[answers[k].part].roots.push_back(k);
-  for (PartAnswers& part : found_)
+    if (answers[k].place != PairResult::kNone) found_[answers[k].part].roots.push_back(k);
+  for (PartResults& part : found_)
     std::sort(part.roots.begin(), part.roots.end(),
               [&](std::uint32_t x, std::uint32_t y) { return answers[x].place < answers[y].place; });
 }

@@ -12,9 +12,10 @@
 namespace dismantle {
 
 /// What a device found of fronts.
-struct FrontAnswers {
-  Span<const PartAnswers> parts;  ///< Of each part, front by front.
-  Span<const LeafResult> leaves;  ///< Of elementary tests, each of the whole motion with the hint that the front has.
+struct FrontResults {
+  Span<const PartResults> parts;  ///< Of each part, front by front.
+  Span<const TrianglePairResult>
+      leaves;  ///< Of elementary tests, each of the whole motion with the hint that the front has.
 };
 
 /// Keeps copies of fronts in a device's memory and computes there what sweeps ask of their certificates and of pairs of
@@ -30,13 +31,13 @@ class FrontDevice {
   /// @param to_the_end looks at everything; else at what is found in a few rounds, as the host may need less
   /// @return what holds until the next call
   /// @pre sweeps begun with begin_sweep(); the fronts' trees outlive the device
-  virtual FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) = 0;
+  virtual FrontResults ask(Span<const FrontQuery<TrianglePairSweep>> fronts, bool to_the_end) = 0;
 
   /// Separates pairs of nodes of the fronts as boxes, for what merges before a sweep.
   /// @return of each pair; holds until the next call
   /// @pre as ask()
-  virtual Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
-                                              Span<const AskedParents> pairs) = 0;
+  virtual Span<const NodeSeparation> separate(Span<const FrontQuery<TrianglePairSweep>> fronts,
+                                              Span<const MergeCandidate> pairs) = 0;
 };
 
 /// What the buffers of a device have room for at first: the pages and failing pairs of a front of some thousand pairs.
@@ -48,7 +49,7 @@ Result<std::unique_ptr<FrontDevice>> make_cuda_front_device(std::size_t capacity
 
 /// On a device that the threads of an executor play: all that CUDA runs but its copies and launches, where there is no
 /// GPU.
-std::unique_ptr<FrontDevice> make_played_front_device(const Executor& device,
-                                                      std::size_t capacity = kFrontDeviceCapacity);
+std::unique_ptr<FrontDevice> make_emulated_front_device(const Executor& device,
+                                                        std::size_t capacity = kFrontDeviceCapacity);
 
 }  // namespace dismantle

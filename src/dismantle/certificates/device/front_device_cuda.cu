@@ -8,7 +8,7 @@ Result<std::unique_ptr<FrontDevice>> make_cuda_front_device(std::size_t capacity
   const Result<std::string> device = cuda_device_name();
   if (!device) return device.error();
   try {
-    return std::unique_ptr<FrontDevice>(std::make_unique<ResidentFrontDevice<CudaQueue>>(CudaQueue(), capacity));
+    return std::unique_ptr<FrontDevice>(std::make_unique<QueueFrontDevice<CudaQueue>>(CudaQueue(), capacity));
   } catch (const CudaError& error) {
     return Error{ErrorKind::Failed, error.what()};
   }

@@ -4,8 +4,8 @@
 
 namespace dismantle {
 
-std::unique_ptr<FrontDevice> make_played_front_device(const Executor& device, std::size_t capacity) {
-  return std::make_unique<ResidentFrontDevice<HostQueue>>(HostQueue(device), capacity);
+std::unique_ptr<FrontDevice> make_emulated_front_device(const Executor& device, std::size_t capacity) {
+  return std::make_unique<QueueFrontDevice<HostQueue>>(HostQueue(device), capacity);
 }
 
 }  // namespace dismantle

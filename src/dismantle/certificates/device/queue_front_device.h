@@ -10,15 +10,15 @@
 namespace dismantle {
 
 /// The elementary tests of sweeps on a device, with copies of the components' triangles in its memory.
-class ResidentLeaves {
+class DeviceTrianglePairs {
  public:
-  using Sweep = LeafSweep;
-  using Kernel = LeafSweepKernel;
-  using Found = LeafResult;
+  using Sweep = TrianglePairSweep;
+  using Kernel = TrianglePairSweepKernel;
+  using Found = TrianglePairResult;
 
   /// What tests as `sweep` does, over solids in the device's memory. Solids that it does not know go there.
   template <class Queue>
-  Kernel kernel(Queue& queue, const LeafSweep& sweep) {
+  Kernel kernel(Queue& queue, const TrianglePairSweep& sweep) {
     Kernel kernel = sweep.kernel();
     kernel.moving = copy_of(queue, sweep.moving());
     kernel.fixed = copy_of(queue, sweep.fixed());
@@ -55,22 +55,22 @@ class ResidentLeaves {
 
 /// Fronts and elementary tests on the device that `Queue` is: HostQueue or CudaQueue.
 template <class Queue>
-class ResidentFrontDevice final : public FrontDevice {
+class QueueFrontDevice final : public FrontDevice {
  public:
   /// @param capacity that everything starts with
-  ResidentFrontDevice(Queue queue, std::size_t capacity) : fronts_(std::move(queue), capacity) {}
+  QueueFrontDevice(Queue queue, std::size_t capacity) : fronts_(std::move(queue), capacity) {}
 
-  FrontAnswers ask(Span<const AskedFront<LeafSweep>> fronts, bool to_the_end) override {
-    const Span<const PartAnswers> parts = fronts_.ask(fronts, to_the_end);
+  FrontResults ask(Span<const FrontQuery<TrianglePairSweep>> fronts, bool to_the_end) override {
+    const Span<const PartResults> parts = fronts_.ask(fronts, to_the_end);
     return {parts, fronts_.leaves()};
   }
-  Span<const NodeSeparation> separate(Span<const AskedFront<LeafSweep>> fronts,
-                                      Span<const AskedParents> pairs) override {
+  Span<const NodeSeparation> separate(Span<const FrontQuery<TrianglePairSweep>> fronts,
+                                      Span<const MergeCandidate> pairs) override {
     return fronts_.separate(fronts, pairs);
   }
 
  private:
-  ResidentFronts<Queue, ResidentLeaves> fronts_;
+  DeviceFronts<Queue, DeviceTrianglePairs> fronts_;
 };
 
 }  // namespace dismantle

@@ -10,7 +10,7 @@ inline namespace DISMANTLE_LANES_ISA {
 
 /// Crosses of edges that are nearer to parallel than this (squared sine) are no axes: rounding would swallow them.
 template <int kLanes>
-constexpr float kLeastCross = 0.01f;
+constexpr float kMinCross = 0.01f;
 
 /// Pairs of boxes, one a lane.
 template <int kLanes>
@@ -142,7 +142,7 @@ DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const Box
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const V line = cross(way.a[i], boxes.axes_b[j]);
       const F square = dot(line, line);
-      const auto parallel = square < F(kLeastCross<kLanes>);
+      const auto parallel = square < F(kMinCross<kLanes>);
       const F scale = F(1) / sqrt(select(parallel, F(1), square));
       const F half = boxes.half_a[i1] * way.cosine[i2][j] + boxes.half_a[i2] * way.cosine[i1][j] +
                      boxes.half_b[j1] * way.cosine[i][j2] + boxes.half_b[j2] * way.cosine[i][j1];

@@ -22,7 +22,7 @@ constexpr std::size_t kEnoughOfPair = 2;
 constexpr std::size_t kRoundStarts = 128;
 /// Once a component has turned by more than this [of a unit vector], certificates are judged anew: they may use the
 /// allowance only as long as they face along the normals.
-constexpr double kMostTurn = 0.25;
+constexpr double kMaxTurn = 0.25;
 
 /// The rounding of a gap in float32, in units of u = 2^-24 times the sum of the coordinates' sizes (docs/design/
 /// 0006-certificates.md derives 40; the rest is margin).
@@ -70,18 +70,18 @@ struct CertificateFront::Work {
   std::vector<std::uint32_t> triangles_asked;
   std::vector<NodeSeparation> separations;  // of what was asked, in order
   std::vector<NodeSeparation> computed;     // of the queries
-  Span<const PairAnswer> answers;           // of a device, if any was asked
+  Span<const PairResult> answers;           // of a device, if any was asked
 
   void prove(Item& item, const Certificate& certificate) {
     item.proof = static_cast<std::uint32_t>(proofs.size());
     proofs.push_back(certificate);
   }
-  PairAnswer::Kind known(const Item& item) const {
-    return item.answer == Item::kNone ? PairAnswer::None : answers[item.answer].kind;
+  PairResult::Kind known(const Item& item) const {
+    return item.answer == Item::kNone ? PairResult::None : answers[item.answer].kind;
   }
   /// Puts together what was computed of the queries and what is known of the rest of what was asked: those whose
   /// answer is not of this kind were found not to be apart.
-  void join(const std::vector<std::uint32_t>& all_asked, PairAnswer::Kind kind) {
+  void join(const std::vector<std::uint32_t>& all_asked, PairResult::Kind kind) {
     if (computed.size() == all_asked.size()) {
       separations.swap(computed);
       return;
@@ -90,7 +90,7 @@ struct CertificateFront::Work {
     std::size_t next = 0;
     for (std::size_t k = 0; k < all_asked.size(); ++k) {
       const Item& item = items[all_asked[k]];
-      if (known(item) == PairAnswer::None) {
+      if (known(item) == PairResult::None) {
         separations[k] = computed[next++];
       } else if (known(item) == kind) {
         separations[k] = answers[item.answer].separation;
@@ -101,8 +101,8 @@ struct CertificateFront::Work {
   }
 };
 
-CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a,
-                                   const RoundShape* round_b, Span<const ThreadMatch> threads)
+CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RevolutionSurface* round_a,
+                                   const RevolutionSurface* round_b, Span<const ThreadMatch> threads)
     : a_(&a), b_(&b), round_a_(round_a), round_b_(round_b), threads_(threads), parts_(1), sides_(sides) {
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
   parts_[0].append({0, 0}, Certificate::none());
@@ -115,7 +115,7 @@ std::size_t CertificateFront::size() const {
 }
 
 bool CertificateFront::judges(const Mat3& rotation) const {
-  return sides_ != SideRule::Normals || turn_between(judged_, rotation) <= kMostTurn;
+  return sides_ != SideRule::Normals || turn_between(judged_, rotation) <= kMaxTurn;
 }
 
 PreparedSweep CertificateFront::begin_sweep(const PairMotion& motion) {
@@ -144,8 +144,8 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
   sweep.apart = static_cast<float>(motion.allowed + motion.deviation + error);
   // Sides are remembered by axes only.
   if (round_a_ && round_b_ && sides_ != SideRule::Memory)
-    sweep.rounds = b_moves_ ? std::make_unique<RoundSweeps>(*round_b_, b_->origin, *round_a_, a_->origin, motion)
-                            : std::make_unique<RoundSweeps>(*round_a_, a_->origin, *round_b_, b_->origin, motion);
+    sweep.rounds = b_moves_ ? std::make_unique<RadialSweeps>(*round_b_, b_->origin, *round_a_, a_->origin, motion)
+                            : std::make_unique<RadialSweeps>(*round_a_, a_->origin, *round_b_, b_->origin, motion);
   if (sides_ == SideRule::Memory) return sweep;
   for (const ThreadMatch& match : threads_) {
     const ThreadSweep thread(match, b_moves_ ? 1 : 0, motion);
@@ -155,7 +155,7 @@ PreparedSweep CertificateFront::begin_look(const PairMotion& motion) const {
 }
 
 FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
-                                        const LeafTest& test, const PartAnswers* answers) {
+                                        const TrianglePairTest& test, const PartResults* answers) {
   CertificatePart& part = parts_[index];
   FrontSweep result;
   Work work;
@@ -181,17 +181,17 @@ void CertificateFront::find_failing(const CertificatePart& part, const PreparedS
     std::iota(work.failing.begin(), work.failing.end(), 0u);
     check.failing = part.size();
   }
-  result.least_gap = std::min(result.least_gap, check.least_gap);
-  result.touching |= sides_ != SideRule::Normals && check.least_gap < sweep.meeting;
+  result.min_gap = std::min(result.min_gap, check.min_gap);
+  result.touching |= sides_ != SideRule::Normals && check.min_gap < sweep.meeting;
   for (std::size_t k = 0; k < check.failing; ++k) add_item(part, work.failing[k], sweep, work);
   work.of_front = work.items.size();
 }
 
-void CertificateFront::take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartAnswers& answers,
+void CertificateFront::take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& answers,
                                     Work& work, FrontSweep& result) const {
   DISMANTLE_EXPECT(sweep.judged);
-  result.least_gap = std::min(result.least_gap, answers.least_gap);
-  result.touching |= sides_ != SideRule::Normals && answers.least_gap < sweep.meeting;
+  result.min_gap = std::min(result.min_gap, answers.min_gap);
+  result.touching |= sides_ != SideRule::Normals && answers.min_gap < sweep.meeting;
   work.answers = answers.answers;
   for (const std::uint32_t root : answers.roots) {
     add_item(part, answers.answers[root].place, sweep, work);
@@ -214,7 +214,8 @@ void CertificateFront::add_item(const CertificatePart& part, std::uint32_t place
   work.items.push_back(item);
 }
 
-FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const {
+FrontSweep CertificateFront::look(const PreparedSweep& sweep, const FrontKernels& kernels,
+                                  const TrianglePairTest& test) const {
   FrontSweep result;
   for (const CertificatePart& part : parts_) {
     Work work;
@@ -229,7 +230,7 @@ Vec3f CertificateFront::hint_of(const CertificatePart& part, std::size_t i, cons
 }
 
 void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
-                               const LeafTest& test, FrontSweep& result) const {
+                               const TrianglePairTest& test, FrontSweep& result) const {
   work.waiting = find_starts(work, sweep, result);
   work.blocked.assign(work.waiting.size(), 0);
   for (std::uint32_t k = 0; k < work.waiting.size(); ++k) work.items[work.waiting[k]].start = k;
@@ -265,7 +266,7 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (parts_round(a, b, sweep, result)) {
       work.prove(work.items[i], Certificate::of_round());
-    } else if (std::optional<RoundFit> held = fit(a, b, sweep)) {
+    } else if (std::optional<CylinderFit> held = fit(a, b, sweep)) {
       result.fits.push_back(*held);
       result.complete = false;
     } else if (nearest.size() + opened.size() - k >= kRoundStarts || (a_->nodes[a].leaf() && b_->nodes[b].leaf())) {
@@ -288,7 +289,7 @@ void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, co
     const Item& item = work.items[i];
     if (item.of_triangles) continue;
     work.asked.push_back(i);
-    if (work.known(item) != PairAnswer::None) continue;
+    if (work.known(item) != PairResult::None) continue;
     work.queries.push_back(trees().box_query(item.a, item.b, item.hint));
     // Nodes lie far apart: the kernel would wait for each.
     __builtin_prefetch(work.queries.back().a);
@@ -297,14 +298,14 @@ void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, co
   work.computed.resize(work.queries.size());
   if (!work.queries.empty())
     kernels.separate_boxes(work.queries.data(), work.queries.size(), sweep, work.computed.data());
-  work.join(work.asked, PairAnswer::Boxes);
+  work.join(work.asked, PairResult::Boxes);
 }
 
 void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const {
   work.triangle_queries.clear();
   for (const std::uint32_t i : work.triangles_asked) {
     const Item& item = work.items[i];
-    if (work.known(item) != PairAnswer::None) continue;
+    if (work.known(item) != PairResult::None) continue;
     work.triangle_queries.push_back(trees().triangle_query(item.a, item.b, item.hint));
     __builtin_prefetch(work.triangle_queries.back().a);
     __builtin_prefetch(work.triangle_queries.back().b);
@@ -312,13 +313,13 @@ void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep
   work.computed.resize(work.triangle_queries.size());
   if (!work.triangle_queries.empty())
     kernels.separate_triangles(work.triangle_queries.data(), work.triangle_queries.size(), sweep, work.computed.data());
-  work.join(work.triangles_asked, PairAnswer::Triangles);
+  work.join(work.triangles_asked, PairResult::Triangles);
 }
 
 bool CertificateFront::take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
                             FrontSweep& result) const {
   if (!trees().certifies(separation, item.hint, item.on_edge, sweep)) return false;
-  result.least_gap = std::min(result.least_gap, separation.gap);
+  result.min_gap = std::min(result.min_gap, separation.gap);
   result.touching |= trees().may_meet(separation, sweep);
   work.prove(item, separation.certificate);
   return true;
@@ -329,15 +330,15 @@ bool CertificateFront::parts_round(std::uint32_t a, std::uint32_t b, const Prepa
   for (const ThreadSweep& thread : sweep.threads) {
     const double gap = b_moves_ ? thread.gap(b, a) : thread.gap(a, b);
     if (gap < sweep.error) continue;  // it is of the true paths, which need no room for arcs
-    result.least_gap = std::min(result.least_gap, -rounded_up(-gap));
+    result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
     return true;
   }
   if (!sweep.rounds) return false;
-  for (const RoundSweep& round : sweep.rounds->get()) {
-    const RoundSweep::Gap found = b_moves_ ? round.gap(b, a, sweep.limit) : round.gap(a, b, sweep.limit);
+  for (const RadialSweep& round : sweep.rounds->get()) {
+    const RadialSweep::Gap found = b_moves_ ? round.gap(b, a, sweep.limit) : round.gap(a, b, sweep.limit);
     const double limit = sides_ == SideRule::Free || found.facing ? sweep.limit : sweep.meeting;
     if (found.gap < limit) continue;
-    result.least_gap = std::min(result.least_gap, -rounded_up(-found.gap));
+    result.min_gap = std::min(result.min_gap, -rounded_up(-found.gap));
     result.touching |= found.gap < sweep.meeting && !(sides_ == SideRule::Normals && found.face_on);
     return true;
   }
@@ -362,22 +363,22 @@ void CertificateFront::fetch_round(const Work& work, const std::vector<std::uint
 double CertificateFront::round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
   double most = -std::numeric_limits<double>::infinity();
   if (!sweep.rounds) return most;
-  for (const RoundSweep& round : sweep.rounds->get())
+  for (const RadialSweep& round : sweep.rounds->get())
     most = std::max(most, (b_moves_ ? round.gap(b, a, most) : round.gap(a, b, most)).gap);
   return most;
 }
 
-std::optional<RoundFit> CertificateFront::fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
+std::optional<CylinderFit> CertificateFront::fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const {
   if (sweep.fit_spread < 0 || !sweep.rounds) return std::nullopt;
-  for (const RoundSweep& round : sweep.rounds->get())
-    if (std::optional<RoundFit> found =
+  for (const RadialSweep& round : sweep.rounds->get())
+    if (std::optional<CylinderFit> found =
             b_moves_ ? round.fit(b, a, sweep.fit_spread) : round.fit(a, b, sweep.fit_spread))
       return found;
   return std::nullopt;
 }
 
 void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels,
-                                     const LeafTest& test, FrontSweep& result) const {
+                                     const TrianglePairTest& test, FrontSweep& result) const {
   std::size_t left = 0;
   for (std::size_t k = 0; k < work.batch.size(); ++k) {
     fetch_round(work, work.batch, k, sweep);
@@ -413,17 +414,17 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   }
 }
 
-void CertificateFront::test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const {
+void CertificateFront::test_leaves(Work& work, Item& item, const TrianglePairTest& test, FrontSweep& result) const {
   ++result.leaf_tests;
   const BoxPairQuery query = trees().box_query(item.a, item.b, {});
-  const std::uint32_t answer = item.answer == Item::kNone ? PairAnswer::kNone : work.answers[item.answer].leaf;
-  const LeafVerdict verdict = test(query.a->child, query.b->child, item.hint, answer);
+  const std::uint32_t answer = item.answer == Item::kNone ? PairResult::kNone : work.answers[item.answer].leaf;
+  const TrianglePairVerdict verdict = test(query.a->child, query.b->child, item.hint, answer);
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;
     ++work.blocked[item.start];
   }
-  result.least_gap = std::min(result.least_gap, verdict.gap);
+  result.min_gap = std::min(result.min_gap, verdict.gap);
   result.touching |= !verdict.harmless;
 }
 
@@ -433,10 +434,10 @@ std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {
   work.items[i].first_child = first;
   const bool splits_of_a = trees().splits_a(parent.a, parent.b);
   const std::uint32_t known =
-      work.known(parent) == PairAnswer::Split ? work.answers[parent.answer].first_child : PairAnswer::kNone;
+      work.known(parent) == PairResult::Split ? work.answers[parent.answer].first_child : PairResult::kNone;
   for (std::uint32_t k = 0; k < 2; ++k) {
     Item child = parent;
-    child.answer = known == PairAnswer::kNone ? Item::kNone : known + k;
+    child.answer = known == PairResult::kNone ? Item::kNone : known + k;
     // The first takes its parent's place, others come behind all.
     if (k > 0) child.place = Item::kNone;
     if (splits_of_a) {

@@ -4,7 +4,7 @@
 #include "dismantle/certificates/front/certificate_part.h"
 #include "dismantle/certificates/front/front_results.h"
 #include "dismantle/certificates/front/paired_trees.h"
-#include "dismantle/certificates/front/round_separation.h"
+#include "dismantle/certificates/front/radial_separation.h"
 #include "dismantle/certificates/front/thread_separation.h"
 #include "dismantle/math/rigid_transform.h"
 
@@ -17,7 +17,7 @@
 namespace dismantle {
 
 /// What a test of two triangles says of a sweep.
-struct LeafVerdict {
+struct TrianglePairVerdict {
   bool free = true;    ///< They are certainly allowed during all of the sweep.
   float gap = -3e38f;  ///< They are certainly never nearer than this during the sweep [mm]; below 0: may overlap.
   /// What comes after some time was not looked at, and may block.
@@ -27,26 +27,26 @@ struct LeafVerdict {
 };
 
 /// Tests a face of the moving component against one of the fixed component during the sweep at hand, beginning with the
-/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none). `answer` is that of PairAnswer:
+/// axis `hint` (from the moving to the fixed one, the latter's frame; zero for none). `answer` is that of PairResult:
 /// where the device found what the test would find.
-using LeafTest =
-    std::function<LeafVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer)>;
+using TrianglePairTest =
+    std::function<TrianglePairVerdict(std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer)>;
 
 /// A motion as a front takes it.
 struct PreparedSweep : LinearSweep {
-  std::unique_ptr<const RoundSweeps> rounds;  ///< Null where there are none.
-  double fit_spread = -1;                     ///< As PairMotion has it.
+  std::unique_ptr<const RadialSweeps> rounds;  ///< Null where there are none.
+  double fit_spread = -1;                      ///< As PairMotion has it.
   std::vector<ThreadSweep> threads;
 };
 
 /// What sweeping a part of a front found.
 struct FrontSweep {
-  float least_gap = 3e38f;     ///< No certified pair came nearer during the sweep [mm].
-  std::size_t leaf_tests = 0;  ///< Calls of the LeafTest.
+  float min_gap = 3e38f;       ///< No certified pair came nearer during the sweep [mm].
+  std::size_t leaf_tests = 0;  ///< Calls of the TrianglePairTest.
   std::size_t blocked = 0;     ///< Those that were not free.
   bool complete = true;        ///< Nothing was left unlooked at.
   /// Cylinders that their bores hold back, which were not opened: the motion is not free.
-  std::vector<RoundFit> fits;
+  std::vector<CylinderFit> fits;
   /// Some pair was not certainly apart all the time, nor lay face on face: only such pairs can hide a deep vertex, as a
   /// triangle is never deeper across its own plane than it is thin.
   bool touching = false;
@@ -70,8 +70,8 @@ class CertificateFront {
   /// @param sides of the two components
   /// @param round_a, round_b what is round of them, if it is known
   /// @param threads of A in or around those of B, if there are any; must outlive the front
-  CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RoundShape* round_a = nullptr,
-                   const RoundShape* round_b = nullptr, Span<const ThreadMatch> threads = {});
+  CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RevolutionSurface* round_a = nullptr,
+                   const RevolutionSurface* round_b = nullptr, Span<const ThreadMatch> threads = {});
 
   /// How many node pairs it has.
   std::size_t size() const;
@@ -90,10 +90,10 @@ class CertificateFront {
   void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
                   Span<const Siblings> siblings, Span<const NodeSeparation> separations);
   /// @param answers of a device that this sweep was asked of after merging, if any was: the result is the same
-  FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
-                        const PartAnswers* answers = nullptr);
+  FrontSweep sweep_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
+                        const TrianglePairTest& test, const PartResults* answers = nullptr);
   /// As sweeping all parts, but the front stays as it is: any number of motions may be looked at side by side.
-  FrontSweep look(const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test) const;
+  FrontSweep look(const PreparedSweep& sweep, const FrontKernels& kernels, const TrianglePairTest& test) const;
   /// Ends the sweep once all parts are swept: cuts parts that have grown large.
   /// @param free no pair was found blocked, and none left unlooked at
   void end_sweep(const PreparedSweep& sweep, bool free);
@@ -140,7 +140,7 @@ class CertificateFront {
   void find_failing(const CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
   /// The same from what a device found.
-  void take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartAnswers& answers, Work& work,
+  void take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& answers, Work& work,
                     FrontSweep& result) const;
   void add_item(const CertificatePart& part, std::uint32_t place, const PreparedSweep& sweep, Work& work) const;
   /// The axis of pair i where it binds the pair to its side; zero otherwise.
@@ -153,12 +153,12 @@ class CertificateFront {
   /// Replaces siblings by their parents where these are separated; gives how many pairs went.
   std::size_t merge(CertificatePart& part, const PreparedSweep& sweep, Span<const Siblings> siblings,
                     Span<const NodeSeparation> separations) const;
-  void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+  void resolve(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const TrianglePairTest& test,
                FrontSweep& result) const;
   /// The items to begin with, the first one last. What was parted as round, and is not any more, is opened to some
   /// pairs all over it, and those that come nearest are looked at before all others.
   std::vector<std::uint32_t> find_starts(Work& work, const PreparedSweep& sweep, FrontSweep& result) const;
-  void resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const LeafTest& test,
+  void resolve_batch(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels, const TrianglePairTest& test,
                      FrontSweep& result) const;
   void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
@@ -171,11 +171,11 @@ class CertificateFront {
   /// The most that any pair of axes leaves between two nodes [mm].
   double round_gap(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// The two as a cylinder in a bore, if the sweep asks for that and they are.
-  std::optional<RoundFit> fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
+  std::optional<CylinderFit> fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// Keeps what certifies the item; false where it does not.
   bool take(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
             FrontSweep& result) const;
-  void test_leaves(Work& work, Item& item, const LeafTest& test, FrontSweep& result) const;
+  void test_leaves(Work& work, Item& item, const TrianglePairTest& test, FrontSweep& result) const;
   /// Replaces an item by the halves of a node; gives the index of the first.
   std::uint32_t split(Work& work, std::uint32_t i) const;
   /// What was parted as round stays whole in a sweep that is not free: the next one is another.
@@ -187,8 +187,8 @@ class CertificateFront {
 
   const ObbTree* a_;
   const ObbTree* b_;
-  const RoundShape* round_a_;
-  const RoundShape* round_b_;
+  const RevolutionSurface* round_a_;
+  const RevolutionSurface* round_b_;
   Span<const ThreadMatch> threads_;
   std::vector<CertificatePart> parts_;
   Mat3 judged_;  ///< The rotation about which certificates were judged to face along the normals.

@@ -21,7 +21,7 @@ constexpr std::size_t kLargestPart = 2048;
 /// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
 /// for what is parted as round, in so many pairs of nodes.
 constexpr std::size_t kBlockedToMerge = 3;
-constexpr std::size_t kLeastToMergeRound = 64;
+constexpr std::size_t kMinToMergeRound = 64;
 constexpr std::size_t kRoundTries = 256;
 
 }  // namespace
@@ -162,7 +162,7 @@ void CertificateFront::merge_round(const PreparedSweep& sweep) {
 void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
   ++sweeps_;
   blocked_ += !free;
-  if (free && blocked_ >= kBlockedToMerge && size() > kLeastToMergeRound) {
+  if (free && blocked_ >= kBlockedToMerge && size() > kMinToMergeRound) {
     merge_round(sweep);
     blocked_ = 0;
   }

@@ -16,7 +16,7 @@ CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const Certifica
   for (int l = 0; l < kLanes; ++l) number[l] = static_cast<float>(l);
   for (std::size_t i = 0; i < count; i += kLanes) {
     F kind;
-    const F gaps = least_gaps<kLanes>(certificates, i, sweep, kind);
+    const F gaps = min_gaps<kLanes>(certificates, i, sweep, kind);
     const auto holds = certify<kLanes>(gaps, kind, sweep);
     const auto real = F::load(number) < F(static_cast<float>(count - i));  // not of the padding
     least = min(least, select(holds & real, gaps, huge));
@@ -27,7 +27,7 @@ CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const Certifica
   least.store(gap);
   CertificateCheck check;
   check.failing = found;
-  for (int l = 0; l < kLanes; ++l) check.least_gap = gap[l] < check.least_gap ? gap[l] : check.least_gap;
+  for (int l = 0; l < kLanes; ++l) check.min_gap = gap[l] < check.min_gap ? gap[l] : check.min_gap;
   return check;
 }
 

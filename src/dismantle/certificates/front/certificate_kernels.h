@@ -65,7 +65,7 @@ struct NodeSeparation {
 /// What certificates say of a sweep.
 struct CertificateCheck {
   std::size_t failing = 0;  ///< How many do not certify their pair.
-  float least_gap = 3e38f;  ///< Of the others, at either end, up to LinearSweep::error [mm].
+  float min_gap = 3e38f;    ///< Of the others, at either end, up to LinearSweep::error [mm].
 };
 
 /// Checks certificates 0, ..., count - 1 against LinearSweep::limit, those of triangles on edge against `meeting`;

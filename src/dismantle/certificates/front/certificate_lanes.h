@@ -10,9 +10,9 @@ inline namespace DISMANTLE_LANES_ISA {
 
 /// As OutwardNormals has them; allowances and what comes on top.
 template <int kLanes>
-constexpr float kLeastCosine = -0.05f;
+constexpr float kMinCosine = -0.05f;
 template <int kLanes>
-constexpr float kLeastAgainst = 0.3f;
+constexpr float kMinAgainst = 0.3f;
 template <int kLanes>
 constexpr float kBehind = 4;
 
@@ -73,15 +73,15 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> reach_along(Vec3T<Lanes<kLanes>> axis, const
 
 /// The least gap of certificates during the sweep.
 template <int kLanes>
-DISMANTLE_HOST_DEVICE Lanes<kLanes> least_gap(Vec3T<Lanes<kLanes>> axis, Lanes<kLanes> offset,
-                                              const Hulls<kLanes>& hull, const LinearSweep& sweep) {
+DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gap(Vec3T<Lanes<kLanes>> axis, Lanes<kLanes> offset, const Hulls<kLanes>& hull,
+                                            const LinearSweep& sweep) {
   return offset - max(reach_along<kLanes>(axis, hull, sweep.t0), reach_along<kLanes>(axis, hull, sweep.t1));
 }
 
 /// The least gaps of certificates i, i + 1, ...
 template <int kLanes>
-DISMANTLE_HOST_DEVICE Lanes<kLanes> least_gaps(const CertificateBlocks& c, std::size_t i, const LinearSweep& sweep,
-                                               Lanes<kLanes>& kind) {
+DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::size_t i, const LinearSweep& sweep,
+                                             Lanes<kLanes>& kind) {
   using F = Lanes<kLanes>;
   const float* from = c.data +
                       (i / CertificateBlocks::kBlock * CertificateBlocks::kFields) * CertificateBlocks::kBlock +
@@ -90,7 +90,7 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> least_gaps(const CertificateBlocks& c, std::
   const auto vector = [&](std::size_t k) { return Vec3T<F>{field(k), field(k + 1), field(k + 2)}; };
   const Hulls<kLanes> hull{vector(4), {vector(7), vector(10), vector(13)}, field(16)};
   kind = hull.kind;
-  return least_gap<kLanes>(vector(0), field(3), hull, sweep);
+  return min_gap<kLanes>(vector(0), field(3), hull, sweep);
 }
 
 /// Whether certificates with these least gaps certify their pairs. What is on edge may be apart along another axis by
@@ -115,7 +115,7 @@ struct FacingLanes {
   /// the two behind each other's backs (OutwardNormals).
   DISMANTLE_HOST_DEVICE F taken_off(V w) const {
     const F along_a = dot(w, normal_a), along_b = -dot(w, normal_b);
-    const auto against = (along_a < F(-kLeastAgainst<kLanes>)) & (along_b < F(-kLeastAgainst<kLanes>));
+    const auto against = (along_a < F(-kMinAgainst<kLanes>)) & (along_b < F(-kMinAgainst<kLanes>));
     const auto faces = (along_a >= ahead_a) & (along_b >= ahead_b);
     return select(faces, F(0), select(against, F(kBehind<kLanes>), F(1)) * allowed);
   }
@@ -154,7 +154,7 @@ DISMANTLE_HOST_DEVICE void store_separations(Vec3T<Lanes<kLanes>> axis, Lanes<kL
                                              Vec3T<Lanes<kLanes>> guard, const LinearSweep& sweep, NodeSeparation* to,
                                              std::size_t count) {
   using F = Lanes<kLanes>;
-  F gap = least_gap<kLanes>(axis, offset, hull, sweep);
+  F gap = min_gap<kLanes>(axis, offset, hull, sweep);
   const auto wrong_side = (dot(axis, guard) < F(0)) & (gap < F(sweep.apart));
   const auto none = dot(axis, axis) < F(0.5f);
   gap = select(wrong_side | none, F(-3e38f), gap);

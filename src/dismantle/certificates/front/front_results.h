@@ -12,7 +12,7 @@ namespace dismantle {
 class CertificateFront;
 
 /// What a device found of a pair of nodes that a sweep has to look at.
-struct PairAnswer {
+struct PairResult {
   enum Kind : std::uint32_t {
     None,       ///< It did not look at the pair: the host does.
     Boxes,      ///< What is in `separation` certifies them as boxes.
@@ -30,26 +30,26 @@ struct PairAnswer {
 };
 
 /// What a device found of one part of a front.
-struct PartAnswers {
-  float least_gap = 3e38f;           ///< As CertificateCheck has it.
+struct PartResults {
+  float min_gap = 3e38f;             ///< As CertificateCheck has it.
   std::vector<std::uint32_t> roots;  ///< Answers of the pairs that do not hold, their places ascending.
-  Span<const PairAnswer> answers;    ///< Of all parts.
+  Span<const PairResult> answers;    ///< Of all parts.
 };
 
 /// A pair of nodes that two siblings of a front may merge into.
-struct AskedParents {
+struct MergeCandidate {
   std::uint32_t front = 0;     ///< Of the fronts asked.
   std::uint32_t a = 0, b = 0;  ///< Nodes of its trees.
   Vec3f hint;                  ///< The side to stay on; zero for none.
 };
 
 /// A front whose parts are swept.
-/// @tparam LeafSweep tests pairs of triangles
-template <class LeafSweep>
-struct AskedFront {
+/// @tparam TrianglePairSweep tests pairs of triangles
+template <class TrianglePairSweep>
+struct FrontQuery {
   CertificateFront* front;
   const LinearSweep* sweep;
-  const LeafSweep* leaves = nullptr;  ///< The elementary tests of this sweep; null leaves them to the host.
+  const TrianglePairSweep* leaves = nullptr;  ///< The elementary tests of this sweep; null leaves them to the host.
 };
 
 }  // namespace dismantle

@@ -12,20 +12,21 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 /// Nothing is gained where the axes are further apart than this share of the period, or more at an angle than this
 /// [sine].
-constexpr double kMostOff = 0.25, kMostSine = 0.02;
+constexpr double kMaxOff = 0.25, kMaxSine = 0.02;
 /// The share of the distance from the axis that the way between two points is taken to keep to at least.
 constexpr double kKeptDistance = 0.75;
 /// Lifts of nodes that take more periods than that say nothing.
-constexpr double kMostPeriods = 8;
+constexpr double kMaxPeriods = 8;
 
-ThreadMatch::Side side_of(const ThreadFrame& frame, const RoundShape& shape, Vec3 origin) {
+ThreadMatch::Side side_of(const ThreadFrame& frame, const RevolutionSurface& shape, Vec3 origin) {
   return {frame.axis.point - origin, frame.axis.direction, frame.axis.first,
           ThreadNodes(frame, shape.vertices(), shape.faces(), shape.nodes())};
 }
 
 }  // namespace
 
-std::vector<ThreadMatch> match_threads(const RoundShape& a, Vec3 origin_a, const RoundShape& b, Vec3 origin_b) {
+std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a, const RevolutionSurface& b,
+                                       Vec3 origin_b) {
   std::vector<ThreadMatch> matches;
   for (const ThreadAxis& x : a.threads())
     for (const ThreadAxis& y : b.threads()) {
@@ -57,7 +58,7 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
   const double along = dot(point - other.point, other.direction);
   const Vec3 at = other.point + along * other.direction;
   across_ = point - at;
-  if (length(tilt_) > kMostSine || length(across_) > kMostOff * match.frame.period) return;
+  if (length(tilt_) > kMaxSine || length(across_) > kMaxOff * match.frame.period) return;
 
   // The angle 0 of the moving side, with the turn taken back that leads one axis to the other.
   const Vec3 swing = cross(other.direction, direction), first = motion.t0.rotation * own.first;
@@ -92,8 +93,8 @@ double ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
   const double least = std::min(m.least, f.least);
   const auto low = [&](const ThreadNode& n, int k) { return static_cast<double>(n.low[k]); };
   const auto high = [&](const ThreadNode& n, int k) { return static_cast<double>(n.high[k]); };
-  const double most_lift = kMostPeriods * frame.period;
-  if (!(least > 0) || !(high(m, 0) - low(m, 0) < most_lift) || !(high(f, 0) - low(f, 0) < most_lift)) return kNone;
+  const double max_lift = kMaxPeriods * frame.period;
+  if (!(least > 0) || !(high(m, 0) - low(m, 0) < max_lift) || !(high(f, 0) - low(f, 0) < max_lift)) return kNone;
   const double off = this->off(m), slope = frame.lead / (kTurn * kKeptDistance * least);
   const double steepest = std::sqrt(1 + slope * slope);  // no direction has a longer gradient
   const auto difference = [&](int k, double lift) {

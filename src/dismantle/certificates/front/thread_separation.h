@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/bvh/thread_bounds.h"
-#include "dismantle/certificates/front/round_separation.h"
+#include "dismantle/certificates/front/radial_separation.h"
 
 #include <memory>
 #include <vector>
@@ -22,7 +22,8 @@ struct ThreadMatch {
 
 /// The threads of A that fit threads of B about nearly the same axis in the assembled state.
 /// @param a, b with their trees' origins [mm, assembled]
-std::vector<ThreadMatch> match_threads(const RoundShape& a, Vec3 origin_a, const RoundShape& b, Vec3 origin_b);
+std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a, const RevolutionSurface& b,
+                                       Vec3 origin_b);
 
 /// A certificate of a screw that turns in its nut: two threads are apart as long as their profiles are, which a motion
 /// along the thread does not change. One such certificate parts a flank of the whole bolt from one of the whole nut.

@@ -106,8 +106,8 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
       const F ahead = select(closed, F(least), F(-2));
       return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
     };
-    const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kLeastAhead)),
-                              facing_on_edge = facing_by(kLeastCosine<kLanes>);
+    const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kMinAhead)),
+                              facing_on_edge = facing_by(kMinCosine<kLanes>);
     FacingAxes<kLanes> well{facing_well, pairs.guard, F(sweep.apart)},
         on_edge{facing_on_edge, pairs.guard, F(sweep.apart)};
     TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}, well, on_edge};
@@ -127,9 +127,9 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
     const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
     const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
     hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
-    F least_b(3e38f);
-    for (int k = 0; k < 3; ++k) least_b = min(least_b, dot(axis, pairs.b[k]));
-    const F offset = least_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
+    F min_b(3e38f);
+    for (int k = 0; k < 3; ++k) min_b = min(min_b, dot(axis, pairs.b[k]));
+    const F offset = min_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
     store_separations<kLanes>(axis, offset, hull, pairs.guard, sweep, separations + first, left);
   }
 }

@@ -21,7 +21,7 @@ constexpr double kBackoffShare = 1e-3;
 /// Motions shorter than this share of the tolerance are not made: what rests stays where it is, bit for bit.
 constexpr double kRestShare = 2e-3;
 /// Sweeps of one step of response Slide, apart from free ones of an unbounded motion.
-constexpr int kMostTries = 40;
+constexpr int kMaxTries = 40;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or with it where
 /// it is the step's first: the next goes on.
 constexpr double kCreepShare = 0.1;
@@ -32,7 +32,7 @@ constexpr double kBendShare = 0.3;
 /// Contacts are taken up while their gap is at most so many tolerances.
 constexpr double kContactReach = 8;
 /// After a motion that was stopped the next one is tried up to so many tolerances, or twice what was made.
-constexpr double kLeastTry = 4;
+constexpr double kMinTry = 4;
 constexpr double kTryGrowth = 4;
 /// How often the guard may shorten a motion before it is not made at all.
 constexpr int kGuardTries = 4;
@@ -167,7 +167,7 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
     const Pose end = pose_between(start, target, next);
     const double piece = sweeper_.travel(end), free = free_part(end, touch, result);
     const bool made = advance(end, free, result, Guarded::Part) >= 1;
-    reach_ = made ? reach_ * kTryGrowth : std::max(kLeastTry * tolerance, 2 * free * piece);
+    reach_ = made ? reach_ * kTryGrowth : std::max(kMinTry * tolerance, 2 * free * piece);
     if (!made) {
       if (free == 1) result.contacts.assign(guarded_.begin(), guarded_.end());
       break;
@@ -215,7 +215,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   bool found_here = fresh;         // all contacts were found where the set is
   bool on_course = false;          // the last motion was on the screw to the target
   Effort effort = Effort::Fits;    // while what it tells is new
-  for (int tries = 0; tries < kMostTries;) {
+  for (int tries = 0; tries < kMaxTries;) {
     const SlideContacts::Twist wanted = twist_to(target);
     const SlideContacts::Twist tried = shortened(wanted, reach_);
     const bool whole = travel_of(tried) >= travel_of(wanted);
@@ -272,7 +272,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       if (reach_ < rest) break;
       continue;
     }
-    reach_ = std::max(kLeastTry * tolerance, 2 * found.toi * travel);
+    reach_ = std::max(kMinTry * tolerance, 2 * found.toi * travel);
     const bool made = advance(end, part, result, Guarded::Part) > 0;
     if (!take_guarded(result) && !made) break;
     fresh = on_course = found_here = false;
@@ -345,10 +345,10 @@ double CertificateResponse::travel_of(const SlideContacts::Twist& twist) const {
   return length(twist.velocity) + sweeper_.radius() * length(twist.rotation);
 }
 
-SlideContacts::Twist CertificateResponse::shortened(SlideContacts::Twist twist, double most_travel) const {
+SlideContacts::Twist CertificateResponse::shortened(SlideContacts::Twist twist, double max_travel) const {
   const double travel = travel_of(twist);
-  if (travel <= most_travel) return twist;
-  const double scale = most_travel / travel;
+  if (travel <= max_travel) return twist;
+  const double scale = max_travel / travel;
   return {scale * twist.velocity, scale * twist.rotation, twist.bounded};
 }
 

@@ -50,7 +50,7 @@ class CertificateResponse {
   Pose within_arcs(const Pose& target) const;
   Pose twisted(const SlideContacts::Twist& twist) const;
   SlideContacts::Twist twist_to(const Pose& target) const;
-  SlideContacts::Twist shortened(SlideContacts::Twist twist, double most_travel) const;
+  SlideContacts::Twist shortened(SlideContacts::Twist twist, double max_travel) const;
   double travel_of(const SlideContacts::Twist& twist) const;
 
   CertificateSweeper& sweeper_;

@@ -7,12 +7,12 @@ namespace dismantle {
 
 /// Where two triangles lie over each other, seen along a direction, and how far apart they are there.
 struct ContactPatch {
-  static constexpr int kMostPoints = 15;
+  static constexpr int kMaxPoints = 15;
   struct Point {
     Vec3 on_upper;   ///< [mm]
     double gap = 0;  ///< From the lower triangle up to it, along the direction [mm].
   };
-  Point points[kMostPoints];
+  Point points[kMaxPoints];
   int count = 0;
 
   /// The least gap; only where count > 0.

@@ -35,7 +35,7 @@ class EmbeddedWatch {
   struct Watched {
     ComponentPair pair;
     std::unique_ptr<Assembly> assembly;  // of the two components
-    std::unique_ptr<CollisionEngine> engine;
+    std::unique_ptr<SweepEngine> engine;
   };
 
   std::vector<Watched> watched_;

@@ -28,12 +28,12 @@ constexpr int kFitCuts = 6;
 constexpr double kFitSlack = 1e-2;
 
 /// Cylinders that may be off their bores by less than this share of the tolerance are held by their triangles.
-constexpr double kLeastOff = 0.1;
+constexpr double kMinOff = 0.1;
 
 /// The face that touches is looked for so far from the end of what touches [of its length].
 constexpr double kInside = 1e-3;
 /// The cosine of the angle between a cylinder and its bore, up to its sign, is at least this.
-constexpr double kLeastAhead = 0.99;
+constexpr double kMinAhead = 0.99;
 
 bool same_faces(const BlockedPair& x, const BlockedPair& y) {
   return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
@@ -65,7 +65,7 @@ bool SlideContacts::add_fit(const BlockedFit& fit) {
     return known.moving == fit.moving && known.fixed == fit.fixed && known.fit == fit.fit;
   };
   if (std::any_of(fits_.begin(), fits_.end(), same)) return false;
-  if (most_off(fit) < kLeastOff * sweeper_.tolerance()) return false;
+  if (max_off(fit) < kMinOff * sweeper_.tolerance()) return false;
   fits_.push_back(fit);
   return !ends(fit).empty();
 }
@@ -76,7 +76,7 @@ void SlideContacts::drop_vertices() {
 
 void SlideContacts::choose_axes(const Pose& end) {
   std::erase_if(pairs_, [&](BlockedPair& pair) {
-    const LeafResult found = sweeper_.sweep_pair(pair, end);
+    const TrianglePairResult found = sweeper_.sweep_pair(pair, end);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
     return false;
@@ -122,7 +122,7 @@ void SlideContacts::drop_beyond(double reach) {
 }
 
 std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked) const {
-  const RoundFit& fit = blocked.fit;
+  const CylinderFit& fit = blocked.fit;
   const RigidTransform moving = transform_from_pose(sweeper_.pose());
   const RigidTransform fixed = transform_from_pose(sweeper_.poses()[blocked.fixed.value]);
   const RigidTransform &of_inner = fit.moving_inside ? moving : fixed, &of_outer = fit.moving_inside ? fixed : moving;
@@ -130,7 +130,7 @@ std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked
   const Vec3 middle = of_outer * fit.outer.point, along = of_outer.rotation * fit.outer.direction;
   // The bore's ends, as places along the cylinder's axis.
   const double ahead = dot(direction, along), start = dot(point - middle, along);
-  if (std::abs(ahead) < kLeastAhead) return {};
+  if (std::abs(ahead) < kMinAhead) return {};
   double begin = (fit.outer_begin - start) / ahead, end = (fit.outer_end - start) / ahead;
   if (ahead < 0) std::swap(begin, end);
   begin = std::max(begin, fit.inner_begin);
@@ -153,7 +153,7 @@ double SlideContacts::withheld() const {
   return most;
 }
 
-double SlideContacts::most_off(const BlockedFit& fit) const {
+double SlideContacts::max_off(const BlockedFit& fit) const {
   return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
 }
 
@@ -164,10 +164,10 @@ bool SlideContacts::bound(const HeldFit& held, const Twist& twist, double lever,
     const Vec3 lever_arm = end.place - sweeper_.center();
     const Vec3 way = twist.velocity + cross(twist.rotation, lever_arm);
     const Vec3 off = end.off + way - dot(way, end.along) * end.along;
-    if (length(off) <= std::max(held.most_off, length(end.off)) + slack) continue;
+    if (length(off) <= std::max(held.max_off, length(end.off)) + slack) continue;
     const Vec3 out = normalized(off), turn = (1 / lever) * cross(lever_arm, out);
     bounds.push_back(
-        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - held.most_off)});
+        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - held.max_off)});
     bounded = true;
   }
   return bounded;
@@ -194,7 +194,7 @@ SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) c
   for (const BlockedPair& pair : vertices_)
     bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
   std::vector<HeldFit> held;
-  for (const BlockedFit& fit : fits_) held.push_back({most_off(fit), ends(fit)});
+  for (const BlockedFit& fit : fits_) held.push_back({max_off(fit), ends(fit)});
   Twist found = solve(wanted, lever, bounds);
   for (int cuts = 0; cuts < kFitCuts; ++cuts) {
     bool news = false;

@@ -78,13 +78,13 @@ class SlideContacts {
   };
   /// A cylinder in its bore where the set is now.
   struct HeldFit {
-    double most_off;  ///< How far off the bore's axis it may be [mm].
+    double max_off;  ///< How far off the bore's axis it may be [mm].
     std::vector<FitEnd> ends;
   };
   /// None where the cylinder is not in the bore any more.
   std::vector<FitEnd> ends(const BlockedFit& fit) const;
   /// How far off its bore's axis a cylinder may be [mm].
-  double most_off(const BlockedFit& fit) const;
+  double max_off(const BlockedFit& fit) const;
   /// What the bore forbids the twist where `twist` would take the cylinder.
   /// @return false where the twist keeps within it
   bool bound(const HeldFit& held, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const;

@@ -38,7 +38,7 @@ bool before(const BlockedPair& x, const BlockedPair& y) {
 struct CertificateSweeper::ActivePair {
   ComponentId moving, fixed;
   CertificateFront* front;
-  LeafSweep leaves;
+  TrianglePairSweep leaves;
   PreparedSweep sweep;
   double allowed;
   bool free = true;  ///< As far as was looked at by now.
@@ -47,7 +47,7 @@ struct CertificateSweeper::ActivePair {
 /// A pair to be looked at with its fronts left as they are.
 struct CertificateSweeper::Look {
   ComponentId moving, fixed;
-  const LeafSweep& leaves;
+  const TrianglePairSweep& leaves;
   const PairMotion& motion;
   double window;
 };
@@ -93,7 +93,7 @@ void CertificateSweeper::prepare_round() {
     threads[i] = match_threads(*a.round, a.tree.origin, *b.round, b.tree.origin);
     PairMotion still;
     still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
-    RoundSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
+    RadialSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
   });
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
@@ -169,32 +169,32 @@ SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
   return allowed(a, b) > tolerance() ? SideRule::Free : SideRule::Normals;
 }
 
-LeafSweep CertificateSweeper::leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
-                                         Effort effort) const {
+TrianglePairSweep CertificateSweeper::triangle_pair_sweep(ComponentId moving, ComponentId fixed, const Pose& start,
+                                                          const Pose& end, Effort effort) const {
   const Pose& frame = poses_[fixed.value];
-  LeafRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
+  TrianglePairRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
   if (effort == Effort::Quick || effort == Effort::Fits) {
     rules.limits.steps = kQuickSteps;
-    rules.limits.least_progress = std::max(rules.limits.least_progress, kQuickShare * tolerance() / travel(start, end));
+    rules.limits.min_progress = std::max(rules.limits.min_progress, kQuickShare * tolerance() / travel(start, end));
   }
-  return LeafSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end), deviation(start, end),
-                   rules);
+  return TrianglePairSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end),
+                           deviation(start, end), rules);
 }
 
-LeafResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
+TrianglePairResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
+  return triangle_pair_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
 CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
   CertificateSweep result;
-  std::optional<LeafSweep> leaves;
+  std::optional<TrianglePairSweep> leaves;
   const BlockedPair* last = nullptr;
   for (const BlockedPair& pair : pairs) {
     if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
-      leaves.emplace(leaf_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
+      leaves.emplace(triangle_pair_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
     last = &pair;
-    const LeafResult found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+    const TrianglePairResult found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
     ++result.leaf_tests;
     if (found.free) continue;
     result.blocked.push_back(pair);
@@ -237,13 +237,13 @@ void CertificateSweeper::for_each_near(const Pose& start, const Pose& end, doubl
   }
 }
 
-LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, double window,
-                                       Span<const LeafResult> answers) {
+TrianglePairTest CertificateSweeper::triangle_pair_test(const ActivePair& pair, PartTask& task, double window,
+                                                        Span<const TrianglePairResult> answers) {
   return [&pair, &task, window, answers](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer) {
     // A device tests the whole motion; after a contact it is not looked at to its end any more.
-    const bool answered = answer != PairAnswer::kNone && task.horizon == 1;
+    const bool answered = answer != PairResult::kNone && task.horizon == 1;
     task.answered += answered ? 1 : 0;
-    const LeafResult found =
+    const TrianglePairResult found =
         answered ? answers[answer] : pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
     if (!found.free) {
       task.horizon = std::min(task.horizon, found.contact.toi + window);
@@ -252,7 +252,7 @@ LeafTest CertificateSweeper::leaf_test(const ActivePair& pair, PartTask& task, d
     }
     const float gap = -rounded_up(-found.gap);
     const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
-    return LeafVerdict{found.free, gap, cut_short, found.harmless, pair.leaves.certificate(found, pair.sweep)};
+    return TrianglePairVerdict{found.free, gap, cut_short, found.harmless, pair.leaves.certificate(found, pair.sweep)};
   };
 }
 
@@ -270,7 +270,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   std::vector<ActivePair> active;
   for_each_near(pose(), end, 0, result, [&](ComponentId moving, ComponentId fixed) {
     CertificateFront& front = front_of(moving, fixed).front;
-    const LeafSweep leaves = leaf_sweep(moving, fixed, pose(), end, effort);
+    const TrianglePairSweep leaves = triangle_pair_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
     if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
     if (effort == Effort::Fits) motion.fit_spread = tolerance();
@@ -280,7 +280,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for (std::size_t p = 0; p < active.size(); ++p)
     for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
-  FrontAnswers answers;
+  FrontResults answers;
   const bool asks = asks_device(active);
   if (asks) {
     merge_by_device(active, tasks);
@@ -289,14 +289,14 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for_each_part(tasks.size(), [&](std::size_t i) {
     const ActivePair& pair = active[tasks[i].pair];
     if (!asks) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
-    tasks[i].found =
-        pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, leaf_test(pair, tasks[i], window, answers.leaves),
-                               asks ? &answers.parts[i] : nullptr);
+    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_,
+                                            triangle_pair_test(pair, tasks[i], window, answers.leaves),
+                                            asks ? &answers.parts[i] : nullptr);
   });
 
   for (PartTask& task : tasks) {
     const LinearSweep& sweep = active[task.pair].sweep;
-    result.clearance = std::min<double>(result.clearance, task.found.least_gap - sweep.error);
+    result.clearance = std::min<double>(result.clearance, task.found.min_gap - sweep.error);
     result.leaf_tests += task.found.leaf_tests;
     result.answered_tests += task.answered;
     result.complete &= task.found.complete;
@@ -305,7 +305,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
       result.touching.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-    for (const RoundFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
+    for (const CylinderFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
   }
   for (const ActivePair& pair : active) {
     pair.front->end_sweep(pair.sweep, pair.free);
@@ -328,11 +328,11 @@ bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) cons
   if (!device_.fronts || active.empty()) return false;
   std::size_t pairs = 0;
   for (const ActivePair& pair : active) pairs += pair.front->size();
-  return pairs >= device_.least_pairs;
+  return pairs >= device_.min_pairs;
 }
 
-std::vector<AskedFront<LeafSweep>> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
-  std::vector<AskedFront<LeafSweep>> fronts;
+std::vector<FrontQuery<TrianglePairSweep>> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
+  std::vector<FrontQuery<TrianglePairSweep>> fronts;
   fronts.reserve(active.size());
   for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep, &pair.leaves});
   return fronts;
@@ -345,7 +345,7 @@ void CertificateSweeper::merge_by_device(const std::vector<ActivePair>& active, 
     siblings[i] = pair.front->siblings_of(tasks[i].part, pair.sweep);
   });
   std::vector<std::size_t> begins;
-  std::vector<AskedParents> parents;
+  std::vector<MergeCandidate> parents;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     begins.push_back(parents.size());
     for (const Siblings& s : siblings[i])
@@ -370,7 +370,7 @@ CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, do
                         known->second.fixed_pose == poses_[fixed.value];
     const CertificateFront anew = roots(moving, fixed, sides(moving, fixed));
     const CertificateFront& front = usable ? known->second.front : anew;
-    const LeafSweep leaves = leaf_sweep(moving, fixed, start, end, Effort::Full);
+    const TrianglePairSweep leaves = triangle_pair_sweep(moving, fixed, start, end, Effort::Full);
     const PairMotion motion = leaves.motion();
     look_at(front, {moving, fixed, leaves, motion, window}, result);
   });
@@ -386,8 +386,8 @@ CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, dou
   const auto at = [&](double share) {
     return seen_from(asked.fixed_at, {asked.moving_at.position + share * asked.way, asked.moving_at.rotation});
   };
-  const LeafSweep leaves(solid(moving), solid(fixed), at(from), at(to), 0,
-                         {allowance, tolerance(), sides(moving, fixed), {}, false});
+  const TrianglePairSweep leaves(solid(moving), solid(fixed), at(from), at(to), 0,
+                                 {allowance, tolerance(), sides(moving, fixed), {}, false});
   PairMotion motion = leaves.motion();
   motion.enough_blocked = 1;
   look_at(roots(moving, fixed, sides(moving, fixed)), {moving, fixed, leaves, motion, 0}, result);
@@ -399,10 +399,10 @@ void CertificateSweeper::look_at(const CertificateFront& front, const Look& look
   const ActivePair pair{
       look.moving, look.fixed, nullptr, look.leaves, front.begin_look(look.motion), allowed(look.moving, look.fixed)};
   PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}, 0};
-  const FrontSweep found = front.look(pair.sweep, kernels_, leaf_test(pair, task, look.window));
+  const FrontSweep found = front.look(pair.sweep, kernels_, triangle_pair_test(pair, task, look.window));
   for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-  result.clearance = std::min<double>(result.clearance, found.least_gap - pair.sweep.error);
+  result.clearance = std::min<double>(result.clearance, found.min_gap - pair.sweep.error);
   result.complete &= found.complete;
   result.leaf_tests += found.leaf_tests;
   result.front += front.size();
@@ -413,11 +413,11 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   CertificateSweep unused;
   for_each_near(pose(), pose(), reach, unused, [&](ComponentId moving, ComponentId fixed) {
     const CertificateFront front = roots(moving, fixed, SideRule::Free);
-    PairMotion motion = leaf_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
+    PairMotion motion = triangle_pair_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
     motion.allowed = -reach;
-    const LeafTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f, std::uint32_t) {
+    const TrianglePairTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f, std::uint32_t) {
       pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
-      return LeafVerdict{};
+      return TrianglePairVerdict{};
     };
     front.look(front.begin_look(motion), kernels_, take);
   });

@@ -25,7 +25,7 @@ struct BlockedPair {
 /// A cylinder that its bore holds back, of the set in hand and something else.
 struct BlockedFit {
   ComponentId moving, fixed;
-  RoundFit fit;
+  CylinderFit fit;
 };
 
 /// What a sweep of the set in hand found.
@@ -88,7 +88,7 @@ class CertificateSweeper {
   std::vector<BlockedPair> near_pairs(double reach) const;
   /// The same motion of one pair of triangles, with Effort::Quick: whether it is blocked, and by which axis.
   /// @param pair with the axis to begin with
-  LeafResult sweep_pair(const BlockedPair& pair, const Pose& end) const;
+  TrianglePairResult sweep_pair(const BlockedPair& pair, const Pose& end) const;
   /// The same motion of these pairs alone, with Effort::Full; those of the same components one after the other.
   CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const;
   /// An upper bound of the distance between arcs and chords of the whole motion [mm].
@@ -129,7 +129,8 @@ class CertificateSweeper {
   struct PartTask;
 
   SideRule sides(ComponentId a, ComponentId b) const;
-  LeafSweep leaf_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end, Effort effort) const;
+  TrianglePairSweep triangle_pair_sweep(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
+                                        Effort effort) const;
   /// How far apart the spheres of the two certainly stay while the moving one goes from `start` to `end`, its arcs
   /// within `deviation` of their chords [mm]; below 0 where they may meet.
   double sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start, const RigidTransform& end,
@@ -142,13 +143,14 @@ class CertificateSweeper {
   void for_each_part(std::size_t count, const Run& run) const;
   /// Whether there is a device, and enough for it to do.
   bool asks_device(const std::vector<ActivePair>& active) const;
-  static std::vector<AskedFront<LeafSweep>> asked_fronts(const std::vector<ActivePair>& active);
+  static std::vector<FrontQuery<TrianglePairSweep>> asked_fronts(const std::vector<ActivePair>& active);
   /// Merges what the parts that are due gather, with what the device says of it.
   void merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks);
   /// Adds what looking at a pair finds, from a front of theirs.
   void look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const;
   /// @param answers of a device to tests of the whole motion
-  static LeafTest leaf_test(const ActivePair& pair, PartTask& task, double window, Span<const LeafResult> answers = {});
+  static TrianglePairTest triangle_pair_test(const ActivePair& pair, PartTask& task, double window,
+                                             Span<const TrianglePairResult> answers = {});
   static void finish(CertificateSweep& result, double window);
   double deviation(const Pose& start, const Pose& end) const;
   double travel(const Pose& start, const Pose& end) const;

@@ -23,8 +23,8 @@ SolidView view(const SolidTree& solid) {
 
 }  // namespace
 
-LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
-                     double deviation, const LeafRules& rules)
+TrianglePairSweep::TrianglePairSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start,
+                                     const Pose& end, double deviation, const TrianglePairRules& rules)
     : moving_(&moving), fixed_(&fixed), start_pose_(start), end_pose_(end), share_(kArcShare * rules.tolerance) {
   kernel_.moving = view(moving);
   kernel_.fixed = view(fixed);
@@ -39,7 +39,7 @@ LeafSweep::LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose
   DISMANTLE_EXPECT(rules.allowed >= rules.tolerance && rules.tolerance > 0 && kernel_.allowed > 0);
 }
 
-PairMotion LeafSweep::motion() const {
+PairMotion TrianglePairSweep::motion() const {
   PairMotion motion;
   motion.t0 = between_trees(kernel_.start, moving_->tree, fixed_->tree);
   motion.t1 = between_trees(kernel_.end, moving_->tree, fixed_->tree);
@@ -52,13 +52,14 @@ PairMotion LeafSweep::motion() const {
   return motion;
 }
 
-LeafResult LeafSweep::test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon) const {
+TrianglePairResult TrianglePairSweep::test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint,
+                                           double horizon) const {
   return kernel_.test(face_moving, face_fixed, hint, horizon);
 }
 
-Certificate LeafSweep::certificate(const LeafResult& found, const LinearSweep& sweep) const {
+Certificate TrianglePairSweep::certificate(const TrianglePairResult& found, const LinearSweep& sweep) const {
   const std::uint32_t face_moving = found.contact.face_moving, face_fixed = found.contact.face_fixed;
-  const LeafRules& rules = kernel_.rules;
+  const TrianglePairRules& rules = kernel_.rules;
   const Vec3 axis = found.contact.axis;
   const bool meet = !(found.gap > 0);
   Certificate c;
@@ -84,7 +85,7 @@ Certificate LeafSweep::certificate(const LeafResult& found, const LinearSweep& s
     // On edge the allowance is only for those that need it: others may be apart along another axis when they do.
     const bool on_edge = !detail::face_on(own, other, w);
     if (on_edge && !meet) usable = std::min(0.0, usable);
-    LeafSweepKernel::Around around;
+    TrianglePairSweepKernel::Around around;
     if (usable < rules.allowed && meet)
       usable = kernel_.normals_of({face_moving, face_fixed, turned, fixed}, middle, around).allowance(w, rules.allowed);
     if (usable > 0 && on_edge) c.hull.kind = NodeHull::kTriangleOnEdge;

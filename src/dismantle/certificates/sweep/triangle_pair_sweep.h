@@ -15,34 +15,34 @@ inline constexpr double kArcShare = 0.125;
 
 /// The sweep of one moving component past one fixed component along a screw, seen from the fixed one: tests pairs of
 /// their triangles on the chords of the true arcs, and takes the arcs' deviation off the allowance.
-class LeafSweep {
+class TrianglePairSweep {
  public:
   /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
   /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]; what is more
   /// than kArcShare of the tolerance costs allowance that may be in use already
   /// @pre deviation is less than the allowance
-  LeafSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end, double deviation,
-            const LeafRules& rules);
+  TrianglePairSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
+                    double deviation, const TrianglePairRules& rules);
 
   /// As the front takes it.
   PairMotion motion() const;
 
   /// Guarantee: see ccd_triangle_triangle; for the screw itself.
   /// @param horizon looks no further into the motion than this time: free is free until then
-  LeafResult test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon = 1) const;
+  TrianglePairResult test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon = 1) const;
 
   /// For a device: what tests, over solids in the host's memory, and these.
-  const LeafSweepKernel& kernel() const { return kernel_; }
+  const TrianglePairSweepKernel& kernel() const { return kernel_; }
   const SolidTree& moving() const { return *moving_; }
   const SolidTree& fixed() const { return *fixed_; }
 
   /// What the axis of a test proves of the two triangles, for the front. @param sweep of this motion
-  Certificate certificate(const LeafResult& found, const LinearSweep& sweep) const;
+  Certificate certificate(const TrianglePairResult& found, const LinearSweep& sweep) const;
 
  private:
   const SolidTree* moving_;
   const SolidTree* fixed_;
-  LeafSweepKernel kernel_;
+  TrianglePairSweepKernel kernel_;
   Pose start_pose_, end_pose_;
   double share_;
 };

@@ -34,7 +34,7 @@ struct LeafContact {
 };
 
 /// What a test of two triangles found.
-struct LeafResult {
+struct TrianglePairResult {
   bool free = true;
   double gap = 0;         ///< Lower bound of their distance during the whole motion, by the axis [mm].
   bool harmless = false;  ///< They do not meet at all but for the arcs, or face on face: closed solids only.
@@ -42,12 +42,12 @@ struct LeafResult {
 };
 
 /// What decides whether two triangles may go on.
-struct LeafRules {
+struct TrianglePairRules {
   double allowed = 0;    ///< How deep triangles may be in each other [mm].
   double tolerance = 0;  ///< [mm]
   SideRule sides = SideRule::Memory;
   AdvancementLimits limits;
-  bool tells_harmless = true;  ///< Whether it is worth the time to find what LeafResult::harmless tells.
+  bool tells_harmless = true;  ///< Whether it is worth the time to find what TrianglePairResult::harmless tells.
 };
 
 namespace detail {
@@ -79,7 +79,7 @@ DISMANTLE_HOST_DEVICE inline Vec3 unit_or_zero(Vec3 axis) {
 
 /// Whether an axis leads well out of the one face and into the other.
 DISMANTLE_HOST_DEVICE inline bool face_on(Vec3 normal_moving, Vec3 normal_fixed, Vec3 axis) {
-  return dot(normal_moving, axis) > NormalCone::kLeastAhead && dot(normal_fixed, axis) < -NormalCone::kLeastAhead;
+  return dot(normal_moving, axis) > NormalCone::kMinAhead && dot(normal_fixed, axis) < -NormalCone::kMinAhead;
 }
 
 /// Looks for the axis of a contact: of those that the normals allow, the one along which the motion goes furthest
@@ -138,14 +138,14 @@ class LeastBlockingAxis {
 
 }  // namespace detail
 
-/// The test of two triangles in a LeafSweep: the same text for the CPU and CUDA. Solids are where it runs.
-struct LeafSweepKernel {
+/// The test of two triangles in a TrianglePairSweep: the same text for the CPU and CUDA. Solids are where it runs.
+struct TrianglePairSweepKernel {
   SolidView moving, fixed;
   RigidTransform start, end;  ///< Of the moving component in the fixed one's frame.
   Mat3 middle;                ///< Its rotation half way.
-  double deviation = 0;       ///< As LeafSweep has it [mm].
+  double deviation = 0;       ///< As TrianglePairSweep has it [mm].
   double allowed = 0;         ///< What the arcs leave of the allowance [mm].
-  LeafRules rules;
+  TrianglePairRules rules;
 
   /// Two faces, their triangles as the motion begins.
   struct Pair {
@@ -154,15 +154,15 @@ struct LeafSweepKernel {
   };
   /// Room for the normals around two faces. Of a corner with many faces, as the tip of a fan, an even choice is taken.
   struct Around {
-    static constexpr std::uint32_t kMostOfCorner = 8;
-    static constexpr std::size_t kMost = 3 * kMostOfCorner;
-    Vec3 moving[kMost], fixed[kMost];
+    static constexpr std::uint32_t kMaxOfCorner = 8;
+    static constexpr std::size_t kMax = 3 * kMaxOfCorner;
+    Vec3 moving[kMax], fixed[kMax];
   };
 
-  /// As LeafSweep::test().
-  DISMANTLE_HOST_DEVICE LeafResult test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint,
-                                        double horizon) const {
-    LeafResult result;
+  /// As TrianglePairSweep::test().
+  DISMANTLE_HOST_DEVICE TrianglePairResult test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint,
+                                                double horizon) const {
+    TrianglePairResult result;
     result.contact = {face_moving, face_fixed, 1, hint};
     const Triangle own = moving.triangle(face_moving);
     const Pair pair{face_moving, face_fixed, detail::moved(start, own), fixed.triangle(face_fixed)};
@@ -175,7 +175,7 @@ struct LeafSweepKernel {
       if (!result.free) result.contact.toi = horizon * found.ccd.toi;
     }
     result.contact.axis = detail::unit_or_zero(result.contact.axis);
-    result.gap = least_gap(face_moving, face_fixed, result.contact.axis);
+    result.gap = min_gap(face_moving, face_fixed, result.contact.axis);
     result.harmless = result.gap > 0;
     const bool asks = rules.tells_harmless && rules.sides == SideRule::Normals && horizon == 1;
     if (!result.harmless && result.free && asks) look_for_harm(result);
@@ -195,7 +195,7 @@ struct LeafSweepKernel {
 
  private:
   /// Whether two triangles that are free, but not apart by the axis, lie face on face or never meet.
-  DISMANTLE_HOST_DEVICE void look_for_harm(LeafResult& result) const {
+  DISMANTLE_HOST_DEVICE void look_for_harm(TrianglePairResult& result) const {
     const std::uint32_t face_moving = result.contact.face_moving, face_fixed = result.contact.face_fixed;
     Vec3 axis = result.contact.axis;
     if (detail::face_on(middle * moving.normals[face_moving], fixed.normals[face_fixed], axis)) {
@@ -204,7 +204,7 @@ struct LeafSweepKernel {
       result.harmless = true;
       // What parts them without any allowance is worth more the next time.
       axis = detail::unit_or_zero(axis);
-      const double gap = least_gap(face_moving, face_fixed, axis);
+      const double gap = min_gap(face_moving, face_fixed, axis);
       if (gap > result.gap) {
         result.contact.axis = axis;
         result.gap = gap;
@@ -222,7 +222,7 @@ struct LeafSweepKernel {
     return true;
   }
 
-  DISMANTLE_HOST_DEVICE double least_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
+  DISMANTLE_HOST_DEVICE double min_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
     const Triangle own = moving.triangle(face_moving), other = fixed.triangle(face_fixed);
     double low = std::numeric_limits<double>::infinity(), high = -low, reach = 0;
     for (int i = 0; i < 3; ++i) {
@@ -236,11 +236,11 @@ struct LeafSweepKernel {
   }
 
   DISMANTLE_HOST_DEVICE static std::size_t gather(const SolidView& solid, std::uint32_t face,
-                                                  Vec3 (&to)[Around::kMost]) {
+                                                  Vec3 (&to)[Around::kMax]) {
     std::size_t count = 0;
     for (const std::uint32_t v : solid.faces[face].v) {
       const std::uint32_t begin = solid.around_begin[v], end = solid.around_begin[v + 1];
-      const std::uint32_t stride = (end - begin + Around::kMostOfCorner - 1) / Around::kMostOfCorner;
+      const std::uint32_t stride = (end - begin + Around::kMaxOfCorner - 1) / Around::kMaxOfCorner;
       for (std::uint32_t k = begin; k < end; k += stride)
         if (solid.around[k] != face) to[count++] = solid.normals[solid.around[k]];
     }

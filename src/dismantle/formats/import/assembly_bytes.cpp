@@ -51,10 +51,10 @@ class Reader {
     offset_ += sizeof v;
     return v;
   }
-  /// A count of things that take at least `least_size` bytes each.
-  std::size_t count(std::size_t least_size) {
+  /// A count of things that take at least `min_size` bytes each.
+  std::size_t count(std::size_t min_size) {
     const auto n = value<std::uint64_t>();
-    if (n > left() / least_size) ok_ = false;
+    if (n > left() / min_size) ok_ = false;
     return ok_ ? static_cast<std::size_t>(n) : 0;
   }
   template <class T>

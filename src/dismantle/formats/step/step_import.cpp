@@ -41,7 +41,7 @@ namespace {
 
 /// Edges of triangles are not made shorter than this part of the deflection [1]: OpenCASCADE's own 0.1 would keep the
 /// angular deflection from refining small round features.
-constexpr double kLeastEdge = 1e-3;
+constexpr double kMinEdge = 1e-3;
 
 /// Passes OpenCASCADE's progress on as one stage.
 class StageProgress : public Message_ProgressIndicator {
@@ -128,7 +128,7 @@ double mesh_shapes(const std::vector<TopoDS_Shape>& shapes, double deflection, d
   IMeshTools_Parameters parameters;
   parameters.Deflection = deflection;
   parameters.Angle = angle;
-  parameters.MinSize = std::max(kLeastEdge * deflection, Precision::Confusion());
+  parameters.MinSize = std::max(kMinEdge * deflection, Precision::Confusion());
   parameters.InParallel = true;
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(all);

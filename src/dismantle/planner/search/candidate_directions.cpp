@@ -10,9 +10,9 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kMostDirections = 32;
+constexpr std::size_t kMaxDirections = 32;
 /// Clusters of normals that are paired with each other.
-constexpr std::size_t kMostPaired = 16;
+constexpr std::size_t kMaxPaired = 16;
 /// How near faces count as touching, at first and at most: in tolerances, and as a share of the component's size.
 constexpr double kFirstReach = 2;
 constexpr double kLargestReach = 0.05;
@@ -28,7 +28,7 @@ constexpr double kAgainst = 1e-4;
 /// and one by less is the direction along the face, but for rounding.
 constexpr double kAlmostAlong = 0.02;
 /// What a direction opens at this rate, in percents, it opens for the most part.
-constexpr double kMost = 50;
+constexpr double kMax = 50;
 /// An axis is that of a plane face where they differ by less [rad].
 constexpr double kSnap = 2e-3;
 /// Of directions nearer than this [rad] the one that was found first is enough: plane faces tell best.
@@ -57,9 +57,9 @@ ContactNormals gather(const Assembly& assembly, const std::vector<ContactPoint>&
       other.add(c.normal, kEdgeWeight * weight);
     }
   }
-  result.facing = facing.heaviest(4 * kMostPaired);
-  result.other = other.heaviest(kMostPaired);
-  for (const auto& [neighbour, normals] : facing_of) result.facing_of[neighbour] = normals.heaviest(kMostPaired);
+  result.facing = facing.heaviest(4 * kMaxPaired);
+  result.other = other.heaviest(kMaxPaired);
+  for (const auto& [neighbour, normals] : facing_of) result.facing_of[neighbour] = normals.heaviest(kMaxPaired);
   return result;
 }
 
@@ -89,10 +89,10 @@ class Candidates {
     std::stable_sort(ranks.begin(), ranks.end(), [](const auto& a, const auto& b) {
       return a.first.blocked != b.first.blocked ? a.first.blocked < b.first.blocked : a.first.opening > b.first.opening;
     });
-    if (ranks.size() > kMostDirections) ranks.resize(kMostDirections);
+    if (ranks.size() > kMaxDirections) ranks.resize(kMaxDirections);
     std::vector<CandidateDirection> result;
     result.reserve(ranks.size());
-    for (const auto& [rank, d] : ranks) result.push_back({d, rank.blocked == 0 && rank.opening >= kMost});
+    for (const auto& [rank, d] : ranks) result.push_back({d, rank.blocked == 0 && rank.opening >= kMax});
     return result;
   }
 
@@ -135,7 +135,7 @@ class Candidates {
 
 /// The extreme rays of the cone of directions that no touching face is against, and their sum.
 void add_cone(const ContactNormals& contacts, Candidates& candidates) {
-  const std::size_t count = std::min(contacts.facing.size(), kMostPaired);
+  const std::size_t count = std::min(contacts.facing.size(), kMaxPaired);
   Vec3 rays, normals;
   for (std::size_t i = 0; i < count; ++i) {
     normals += contacts.facing[i].weight * contacts.facing[i].direction;

@@ -9,7 +9,7 @@ namespace dismantle {
 namespace {
 
 /// Of the heaviest cells so many are merged: what is lighter does not matter.
-constexpr std::size_t kMostCells = 512;
+constexpr std::size_t kMaxCells = 512;
 
 /// The one of an axis' two directions whose largest coordinate is positive.
 Vec3 one_of_two(const Vec3& v) {
@@ -36,7 +36,7 @@ std::vector<WeightedDirection> DirectionClusters::heaviest(std::size_t count) co
   std::vector<Cell> cells;
   for (const auto& [key, cell] : cells_) cells.push_back(cell);
   std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.weight > b.weight; });
-  if (cells.size() > kMostCells) cells.resize(kMostCells);
+  if (cells.size() > kMaxCells) cells.resize(kMaxCells);
 
   // Cells are as wide as the angle, so that what one cluster was cut into lies within twice of it.
   const double same = std::cos(2 * kSameDirectionAngle);

@@ -32,7 +32,7 @@ constexpr double kCuriosity = 0.5;
 /// What was learned longer ago than about so many tries is forgotten.
 constexpr double kMemory = 200;
 /// After so many motions that led nowhere new there is nothing left to find.
-constexpr int kMostInVain = 400;
+constexpr int kMaxInVain = 400;
 /// The way is made shorter in so many tries.
 constexpr int kShortenTries = 64;
 
@@ -84,21 +84,21 @@ class Bandit {
 
 class SampleOut {
  public:
-  SampleOut(Explorer& explorer, const BlockingTable& table, ComponentId component, std::size_t most_effort,
+  SampleOut(Explorer& explorer, const BlockingTable& table, ComponentId component, std::size_t max_effort,
             const GoOn& go_on)
       : explorer_(explorer),
         component_(component),
         radius_(table.radius(component)),
         way_out_(table.way_length(component)),
-        most_effort_(most_effort),
+        max_effort_(max_effort),
         go_on_(go_on),
-        random_(most_effort),  // a longer search is not the same search again
+        random_(max_effort),  // a longer search is not the same search again
         places_(table.center(component), radius_),
         out_(1) {}
 
   const PlaceTree& places() const { return places_; }
   /// Nothing new is found any more.
-  bool saturated() const { return in_vain_ > kMostInVain; }
+  bool saturated() const { return in_vain_ > kMaxInVain; }
 
   std::optional<PlanStep> find() {
     for (; goes_on(); ++in_vain_) {
@@ -121,7 +121,7 @@ class SampleOut {
   }
 
  private:
-  bool goes_on() const { return !saturated() && explorer_.effort() < most_effort_ && go_on_(); }
+  bool goes_on() const { return !saturated() && explorer_.effort() < max_effort_ && go_on_(); }
 
   Vec3 random_direction() {
     std::normal_distribution<double> normal;
@@ -201,7 +201,7 @@ class SampleOut {
   Explorer& explorer_;
   ComponentId component_;
   double radius_, way_out_;
-  std::size_t most_effort_;
+  std::size_t max_effort_;
   const GoOn& go_on_;
   std::mt19937_64 random_;
   Bandit bandit_;
@@ -213,11 +213,11 @@ class SampleOut {
 
 }  // namespace
 
-WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t most_effort,
+WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t max_effort,
                      const GoOn& go_on) {
   WaySearch search;
   Explorer explorer(maker, component);
-  SampleOut sampling(explorer, table, component, most_effort, go_on);
+  SampleOut sampling(explorer, table, component, max_effort, go_on);
   search.step = sampling.find();
   search.met = explorer.met();
   search.furthest = sampling.places().furthest();

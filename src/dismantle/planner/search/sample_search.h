@@ -15,8 +15,8 @@ namespace dismantle {
 /// passages draw it in, and is certified as any other. The way that is found is shortened by certified motions. The
 /// same for the same input, but for time limits.
 /// @param maker what is present stands, nothing is in hand; the same after it
-/// @param most_effort see StepMaker::effort
-WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t most_effort,
+/// @param max_effort see StepMaker::effort
+WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t max_effort,
                      const GoOn& go_on);
 
 }  // namespace dismantle

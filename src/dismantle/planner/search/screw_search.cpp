@@ -28,7 +28,7 @@ constexpr int kStuckTurns = 3;
 /// After so much [rad] the lead that was made is known better than the one that was measured.
 constexpr double kTurnToLearn = 3;
 /// What turns so many times as often as its way out takes turns of the thread just spins.
-constexpr double kMostTurns = 2;
+constexpr double kMaxTurns = 2;
 /// Turns between looks whether the component is out of the thread.
 constexpr int kTurnsToLook = 12;
 
@@ -56,9 +56,9 @@ std::optional<PlanStep> turn_out(Explorer& explorer, ThreadAxis thread, double t
                                  const GoOn& go_on) {
   const Vec3 exit = turn * thread.lead > 0 ? thread.direction : -thread.direction;
   std::vector<Pose> way;
-  const double most_turned = kMostTurns * kTurn * (1 + way_out / std::abs(thread.lead));
+  const double max_turned = kMaxTurns * kTurn * (1 + way_out / std::abs(thread.lead));
   double turned = 0, risen = 0;
-  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < most_turned && go_on(); ++turns) {
+  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < max_turned && go_on(); ++turns) {
     const Pose before = explorer.pose();
     const StepResult made = explorer.slide(screw_motion(thread, turn) * before);
     way.insert(way.end(), made.way.begin(), made.way.end());

@@ -18,7 +18,7 @@ constexpr double kStuckShare = 0.05;
 /// Places nearer to each other than this share of the component's radius are one.
 constexpr double kSamePlace = 0.05;
 /// A turn goes on for so long [rad].
-constexpr double kMostTurn = 6.4;
+constexpr double kMaxTurn = 6.4;
 /// A place on the way counts less than its end.
 constexpr double kEnd = 1, kOnTheWay = 0.5;
 /// Each place between this one and the assembled one counts against it.
@@ -48,7 +48,7 @@ class SlideOut {
         component_(component),
         radius_(table.radius(component)),
         way_out_(table.way_length(component)),
-        most_effort_(moves.most_effort),
+        max_effort_(moves.max_effort),
         go_on_(go_on),
         places_(table.center(component), radius_),
         promises_(1) {
@@ -76,7 +76,7 @@ class SlideOut {
   }
 
  private:
-  bool goes_on() const { return explorer_.effort() < most_effort_ && go_on_(); }
+  bool goes_on() const { return explorer_.effort() < max_effort_ && go_on_(); }
 
   /// Goes on with a move as long as it makes something.
   std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
@@ -85,7 +85,7 @@ class SlideOut {
     std::vector<Pose> way;
     std::vector<std::size_t> ends;  // of the hand's steps, in `way`
     double turned = 0;
-    for (bool stuck = false; !stuck && turned < kMostTurn && goes_on();) {
+    for (bool stuck = false; !stuck && turned < kMaxTurn && goes_on();) {
       const Pose before = explorer_.pose();
       const StepResult made = explorer_.slide(target(before, held, move));
       way.insert(way.end(), made.way.begin(), made.way.end());
@@ -172,7 +172,7 @@ class SlideOut {
   Explorer& explorer_;
   ComponentId component_;
   double radius_, way_out_;
-  std::size_t most_effort_;
+  std::size_t max_effort_;
   const GoOn& go_on_;
   std::vector<SlideMove> moves_;
   PlaceTree places_;
@@ -189,7 +189,7 @@ WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId co
   search.step = sliding.find();
   search.met = explorer.met();
   search.furthest = sliding.places().furthest();
-  search.exhausted = !search.step && explorer.effort() < moves.most_effort;
+  search.exhausted = !search.step && explorer.effort() < moves.max_effort;
   return search;
 }
 

@@ -19,7 +19,7 @@ struct TurnAxis {
 struct SlideMoves {
   std::vector<Vec3> directions;  ///< Unit: pushed along these, either way is listed.
   std::vector<TurnAxis> axes;    ///< Turned about these, one way and the other.
-  std::size_t most_effort = 0;   ///< See StepMaker::effort.
+  std::size_t max_effort = 0;    ///< See StepMaker::effort.
 };
 
 /// Pushes and turns a component as far as each goes, along whatever is in the way (response Slide), then goes on from

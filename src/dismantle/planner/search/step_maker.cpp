@@ -12,7 +12,7 @@ namespace {
 constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1};
 /// A way that was stopped goes on if a new start makes at least this share of the tolerance.
 constexpr double kNewStartShare = 0.1;
-constexpr int kMostStarts = 8;
+constexpr int kMaxStarts = 8;
 /// A sweep costs as much as so many tests, and one for so many pairs of its front.
 constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
 
@@ -88,7 +88,7 @@ StepResult StepMaker::go_part(const Pose& target, const Vec3& direction) {
     StepResult made = step(target, ResponseKind::Touch);
     // Where one start stops, a new one may go on: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMostStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
+    if (made.reached || starts == kMaxStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
   }
 }
 

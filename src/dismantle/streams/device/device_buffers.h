@@ -10,9 +10,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace dismantle::resident {
+namespace dismantle::device_code {
 
-/// TriangleStreams in a device's memory: what stays the same from step to step.
+/// AssemblyTriangles in a device's memory: what stays the same from step to step.
 struct Geometry {
   DeviceArray<Vec3> assembled;  ///< S_v0
   DeviceArray<Face> faces;
@@ -26,7 +26,7 @@ struct Geometry {
   std::uint64_t first_front_node;  ///< kDeadNode where there are not two components to meet.
 
   template <class Queue>
-  Geometry(Queue& queue, const TriangleStreams& fixed);
+  Geometry(Queue& queue, const AssemblyTriangles& fixed);
 
   BvhView tree() const {
     BvhView tree;
@@ -38,7 +38,7 @@ struct Geometry {
   }
 };
 
-inline std::vector<std::uint32_t> components_of_vertices(const TriangleStreams& fixed) {
+inline std::vector<std::uint32_t> components_of_vertices(const AssemblyTriangles& fixed) {
   std::vector<std::uint32_t> component_of;
   for (std::uint32_t c = 0; c < fixed.component_count(); ++c) component_of.resize(fixed.vertex_begin[c + 1], c);
   return component_of;
@@ -52,7 +52,7 @@ inline std::vector<NodeIndex> parents_of_nodes(const Bvh& bvh) {
 }
 
 template <class Queue>
-Geometry::Geometry(Queue& queue, const TriangleStreams& fixed)
+Geometry::Geometry(Queue& queue, const AssemblyTriangles& fixed)
     : assembled(queue, Span<const Vec3>(fixed.vertices)),
       faces(queue, Span<const Face>(fixed.faces)),
       features(queue, Span<const std::uint8_t>(fixed.features)),
@@ -130,8 +130,8 @@ bool Buffers::grow_front(Queue& queue, const StepCounters& needed) {
   grown = grow(queue, kept, needed.kept) || grown;
   grown = grow(queue, sprouted, needed.sprouted) || grown;
   for (DeviceArray<std::uint64_t>& left : pending)
-    grown = grow(queue, left, StepCapacity::most_pending(needed)) || grown;
+    grown = grow(queue, left, StepCapacity::max_pending(needed)) || grown;
   return grown;
 }
 
-}  // namespace dismantle::resident
+}  // namespace dismantle::device_code

@@ -8,9 +8,9 @@
 
 #include <cstring>
 
-/// The bodies of a step over streams that stay on a device (ResidentStreams): the kernels of method `streams`, with all
+/// The bodies of a step over streams that stay on a device (DeviceStreams): the kernels of method `streams`, with all
 /// counts in the device's memory, so that a step is enqueued without knowing them.
-namespace dismantle::resident {
+namespace dismantle::device_code {
 
 /// What the host says of a component each step: a line of S_tm.
 struct ComponentStep {
@@ -171,14 +171,14 @@ struct StepCapacity {
   DISMANTLE_HOST_DEVICE static std::uint64_t front_needed(const StepCounters& counters) {
     return counters.front + (counters.kept > counters.sprouted ? counters.kept - counters.sprouted : 0);
   }
-  DISMANTLE_HOST_DEVICE static std::uint64_t most_pending(const StepCounters& counters) {
+  DISMANTLE_HOST_DEVICE static std::uint64_t max_pending(const StepCounters& counters) {
     std::uint64_t most = 0;
     for (const std::uint64_t count : counters.pending) most = count > most ? count : most;
     return most;
   }
   DISMANTLE_HOST_DEVICE bool holds_front(const StepCounters& counters) const {
     return front_needed(counters) <= front && counters.triangle_pairs <= triangle_pairs && counters.kept <= kept &&
-           counters.sprouted <= sprouted && most_pending(counters) <= pending;
+           counters.sprouted <= sprouted && max_pending(counters) <= pending;
   }
 };
 
@@ -290,4 +290,4 @@ struct ReportFirstContacts {
   }
 };
 
-}  // namespace dismantle::resident
+}  // namespace dismantle::device_code

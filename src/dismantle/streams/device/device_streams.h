@@ -17,11 +17,11 @@ namespace dismantle {
 ///
 /// `Queue` is the device: HostQueue or CudaQueue. Nothing here knows which.
 template <class Queue>
-class ResidentStreams {
+class DeviceStreams {
  public:
   /// @param bounds of all nodes in the assembled state
-  ResidentStreams(Queue queue, const TriangleStreams& fixed, Span<const Kdop16> bounds,
-                  const CollisionOptions& options);
+  DeviceStreams(Queue queue, const AssemblyTriangles& fixed, Span<const Kdop16> bounds,
+                const CollisionOptions& options);
 
   /// As StreamsBackend has them.
   void set_rules(PairRulesView rules);
@@ -36,10 +36,10 @@ class ResidentStreams {
  private:
   enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
 
-  const resident::StepCounters& counters() const { return report_.on_host()[0].counters; }
-  resident::StepCounters* shared_counters() { return &report_.on_device().data()->counters; }
+  const device_code::StepCounters& counters() const { return report_.on_host()[0].counters; }
+  device_code::StepCounters* shared_counters() { return &report_.on_device().data()->counters; }
   FrontSproutKernel front_kernel(Span<const std::uint64_t> items) const;
-  resident::FrontSink front_sink(int round);
+  device_code::FrontSink front_sink(int round);
 
   void order_vertices(Span<const RigidTransform> next);
   void order_step(Span<const RigidTransform> next, double path_deviation);
@@ -57,17 +57,17 @@ class ResidentStreams {
   Queue queue_;
   ElementaryTest test_;
   MatrixStream matrices_;
-  resident::Geometry geometry_;
+  device_code::Geometry geometry_;
   DeviceArray<Vec3> vertices_[2];  // S_v(n) is at start_
   DeviceArray<Kdop16> bounds_;     // S_bv, S_bvh
   DeviceArray<std::uint32_t> arrivals_;
   DeviceArray<PairRuleEntry> rules_;
   double tolerance_ = 0;  // of the rules
-  MirroredArray<resident::ComponentStep> components_;
+  MirroredArray<device_code::ComponentStep> components_;
   MirroredArray<std::uint32_t> motion_class_;
-  MirroredArray<resident::StepOrder> order_;
-  MirroredArray<resident::StepReport> report_;
-  resident::Buffers buffers_;
+  MirroredArray<device_code::StepOrder> order_;
+  MirroredArray<device_code::StepReport> report_;
+  device_code::Buffers buffers_;
 
   std::size_t start_ = 0;
   typename Queue::Recording recording_[2];    // of a step, for each place of S_v(n)
@@ -79,8 +79,8 @@ class ResidentStreams {
 };
 
 template <class Queue>
-ResidentStreams<Queue>::ResidentStreams(Queue queue, const TriangleStreams& fixed, Span<const Kdop16> bounds,
-                                        const CollisionOptions& options)
+DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed, Span<const Kdop16> bounds,
+                                    const CollisionOptions& options)
     : queue_(std::move(queue)),
       test_(options.test),
       matrices_(fixed.component_count()),
@@ -100,25 +100,25 @@ ResidentStreams<Queue>::ResidentStreams(Queue queue, const TriangleStreams& fixe
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::set_rules(PairRulesView rules) {
+void DeviceStreams<Queue>::set_rules(PairRulesView rules) {
   rules_ = DeviceArray<PairRuleEntry>(queue_, rules.table);
   tolerance_ = rules.tolerance;
   forget_recordings();
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::forget_recordings() {
+void DeviceStreams<Queue>::forget_recordings() {
   for (typename Queue::Recording& recording : recording_) recording.forget();
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::commit() {
+void DeviceStreams<Queue>::commit() {
   matrices_.commit();
   start_ = 1 - start_;
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::jump(Span<const RigidTransform> state) {
+void DeviceStreams<Queue>::jump(Span<const RigidTransform> state) {
   // By way of the candidate: its vertices are those that can be made. Bounds are left to the next step.
   order_vertices(state);
   order_.on_host()[0] = {};
@@ -128,7 +128,7 @@ void ResidentStreams<Queue>::jump(Span<const RigidTransform> state) {
 }
 
 template <class Queue>
-StreamsStep ResidentStreams<Queue>::step(Span<const RigidTransform> next, double path_deviation) {
+StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next, double path_deviation) {
   order_step(next, path_deviation);
   run_step();
   watch_front_size();
@@ -136,8 +136,8 @@ StreamsStep ResidentStreams<Queue>::step(Span<const RigidTransform> next, double
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
-  const Span<resident::ComponentStep> components = components_.on_host();
+void DeviceStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
+  const Span<device_code::ComponentStep> components = components_.on_host();
   for (std::size_t c = 0; c < components.size(); ++c) components[c] = {next[c], 0, 0};
   for (const ComponentId c : matrices_.set_next(next)) components[c.value].make_vertices = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
@@ -145,7 +145,7 @@ void ResidentStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::order_step(Span<const RigidTransform> next, double path_deviation) {
+void DeviceStreams<Queue>::order_step(Span<const RigidTransform> next, double path_deviation) {
   order_vertices(next);
   for (const ComponentId c : matrices_.take_unfitted()) components_.on_host()[c.value].fit_bounds = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
@@ -159,7 +159,7 @@ void ResidentStreams<Queue>::order_step(Span<const RigidTransform> next, double 
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::run_step() {
+void DeviceStreams<Queue>::run_step() {
   replays_ = 0;
   do {
     queue_.replay(recording_[start_], [this] {
@@ -169,7 +169,7 @@ void ResidentStreams<Queue>::run_step() {
       enqueue_bounds();
       queue_.mark(kRefit);
       queue_.launch(buffers_.front.size(),
-                    resident::LookAtFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
+                    device_code::LookAtFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
       enqueue_rounds();
       enqueue_front_end();
       queue_.mark(kFront);
@@ -188,14 +188,14 @@ void ResidentStreams<Queue>::run_step() {
 
 /// Goes on with the front where it has rounds left. False where something was full: then the step must be run again.
 template <class Queue>
-bool ResidentStreams<Queue>::finish_front() {
+bool DeviceStreams<Queue>::finish_front() {
   while (counters().complete == 0) {
     if (buffers_.grow_front(queue_, counters())) {
       ++replays_;
       forget_recordings();
       return false;
     }
-    queue_.launch(1, resident::PassOnPending{shared_counters()});
+    queue_.launch(1, device_code::PassOnPending{shared_counters()});
     enqueue_rounds();
     enqueue_front_end();
     enqueue_narrow_phase();
@@ -205,38 +205,38 @@ bool ResidentStreams<Queue>::finish_front() {
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::enqueue_vertices() {
+void DeviceStreams<Queue>::enqueue_vertices() {
   components_.copy_up(queue_);
   motion_class_.copy_up(queue_);
   order_.copy_up(queue_);
-  queue_.launch(1, resident::BeginStep{shared_counters(), order_.on_device().data(), buffers_.front.view(),
-                                       geometry_.first_front_node});
+  queue_.launch(1, device_code::BeginStep{shared_counters(), order_.on_device().data(), buffers_.front.view(),
+                                          geometry_.first_front_node});
   queue_.launch(geometry_.assembled.size(),
-                resident::MoveVertices{components_.on_device(), geometry_.component_of_vertex.view(),
-                                       geometry_.assembled.view(), vertices_[1 - start_].view()});
+                device_code::MoveVertices{components_.on_device(), geometry_.component_of_vertex.view(),
+                                          geometry_.assembled.view(), vertices_[1 - start_].view()});
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::enqueue_bounds() {
+void DeviceStreams<Queue>::enqueue_bounds() {
   const BvhRefitLeafKernel leaf_kernel{vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view(),
                                        bounds_.view(), 0};
-  queue_.launch(geometry_.leaf_count, resident::FitBounds{leaf_kernel,
-                                                          {geometry_.tree(), bounds_.view()},
-                                                          components_.on_device(),
-                                                          geometry_.ranges.view(),
-                                                          geometry_.parents.view(),
-                                                          arrivals_.view()});
+  queue_.launch(geometry_.leaf_count, device_code::FitBounds{leaf_kernel,
+                                                             {geometry_.tree(), bounds_.view()},
+                                                             components_.on_device(),
+                                                             geometry_.ranges.view(),
+                                                             geometry_.parents.view(),
+                                                             arrivals_.view()});
 }
 
 template <class Queue>
-FrontSproutKernel ResidentStreams<Queue>::front_kernel(Span<const std::uint64_t> items) const {
+FrontSproutKernel DeviceStreams<Queue>::front_kernel(Span<const std::uint64_t> items) const {
   return {geometry_.tree(), bounds_.view(), motion_class_.on_device(), items};
 }
 
 /// Of the round that appends to pending[round].
 template <class Queue>
-resident::FrontSink ResidentStreams<Queue>::front_sink(int round) {
-  resident::StepCounters* counters = shared_counters();
+device_code::FrontSink DeviceStreams<Queue>::front_sink(int round) {
+  device_code::StepCounters* counters = shared_counters();
   return {{buffers_.triangle_pairs.view(), &counters->triangle_pairs},
           {buffers_.kept.view(), &counters->kept},
           {buffers_.sprouted.view(), &counters->sprouted},
@@ -244,32 +244,32 @@ resident::FrontSink ResidentStreams<Queue>::front_sink(int round) {
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::enqueue_rounds() {
-  static_assert(resident::kFrontRounds % 2 == 0, "the last round leaves its pairs where the first expects them");
-  for (int round = 1; round <= resident::kFrontRounds; ++round) {
+void DeviceStreams<Queue>::enqueue_rounds() {
+  static_assert(device_code::kFrontRounds % 2 == 0, "the last round leaves its pairs where the first expects them");
+  for (int round = 1; round <= device_code::kFrontRounds; ++round) {
     const Span<const std::uint64_t> left = std::as_const(buffers_.pending[(round - 1) % 2]).view();
-    queue_.launch(left.size(),
-                  resident::ResumeFront{front_kernel(left), front_sink(round), &shared_counters()->pending[round - 1]});
+    queue_.launch(left.size(), device_code::ResumeFront{front_kernel(left), front_sink(round),
+                                                        &shared_counters()->pending[round - 1]});
   }
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::enqueue_front_end() {
-  resident::StepCounters* counters = shared_counters();
-  queue_.launch(1, resident::CompleteFront{counters, buffers_.capacity()});
+void DeviceStreams<Queue>::enqueue_front_end() {
+  device_code::StepCounters* counters = shared_counters();
+  queue_.launch(1, device_code::CompleteFront{counters, buffers_.capacity()});
   queue_.launch(
       std::max(buffers_.kept.size(), buffers_.sprouted.size()),
-      resident::ReplaceSprouted{counters, buffers_.kept.view(), buffers_.sprouted.view(), buffers_.front.view()});
-  queue_.launch(1, resident::EndFront{counters});
+      device_code::ReplaceSprouted{counters, buffers_.kept.view(), buffers_.sprouted.view(), buffers_.front.view()});
+  queue_.launch(1, device_code::EndFront{counters});
   const Span<std::uint64_t> pairs = buffers_.triangle_pairs.view();
-  queue_.launch(pairs.size(), resident::PadTrianglePairs{counters, pairs});
+  queue_.launch(pairs.size(), device_code::PadTrianglePairs{counters, pairs});
   queue_.sort(pairs, buffers_.sorted_pairs.view(), geometry_.key_bits, buffers_.sort_scratch.view());
 }
 
 template <class Queue>
-void ResidentStreams<Queue>::enqueue_narrow_phase() {
-  resident::StepCounters* counters = shared_counters();
-  const std::size_t most_pairs = buffers_.sorted_pairs.size();
+void DeviceStreams<Queue>::enqueue_narrow_phase() {
+  device_code::StepCounters* counters = shared_counters();
+  const std::size_t max_pairs = buffers_.sorted_pairs.size();
   NarrowPhaseKernel kernel{buffers_.sorted_pairs.view(),
                            {vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view()},
                            bounds_.view(),
@@ -278,25 +278,25 @@ void ResidentStreams<Queue>::enqueue_narrow_phase() {
                            motion_class_.on_device(),
                            {rules_.view(), tolerance_},
                            test_};
-  resident::NarrowSink sink{{buffers_.contacts.view(), &counters->contacts},
-                            {buffers_.intersections.view(), &counters->intersections},
-                            counters,
-                            0};
-  queue_.launch(1, resident::BeginNarrowPhase{counters});
-  for (std::size_t begin = 0; begin < most_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
-    queue_.launch(std::min(narrow_phase_round_end(begin), most_pairs) - begin,
-                  resident::TestTrianglePairs{kernel, sink, order_.on_device().data(), begin});
+  device_code::NarrowSink sink{{buffers_.contacts.view(), &counters->contacts},
+                               {buffers_.intersections.view(), &counters->intersections},
+                               counters,
+                               0};
+  queue_.launch(1, device_code::BeginNarrowPhase{counters});
+  for (std::size_t begin = 0; begin < max_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
+    queue_.launch(std::min(narrow_phase_round_end(begin), max_pairs) - begin,
+                  device_code::TestTrianglePairs{kernel, sink, order_.on_device().data(), begin});
   queue_.launch(buffers_.contacts.size(),
-                resident::ReportFirstContacts{
+                device_code::ReportFirstContacts{
                     counters,
                     buffers_.contacts.view(),
-                    {{report_.on_device().data()->contacts, resident::kReportedContacts}, &counters->reported}});
+                    {{report_.on_device().data()->contacts, device_code::kReportedContacts}, &counters->reported}});
   report_.copy_down(queue_);
 }
 
 /// As Front has it: a front that has grown by too much is started anew.
 template <class Queue>
-void ResidentStreams<Queue>::watch_front_size() {
+void DeviceStreams<Queue>::watch_front_size() {
   const std::size_t size = counters().front;
   if (restart_front_) {
     fresh_size_ = std::max<std::size_t>(size, 1);
@@ -307,10 +307,10 @@ void ResidentStreams<Queue>::watch_front_size() {
 }
 
 template <class Queue>
-StreamsStep ResidentStreams<Queue>::result() {
-  const resident::StepCounters& counts = counters();
+StreamsStep DeviceStreams<Queue>::result() {
+  const device_code::StepCounters& counts = counters();
   StreamsStep step;
-  if (counts.reported <= resident::kReportedContacts) {
+  if (counts.reported <= device_code::kReportedContacts) {
     const TrianglePairContact* contacts = report_.on_host()[0].contacts;
     step.contacts.assign(contacts, contacts + counts.reported);
   } else {

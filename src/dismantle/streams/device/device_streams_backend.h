@@ -10,9 +10,9 @@ namespace dismantle {
 /// The streams on a device. What is asked for on the host is made there from the same matrices by the same kernels when
 /// it is asked for.
 template <class Queue>
-class ResidentStreamsBackend final : public StreamsBackend {
+class DeviceStreamsBackend final : public StreamsBackend {
  public:
-  ResidentStreamsBackend(Queue queue, const Assembly& assembly, const CollisionOptions& options)
+  DeviceStreamsBackend(Queue queue, const Assembly& assembly, const CollisionOptions& options)
       : executor_(options.executor),
         host_(assembly, executor_),
         device_(std::move(queue), host_.fixed(), host_.bounds(), options),
@@ -30,7 +30,7 @@ class ResidentStreamsBackend final : public StreamsBackend {
   }
   Span<const RigidTransform> state() const override { return device_.state(); }
 
-  const TriangleStreams& fixed() const override { return host_.fixed(); }
+  const AssemblyTriangles& fixed() const override { return host_.fixed(); }
   Span<const std::uint64_t> triangle_pairs() override {
     triangle_pairs_ = device_.triangle_pairs();
     return triangle_pairs_;
@@ -44,7 +44,7 @@ class ResidentStreamsBackend final : public StreamsBackend {
  private:
   Executor executor_;
   MovingStreams host_;  // of a step that need not be the last
-  ResidentStreams<Queue> device_;
+  DeviceStreams<Queue> device_;
   std::vector<RigidTransform> next_;
   std::vector<std::uint64_t> triangle_pairs_;
 };

@@ -10,7 +10,7 @@ Result<std::unique_ptr<StreamsBackend>> make_cuda_streams_backend(const Assembly
   if (!device) return device.error();
   try {
     return std::unique_ptr<StreamsBackend>(
-        std::make_unique<ResidentStreamsBackend<CudaQueue>>(CudaQueue(), assembly, options));
+        std::make_unique<DeviceStreamsBackend<CudaQueue>>(CudaQueue(), assembly, options));
   } catch (const CudaError& error) {
     return Error{ErrorKind::Failed, error.what()};
   }

@@ -4,9 +4,9 @@
 
 namespace dismantle {
 
-std::unique_ptr<StreamsBackend> make_resident_streams_backend(const Assembly& assembly, const CollisionOptions& options,
-                                                              const Executor& device) {
-  return std::make_unique<ResidentStreamsBackend<HostQueue>>(HostQueue(device), assembly, options);
+std::unique_ptr<StreamsBackend> make_device_streams_backend(const Assembly& assembly, const CollisionOptions& options,
+                                                            const Executor& device) {
+  return std::make_unique<DeviceStreamsBackend<HostQueue>>(HostQueue(device), assembly, options);
 }
 
 }  // namespace dismantle

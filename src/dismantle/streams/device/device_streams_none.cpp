@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the CUDA file beside this one has, where that is not built.
-#include "dismantle/streams/streams_backend.h"
 #include "dismantle/exec/cuda_device.h"
+#include "dismantle/streams/streams_backend.h"
 
 namespace dismantle {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/bvh/round_bounds.h"
+#include "dismantle/bvh/radial_bounds.h"
 #include "dismantle/math/rigid_transform.h"
 #include "dismantle/math/screw.h"
 
@@ -30,15 +30,15 @@ struct PairMotion {
 };
 
 /// A whole cylinder in a whole bore: what keeps the one's axis within some distance of the other's.
-struct RoundFit {
+struct CylinderFit {
   bool moving_inside = true;              ///< The cylinder is of the moving component, the bore of the fixed one.
-  RoundAxis inner, outer;                 ///< [mm, assembled]
+  RevolutionAxis inner, outer;            ///< [mm, assembled]
   double inner_begin = 0, inner_end = 0;  ///< The cylinder between places along its axis, from the axis' point [mm],
   double outer_begin = 0, outer_end = 0;  ///< and the bore.
   double radius = 0;                      ///< Of the cylinder [mm].
   double room = 0;    ///< The two are apart while no place of the cylinder's axis in the bore is further off [mm].
   double spread = 0;  ///< Triangles may allow so much more [mm].
-  friend bool operator==(const RoundFit&, const RoundFit&) = default;
+  friend bool operator==(const CylinderFit&, const CylinderFit&) = default;
 };
 
 /// A certificate of surfaces that turn about nearly the same axis: what is within some distance of the one axis is
@@ -53,7 +53,7 @@ struct RoundFit {
 /// inner one is past its ends, along the line, and stays there when it is moved along the normal. So moved by as much
 /// as the bound is below zero the two are apart; and where it is above zero for all that is at most some way past the
 /// ends, they are that way apart, or the bound.
-class RoundSweep {
+class RadialSweep {
  public:
   /// What is proved of two nodes: their gap along planes that touch the outer one's cylinder is never less than that
   /// [mm].
@@ -64,10 +64,10 @@ class RoundSweep {
   };
   /// @param least gaps below it are of no use: what is given may be far below the true one [mm]
   Gap gap(std::uint32_t moving, std::uint32_t fixed, double least) const {
-    const RoundNode &m = (*moving_)[moving], &f = (*fixed_)[fixed];
+    const RadialBounds &m = (*moving_)[moving], &f = (*fixed_)[fixed];
     const double moving_inside = static_cast<double>(f.least) - static_cast<double>(m.most);
     const double fixed_inside = static_cast<double>(m.least) - static_cast<double>(f.most) - fixed_bend_;
-    if (std::max(moving_inside, fixed_inside) + most_off_ < least)
+    if (std::max(moving_inside, fixed_inside) + max_off_ < least)
       return {-std::numeric_limits<double>::infinity(), false, false};
     if (moving_inside >= fixed_inside)
       return {moving_inside - moving_off_.most(m, f, moving_inside), m.clear_out && f.clear_in,
@@ -77,49 +77,49 @@ class RoundSweep {
 
   /// What two nodes are to each other as a whole cylinder in a whole bore, if they are cylindrical to `spread` together
   /// [mm].
-  std::optional<RoundFit> fit(std::uint32_t moving, std::uint32_t fixed, double spread) const;
+  std::optional<CylinderFit> fit(std::uint32_t moving, std::uint32_t fixed, double spread) const;
 
  private:
-  friend class RoundSweeps;
+  friend class RadialSweeps;
   /// How far the points of one axis are off the other, at both ends of the motion.
   struct Off {
-    Vec3 at[2];             ///< At its own point, across the other [mm].
-    Vec3 along[2];          ///< The change a mm along it.
-    double beside[2];       ///< The place of its own point along the other one [mm].
-    double ahead[2];        ///< The change a mm along it.
-    double most_aside = 0;  ///< The sine of the largest angle between the axes.
+    Vec3 at[2];            ///< At its own point, across the other [mm].
+    Vec3 along[2];         ///< The change a mm along it.
+    double beside[2];      ///< The place of its own point along the other one [mm].
+    double ahead[2];       ///< The change a mm along it.
+    double max_aside = 0;  ///< The sine of the largest angle between the axes.
     /// What the axes' being off each other takes at most from the room between the nodes [mm]; negative where the inner
     /// one is off the other way.
     /// @param room between the distances of the two from their axes [mm]
-    double most(const RoundNode& inner, const RoundNode& outer, double room) const;
+    double most(const RadialBounds& inner, const RadialBounds& outer, double room) const;
 
    private:
     /// How far the inner node's axis is off towards the outer node where the two are beside each other, or at most
     /// `past` its ends [mm].
-    double toward(const RoundNode& inner, const RoundNode& outer, double past) const;
+    double toward(const RadialBounds& inner, const RadialBounds& outer, double past) const;
     /// Between which places along its axis something of the inner node may be there at some time.
-    std::pair<double, double> part_beside(const RoundNode& inner, const RoundNode& outer, double past) const;
+    std::pair<double, double> part_beside(const RadialBounds& inner, const RadialBounds& outer, double past) const;
   };
 
-  const RoundNodes* moving_ = nullptr;
-  const RoundNodes* fixed_ = nullptr;
-  const RoundAxis* moving_axis_ = nullptr;
-  const RoundAxis* fixed_axis_ = nullptr;
+  const RadialBoundsList* moving_ = nullptr;
+  const RadialBoundsList* fixed_ = nullptr;
+  const RevolutionAxis* moving_axis_ = nullptr;
+  const RevolutionAxis* fixed_axis_ = nullptr;
   Off moving_off_, fixed_off_;
-  double most_off_ = 0;    ///< No point of one axis that a node is at is further off the other [mm].
+  double max_off_ = 0;     ///< No point of one axis that a node is at is further off the other [mm].
   double fixed_bend_ = 0;  ///< What arcs of the fixed component, as the moving one sees it, may take more [mm].
 };
 
 /// The sweeps of the axes of two components that are nearest to each other as a motion begins, a few at most; worked
 /// out when first asked for. May be asked by several threads at the same time.
-class RoundSweeps {
+class RadialSweeps {
  public:
   /// @param moving_origin, fixed_origin of the trees [mm, assembled]. The shapes must outlive it.
-  RoundSweeps(const RoundShape& moving, Vec3 moving_origin, const RoundShape& fixed, Vec3 fixed_origin,
-              const PairMotion& motion)
+  RadialSweeps(const RevolutionSurface& moving, Vec3 moving_origin, const RevolutionSurface& fixed, Vec3 fixed_origin,
+               const PairMotion& motion)
       : moving_(&moving), fixed_(&fixed), moving_origin_(moving_origin), fixed_origin_(fixed_origin), motion_(motion) {}
 
-  Span<const RoundSweep> get() const;
+  Span<const RadialSweep> get() const;
 
  private:
   struct AxisPair {
@@ -127,14 +127,14 @@ class RoundSweeps {
     double off;
   };
   std::vector<AxisPair> nearest_pairs() const;
-  RoundSweep sweep(const AxisPair& pair) const;
+  RadialSweep sweep(const AxisPair& pair) const;
 
-  const RoundShape* moving_;
-  const RoundShape* fixed_;
+  const RevolutionSurface* moving_;
+  const RevolutionSurface* fixed_;
   Vec3 moving_origin_, fixed_origin_;
   PairMotion motion_;
   mutable std::once_flag once_;
-  mutable std::vector<RoundSweep> sweeps_;
+  mutable std::vector<RadialSweep> sweeps_;
 };
 
 }  // namespace dismantle

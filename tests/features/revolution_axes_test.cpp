@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 
 #include "tests/support/random_scenes.h"
 
@@ -12,18 +12,18 @@
 namespace dismantle {
 namespace {
 
-double off(const RoundAxis& axis, Vec3 p) {
+double off(const RevolutionAxis& axis, Vec3 p) {
   return length(cross(p - axis.point, axis.direction));
 }
 
-TEST(RoundAxes, FindsTheAxisOfATubeWhereverItIs) {
+TEST(RevolutionAxes, FindsTheAxisOfATubeWhereverItIs) {
   std::mt19937_64 random(3);
   for (const double offset : {0.0, 10.0, 1e4})
     for (const std::uint32_t sides : {12u, 64u, 400u})
       for (const std::uint32_t rings : {1u, 7u}) {
         const Pose pose = scenes::random_pose(random, offset, 3);
         const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, sides, rings), pose);
-        const std::vector<RoundAxis> axes = round_axes(mesh.vertices, mesh.faces);
+        const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
         ASSERT_EQ(axes.size(), 1u) << offset << ' ' << sides;
         EXPECT_NEAR(length(axes[0].direction), 1, 1e-12);
         EXPECT_LT(off(axes[0], transform_from_pose(pose) * Vec3{0, 0, -20}), 1e-6);
@@ -32,7 +32,7 @@ TEST(RoundAxes, FindsTheAxisOfATubeWhereverItIs) {
       }
 }
 
-TEST(RoundAxes, FindsAllThatOneMeshHasTheLongestTurnFirst) {
+TEST(RevolutionAxes, FindsAllThatOneMeshHasTheLongestTurnFirst) {
   TriangleMesh mesh = scenes::tube(10, 6, 0, 20, 48, 3);
   const std::size_t first = mesh.vertices.size();
   const TriangleMesh other = scenes::moved(scenes::tube(3, 2, 0, 20, 24, 1), Pose{{40, 0, 0}, {}});
@@ -41,7 +41,7 @@ TEST(RoundAxes, FindsAllThatOneMeshHasTheLongestTurnFirst) {
     for (std::uint32_t& v : f.v) v += static_cast<std::uint32_t>(first);
     mesh.faces.push_back(f);
   }
-  const std::vector<RoundAxis> axes = round_axes(mesh.vertices, mesh.faces);
+  const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
   ASSERT_EQ(axes.size(), 2u);
   EXPECT_GT(axes[0].turn, axes[1].turn);
   EXPECT_LT(off(axes[0], {0, 0, 5}), 1e-6);
@@ -52,7 +52,7 @@ TEST(CylinderParts, GiveEveryCylinderANumberAndLeaveFlatFacesAlone) {
   std::mt19937_64 random(5);
   const Pose pose = scenes::random_pose(random, 30, 3);
   const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, 48, 3), pose);
-  const std::vector<RoundAxis> axes = round_axes(mesh.vertices, mesh.faces);
+  const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
   ASSERT_EQ(axes.size(), 1u);
   std::vector<std::uint8_t> parts;
   add_cylinder_parts(mesh.vertices, mesh.faces, axes, parts);
@@ -76,7 +76,7 @@ TEST(CylinderParts, GiveEveryCylinderANumberAndLeaveFlatFacesAlone) {
 
 TEST(CylinderParts, KeepNumbersThatThereAreAndLeaveLessThanHalfACylinderAlone) {
   TriangleMesh mesh = scenes::tube(10, 6, 0, 20, 48, 1);
-  const std::vector<RoundAxis> axes = round_axes(mesh.vertices, mesh.faces);
+  const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
   std::vector<std::uint8_t> parts(mesh.faces.size());
   parts[0] = 7;
   add_cylinder_parts(mesh.vertices, mesh.faces, axes, parts);
@@ -95,10 +95,10 @@ TEST(CylinderParts, KeepNumbersThatThereAreAndLeaveLessThanHalfACylinderAlone) {
   EXPECT_EQ(std::count(parts.begin(), parts.end(), 0), static_cast<std::ptrdiff_t>(third.faces.size()));
 }
 
-TEST(RoundAxes, FindsNoneWhereNothingIsRound) {
+TEST(RevolutionAxes, FindsNoneWhereNothingIsRound) {
   const TriangleMesh box = scenes::box({0, 0, 0}, {3, 4, 5});
-  EXPECT_TRUE(round_axes(box.vertices, box.faces).empty());
-  EXPECT_TRUE(round_axes({}, {}).empty());
+  EXPECT_TRUE(revolution_axes(box.vertices, box.faces).empty());
+  EXPECT_TRUE(revolution_axes({}, {}).empty());
 }
 
 }  // namespace

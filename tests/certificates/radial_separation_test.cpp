@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/certificates/front/round_separation.h"
+#include "dismantle/certificates/front/radial_separation.h"
 
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
@@ -14,11 +14,11 @@ namespace {
 struct Body {
   TriangleMesh mesh;
   ObbTree tree;
-  std::unique_ptr<RoundShape> round;
+  std::unique_ptr<RevolutionSurface> round;
   explicit Body(TriangleMesh m) : mesh(std::move(m)) {
     tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-    round = std::make_unique<RoundShape>(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces),
-                                         std::vector<ThreadAxis>{});
+    round = std::make_unique<RevolutionSurface>(mesh.vertices, mesh.faces, tree.nodes,
+                                                revolution_axes(mesh.vertices, mesh.faces), std::vector<ThreadAxis>{});
   }
 };
 
@@ -67,15 +67,15 @@ class TrueGaps {
 
 /// @return of how many pairs of nodes something was claimed
 int expect_true(const Body& moving, const Body& fixed, const Pose& start, const Pose& end) {
-  const RoundSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
-                           motion_of(moving, fixed, start, end));
+  const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
+                            motion_of(moving, fixed, start, end));
   EXPECT_FALSE(sweeps.get().empty());
   // What arcs of the moving component are off their chords is the caller's to add.
   const Screw screw = screw_between(start, end);
   const double arcs = screw_chord_deviation(screw, screw_radius(screw, start.position, 60));
   TrueGaps gaps(moving, fixed, start, end);
   int claims = 0;
-  for (const RoundSweep& sweep : sweeps.get())
+  for (const RadialSweep& sweep : sweeps.get())
     for (std::uint32_t m = 0; m < moving.tree.nodes.size(); ++m)
       for (std::uint32_t f = 0; f < fixed.tree.nodes.size(); ++f) {
         const double claimed = sweep.gap(m, f, -0.2).gap;
@@ -85,7 +85,7 @@ int expect_true(const Body& moving, const Body& fixed, const Pose& start, const 
   return claims;
 }
 
-TEST(RoundSweep, NeverClaimsMoreThanTrianglesHave) {
+TEST(RadialSweep, NeverClaimsMoreThanTrianglesHave) {
   std::mt19937_64 random(7);
   for (int trial = 0; trial < 4; ++trial) {
     const double clearance = trial % 2 == 0 ? 0 : 0.05;
@@ -103,19 +103,19 @@ TEST(RoundSweep, NeverClaimsMoreThanTrianglesHave) {
   }
 }
 
-TEST(RoundSweep, PartsAWholeShaftFromItsBore) {
+TEST(RadialSweep, PartsAWholeShaftFromItsBore) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const bool bush_moves : {false, true}) {
     const Body &moving = bush_moves ? bush : shaft, &fixed = bush_moves ? shaft : bush;
     const Pose end{{0.02, 0, 8}, quat_about({0, 0, 1}, 0.1)};
     const PairMotion motion = motion_of(moving, fixed, {}, end);
-    const RoundSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin, motion);
+    const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin, motion);
     ASSERT_EQ(sweeps.get().size(), 1u);
     EXPECT_GT(sweeps.get()[0].gap(0, 0, 0).gap, 0.05) << bush_moves;
   }
 }
 
-TEST(RoundSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
+TEST(RadialSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
   // The bore's wall alone: a node of the bush has its outside, too.
   TriangleMesh wall = scenes::tube(14, 10, -10, 10, 64, 2);
   std::erase_if(wall.faces, [&](const Face& f) {
@@ -127,12 +127,12 @@ TEST(RoundSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
   const double sagitta_of_shaft = 9.9 * (1 - std::cos(std::acos(-1.0) / 48));
   for (const bool bore_moves : {false, true}) {
     const Body &moving = bore_moves ? bore : shaft, &fixed = bore_moves ? shaft : bore;
-    const RoundSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
-                             motion_of(moving, fixed, {}, {{0.3, 0, 0}, {}}));
+    const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
+                              motion_of(moving, fixed, {}, {{0.3, 0, 0}, {}}));
     ASSERT_EQ(sweeps.get().size(), 1u);
     const double together = sagitta_of_bore + sagitta_of_shaft;
     EXPECT_FALSE(sweeps.get()[0].fit(0, 0, 0.99 * together));
-    const std::optional<RoundFit> fit = sweeps.get()[0].fit(0, 0, 1.01 * together);
+    const std::optional<CylinderFit> fit = sweeps.get()[0].fit(0, 0, 1.01 * together);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->moving_inside, !bore_moves);
     EXPECT_NEAR(fit->radius, 9.9, 1e-5);
@@ -143,11 +143,11 @@ TEST(RoundSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
   }
 }
 
-TEST(RoundSweeps, LookOnlyAtAxesThatAreNear) {
+TEST(RadialSweeps, LookOnlyAtAxesThatAreNear) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const Pose& away : {Pose{{5, 0, 0}, {}}, Pose{{}, quat_about({1, 0, 0}, 0.3)}}) {
-    const RoundSweeps sweeps(*shaft.round, shaft.tree.origin, *bush.round, bush.tree.origin,
-                             motion_of(shaft, bush, away, away));
+    const RadialSweeps sweeps(*shaft.round, shaft.tree.origin, *bush.round, bush.tree.origin,
+                              motion_of(shaft, bush, away, away));
     EXPECT_TRUE(sweeps.get().empty());
   }
 }

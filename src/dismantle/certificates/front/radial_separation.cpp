@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/certificates/front/round_separation.h"
+#include "dismantle/certificates/front/radial_separation.h"
 
 #include "dismantle/math/vec3f.h"
 
@@ -13,11 +13,11 @@ namespace dismantle {
 namespace {
 
 /// So many pairs of axes are looked at in a sweep, those that are nearest as it begins.
-constexpr std::size_t kMostPairs = 3;
+constexpr std::size_t kMaxPairs = 3;
 /// Axes are near each other where the sine of the angle between them is at most this,
-constexpr double kMostSine = 0.1;
+constexpr double kMaxSine = 0.1;
 /// and one's point is off the other by no more than this share of the smaller component's size.
-constexpr double kMostOff = 0.05;
+constexpr double kMaxOff = 0.05;
 /// What places along axes may be off by [mm].
 constexpr double kPlaceRounding = 1e-6;
 /// What is further apart than this share of the outer surface's radius is said to be so far apart.
@@ -28,7 +28,7 @@ struct Line {
   Vec3 point, direction;
 };
 
-Line line_of(const RoundAxis& axis, Vec3 origin) {
+Line line_of(const RevolutionAxis& axis, Vec3 origin) {
   return {axis.point - origin, axis.direction};
 }
 Line moved(const RigidTransform& t, const Line& line) {
@@ -40,9 +40,9 @@ Vec3 across(Vec3 v, Vec3 direction) {
 
 }  // namespace
 
-std::pair<double, double> RoundSweep::Off::part_beside(const RoundNode& inner, const RoundNode& outer,
-                                                       double past) const {
-  const double aside = most_aside * static_cast<double>(inner.most) + kPlaceRounding + past;
+std::pair<double, double> RadialSweep::Off::part_beside(const RadialBounds& inner, const RadialBounds& outer,
+                                                        double past) const {
+  const double aside = max_aside * static_cast<double>(inner.most) + kPlaceRounding + past;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (int end = 0; end < 2; ++end)
     for (const double border : {static_cast<double>(outer.begin) - aside, static_cast<double>(outer.end) + aside}) {
@@ -54,7 +54,7 @@ std::pair<double, double> RoundSweep::Off::part_beside(const RoundNode& inner, c
   return {std::clamp(least, begin, end), std::clamp(most, begin, end)};
 }
 
-double RoundSweep::Off::most(const RoundNode& inner, const RoundNode& outer, double room) const {
+double RadialSweep::Off::most(const RadialBounds& inner, const RadialBounds& outer, double room) const {
   const double least = toward(inner, outer, 0);
   if (room <= least) return least;
   // They are apart, but what is past the ends may be nearer.
@@ -62,7 +62,7 @@ double RoundSweep::Off::most(const RoundNode& inner, const RoundNode& outer, dou
   return std::max(room - past, std::min(room, toward(inner, outer, past)));
 }
 
-double RoundSweep::Off::toward(const RoundNode& inner, const RoundNode& outer, double past) const {
+double RadialSweep::Off::toward(const RadialBounds& inner, const RadialBounds& outer, double past) const {
   const Vec3 middle = to_double(outer.toward);
   const double cosine = outer.cosine, sine = outer.sine;
   const auto [begin, stop] = part_beside(inner, outer, past);
@@ -78,32 +78,32 @@ double RoundSweep::Off::toward(const RoundNode& inner, const RoundNode& outer, d
   return most;
 }
 
-std::optional<RoundFit> RoundSweep::fit(std::uint32_t moving, std::uint32_t fixed, double spread) const {
-  const RoundNode &m = (*moving_)[moving], &f = (*fixed_)[fixed];
+std::optional<CylinderFit> RadialSweep::fit(std::uint32_t moving, std::uint32_t fixed, double spread) const {
+  const RadialBounds &m = (*moving_)[moving], &f = (*fixed_)[fixed];
   const bool moving_inside = m.clear_out && f.clear_in, fixed_inside = f.clear_out && m.clear_in;
   const double together = static_cast<double>(m.spread) + static_cast<double>(f.spread);
   if (moving_inside == fixed_inside || together > spread) return std::nullopt;
-  const RoundNode &inner = moving_inside ? m : f, &outer = moving_inside ? f : m;
-  return RoundFit{moving_inside,
-                  moving_inside ? *moving_axis_ : *fixed_axis_,
-                  moving_inside ? *fixed_axis_ : *moving_axis_,
-                  inner.begin,
-                  inner.end,
-                  outer.begin,
-                  outer.end,
-                  inner.most,
-                  static_cast<double>(outer.least) - static_cast<double>(inner.most),
-                  together};
+  const RadialBounds &inner = moving_inside ? m : f, &outer = moving_inside ? f : m;
+  return CylinderFit{moving_inside,
+                     moving_inside ? *moving_axis_ : *fixed_axis_,
+                     moving_inside ? *fixed_axis_ : *moving_axis_,
+                     inner.begin,
+                     inner.end,
+                     outer.begin,
+                     outer.end,
+                     inner.most,
+                     static_cast<double>(outer.least) - static_cast<double>(inner.most),
+                     together};
 }
 
-std::vector<RoundSweeps::AxisPair> RoundSweeps::nearest_pairs() const {
+std::vector<RadialSweeps::AxisPair> RadialSweeps::nearest_pairs() const {
   std::vector<AxisPair> pairs;
-  const double most = kMostOff * std::min(moving_->size(), fixed_->size());
+  const double most = kMaxOff * std::min(moving_->size(), fixed_->size());
   for (std::size_t i = 0; i < moving_->axes().size(); ++i) {
     const Line a = moved(motion_.t0, line_of(moving_->axes()[i], moving_origin_));
     for (std::size_t j = 0; j < fixed_->axes().size(); ++j) {
       const Line b = line_of(fixed_->axes()[j], fixed_origin_);
-      if (length_squared(cross(a.direction, b.direction)) > kMostSine * kMostSine) continue;
+      if (length_squared(cross(a.direction, b.direction)) > kMaxSine * kMaxSine) continue;
       const double off = length(across(a.point - b.point, b.direction));
       if (off <= most) pairs.push_back({i, j, off});
     }
@@ -112,12 +112,12 @@ std::vector<RoundSweeps::AxisPair> RoundSweeps::nearest_pairs() const {
     if (x.off != y.off) return x.off < y.off;
     return x.moving != y.moving ? x.moving < y.moving : x.fixed < y.fixed;
   });
-  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+  if (pairs.size() > kMaxPairs) pairs.resize(kMaxPairs);
   return pairs;
 }
 
-RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
-  RoundSweep sweep;
+RadialSweep RadialSweeps::sweep(const AxisPair& pair) const {
+  RadialSweep sweep;
   sweep.moving_ = &moving_->about(pair.moving);
   sweep.fixed_ = &fixed_->about(pair.fixed);
   sweep.moving_axis_ = &moving_->axes()[pair.moving];
@@ -134,18 +134,17 @@ RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
     sweep.moving_off_.beside[end] = dot(there.point - other.point, other.direction);
     sweep.fixed_off_.beside[end] = dot(back.point - own.point, own.direction);
     const double cosine = dot(there.direction, other.direction), sine = length(cross(there.direction, other.direction));
-    for (RoundSweep::Off* off : {&sweep.moving_off_, &sweep.fixed_off_}) {
+    for (RadialSweep::Off* off : {&sweep.moving_off_, &sweep.fixed_off_}) {
       off->ahead[end] = cosine;
-      off->most_aside = std::max(off->most_aside, sine);
+      off->max_aside = std::max(off->max_aside, sine);
     }
   }
   for (const auto& [off, nodes] : {std::pair{&sweep.moving_off_, sweep.moving_}, {&sweep.fixed_off_, sweep.fixed_}})
     for (int end = 0; end < 2; ++end)
       for (const float place : {(*nodes)[0].begin, (*nodes)[0].end})
-        sweep.most_off_ =
-            std::max(sweep.most_off_, length(off->at[end] + static_cast<double>(place) * off->along[end]));
+        sweep.max_off_ = std::max(sweep.max_off_, length(off->at[end] + static_cast<double>(place) * off->along[end]));
   const Line seen = moved(inverse(motion_.t0), other);
-  const RoundNode& all = (*sweep.fixed_)[0];
+  const RadialBounds& all = (*sweep.fixed_)[0];
   double rho = 0;
   for (const float place : {all.begin, all.end})
     rho = std::max(rho, screw_radius(motion_.back, seen.point + static_cast<double>(place) * seen.direction, all.most));
@@ -153,7 +152,7 @@ RoundSweep RoundSweeps::sweep(const AxisPair& pair) const {
   return sweep;
 }
 
-Span<const RoundSweep> RoundSweeps::get() const {
+Span<const RadialSweep> RadialSweeps::get() const {
   std::call_once(once_, [&] {
     for (const AxisPair& pair : nearest_pairs()) sweeps_.push_back(sweep(pair));
   });

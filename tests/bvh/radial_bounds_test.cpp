@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/bvh/round_bounds.h"
+#include "dismantle/bvh/radial_bounds.h"
 
 #include "dismantle/math/vec3f.h"
 #include "tests/support/random_scenes.h"
@@ -19,23 +19,24 @@ void faces_under(const ObbTree& tree, std::uint32_t node, std::vector<std::uint3
   faces_under(tree, tree.nodes[node].child + 1, faces);
 }
 
-TEST(RoundShape, BoundsEveryPointOfEveryNode) {
+TEST(RevolutionSurface, BoundsEveryPointOfEveryNode) {
   std::mt19937_64 random(5);
   for (const double offset : {0.0, 1e3}) {
     const Pose pose = scenes::random_pose(random, offset, 3);
     const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, 20, 4), pose);
     const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-    const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
+    const RevolutionSurface shape(mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces),
+                                  {});
     ASSERT_EQ(shape.axes().size(), 1u);
-    const RoundAxis axis = shape.axes()[0];
-    const RoundNodes& nodes = shape.about(0);
+    const RevolutionAxis axis = shape.axes()[0];
+    const RadialBoundsList& nodes = shape.about(0);
     ASSERT_EQ(nodes.size(), tree.nodes.size());
     const double rounding = 1e-9 * (1 + offset);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       std::vector<std::uint32_t> faces;
       faces_under(tree, n, faces);
-      const RoundNode& node = nodes[n];
-      if (faces.size() < RoundShape::kLargeNode) {
+      const RadialBounds& node = nodes[n];
+      if (faces.size() < RevolutionSurface::kLargeNode) {
         ASSERT_GT(node.most, 1e9);
         continue;
       }
@@ -62,13 +63,13 @@ TEST(RoundShape, BoundsEveryPointOfEveryNode) {
   }
 }
 
-TEST(RoundShape, KnowsWhichWayFacesLook) {
+TEST(RevolutionSurface, KnowsWhichWayFacesLook) {
   const TriangleMesh mesh = scenes::tube(10, 6, -20, 20, 20, 4);
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
+  const RevolutionSurface shape(mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces), {});
   double outermost = 0, innermost = 1e9;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const RoundNode& node = shape.about(0)[n];
+    const RadialBounds& node = shape.about(0)[n];
     ASSERT_FALSE(node.faces_out && node.faces_in);
     if (node.faces_out) innermost = std::min<double>(innermost, node.least);
     if (node.faces_in) outermost = std::max<double>(outermost, node.most);
@@ -81,11 +82,11 @@ TEST(RoundShape, KnowsWhichWayFacesLook) {
 /// The spread of the node that is all of the mesh.
 float spread_of(const TriangleMesh& mesh) {
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-  const RoundShape shape(mesh.vertices, mesh.faces, tree.nodes, round_axes(mesh.vertices, mesh.faces), {});
+  const RevolutionSurface shape(mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces), {});
   return shape.about(0)[0].spread;
 }
 
-TEST(RoundShape, KnowsAWholeCylinderWithItsEnds) {
+TEST(RevolutionSurface, KnowsAWholeCylinderWithItsEnds) {
   for (const std::uint32_t sides : {8u, 24u, 200u}) {
     const double sagitta = 10 * (1 - std::cos(std::acos(-1.0) / sides));
     EXPECT_NEAR(spread_of(scenes::tube(10, 0, -20, 20, sides, 3)), sagitta, 1e-5) << sides;
@@ -93,14 +94,14 @@ TEST(RoundShape, KnowsAWholeCylinderWithItsEnds) {
   EXPECT_GT(spread_of(scenes::tube(10, 9, -20, 20, 200)), 1e9) << "wall and bore";
 }
 
-TEST(RoundShape, TellsACylinderWithAGapFromAWholeOne) {
+TEST(RevolutionSurface, TellsACylinderWithAGapFromAWholeOne) {
   std::mt19937_64 random(9);
   for (int trial = 0; trial < 40; ++trial) {
     TriangleMesh mesh = scenes::moved(scenes::tube(10, 0, -20, 20, 48, 5), scenes::random_pose(random, 5, 3));
     ASSERT_LT(spread_of(mesh), 0.1);
     std::size_t face = random() % mesh.faces.size();
     while (std::abs(dot(normalized(normal_unscaled(mesh.triangle(static_cast<std::uint32_t>(face)))),
-                        round_axes(mesh.vertices, mesh.faces)[0].direction)) > 0.5)
+                        revolution_axes(mesh.vertices, mesh.faces)[0].direction)) > 0.5)
       face = (face + 1) % mesh.faces.size();
     mesh.faces.erase(mesh.faces.begin() + static_cast<std::ptrdiff_t>(face));
     EXPECT_GT(spread_of(mesh), 1e9) << "face " << face;

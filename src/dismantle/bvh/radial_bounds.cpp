@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/bvh/round_bounds.h"
+#include "dismantle/bvh/radial_bounds.h"
 
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/math/vec3f.h"
@@ -18,7 +18,7 @@ constexpr double kRounding = 1e-13;
 /// The cosine of 45 degrees.
 constexpr double kFacing = 0.70710678;
 /// A face lies across the axis where what its unit normal has across it is at most this long: it is seen edge-on by
-/// every axis that leads away (OutwardNormals::kLeastCosine).
+/// every axis that leads away (OutwardNormals::kMinCosine).
 constexpr double kAcross = 0.04;
 
 /// A corner about an axis.
@@ -28,7 +28,7 @@ struct Corner {
 };
 
 /// The least distance of the triangle, seen along the axis, from it.
-double least_distance(const Corner (&c)[3], Vec3 axis) {
+double min_distance(const Corner (&c)[3], Vec3 axis) {
   double sides[3], least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3 p = c[i].across, q = c[(i + 1) % 3].across;
@@ -57,7 +57,7 @@ Sector both(const Sector& x, const Sector& y) {
   return {x.center + (least + most) / 2, std::min(kHalfTurn, (most - least) / 2)};
 }
 
-void set_sector(RoundNode& node, const Sector& sector, const AxisFrame& axis) {
+void set_sector(RadialBounds& node, const Sector& sector, const AxisFrame& axis) {
   node.toward = to_float(axis.at(sector.center));
   const double half = sector.half + kAngleRounding;
   node.cosine = half < kHalfTurn ? static_cast<float>(std::cos(half)) : -1;
@@ -81,10 +81,10 @@ Wall both(const Wall& x, const Wall& y) {
   return {std::min(x.least, y.least), std::max(x.most, y.most), x.area + y.area};
 }
 
-/// RoundNode::spread of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the cylinder's
+/// RadialBounds::spread of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the cylinder's
 /// area, and distances that differ by r pi^2 / 2n^2: what has less area than that has gaps, what has more than the
 /// cylinder is not one.
-float spread_of(const Wall& wall, const RoundNode& node) {
+float spread_of(const Wall& wall, const RadialBounds& node) {
   const double spread = static_cast<double>(wall.most) - static_cast<double>(wall.least);
   const double height = static_cast<double>(node.end) - static_cast<double>(node.begin);
   const double most = static_cast<double>(wall.most), turned = wall.area / (2 * kHalfTurn * height);
@@ -92,7 +92,7 @@ float spread_of(const Wall& wall, const RoundNode& node) {
   return whole ? rounded_up(spread) : std::numeric_limits<float>::infinity();
 }
 
-RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector, Wall& wall) {
+RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector, Wall& wall) {
   Corner corners[3];
   double size = 0;
   for (int i = 0; i < 3; ++i) {
@@ -103,7 +103,7 @@ RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& se
   const Vec3 normal = normal_unscaled(triangle);
   const double rounding = kRounding * size;
   double most = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
-  RoundNode node;
+  RadialBounds node;
   node.faces_out = node.faces_in = true;
   for (const Corner& c : corners) {
     const double distance = length(c.across);
@@ -117,7 +117,7 @@ RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& se
   const bool lies_across = length(cross(normal, axis.direction)) <= kAcross * length(normal);
   node.clear_out = node.faces_out || lies_across;
   node.clear_in = node.faces_in || lies_across;
-  const double least = least_distance(corners, axis.direction);
+  const double least = min_distance(corners, axis.direction);
   sector = least > rounding ? sector_of(corners, axis) : Sector{};
   node.least = -rounded_up(rounding - least);
   node.most = rounded_up(most + rounding);
@@ -127,7 +127,7 @@ RoundNode about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& se
   return node;
 }
 
-RoundNode both(const RoundNode& x, const RoundNode& y) {
+RadialBounds both(const RadialBounds& x, const RadialBounds& y) {
   return {std::min(x.least, y.least),
           std::max(x.most, y.most),
           std::min(x.begin, y.begin),
@@ -143,8 +143,8 @@ RoundNode both(const RoundNode& x, const RoundNode& y) {
 
 }  // namespace
 
-RoundShape::RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes,
-                       std::vector<RoundAxis> axes, std::vector<ThreadAxis> threads)
+RevolutionSurface::RevolutionSurface(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes,
+                                     std::vector<RevolutionAxis> axes, std::vector<ThreadAxis> threads)
     : vertices_(vertices),
       faces_(faces),
       nodes_(nodes),
@@ -168,20 +168,20 @@ RoundShape::RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<c
     if (counts[i] >= kLargeNode) places_[i] = ++large_count_;
 }
 
-double RoundShape::size() const {
+double RevolutionSurface::size() const {
   const Vec3f half = nodes_[0].box.half;
   return 2 * static_cast<double>(std::max({half.x, half.y, half.z}));
 }
 
-const RoundNodes& RoundShape::about(std::size_t axis) const {
+const RadialBoundsList& RevolutionSurface::about(std::size_t axis) const {
   About& known = about_[axis];
   std::call_once(known.once, [&] {
     const AxisFrame frame(axes_[axis].point, axes_[axis].direction);
-    RoundNode unknown;
+    RadialBounds unknown;
     unknown.most = std::numeric_limits<float>::infinity();
     known.nodes.places_ = &places_;
     known.nodes.nodes_.assign(1 + large_count_, unknown);
-    std::vector<RoundNode> nodes(nodes_.size());
+    std::vector<RadialBounds> nodes(nodes_.size());
     std::vector<Sector> sectors(nodes_.size());
     std::vector<Wall> walls(nodes_.size());
     for (auto i = order_.rbegin(); i != order_.rend(); ++i) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/bvh/obb_tree.h"
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 #include "dismantle/features/thread_axes.h"
 
 #include <limits>
@@ -13,7 +13,7 @@
 namespace dismantle {
 
 /// Where the triangles of a tree's node are about an axis; certain, despite float32.
-struct RoundNode {
+struct RadialBounds {
   float least = 0, most = 0;  ///< Every point's distance from the axis is between these [mm].
   float begin = 0, end = 0;   ///< And its place along the axis, from the axis' point [mm].
   /// Seen from the axis all of it is within an angle of the unit vector `toward`: its cosine and sine; -1 and 0 for all
@@ -30,30 +30,30 @@ struct RoundNode {
 };
 
 /// The nodes of a tree about one axis. Of small nodes nothing is known: their distances are from 0 to without end.
-class RoundNodes {
+class RadialBoundsList {
  public:
-  const RoundNode& operator[](std::uint32_t node) const { return nodes_[(*places_)[node]]; }
+  const RadialBounds& operator[](std::uint32_t node) const { return nodes_[(*places_)[node]]; }
   std::size_t size() const { return places_->size(); }
 
  private:
-  friend class RoundShape;
+  friend class RevolutionSurface;
   const std::vector<std::uint32_t>* places_ = nullptr;  ///< Of each node among the large ones; 0 for a small one.
-  std::vector<RoundNode> nodes_;                        ///< The first stands for the small ones.
+  std::vector<RadialBounds> nodes_;                     ///< The first stands for the small ones.
 };
 
 /// A component's axes and threads, and its tree's nodes about each, which are worked out when first asked for. May be
 /// asked by several threads at the same time. What the spans look at must outlive it.
-class RoundShape {
+class RevolutionSurface {
  public:
   /// Nodes of at least so many faces are large: what parts two surfaces of revolution is for them.
   static constexpr std::uint32_t kLargeNode = 4;
 
   /// @param nodes of the faces' tree; not empty
   /// @param axes, threads of the faces
-  RoundShape(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes, std::vector<RoundAxis> axes,
-             std::vector<ThreadAxis> threads);
+  RevolutionSurface(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes,
+                    std::vector<RevolutionAxis> axes, std::vector<ThreadAxis> threads);
 
-  Span<const RoundAxis> axes() const { return axes_; }
+  Span<const RevolutionAxis> axes() const { return axes_; }
   Span<const ThreadAxis> threads() const { return threads_; }
   Span<const Vec3> vertices() const { return vertices_; }
   Span<const Face> faces() const { return faces_; }
@@ -61,21 +61,21 @@ class RoundShape {
   /// The largest extent of the tree's root box [mm].
   double size() const;
   /// The nodes of the tree about one axis.
-  const RoundNodes& about(std::size_t axis) const;
+  const RadialBoundsList& about(std::size_t axis) const;
 
  private:
   struct About {
     std::once_flag once;
-    RoundNodes nodes;
+    RadialBoundsList nodes;
   };
 
   Span<const Vec3> vertices_;
   Span<const Face> faces_;
   Span<const ObbNode> nodes_;
-  std::vector<RoundAxis> axes_;
+  std::vector<RevolutionAxis> axes_;
   std::vector<ThreadAxis> threads_;
   std::vector<std::uint32_t> order_;   ///< The tree's nodes, parents before their children.
-  std::vector<std::uint32_t> places_;  ///< As RoundNodes has it.
+  std::vector<std::uint32_t> places_;  ///< As RadialBoundsList has it.
   std::uint32_t large_count_ = 0;
   std::unique_ptr<About[]> about_;
 };

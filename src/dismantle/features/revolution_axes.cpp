@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/features/round_axes.h"
+#include "dismantle/features/revolution_axes.h"
 
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/geometry/aabb.h"
@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kQuarterTurn = 1.5707963;
 /// Faces that meet at less [sine] are taken for one plane; at more [cosine] for a corner.
-constexpr double kLeastSine = 1e-4;
-constexpr double kLeastCosine = 0.5;
+constexpr double kMinSine = 1e-4;
+constexpr double kMinCosine = 0.5;
 /// Axes agree whose directions and places are in one cell of that size; places as a share of the box's diagonal.
 constexpr double kSameDirection = 1e-3;
 constexpr double kSamePlace = 1e-4;
@@ -53,12 +53,12 @@ Vec3 normal_of(Span<const Vec3> vertices, const Face& f) {
 }
 
 /// The axis of which the edge of two faces is a ruling; a turn of zero where there is none.
-RoundAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair, Vec3 middle) {
-  RoundAxis axis;
+RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair, Vec3 middle) {
+  RevolutionAxis axis;
   const Face &a = faces[pair.face[0]], &b = faces[pair.face[1]];
   const Vec3 normal_a = normal_of(vertices, a), normal_b = normal_of(vertices, b);
   const double sine = length(cross(normal_a, normal_b));
-  if (!(sine > kLeastSine) || !(dot(normal_a, normal_b) > kLeastCosine)) return axis;
+  if (!(sine > kMinSine) || !(dot(normal_a, normal_b) > kMinCosine)) return axis;
   const Vec3 from = vertices[pair.edge[0]];
   axis.direction = of_one_sign(normalized(vertices[pair.edge[1]] - from));
   const auto across = [&](Vec3 v) { return v - dot(v, axis.direction) * axis.direction; };
@@ -78,7 +78,7 @@ constexpr double kOneDistance = 1e-3;
 /// And its faces' normals lead away from the axis, or to it, with at least this cosine.
 constexpr double kLeadsAway = 0.8;
 /// Cylinders of fewer faces are left alone.
-constexpr std::size_t kLeastOfCylinder = 12;
+constexpr std::size_t kMinOfCylinder = 12;
 
 /// A face of a cylinder: the mean distance of its corners from the axis, negative where its normal leads to it [mm].
 std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& triangle) {
@@ -123,40 +123,42 @@ struct CylinderExtent {
 
 }  // namespace
 
-std::vector<RoundAxis> round_axes(Span<const Vec3> vertices, Span<const Face> faces) {
+std::vector<RevolutionAxis> revolution_axes(Span<const Vec3> vertices, Span<const Face> faces) {
   Aabb box;
   for (const Vec3& p : vertices) box.extend(p);
   if (box.empty()) return {};
   const Vec3 middle = box.center();
   const double diagonal = length(box.size());
-  std::map<Cell, RoundAxis> cells;  // sums, weighted by the turn
+  std::map<Cell, RevolutionAxis> cells;  // sums, weighted by the turn
   for (const NeighbouringFaces& pair : neighbouring_faces(faces)) {
-    const RoundAxis axis = axis_of(vertices, faces, pair, middle);
+    const RevolutionAxis axis = axis_of(vertices, faces, pair, middle);
     const Vec3 place = axis.point - middle, d = axis.direction;
     if (!(axis.turn > 0) || !(max_abs(place) <= diagonal)) continue;
     const double size = kSamePlace * diagonal;
-    RoundAxis& sum = cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
-                            cell_at(place.x, size), cell_at(place.y, size), cell_at(place.z, size)}];
+    RevolutionAxis& sum =
+        cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
+               cell_at(place.x, size), cell_at(place.y, size), cell_at(place.z, size)}];
     sum.point += axis.turn * place;
     sum.direction += axis.turn * d;
     sum.turn += axis.turn;
   }
-  std::vector<RoundAxis> axes;
+  std::vector<RevolutionAxis> axes;
   for (const auto& [cell, sum] : cells)
     if (sum.turn >= kQuarterTurn) axes.push_back({middle + sum.point / sum.turn, normalized(sum.direction), sum.turn});
-  std::stable_sort(axes.begin(), axes.end(), [](const RoundAxis& x, const RoundAxis& y) { return x.turn > y.turn; });
-  if (axes.size() > kMostRoundAxes) axes.resize(kMostRoundAxes);
+  std::stable_sort(axes.begin(), axes.end(),
+                   [](const RevolutionAxis& x, const RevolutionAxis& y) { return x.turn > y.turn; });
+  if (axes.size() > kMaxRoundAxes) axes.resize(kMaxRoundAxes);
   return axes;
 }
 
-void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<const RoundAxis> axes,
+void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<const RevolutionAxis> axes,
                         std::vector<std::uint8_t>& parts) {
   if (axes.empty()) return;
   if (parts.empty()) parts.assign(faces.size(), 0);
   const std::vector<NeighbouringFaces> neighbours = neighbouring_faces(faces);
   std::size_t last = *std::max_element(parts.begin(), parts.end());
   std::vector<double> distances(faces.size());  // 0 for what is none of the axis' cylinders
-  for (const RoundAxis& axis : axes) {
+  for (const RevolutionAxis& axis : axes) {
     const AxisFrame frame(axis.point, axis.direction);
     const auto triangle = [&](std::size_t f) {
       return Triangle{{vertices[faces[f].v[0]], vertices[faces[f].v[1]], vertices[faces[f].v[2]]}};
@@ -182,7 +184,7 @@ void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<
     }
     std::map<std::uint32_t, std::uint8_t> numbers;
     for (const auto& [group, cylinder] : cylinders)
-      if (cylinder.count >= kLeastOfCylinder && cylinder.turn() >= 2 * kQuarterTurn * 0.95 &&
+      if (cylinder.count >= kMinOfCylinder && cylinder.turn() >= 2 * kQuarterTurn * 0.95 &&
           last < std::numeric_limits<std::uint8_t>::max())
         numbers[group] = static_cast<std::uint8_t>(++last);
     for (std::uint32_t f = 0; f < faces.size(); ++f)
