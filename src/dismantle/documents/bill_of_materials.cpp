@@ -2,7 +2,7 @@
 #include "dismantle/documents/bill_of_materials.h"
 
 #include "dismantle/files/csv_text.h"
-#include "dismantle/files/json_node.h"
+#include "dismantle/files/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,20 +97,22 @@ std::string bill_csv(const Assembly& assembly, const std::vector<BillItem>& bill
 }
 
 std::string bill_json(const Assembly& assembly, const std::vector<BillItem>& bill) {
-  std::string text = "{\n  \"format\": \"dismantle-bill\", \"version\": 1,\n  \"assembly\": {\"file\": " +
-                     json_text(assembly.source_file) + ", \"sha256\": " + json_text(assembly.source_sha256) +
-                     ", \"components\": " + std::to_string(assembly.components.size()) + "},\n  \"items\": [";
+  std::vector<std::string> items;
   for (const BillItem& item : bill) {
-    text += &item == bill.data() ? "\n    " : ",\n    ";
-    text += "{\"name\": " + json_text(item.name) + ", \"count\": " + std::to_string(item.components.size()) +
-            ", \"size_mm\": [" + json_text(item.size.x) + ", " + json_text(item.size.y) + ", " +
-            json_text(item.size.z) + "], \"volume_mm3\": " + (item.volume ? json_text(*item.volume) : "null") +
-            ", \"area_mm2\": " + json_text(item.area) + ", \"triangles\": " + std::to_string(item.triangles) +
-            ", \"color\": " + json_text(color_text(item.color)) +
-            ",\n     \"components\": " + json_text(component_names(assembly, item)) +
-            ",\n     \"places\": " + json_text(item.places) + "}";
+    const std::string values = json_line({{"name", item.name},
+                                          {"count", item.components.size()},
+                                          {"size_mm", {item.size.x, item.size.y, item.size.z}},
+                                          {"volume_mm3", item.volume ? JsonValue(*item.volume) : JsonValue()},
+                                          {"area_mm2", item.area},
+                                          {"triangles", item.triangles},
+                                          {"color", color_text(item.color)}});
+    items.push_back(values.substr(0, values.size() - 1) + ",\n     \"components\": " +
+                    json_line(component_names(assembly, item)) + ",\n     \"places\": " + json_line(item.places) + "}");
   }
-  return text + "\n  ]\n}\n";
+  const JsonValue about{
+      {"file", assembly.source_file}, {"sha256", assembly.source_sha256}, {"components", assembly.components.size()}};
+  return "{\n  \"format\": \"dismantle-bill\", \"version\": 1,\n  \"assembly\": " + json_line(about) +
+         ",\n  \"items\": [" + json_lines(items, 4) + "\n  ]\n}\n";
 }
 
 }  // namespace dismantle

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/check_report.h"
 
+#include "dismantle/files/json_text.h"
+
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 namespace dismantle {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string one_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 std::string formatted(const char* format, double value) {
   char text[64];
@@ -87,23 +82,22 @@ std::string_view explanation_of(PairState state) {
 }
 
 std::string check_report_json(const Assembly& assembly, const PairStates& states) {
-  const Json about{{"file", assembly.source_file},
-                   {"components", assembly.components.size()},
-                   {"triangles", triangle_count(assembly)}};
-  std::string text = "{\n  \"format\": \"dismantle-check\", \"version\": 1,\n  \"assembly\": " + one_line(about) +
-                     ",\n  \"tolerance_mm\": " + one_line(states.tolerance) + ",\n  \"pairs\": [";
-  const char* separator = "\n    ";
+  const JsonValue about{{"file", assembly.source_file},
+                        {"components", assembly.components.size()},
+                        {"triangles", triangle_count(assembly)}};
+  std::vector<std::string> pairs;
   for (const ComponentPair& p : states.pairs) {
     if (p.state == PairState::Clear) continue;
-    text += separator + one_line({{"a", assembly[p.a].name},
-                                  {"b", assembly[p.b].name},
-                                  {"state", name_of(p.state)},
-                                  {"distance_mm", p.distance},
-                                  {"penetration_mm", p.penetration},
-                                  {"triangle_pairs", p.triangle_pairs}});
-    separator = ",\n    ";
+    pairs.push_back(json_line({{"a", assembly[p.a].name},
+                               {"b", assembly[p.b].name},
+                               {"state", name_of(p.state)},
+                               {"distance_mm", p.distance},
+                               {"penetration_mm", p.penetration},
+                               {"triangle_pairs", p.triangle_pairs}}));
   }
-  return text + "\n  ]\n}\n";
+  return "{\n  \"format\": \"dismantle-check\", \"version\": 1,\n  \"assembly\": " + json_line(about) +
+         ",\n  \"tolerance_mm\": " + json_line(states.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
+         "\n  ]\n}\n";
 }
 
 std::string check_report_text(const Assembly& assembly, const PairStates& states) {

@@ -54,12 +54,10 @@ std::vector<Frame> read_frames(JsonReader& in, const JsonNode& array) {
   return frames;
 }
 
-std::string json_text(const Frame& frame) {
+JsonValue frame_json(const Frame& frame) {
   const Vec3& p = frame.pose.position;
   const Quat& q = frame.pose.rotation;
-  return "{\"t\": " + json_text(frame.time) + ", \"position\": [" + json_text(p.x) + ", " + json_text(p.y) + ", " +
-         json_text(p.z) + "], \"rotation\": [" + json_text(q.w) + ", " + json_text(q.x) + ", " + json_text(q.y) + ", " +
-         json_text(q.z) + "]}";
+  return {{"t", frame.time}, {"position", {p.x, p.y, p.z}}, {"rotation", {q.w, q.x, q.y, q.z}}};
 }
 
 }  // namespace dismantle

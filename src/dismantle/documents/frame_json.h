@@ -3,6 +3,7 @@
 
 #include "dismantle/assembly/path.h"
 #include "dismantle/files/json_node.h"
+#include "dismantle/files/json_text.h"
 
 #include <string>
 #include <vector>
@@ -20,6 +21,6 @@ std::vector<std::string> read_component_names(JsonReader& in, const JsonNode& ar
 std::vector<Frame> read_frames(JsonReader& in, const JsonNode& array);
 
 /// The members t, position and rotation of a frame as docs/formats.md has them.
-std::string json_text(const Frame& frame);
+JsonValue frame_json(const Frame& frame);
 
 }  // namespace dismantle

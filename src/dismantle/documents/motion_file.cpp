@@ -53,16 +53,15 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
 }
 
 std::string motion_text(const Motion& motion) {
-  std::string text = "{\n  \"format\": \"dismantle-motion\", \"version\": 1,\n  \"response\": \"" +
-                     std::string(name_of(motion.response)) + "\",\n  \"moves\": [";
+  std::vector<std::string> moves;
   for (const MotionMove& move : motion.moves) {
-    text += &move == motion.moves.data() ? "\n    " : ",\n    ";
-    text += "{\"components\": " + json_text(move.components) + ",\n     \"targets\": [";
-    for (const Frame& target : move.targets)
-      text += (&target == move.targets.data() ? "\n       " : ",\n       ") + json_text(target);
-    text += "]}";
+    std::vector<std::string> targets;
+    for (const Frame& target : move.targets) targets.push_back(json_line(frame_json(target)));
+    moves.push_back("{\"components\": " + json_line(move.components) + ",\n     \"targets\": [" +
+                    json_lines(targets, 7) + "]}");
   }
-  return text + "]\n}\n";
+  return "{\n  \"format\": \"dismantle-motion\", \"version\": 1,\n  \"response\": " +
+         json_line(name_of(motion.response)) + ",\n  \"moves\": [" + json_lines(moves, 4) + "]\n}\n";
 }
 
 Result<Done> write_motion(const std::filesystem::path& file, const Motion& motion) {

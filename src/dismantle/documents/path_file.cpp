@@ -109,11 +109,19 @@ class PathReader {
   std::unordered_set<std::string> known_;
 };
 
-std::string text_of(const PathPair& pair) {
+JsonValue pair_json(const PathPair& pair) {
   const bool free = pair.state == PairState::Embedded;
-  return "{\"a\": " + json_text(pair.a) + ", \"b\": " + json_text(pair.b) + ", \"state\": \"" +
-         std::string(name_of(pair.state)) +
-         "\", \"allowed_penetration_mm\": " + (free ? "null" : json_text(pair.allowed_penetration)) + "}";
+  return {{"a", pair.a},
+          {"b", pair.b},
+          {"state", name_of(pair.state)},
+          {"allowed_penetration_mm", free ? JsonValue() : JsonValue(pair.allowed_penetration)}};
+}
+
+std::string move_text(const Move& move) {
+  std::vector<std::string> frames;
+  for (const Frame& frame : move.frames) frames.push_back(json_line(frame_json(frame)));
+  return "{\"label\": " + json_line(move.label) + ", \"components\": " + json_line(move.components) +
+         ",\n     \"frames\": [" + json_lines(frames, 7) + "]}";
 }
 
 }  // namespace
@@ -131,21 +139,14 @@ Result<Path> read_path(const std::filesystem::path& file) {
 }
 
 std::string path_text(const Path& path) {
-  std::string text = "{\n  \"format\": \"dismantle-path\", \"version\": 1,\n  \"assembly\": {\"file\": " +
-                     json_text(path.assembly_file) + ", \"sha256\": " + json_text(path.assembly_sha256) +
-                     ",\n    \"components\": " + json_text(path.components) +
-                     "},\n  \"tolerance_mm\": " + json_text(path.tolerance) + ",\n  \"pairs\": [";
-  for (const PathPair& pair : path.pairs) text += (&pair == path.pairs.data() ? "\n    " : ",\n    ") + text_of(pair);
-  text += "],\n  \"moves\": [";
-  for (const Move& move : path.moves) {
-    text += &move == path.moves.data() ? "\n    " : ",\n    ";
-    text += "{\"label\": " + json_text(move.label) + ", \"components\": " + json_text(move.components) +
-            ",\n     \"frames\": [";
-    for (const Frame& frame : move.frames)
-      text += (&frame == move.frames.data() ? "\n       " : ",\n       ") + json_text(frame);
-    text += "]}";
-  }
-  return text + "],\n  \"removed\": " + json_text(path.removed) + "\n}\n";
+  std::vector<std::string> pairs, moves;
+  for (const PathPair& pair : path.pairs) pairs.push_back(json_line(pair_json(pair)));
+  for (const Move& move : path.moves) moves.push_back(move_text(move));
+  return "{\n  \"format\": \"dismantle-path\", \"version\": 1,\n  \"assembly\": {\"file\": " +
+         json_line(path.assembly_file) + ", \"sha256\": " + json_line(path.assembly_sha256) +
+         ",\n    \"components\": " + json_line(path.components) +
+         "},\n  \"tolerance_mm\": " + json_line(path.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
+         "],\n  \"moves\": [" + json_lines(moves, 4) + "],\n  \"removed\": " + json_line(path.removed) + "\n}\n";
 }
 
 Result<Done> write_path(const std::filesystem::path& file, const Path& path) {

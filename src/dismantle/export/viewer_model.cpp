@@ -1,40 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/viewer_model.h"
 
-#include "dismantle/files/json_node.h"
+#include "dismantle/files/json_text.h"
 
 namespace dismantle {
 
 namespace {
 
-std::string point_text(const Vec3& v) {
-  return "[" + json_text(v.x) + ", " + json_text(v.y) + ", " + json_text(v.z) + "]";
+JsonValue point_json(const Vec3& v) {
+  return {v.x, v.y, v.z};
 }
 
-std::string box_text(const Aabb& box) {
-  return "[" + point_text(box.empty() ? Vec3{} : box.lower) + ", " + point_text(box.empty() ? Vec3{} : box.upper) + "]";
+JsonValue box_json(const Aabb& box) {
+  return {point_json(box.empty() ? Vec3{} : box.lower), point_json(box.empty() ? Vec3{} : box.upper)};
 }
 
 }  // namespace
 
 std::string viewer_model_json(const Assembly& assembly, double tolerance) {
-  std::string text =
-      "{\"name\": " + json_text(assembly.source_file) + ", \"sha256\": " + json_text(assembly.source_sha256) +
-      ", \"units\": " + json_text(assembly.source_units) + ", \"deflection\": " + json_text(assembly.deflection) +
-      ", \"tolerance\": " + json_text(tolerance) + ", \"triangles\": " + std::to_string(triangle_count(assembly)) +
-      ", \"bounds\": " + box_text(assembled_bounds(assembly)) + ",\n\"tree\": [";
-  for (const TreeNode& node : assembly.tree) {
-    if (&node != assembly.tree.data()) text += ",\n";
-    text += "{\"name\": " + json_text(node.name) + ", \"parent\": " + std::to_string(node.parent) + "}";
-  }
-  text += "],\n\"components\": [";
-  for (const Component& c : assembly.components) {
-    if (&c != assembly.components.data()) text += ",\n";
-    text += "{\"name\": " + json_text(c.name) + ", \"node\": " + std::to_string(c.tree_node) +
-            ", \"triangles\": " + std::to_string(c.mesh->faces.size()) +
-            ", \"bounds\": " + box_text(assembled_bounds(c)) + "}";
-  }
-  return text + "]}";
+  JsonValue model{{"name", assembly.source_file},
+                  {"sha256", assembly.source_sha256},
+                  {"units", assembly.source_units},
+                  {"deflection", assembly.deflection},
+                  {"tolerance", tolerance},
+                  {"triangles", triangle_count(assembly)},
+                  {"bounds", box_json(assembled_bounds(assembly))},
+                  {"tree", JsonValue::array()},
+                  {"components", JsonValue::array()}};
+  for (const TreeNode& node : assembly.tree) model["tree"].push_back({{"name", node.name}, {"parent", node.parent}});
+  for (const Component& c : assembly.components)
+    model["components"].push_back({{"name", c.name},
+                                   {"node", c.tree_node},
+                                   {"triangles", c.mesh->faces.size()},
+                                   {"bounds", box_json(assembled_bounds(c))}});
+  return json_line(model);
 }
 
 }  // namespace dismantle

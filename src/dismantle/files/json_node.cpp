@@ -101,23 +101,4 @@ void JsonReader::expect_format(const JsonNode& root, std::string_view format) {
   if (ok() && *version.json != 1) fail(version, "not 1, the only version that this program knows");
 }
 
-std::string json_text(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string json_text(double number) {
-  DISMANTLE_EXPECT(std::isfinite(number));
-  if (number == 0 && std::signbit(number)) return "-0.0";  // "-0" reads back as the integer 0
-  char buffer[32];
-  const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), number);
-  DISMANTLE_ENSURE(error == std::errc{});
-  return {buffer, end};
-}
-
-std::string json_text(const std::vector<std::string>& texts) {
-  std::string result = "[";
-  for (const std::string& text : texts) result += (result.size() > 1 ? ", " : "") + json_text(text);
-  return result + "]";
-}
-
 }  // namespace dismantle

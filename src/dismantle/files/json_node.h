@@ -60,12 +60,4 @@ class JsonReader {
 /// Larger numbers are refused: lengths beyond a thousand kilometres, times beyond thirty years.
 constexpr double kLargestJsonNumber = 1e9;
 
-/// The text of a string in JSON, quotes included; bytes that are no UTF-8 are replaced.
-std::string json_text(const std::string& text);
-
-/// The shortest text that reads back as the same double, bit for bit. @pre finite
-std::string json_text(double number);
-
-std::string json_text(const std::vector<std::string>& texts);
-
 }  // namespace dismantle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/precedence_files.h"
 
-#include "dismantle/files/json_node.h"
+#include "dismantle/files/json_text.h"
 
 #include <algorithm>
 
@@ -17,10 +17,10 @@ std::vector<std::string> names_of(const Assembly& assembly, const std::vector<Co
 }
 
 /// Numbers from 1, as people count steps.
-std::string numbers_text(const std::vector<std::uint32_t>& steps) {
-  std::string text;
-  for (const std::uint32_t step : steps) text += (text.empty() ? "" : ", ") + std::to_string(step + 1);
-  return "[" + text + "]";
+JsonValue step_numbers(const std::vector<std::uint32_t>& steps) {
+  JsonValue numbers = JsonValue::array();
+  for (const std::uint32_t step : steps) numbers.push_back(step + 1);
+  return numbers;
 }
 
 /// The steps of one rank, rank by rank.
@@ -38,29 +38,27 @@ std::string node_text(std::uint32_t step) {
 }
 
 /// The bodies that a plan takes apart, as a tree: what is taken out of each in order, and what is left of it.
-std::string body_json(const Assembly& assembly, const Plan& plan, std::uint32_t body) {
+JsonValue body_json(const Assembly& assembly, const Plan& plan, std::uint32_t body) {
   std::vector<ComponentId> left;
   if (body == PlanStep::kWhole) {
     for (std::uint32_t c = 0; c < assembly.components.size(); ++c) left.emplace_back(c);
   } else {
     left = plan.steps[body].components;
   }
-  std::string parts;
+  JsonValue parts = JsonValue::array();
   for (std::uint32_t k = 0; k < plan.steps.size(); ++k) {
     const PlanStep& step = plan.steps[k];
     if (step.part_of != body) continue;
-    if (!parts.empty()) parts += ", ";
-    parts += step.components.size() > 1
-                 ? body_json(assembly, plan, k)
-                 : "{\"step\": " + std::to_string(k + 1) +
-                       ", \"components\": " + json_text(names_of(assembly, step.components)) + "}";
+    parts.push_back(step.components.size() > 1
+                        ? body_json(assembly, plan, k)
+                        : JsonValue{{"step", k + 1}, {"components", names_of(assembly, step.components)}});
     std::erase_if(left, [&](ComponentId c) {
       return std::find(step.components.begin(), step.components.end(), c) != step.components.end();
     });
   }
-  const std::string number = body == PlanStep::kWhole ? "null" : std::to_string(body + 1);
-  return "{\"step\": " + number + ", \"parts\": [" + parts + "], \"left\": " + json_text(names_of(assembly, left)) +
-         "}";
+  return {{"step", body == PlanStep::kWhole ? JsonValue() : JsonValue(body + 1)},
+          {"parts", std::move(parts)},
+          {"left", names_of(assembly, left)}};
 }
 
 }  // namespace
@@ -75,7 +73,7 @@ std::string precedence_dot(const Assembly& assembly, const Plan& plan, const Pre
   std::string text = "digraph precedence {\n  rankdir=LR;\n  node [shape=box];\n";
   for (std::uint32_t k = 0; k < plan.steps.size(); ++k)
     text += "  " + node_text(k) +
-            " [label=" + json_text(std::to_string(k + 1) + "  " + step_text(assembly, plan.steps[k])) + "];\n";
+            " [label=" + json_line(std::to_string(k + 1) + "  " + step_text(assembly, plan.steps[k])) + "];\n";
   for (const std::vector<std::uint32_t>& rank : steps_by_rank(graph)) {
     text += "  { rank=same;";
     for (const std::uint32_t k : rank) text += " " + node_text(k) + ";";
@@ -89,20 +87,22 @@ std::string precedence_dot(const Assembly& assembly, const Plan& plan, const Pre
 }
 
 std::string precedence_json(const Assembly& assembly, const Plan& plan, const PrecedenceGraph& graph) {
-  std::string text = "{\n  \"format\": \"dismantle-precedence\", \"version\": 1,\n  \"assembly\": {\"file\": " +
-                     json_text(assembly.source_file) + ", \"sha256\": " + json_text(assembly.source_sha256) +
-                     "},\n  \"steps\": [";
+  std::vector<std::string> steps;
   for (std::uint32_t k = 0; k < plan.steps.size(); ++k) {
     const PlanStep& step = plan.steps[k];
-    text += std::string(k == 0 ? "" : ",") + "\n    {\"step\": " + std::to_string(k + 1) +
-            ", \"components\": " + json_text(names_of(assembly, step.components)) +
-            ", \"part_of_step\": " + (step.part_of == PlanStep::kWhole ? "null" : std::to_string(step.part_of + 1)) +
-            ", \"rank\": " + std::to_string(graph.ranks[k]) + ", \"before\": " + numbers_text(graph.before[k]) + "}";
+    steps.push_back(
+        json_line({{"step", k + 1},
+                   {"components", names_of(assembly, step.components)},
+                   {"part_of_step", step.part_of == PlanStep::kWhole ? JsonValue() : JsonValue(step.part_of + 1)},
+                   {"rank", graph.ranks[k]},
+                   {"before", step_numbers(graph.before[k])}}));
   }
-  text += "\n  ],\n  \"ranks\": [";
-  for (const std::vector<std::uint32_t>& rank : steps_by_rank(graph))
-    text += (text.back() == '[' ? "" : ", ") + numbers_text(rank);
-  return text + "],\n  \"subassemblies\": " + body_json(assembly, plan, PlanStep::kWhole) + "\n}\n";
+  JsonValue ranks = JsonValue::array();
+  for (const std::vector<std::uint32_t>& rank : steps_by_rank(graph)) ranks.push_back(step_numbers(rank));
+  const JsonValue about{{"file", assembly.source_file}, {"sha256", assembly.source_sha256}};
+  return "{\n  \"format\": \"dismantle-precedence\", \"version\": 1,\n  \"assembly\": " + json_line(about) +
+         ",\n  \"steps\": [" + json_lines(steps, 4) + "\n  ],\n  \"ranks\": " + json_line(ranks) +
+         ",\n  \"subassemblies\": " + json_line(body_json(assembly, plan, PlanStep::kWhole)) + "\n}\n";
 }
 
 }  // namespace dismantle
