@@ -58,7 +58,8 @@ Span<const WebFile> web_files() {
 }  // namespace dismantle
 ]])
   add_library(${target} STATIC "${source}")
-  set_source_files_properties("${source}" PROPERTIES OBJECT_DEPENDS "${files}")
+  # Link-time optimisation would separate the symbols from the code that uses them.
+  set_source_files_properties("${source}" PROPERTIES OBJECT_DEPENDS "${files}" COMPILE_OPTIONS -fno-lto)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC dismantle_core)
 endfunction()
