@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assemblies that come as STEP files of the user's, and a component of each with which tests do what others do in a sample.
+// STEP assemblies of users, each with a component on which the gestures are tested.
 import assert from "node:assert/strict";
 import { copyFileSync, existsSync } from "node:fs";
 import { basename, join } from "node:path";
-import { server, viewer } from "./scene.ts";
-import { sourceFolder } from "./tree.ts";
+import { sourceFolder } from "./environment.ts";
+import { server, viewer, waitForRemoved } from "./scene.ts";
 
-/// One that nobody of the project wrote: a plate, two brackets, a rod, bolts and nuts.
-export const kOfOthers = "../shared/data/assemblies/as1_oc_214/original/as1-oc-214.stp";
-export const isThere = (file: string): boolean => existsSync(join(sourceFolder(), file));
-
-export type Way = [number, number, number];
-
-/// A component that can be taken hold of from one side: a way that is free for it, and across it one that is blocked at once.
-export interface Case {
-  name: string;
-  free: Way;
-  blocked: Way;
+/// A third-party assembly: a plate, two brackets, a rod, bolts and nuts.
+export const kThirdParty = "../shared/data/assemblies/as1_oc_214/original/as1-oc-214.stp";
+/// True if a file of the source folder exists. Throws if not and DISMANTLE_REQUIRE_DATA is set: no test may skip then.
+export function isPresent(file: string): boolean {
+  const present = existsSync(join(sourceFolder(), file));
+  assert.ok(present || !process.env.DISMANTLE_REQUIRE_DATA, `DISMANTLE_REQUIRE_DATA is set, and there is no ${file}`);
+  return present;
 }
 
-/// What `choose` looked for.
+/// A direction or a position, world frame.
+export type Direction = [number, number, number];
+
+/// A component that can be grabbed, with a free direction and a perpendicular one that is blocked at once.
+export interface Case {
+  name: string;
+  free: Direction;
+  blocked: Direction;
+}
+
+/// The component set by `choose`.
 export let chosen: Case;
 
 async function upload(file: string): Promise<void> {
@@ -28,34 +34,35 @@ async function upload(file: string): Promise<void> {
   await viewer.model();
 }
 
-/// What is free for a component and what is not; looks at it from where both ways lie across the line of sight.
+/// Finds a free and a blocked direction of a component, and a view in which both are perpendicular to the line of
+/// sight.
 export function lookAt(name: string): Promise<Case> {
   return viewer.page.evaluate(async (wanted) => {
     const { session, viewport } = window.dismantle!.app;
     const { components } = session.store.model!;
     const index = components.findIndex((component) => component.name === wanted);
-    const ways = (await session.ask("free_directions", { components: [index] }))!.directions;
-    const axis = (way: number[]) => way.findIndex((value) => Math.abs(value) > 0.9999);
-    const free = ways.find((way) => way.free && axis(way.direction) >= 0)?.direction;
-    const isWay = (at: number) => ways.some(({ direction }) => axis(direction) === at);
-    for (const across of [0, 1, 2].filter((k) => free && k !== axis(free) && !isWay(k))) {
+    const directions = (await session.send("free_directions", { components: [index] }))!.directions;
+    const axis = (direction: number[]) => direction.findIndex((value) => Math.abs(value) > 0.9999);
+    const free = directions.find(({ free, direction }) => free && axis(direction) >= 0)?.direction;
+    const isAxis = (at: number) => directions.some(({ direction }) => axis(direction) === at);
+    for (const across of [0, 1, 2].filter((k) => free && k !== axis(free) && !isAxis(k))) {
       const third = [0, 1, 2].find((k) => k !== axis(free!) && k !== across)!;
       for (const sign of [-1, 1]) {
         const box = viewport.model!.components[index].bounds();
         viewport.rig.fit(box.expandByScalar(0.6 * box.max.distanceTo(box.min)));
         viewport.rig.lookFrom(viewport.rig.axis("back").set(0, 0, 0).setComponent(third, sign));
         await window.dismantle!.idle();
-        const blocked: Way = [0, 0, 0];
+        const blocked: Direction = [0, 0, 0];
         blocked[across] = 1;
-        if (window.dismantle!.placeOf(wanted)) return { name: wanted, free: free!, blocked };
+        if (window.dismantle!.visiblePoint(wanted)) return { name: wanted, free: free!, blocked };
       }
     }
-    throw new Error(`${wanted} cannot be taken hold of: ${JSON.stringify(ways)}`);
+    throw new Error(`${wanted} cannot be grabbed: ${JSON.stringify(directions)}`);
   }, name);
 }
 
-/// The way of the pointer for ways of the chosen component along what is free and what is blocked [px].
-export function pointerWay(along: number, across: number): Promise<[number, number]> {
+/// Pointer offset for an offset of the chosen component along its free and its blocked direction [px].
+export function pointerOffset(along: number, across: number): Promise<[number, number]> {
   return viewer.page.evaluate(
     ([{ name, free, blocked }, a, b]) => {
       const { rig, model } = window.dismantle!.app.viewport;
@@ -66,37 +73,33 @@ export function pointerWay(along: number, across: number): Promise<[number, numb
         center.toArray(),
         center.toArray().map((value, k) => value + pixel * (a * free[k] + b * blocked[k])),
       ];
-      const [p, q] = [window.dismantle!.project(from as Way), window.dismantle!.project(to as Way)];
+      const [p, q] = [window.dismantle!.project(from as Direction), window.dismantle!.project(to as Direction)];
       return [q.x - p.x, q.y - p.y];
     },
     [chosen, along, across] as const,
   );
 }
 
+/// Drags the chosen component by an offset along its free and its blocked direction [px].
 export const grab = async (along: number, across: number) =>
-  viewer.grab(chosen.name, ...(await pointerWay(along, across)));
-/// How far the engine has the component along a way [mm].
-export const gone = async (way: Way) =>
-  (await viewer.shift(chosen.name)).reduce((sum, value, k) => sum + value * way[k], 0);
+  viewer.grab(chosen.name, ...(await pointerOffset(along, across)));
+/// Travel of the chosen component along a direction, in the engine [mm].
+export const travel = async (direction: Direction) =>
+  (await viewer.shift(chosen.name)).reduce((sum, value, k) => sum + value * direction[k], 0);
+/// Asserts that the chosen component is drawn at the engine's position.
 export const drawnAsInEngine = async () =>
   assert.deepEqual(await viewer.drawnShift(chosen.name), await viewer.shift(chosen.name));
-export const isRemoved = (removed: boolean) =>
-  viewer.page.waitForFunction(
-    ([name, wanted]) => {
-      const { model, state } = window.dismantle!.app.session.store;
-      const index = model!.components.findIndex((c) => c.name === name);
-      return state!.automatic === null && Boolean(state!.components[index].removed) === wanted;
-    },
-    [chosen.name, removed] as const,
-  );
+/// Waits until it is removed, or put back.
+export const chosenRemoved = (removed: boolean) => waitForRemoved(chosen.name, removed);
+/// True if the chosen component is visible.
 export const isDrawn = () => viewer.page.evaluate((n) => window.dismantle!.drawn(n), chosen.name);
 
-/// Has the other functions be about this component, and looks at it.
+/// Chooses the component for the other functions, and looks at it.
 export async function choose(name: string): Promise<void> {
   chosen = await lookAt(name);
 }
 
-/// Sends an assembly of the tree or beside it, and chooses one of its components. Gives where the server finds it.
+/// Uploads an assembly and chooses one of its components. Returns its path on the server.
 export async function send(from: string, components: number, name: string): Promise<string> {
   const file = join(server.home, basename(from));
   copyFileSync(join(sourceFolder(), from), file);
