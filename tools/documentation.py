@@ -3,7 +3,9 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIBRARY = "src/dismantle/"
@@ -35,6 +37,13 @@ def components():
             folder = str(pathlib.PurePosixPath(name).parent).removeprefix(LIBRARY)
             found[folder] = (call.group(1), depends.group(1).split() if depends else [])
     return found
+
+
+def require_programs():
+    """Ends the program with a message where a program that builds the documentation is missing."""
+    for program in ("doxygen", "mkdocs"):
+        if shutil.which(program) is None:
+            sys.exit(f"{program} is not installed (it builds the documentation); run tools/install_packages check")
 
 
 def run_doxygen(settings):
