@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-/// Without the suffix that make_names_unique adds.
+/// The name without the suffix that make_names_unique adds.
 std::string name_without_count(const std::string& name) {
   const std::size_t mark = name.rfind('#');
   const bool counted = mark != std::string::npos && mark > 0 && mark + 1 < name.size() &&
@@ -52,7 +52,7 @@ bool are_alike(const Component& a, const Component& b) {
   return a.color == b.color && (a.mesh == b.mesh || *a.mesh == *b.mesh);
 }
 
-/// "#aabbcc"; alpha follows where it is not whole.
+/// "#aabbcc", or "#aabbccdd" with alpha if it is not opaque.
 std::string color_text(const Color& color) {
   const auto part = [](float value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); };
   char text[16];

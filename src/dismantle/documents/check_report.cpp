@@ -17,7 +17,7 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
-/// A length as people read it: four digits, "0" for none.
+/// A length with four digits; "0" for zero.
 std::string millimetres(double length) {
   return length == 0 ? "0" : formatted("%.4g", length);
 }
@@ -30,7 +30,7 @@ void append_column(std::string& line, std::string_view text, std::size_t width) 
   line.append(width > characters ? width - characters : 0, ' ');
 }
 
-/// Rows of equal length as text, columns as wide as their widest entry.
+/// Rows of equal length as an aligned text table.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)

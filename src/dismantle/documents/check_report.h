@@ -11,23 +11,28 @@
 
 namespace dismantle {
 
-/// How many pairs are in each state, of those that PairStates lists.
+/// Number of listed pairs in each state.
 struct PairCounts {
-  std::size_t near = 0, contact = 0, fit = 0, embedded = 0;
+  std::size_t near = 0;      ///< Apart, but closer than the clearance asked for.
+  std::size_t contact = 0;   ///< Touching within the tolerance.
+  std::size_t fit = 0;       ///< Overlapping by a fit.
+  std::size_t embedded = 0;  ///< Overlapping deeper than a fit.
+
   friend bool operator==(const PairCounts&, const PairCounts&) = default;
 };
 
+/// Counts the pairs by state.
 PairCounts count_pairs(const PairStates& states);
 
-/// The pairs in the order in which one wants to look at them: embedded, fit, contact, near; in each the deepest, then
-/// the nearest first; equal ones as PairStates has them.
+/// The pairs by severity: embedded, fit, contact, near; within a state the deepest, then the nearest first; ties in the
+/// order of PairStates.
 std::vector<ComponentPair> worst_first(const PairStates& states);
 
-/// A pair's state in words for whoever does not know them: "touching within the tolerance", ...
+/// A description of a pair's state for readers: "touching within the tolerance", ...
 std::string_view explanation_of(PairState state);
 
-/// The clash report that other tools read: docs/formats.md, `dismantle check --json`; a pair a line, in PairStates'
-/// order. Names that are not UTF-8 have their wrong bytes replaced.
+/// The clash report that other tools read: docs/formats.md, `dismantle check --json`; one pair a line, in the order of
+/// PairStates. Bytes of names that are not UTF-8 are replaced.
 std::string check_report_json(const Assembly& assembly, const PairStates& states);
 
 /// The clash report as text for a terminal: a summary and a table of the pairs, worst first.

@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// Quaternions this near to unit length (squared) keep their bits, so that what was written reads back the same.
+/// Quaternions whose squared length is within this of 1 are kept exactly, so that written paths read back unchanged.
 constexpr double kUnitRounding = 8 * std::numeric_limits<double>::epsilon();
 
 Pose read_pose(JsonReader& in, const JsonNode& frame) {

@@ -10,17 +10,16 @@
 
 namespace dismantle {
 
-/// How far a quaternion's length may be off 1; it is scaled to 1 where it is off at all.
+/// The largest deviation of a quaternion's length from 1 that a reader accepts; it is then normalised.
 constexpr double kUnitQuaternionTolerance = 1e-6;
 
-/// At least one component name, none twice; else the reader fails.
+/// Reads component names: at least one, no repeats.
 std::vector<std::string> read_component_names(JsonReader& in, const JsonNode& array);
 
-/// Frames as docs/formats.md has them: at least one, t from 0 on and never decreasing, unit quaternions; else the
-/// reader fails.
+/// Reads frames (docs/formats.md): at least one, t from 0 and never decreasing, unit quaternions.
 std::vector<Frame> read_frames(JsonReader& in, const JsonNode& array);
 
-/// The members t, position and rotation of a frame as docs/formats.md has them.
+/// A frame as a JSON object with t, position and rotation (docs/formats.md).
 JsonValue frame_json(const Frame& frame);
 
 }  // namespace dismantle

@@ -14,7 +14,7 @@ namespace dismantle {
 
 namespace {
 
-/// Takes a Path out of a parsed document.
+/// Reads a Path from a parsed document.
 class PathReader {
  public:
   explicit PathReader(const std::string& file_name) : in_(file_name) {}

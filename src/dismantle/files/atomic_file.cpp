@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr int kNameAttempts = 1000;
 
-/// Opens a new file in `folder` under a name that nobody else has; its mode follows the umask.
+/// Opens a new file in `folder` under a unique name; its mode follows the umask.
 std::pair<int, fs::path> open_temporary(const fs::path& folder) {
   static std::atomic<unsigned> counter{0};
   for (int attempt = 0; attempt < kNameAttempts; ++attempt) {

@@ -11,19 +11,22 @@
 namespace dismantle {
 
 /// A file that appears under its name whole or not at all: it is written to a temporary file in the same folder,
-/// flushed to the disk and renamed by commit(). Without commit() the temporary file is removed and whatever bore the
-/// name before is untouched. What is no regular file (a pipe, /dev/stdout) is written to directly, never replaced.
+/// flushed to the disk and renamed by commit(). Without commit() the temporary file is removed and the file that had
+/// the name before is unchanged. A target that is not a regular file (a pipe, /dev/stdout) is written to directly,
+/// never replaced.
 class AtomicFile {
  public:
   /// Opens the temporary file beside `file`. Errors: Failed where the folder is missing or not writable, or `file` is a
   /// folder.
   static Result<AtomicFile> create(const std::filesystem::path& file);
 
+  /// Takes over the open file; `other` must not be used afterwards.
   AtomicFile(AtomicFile&& other) noexcept;
+  /// Discards the file that is open here and takes over that of `other`.
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
-  /// Appends bytes. An error (disk full) is kept and told by commit().
+  /// Appends bytes. The first error (disk full) is remembered and returned by commit().
   void write(std::string_view bytes);
 
   /// Finishes the file under its name. Errors: Failed where anything could not be written; then nothing has changed.

@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-/// The number whose bytes lie at `data` in the given order, whatever the machine's own.
+/// The number whose bytes lie at `data` in the given order, whatever the machine's own order.
 template <class T>
 T number_at(const char* data, std::endian order) {
   std::array<char, sizeof(T)> bytes;
@@ -19,7 +19,7 @@ T number_at(const char* data, std::endian order) {
   return std::bit_cast<T>(bytes);
 }
 
-/// The bytes of a number, the lowest first.
+/// The bytes of a number in little-endian order.
 template <class T>
 std::array<char, sizeof(T)> little_endian_bytes(T value) {
   auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);

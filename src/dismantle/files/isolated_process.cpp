@@ -20,7 +20,7 @@ namespace dismantle {
 
 namespace {
 
-// A message on the line: its kind, the length of its payload (eight bytes, native order), the payload.
+// A message on the channel: its kind, the length of its payload (eight bytes, native order), the payload.
 constexpr std::uint8_t kReport = 1;   // the fraction (a double), then the stage
 constexpr std::uint8_t kBytes = 2;    // a piece of the answer
 constexpr std::uint8_t kRefusal = 3;  // the ErrorKind (one byte), then the message
@@ -52,7 +52,7 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Private writable memory of this process [bytes]: what RLIMIT_DATA counts.
+/// Private writable memory of this process [bytes], as RLIMIT_DATA counts it.
 std::uint64_t data_size() {
   std::ifstream statm("/proc/self/statm");
   std::uint64_t field[6] = {};
@@ -74,7 +74,7 @@ void redirect_to_null(int descriptor) {
   if (null != descriptor) close(null);
 }
 
-/// Ends the process where nobody listens any more.
+/// Ends the process if the parent no longer reads.
 void write_all(int descriptor, const std::byte* data, std::size_t size) {
   while (size > 0) {
     const ssize_t count = write(descriptor, data, size);
@@ -101,7 +101,7 @@ int run_work(const IsolatedWork& work, IsolatedLine& line) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kExitException);  // the parent died before it was watched
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) redirect_to_null(fd);
-  // The parent's files and sockets are none of the work's business.
+  // The work must not see the parent's files and sockets.
   const auto line_end = static_cast<unsigned>(descriptor);
   if (line_end > STDERR_FILENO + 1) close_range(STDERR_FILENO + 1, line_end - 1, 0);
   close_range(line_end + 1, ~0u, 0);
@@ -117,12 +117,12 @@ int run_work(const IsolatedWork& work, IsolatedLine& line) {
   _exit(status);
 }
 
-/// The parent's side: takes messages apart as they come.
+/// The parent's side: parses messages as they arrive.
 class Listener {
  public:
   explicit Listener(IsolatedResult& result) : result_(result) {}
 
-  /// False where what came makes no sense.
+  /// False if a message is malformed.
   bool take(const std::byte* data, std::size_t size) {
     pending_.insert(pending_.end(), data, data + size);
     std::size_t offset = 0;
@@ -175,13 +175,13 @@ class Listener {
   bool ended_ = false, refused_ = false;
 };
 
-/// Reads what is there without waiting. Returns the bytes read; 0 at the end or where there is nothing.
+/// Reads without blocking. Returns the bytes read; 0 at the end or if there is nothing to read.
 std::size_t read_available(int descriptor, std::vector<std::byte>& buffer) {
   const ssize_t count = read(descriptor, buffer.data(), buffer.size());
   return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-/// What a status of waitpid means, where the line gave no other ending.
+/// Translates a status of waitpid, if the channel reported no other ending.
 void judge_exit(int status, const Listener& listener, IsolatedResult& result) {
   const bool whole = WIFEXITED(status) && WEXITSTATUS(status) == kExitDone && listener.ended();
   result.ending = IsolatedEnding::Crashed;
@@ -193,7 +193,7 @@ void judge_exit(int status, const Listener& listener, IsolatedResult& result) {
   if (result.signal == SIGKILL) result.ending = IsolatedEnding::OutOfMemory;  // the kernel, when memory runs out
 }
 
-/// Listens until the child ends; kills it where it is silent, cancelled or talks nonsense.
+/// Receives until the child ends; kills it if it is silent, cancelled or sends malformed messages.
 void listen_to(pid_t child, int descriptor, const IsolationLimits& limits, const ProgressCallback& progress,
                IsolatedResult& result) {
   Listener listener(result);

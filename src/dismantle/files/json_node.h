@@ -16,40 +16,47 @@ namespace dismantle {
 /// Parses JSON text. Errors: Unreadable with line and column.
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& file_name);
 
-/// A value of a JSON document and where it stands in it; lives no longer than its parent node.
+/// A value of a JSON document and its position in the document. Refers to its parent node, which must outlive it.
 struct JsonNode {
-  const nlohmann::json* json = nullptr;
-  const JsonNode* parent = nullptr;
-  std::string_view name;  ///< Within an object.
-  std::size_t index = 0;  ///< Within an array, where there is no name.
+  const nlohmann::json* json = nullptr;  ///< The value; null for an absent member.
+  const JsonNode* parent = nullptr;      ///< Null for the root.
+  std::string_view name;                 ///< Name within an object; empty within an array.
+  std::size_t index = 0;                 ///< Index within an array.
 
+  /// Item `i` of an array. @pre it is an array with more than `i` items
   JsonNode at(std::size_t i) const { return {&(*json)[i], this, {}, i}; }
-  /// "moves[2].frames[5].rotation"; "the document" for the root.
+  /// The position for messages: "moves[2].frames[5].rotation"; "the document" for the root.
   std::string place() const;
 };
 
-/// Takes values out of a JSON document; the first thing that is not as wanted is kept as the Error, and everything
-/// afterwards gives default values.
+/// Reads values from a JSON document. The first value that is not as required is kept as the Error; every later call
+/// returns a default value, so that a reader checks ok() once at the end.
 class JsonReader {
  public:
+  /// `file_name` is for messages.
   explicit JsonReader(std::string file_name) : file_name_(std::move(file_name)) {}
 
+  /// True until a value was not as required.
   bool ok() const { return !error_; }
+  /// The first fault, if any.
   const std::optional<Error>& error() const { return error_; }
+  /// Records a fault at `node`, unless there is one already.
   void fail(const JsonNode& node, const std::string& why);
 
-  /// The member of that name; fails where `object` is no object or has no such member.
+  /// The member of that name; fails if `object` is not an object or has no such member.
   JsonNode member(const JsonNode& object, std::string_view name);
-  /// As member(), but its json is null where there is no such member.
+  /// As member(), but its `json` is null if there is no such member.
   JsonNode optional_member(const JsonNode& object, std::string_view name);
-  /// How many items the array has; fails where it is no array.
+  /// The number of items of an array; fails if it is not an array.
   std::size_t size(const JsonNode& array);
 
   /// A finite number of at most kLargestJsonNumber.
   double number(const JsonNode& node);
+  /// A string.
   std::string text(const JsonNode& node);
+  /// An array of strings.
   std::vector<std::string> texts(const JsonNode& array);
-  /// Fails where the document does not say that it is `format`, version 1.
+  /// Fails unless the document declares `format`, version 1.
   void expect_format(const JsonNode& root, std::string_view format);
 
  private:
@@ -57,7 +64,7 @@ class JsonReader {
   std::optional<Error> error_;
 };
 
-/// Larger numbers are refused: lengths beyond a thousand kilometres, times beyond thirty years.
+/// The largest magnitude that JsonReader::number accepts: a thousand kilometres [mm], thirty years [s].
 constexpr double kLargestJsonNumber = 1e9;
 
 }  // namespace dismantle

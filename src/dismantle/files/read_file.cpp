@@ -35,7 +35,7 @@ class Descriptor {
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& file, std::size_t limit_bytes) {
-  // Not blocking: a pipe without a writer must not hang before it is refused.
+  // Non-blocking: opening a pipe without a writer must not hang before it is refused.
   const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.get() < 0) return unreadable(file, std::strerror(errno), "check the path and its permissions");
   struct stat status {};

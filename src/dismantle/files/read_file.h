@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// The bytes of a regular file. Errors: Unreadable where it is missing, empty, a folder, no regular file (a device, a
-/// pipe), not permitted, or larger than `limit_bytes`; nothing is allocated before its size is known to be within.
+/// The bytes of a regular file. Errors: Unreadable if it is missing, empty, a folder, not a regular file (a device, a
+/// pipe), not permitted, or larger than `limit_bytes`; its size is checked before memory is allocated.
 Result<std::string> read_file(const std::filesystem::path& file, std::size_t limit_bytes);
 
 }  // namespace dismantle

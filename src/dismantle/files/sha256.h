@@ -9,12 +9,13 @@
 
 namespace dismantle {
 
-/// SHA-256 (FIPS 180-4) of bytes that come piece by piece: identifies an assembly's files; guards no secrets.
+/// Incremental SHA-256 (FIPS 180-4). Identifies the files of an assembly; not for security.
 class Sha256 {
  public:
+  /// Adds bytes to the message.
   void update(std::string_view bytes);
 
-  /// The digest of everything so far as 64 lower-case hexadecimal digits; the object is left as new.
+  /// The digest of all bytes so far as 64 lower-case hexadecimal digits; the object then starts a new message.
   std::string finish();
 
  private:

@@ -14,7 +14,7 @@ bool continues(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }
 
-/// The number of bytes of the UTF-8 character that `text` begins with; 0 where it begins with none (RFC 3629: no
+/// The number of bytes of the UTF-8 character at the start of `text`; 0 if there is none (RFC 3629: no
 /// overlong forms, no surrogates, nothing above U+10FFFF).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -8,13 +8,13 @@ namespace dismantle {
 
 namespace {
 
-/// from_chars knows no leading '+'.
+/// from_chars does not accept a leading '+'.
 std::string_view without_plus(std::string_view word) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return plus ? word.substr(1) : word;
 }
 
-/// True where a number that no double can hold is too small rather than too large.
+/// True if a number out of range for double is too small rather than too large.
 bool is_underflow(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos && exponent + 1 < word.size()) return word[exponent + 1] == '-';

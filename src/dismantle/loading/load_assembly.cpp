@@ -36,7 +36,7 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
                    "); convert it to STEP, glTF, OBJ, STL, PLY or URDF, or give a folder of meshes"};
 }
 
-/// Names from files may hold anything; from here on they can stand in JSON and on a terminal.
+/// Names from files may contain any bytes; after this they are safe in JSON and on a terminal.
 void clean_names(Assembly& assembly) {
   for (TreeNode& node : assembly.tree) node.name = clean_name(node.name);
   for (Component& component : assembly.components) component.name = clean_name(component.name);

@@ -38,7 +38,7 @@ Result<Done> load_into_line(const fs::path& file, ImportOptions options, Isolate
   return Done{};
 }
 
-/// The Error for a child that did not end well.
+/// The Error for a child process that failed.
 Error failure(const fs::path& file, const IsolatedResult& result) {
   const auto unreadable = [&](const std::string& why, const std::string& advice) {
     return Error{ErrorKind::Unreadable, file.string() + " cannot be read (" + why + "); " + advice};

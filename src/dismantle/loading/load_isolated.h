@@ -10,14 +10,17 @@
 
 namespace dismantle {
 
-/// What the process that parses a file of meshes may use: memory [bytes] is this much, and this much for each byte of
-/// the file; computing time [s].
+/// Memory limit of the process that parses a mesh file [bytes]: the base plus kMeshMemoryPerByte for each byte of the
+/// file.
 inline constexpr std::uint64_t kMeshMemoryBase = std::uint64_t{1} << 30;
+/// See kMeshMemoryBase.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 100;
+/// Processor time limit of that process [s].
 inline constexpr double kMeshCpuSeconds = 3600;
 
-/// As load_assembly, but every format is parsed in a child process (read_step.h has the limits for STEP): a file that
-/// crashes or starves a reader is an Error and not the end of a program that has other work. Errors: as load_assembly.
+/// Reads an assembly as load_assembly does, but parses every format in a child process (read_step.h has the limits for
+/// STEP): a file that crashes a reader or exhausts memory gives an Error and does not end the calling program. Errors:
+/// as load_assembly.
 Result<Assembly> load_isolated(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace dismantle

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLargestTurn = 1.0;  // between two keys [rad]: well below pi, where the short way is not decided
 
-/// How many straight pieces follow the screw that a mesh's origin makes.
+/// The number of linear pieces that approximate the path of a mesh's origin along the screw.
 int piece_count(const Pose& start, const Pose& end, Vec3 origin) {
   const Screw screw = screw_between(start, end);
   if (screw.angle == 0) return 1;

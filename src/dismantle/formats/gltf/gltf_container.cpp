@@ -33,7 +33,7 @@ int base64_digit(char c) {
   return c == '/' || c == '_' ? 63 : -1;
 }
 
-/// None where it is not base64.
+/// None if it is not base64.
 std::optional<std::string> from_base64(std::string_view text) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
   std::string bytes;
@@ -58,7 +58,7 @@ int hex_digit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// "%20" becomes a blank, and so on; other characters stay.
+/// Decodes percent escapes; other characters are unchanged.
 std::string percent_decoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -70,7 +70,7 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
-/// True for "http:...", "file:..." and whatever else has a scheme, and for absolute paths.
+/// True for URIs with a scheme ("http:...", "file:...") and for absolute paths.
 bool is_elsewhere(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return uri.substr(0, 1) == "/" || (colon != std::string_view::npos && uri.find('/') > colon);

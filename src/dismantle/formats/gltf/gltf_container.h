@@ -13,21 +13,21 @@ namespace dismantle {
 
 /// The JSON text and the binary chunk of a glTF file.
 struct GltfContainer {
-  std::string_view json;
-  std::optional<std::string_view> binary;
+  std::string_view json;                   ///< The JSON part.
+  std::optional<std::string_view> binary;  ///< The binary chunk of a GLB.
 };
 
-/// Takes a .gltf or .glb apart; which of them it is shows in the first bytes. Errors: Unreadable.
+/// Splits a .gltf or .glb file into its parts; the first bytes tell which it is. Errors: Unreadable.
 Result<GltfContainer> open_gltf_container(std::string_view bytes, const std::string& name);
 
 /// The bytes of a document's buffers.
 struct GltfBuffers {
-  std::vector<std::string_view> bytes;  ///< Of each buffer, as long as it says.
-  std::deque<std::string> owned;        ///< What was decoded or loaded.
+  std::vector<std::string_view> bytes;  ///< Of each buffer, of the length that the document gives.
+  std::deque<std::string> owned;        ///< Storage of decoded and loaded bytes.
 };
 
-/// Finds the bytes of every buffer: the binary chunk, data URIs, files beside the document. Errors: Unreadable where
-/// they are missing or shorter than they claim, together longer than `limit`, or elsewhere than in the file system.
+/// Resolves the bytes of every buffer: the binary chunk, data URIs, files beside the document. Errors: Unreadable if
+/// they are missing, shorter than declared, together longer than `limit` [bytes], or not in the file system.
 Result<GltfBuffers> load_gltf_buffers(const GltfDocument& document, const GltfContainer& container,
                                       const std::string& name, const GltfFileLoader& load, std::size_t limit);
 

@@ -12,8 +12,8 @@ namespace dismantle {
 
 namespace {
 
-/// Extensions that a file may require although dismantle passes over them: they change looks, not shapes. The last is
-/// what any reader does that takes positions of all types.
+/// Extensions that a file may require and that are ignored: they change the appearance, not the shape. The last one
+/// only allows positions of all types, which this reader accepts.
 constexpr std::string_view kHarmlessPrefixes[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"};
 constexpr std::string_view kKnownExtension = "KHR_mesh_quantization";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
@@ -187,7 +187,7 @@ class DocumentReader {
     return m;
   }
 
-  /// None where it draws no triangles.
+  /// None if it has no triangles.
   std::optional<GltfPrimitive> primitive(const JsonNode& node) {
     GltfPrimitive p;
     const std::size_t mode = whole_number(node, "mode", static_cast<std::size_t>(GltfMode::Triangles));

@@ -48,7 +48,7 @@ double load_value(const char* bytes, GltfScalar scalar, bool normalized) {
 
 }  // namespace
 
-/// Elements that an accessor says lie in a view.
+/// Elements that an accessor declares within a view.
 struct GltfElements::Claim {
   std::size_t view, offset, count, element_size;
   GltfScalar scalar;

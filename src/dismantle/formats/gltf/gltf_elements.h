@@ -9,16 +9,16 @@
 
 namespace dismantle {
 
-/// The elements of an accessor, read straight from the buffers' bytes; nothing is copied.
+/// Read access to the elements of an accessor, directly in the buffers' bytes.
 class GltfElements {
  public:
-  /// Compares everything that the accessor claims with the bytes that there are. `buffers`: the bytes of each buffer
-  /// of the document; they must outlive this. Errors: Unreadable where it reaches beyond a view or a view beyond its
-  /// buffer, where sparse indices do not ascend, or where it has no bytes at all but more elements than the buffers
-  /// have bytes.
+  /// Checks all offsets and counts of the accessor against the bytes that exist. `buffers`: the bytes of each buffer
+  /// of the document; they must outlive this. Errors: Unreadable if it reaches beyond its view or the view beyond its
+  /// buffer, if sparse indices do not ascend, or if it has no view but more elements than the buffers have bytes.
   static Result<GltfElements> open(const GltfDocument& document, std::size_t accessor,
                                    const std::vector<std::string_view>& buffers, const std::string& file_name);
 
+  /// Number of elements.
   std::size_t count() const { return count_; }
   /// Element `i` of a VEC3 accessor; normalised integers as glTF maps them to [-1, 1].
   Vec3 vec3(std::size_t i) const;
@@ -26,7 +26,7 @@ class GltfElements {
   std::uint32_t index(std::size_t i) const;
 
  private:
-  /// Values at a fixed stride.
+  /// An array of values at a fixed stride.
   struct Run {
     const char* first = nullptr;  // null: zeros
     std::size_t stride = 0;
@@ -37,7 +37,7 @@ class GltfElements {
   static bool find_run(const GltfDocument& document, const std::vector<std::string_view>& buffers, const Claim& claim,
                        Run& run);
   bool sparse_ascends() const;
-  /// The place of element `i`: in the base run or in the sparse values.
+  /// Where element `i` is stored: the base run or the sparse values, and the index there.
   std::pair<const Run*, std::size_t> locate(std::size_t i) const;
   double value(const Run& run, std::size_t element, std::size_t k) const;
 

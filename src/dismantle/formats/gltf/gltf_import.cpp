@@ -17,21 +17,20 @@ namespace dismantle {
 
 namespace {
 
-/// How far a matrix may be off a rotation (or a rotation times a scale) and still be read as one: the rounding of
-/// floats.
+/// The largest deviation of a matrix that still counts as a rotation (or a scaled rotation): float rounding.
 constexpr double kRigidTolerance = 1e-6;
 
 GltfTransform operator*(const GltfTransform& a, const GltfTransform& b) {
   return {a.linear * b.linear, a.linear * b.translation + a.translation};
 }
 
-/// A linear map as a rotation after a rest that goes into the mesh.
+/// A linear map as a rotation applied after a remainder that is baked into the mesh.
 struct SplitLinear {
   Mat3 rotation;
   Mat3 baked;
 };
 
-/// A rotation times a number (negative: mirrored) is split into the two; anything else is baked whole.
+/// Splits a uniformly scaled rotation (negative: mirrored) into the two; anything else is baked whole.
 SplitLinear split(const Mat3& linear) {
   const double cubed = determinant(linear);
   const double scale = std::cbrt(cubed);

@@ -12,11 +12,11 @@
 
 namespace dismantle {
 
-/// Gives the bytes of a file that a glTF names, of at most `limit` bytes; `uri` is decoded and relative.
+/// Loads a file that a glTF document refers to, of at most `limit` bytes; `uri` is decoded and relative.
 using GltfFileLoader = std::function<Result<std::string>(const std::string& uri, std::size_t limit)>;
 
-/// Reads glTF 2.0 from memory, JSON or binary: everything that read_gltf does but for files and the hash. `name` is the
-/// file's name without its folder.
+/// Reads glTF 2.0 from memory, JSON or binary: read_gltf without file access and the hash. `name` is the file's name
+/// without its folder.
 Result<Assembly> import_gltf(std::string_view bytes, const std::string& name, const GltfFileLoader& load,
                              const ImportOptions& options);
 

@@ -19,7 +19,7 @@ std::size_t triangle_count(GltfMode mode, std::size_t corners) {
   return corners < 3 ? 0 : corners - 2;
 }
 
-/// Which three of a primitive's corners make its triangle `t`.
+/// The three corners of a primitive that form its triangle `t`.
 Face corners_of(GltfMode mode, std::uint32_t t) {
   switch (mode) {
     case GltfMode::Strip:
@@ -31,7 +31,7 @@ Face corners_of(GltfMode mode, std::uint32_t t) {
   }
 }
 
-/// Appends a primitive to a mesh with the vertices that it uses, and returns its area; an Error's reason otherwise.
+/// Appends a primitive and the vertices that it uses to a mesh, and returns its area, or the reason of an Error.
 Result<double> append(const GltfPrimitive& primitive, const GltfElements& positions, const GltfElements* indices,
                       TriangleMesh& mesh) {
   const std::size_t corners = indices ? indices->count() : positions.count();

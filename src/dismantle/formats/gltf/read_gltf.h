@@ -9,12 +9,12 @@
 
 namespace dismantle {
 
-/// Reads glTF 2.0 (.gltf with its buffers, .glb): one component a node with a mesh (its triangle primitives together),
-/// node name, world transform, base colour of most of its surface; metres scaled to mm unless `options.units` says
-/// otherwise, axes as they are. Nodes share their mesh where their transforms differ by a rigid motion; scales, shears
-/// and mirrorings go into the mesh. Skins and morph targets stay at rest. Buffers beside the file and in data URIs are
-/// read, nothing is fetched; images are not looked at. Errors: Unreadable; a compressed file names the extension that
-/// it needs.
+/// Reads glTF 2.0 (.gltf with its buffers, .glb): one component for each node with a mesh (its triangle primitives
+/// together), node name, world transform, base colour of the largest part of its surface; metres scaled to mm unless
+/// `options.units` says otherwise, axes unchanged. Nodes share their mesh where their transforms differ by a rigid
+/// motion; scales, shears and mirrorings go into the mesh. Skins and morph targets stay in their rest pose. Buffers
+/// beside the file and in data URIs are read, nothing is fetched; images are ignored. Errors: Unreadable; for a
+/// compressed file the message names the extension that it requires.
 Result<Assembly> read_gltf(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace dismantle

@@ -131,7 +131,7 @@ class GlbBuilder {
           {{"name", animation.name}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
   }
 
-  /// The accessor of keys of so many values each; the same one where these keys are there already.
+  /// The accessor for keys of `width` values each; equal keys share one.
   std::size_t add_keys(const std::vector<float>& values, std::size_t width) {
     const auto [place, is_new] = keys_.try_emplace({width, values}, json_["accessors"].size());
     if (!is_new) return place->second;

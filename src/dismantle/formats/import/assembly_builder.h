@@ -11,31 +11,31 @@
 
 namespace dismantle {
 
-/// The largest coordinate that a reader accepts [mm], a thousand kilometres: products of four coordinates stay far from
+/// The largest coordinate that a reader accepts [mm], a thousand kilometres; products of four coordinates cannot
 /// overflow.
 constexpr double kLargestCoordinate = 1e9;
 
-/// That no coordinate, in a component's own frame or assembled, is larger than kLargestCoordinate. Errors: Unreadable.
+/// Checks that no coordinate, in a component's own frame or assembled, is larger than kLargestCoordinate. Errors:
+/// Unreadable.
 Result<Done> check_coordinates(const Assembly& assembly);
 
-/// Makes an Assembly of the parts that a mesh reader finds, in their order: scales them to millimetres, cleans them,
-/// keeps the limits, makes names unique, and builds a tree of one level.
+/// Builds an Assembly from the parts that a mesh reader finds, in their order: scales them to millimetres, cleans them,
+/// enforces the limits, makes names unique, and builds a tree of one level.
 class AssemblyBuilder {
  public:
-  /// `source_name` is the file's name without its folder (the tree's root); `file_units` what its numbers are in,
-  /// unless the options say otherwise. Errors: Usage for unknown units.
+  /// `source_name` is the file's name without its folder (the tree's root); `file_units` the unit of its numbers,
+  /// unless the options override it. Errors: Usage for unknown units.
   static Result<AssemblyBuilder> create(std::string source_name, std::string_view file_units,
                                         const ImportOptions& options);
 
-  /// Appends a component that stands at `assembly_from_part` (in the file's units) in the assembly. A part that has no
-  /// triangle left after cleaning is dropped. An Error where a limit is passed or a coordinate is larger than
-  /// kLargestCoordinate.
+  /// Appends a component placed at `assembly_from_part` (in the file's units). A part without triangles after cleaning
+  /// is dropped. Returns an Error if a limit is exceeded or a coordinate is larger than kLargestCoordinate.
   std::optional<Error> add(MeshPart part, const RigidTransform& assembly_from_part = {});
 
   /// Millimetres per unit of the file.
   double scale() const { return scale_; }
 
-  /// The assembly. Errors: Unreadable where it has no component.
+  /// The assembly. Errors: Unreadable if it has no component.
   Result<Assembly> finish(std::string sha256);
 
  private:

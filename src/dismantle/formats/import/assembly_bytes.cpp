@@ -31,7 +31,7 @@ class Writer {
   const ByteSink& sink_;
 };
 
-/// Reads back; after a piece that is too short everything is empty and ok() is false.
+/// Reads the bytes back; after a truncated piece all values are empty and ok() is false.
 class Reader {
  public:
   explicit Reader(Span<const std::byte> bytes) : bytes_(bytes) {}
@@ -51,7 +51,7 @@ class Reader {
     offset_ += sizeof v;
     return v;
   }
-  /// A count of things that take at least `min_size` bytes each.
+  /// A count of items of at least `min_size` bytes each.
   std::size_t count(std::size_t min_size) {
     const auto n = value<std::uint64_t>();
     if (n > left() / min_size) ok_ = false;

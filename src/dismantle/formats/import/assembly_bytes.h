@@ -11,15 +11,15 @@
 
 namespace dismantle {
 
-/// Takes the next piece of a stream of bytes.
+/// Receives the next piece of a byte stream.
 using ByteSink = std::function<void(const void* data, std::size_t size)>;
 
-/// Writes an assembly bit for bit, each shared mesh once, in this process's own byte order: for another process of the
-/// same program, not for files.
+/// Serialises an assembly exactly, each shared mesh once, in native byte order: for another process of the same
+/// program, not for files.
 void write_assembly_bytes(const Assembly& assembly, const ByteSink& sink);
 
-/// The assembly that write_assembly_bytes wrote, meshes shared as they were; nothing where the bytes are not one
-/// (every count and index is checked).
+/// The assembly that write_assembly_bytes wrote, meshes shared as they were; none if the bytes are malformed (every
+/// count and index is checked).
 std::optional<Assembly> assembly_from_bytes(Span<const std::byte> bytes);
 
 }  // namespace dismantle

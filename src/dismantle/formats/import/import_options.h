@@ -8,11 +8,11 @@
 
 namespace dismantle {
 
-/// What a reader may use up before it gives in with an Error; the defaults are far above real assemblies.
+/// Limits beyond which a reader returns an Error; the defaults are far above real assemblies.
 struct ImportLimits {
-  std::size_t file_bytes = std::size_t{4} << 30;  ///< Larger files are refused.
+  std::size_t file_bytes = std::size_t{4} << 30;  ///< Largest file [bytes].
   std::size_t triangles = 50'000'000;             ///< Of the whole assembly.
-  std::size_t components = 100'000;
+  std::size_t components = 100'000;               ///< Of the whole assembly.
 };
 
 /// Options of every reader.
@@ -22,9 +22,9 @@ struct ImportOptions {
   double deflection = 0;  ///< STEP: largest distance of a triangle from its surface [mm]; 0: kDefaultRelativeDeflection
                           ///< of the assembly's size.
   double angular_deflection =
-      0;  ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
-  ImportLimits limits;
-  ProgressCallback progress;
+      0;                ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
+  ImportLimits limits;  ///< Refuses larger input.
+  ProgressCallback progress;  ///< May be empty; may cancel.
 };
 
 }  // namespace dismantle

@@ -11,27 +11,27 @@
 
 namespace dismantle {
 
-/// The bytes of a file that a parser reads, and what to call it in messages.
+/// The bytes of a file for a parser, and its name for messages.
 struct MeshSource {
-  std::string_view bytes;
-  std::string name;  ///< File name without its folder.
+  std::string_view bytes;  ///< The whole file.
+  std::string name;        ///< File name without its folder.
 };
 
-/// One mesh as a file gives it: in the file's units, not welded, not cleaned; every index is below the vertex count.
+/// A mesh as a file gives it: in the file's units, not welded or cleaned; every index is below the vertex count.
 struct MeshPart {
-  std::string name;  ///< Empty where the file gives none.
-  TriangleMesh mesh;
-  Color color;
-  std::string material;  ///< OBJ: the material's name, to be looked up; else empty.
+  std::string name;      ///< Empty if the file gives none.
+  TriangleMesh mesh;     ///< In the file's units.
+  Color color;           ///< Of the whole part.
+  std::string material;  ///< OBJ: the name of its material; else empty.
 };
 
-/// The Error of a file that is not what its format wants: `why` names the place.
+/// The Error for a file that violates its format; `why` says where and how.
 inline Error malformed(const MeshSource& source, std::string_view format, std::string_view why) {
   return {ErrorKind::Unreadable,
           source.name + " cannot be read as " + std::string(format) + " (" + std::string(why) + "); export it again"};
 }
 
-/// The Error of work that its progress callback called off.
+/// The Error for work that its progress callback cancelled.
 inline Error cancelled() {
   return {ErrorKind::Failed, "cancelled"};
 }

@@ -7,7 +7,7 @@
 
 namespace dismantle {
 
-/// How many millimetres one unit is: "mm", "cm", "m", "um", "in" or "ft". Errors: Usage for any other name.
+/// Millimetres per unit, for "mm", "cm", "m", "um", "in" or "ft". Errors: Usage for any other name.
 Result<double> millimetres_per_unit(std::string_view units);
 
 }  // namespace dismantle

@@ -11,7 +11,7 @@ void append_fan(Span<const std::uint32_t> corners, std::vector<Face>& faces) {
   for (std::size_t i = 2; i < corners.size(); ++i) faces.push_back({{corners[0], corners[i - 1], corners[i]}});
 }
 
-/// Twice the polygon's area vector, about its first corner so that far-off polygons keep their digits.
+/// Twice the polygon's area vector, about its first corner, for precision far from the origin.
 Vec3 newell_normal(Span<const std::uint32_t> corners, Span<const Vec3> vertices) {
   const Vec3 origin = vertices[corners[0]];
   Vec3 normal;
@@ -44,7 +44,7 @@ bool PolygonTriangulator::is_convex() const {
   const std::size_t n = points_.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (!(turn(points_[i], points_[(i + 1) % n], points_[(i + 2) % n]) > 0)) return false;
-    // A star turns left everywhere too, but not as seen from one of its corners.
+    // A star polygon also turns left everywhere, but not as seen from one of its corners.
     if (i > 1 && !(turn(points_[0], points_[i - 1], points_[i]) > 0)) return false;
   }
   return true;
@@ -75,7 +75,7 @@ void PolygonTriangulator::clip(Span<const std::uint32_t> corners, std::vector<Fa
 
   std::uint32_t at = 0, left = n, refused = 0;
   while (left > 3) {
-    // After a whole round without an ear the polygon is not simple: cut anything.
+    // No ear in a full pass: the polygon is not simple, so any corner is cut.
     if (refused < left && effort_left_ > 0 && !is_ear(at)) {
       ++refused;
       at = next_[at];

@@ -10,10 +10,10 @@
 
 namespace dismantle {
 
-/// Cuts polygons into triangles: strictly convex ones as a fan, others by ear clipping in the plane of the polygon's
-/// (Newell) normal, leaving no corner out in the middle of an edge where that can be avoided. A polygon of n corners
-/// gives n - 2 triangles, whatever its shape; where no ear is left (it crosses itself) any corner is cut off. The
-/// effort over the object's lifetime is limited: beyond it corners are cut off as they come.
+/// Triangulates polygons: strictly convex ones as a fan, others by ear clipping in the plane of the polygon's (Newell)
+/// normal, without a corner in the middle of an edge if that can be avoided. A polygon of n corners gives n - 2
+/// triangles, whatever its shape; if no ear is left (it intersects itself) the next corner is cut off. The work over
+/// the object's lifetime is limited: beyond the limit, corners are cut off in order.
 class PolygonTriangulator {
  public:
   /// Appends the triangles of one polygon to `faces`; one or two corners give one degenerate triangle.

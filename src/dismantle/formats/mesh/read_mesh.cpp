@@ -25,7 +25,7 @@ std::string extension_of(const fs::path& file) {
   return lower_case(file.extension().string());
 }
 
-/// Gives the parts the colours of the material files in `folder`; files that are not there leave them as they are.
+/// Sets the colours of parts from the material files in `folder`; missing files are ignored.
 void apply_materials(ObjModel& model, const fs::path& folder) {
   for (const std::string& name : model.material_files) {
     const Result<std::string> text = read_file(folder / fs::path(name).filename(), kLargestMaterialFile);
@@ -83,7 +83,7 @@ Result<std::vector<fs::path>> mesh_files_in(const fs::path& folder) {
   return files;
 }
 
-/// The folder's own name, also where the path ends with a slash or is ".".
+/// The folder's own name, also if the path ends with a slash or is ".".
 std::string folder_name(const fs::path& folder) {
   std::error_code ignored;
   const fs::path whole = fs::canonical(folder, ignored);

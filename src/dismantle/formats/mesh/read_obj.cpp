@@ -13,20 +13,20 @@ namespace {
 
 constexpr std::size_t kLinesPerReport = 65536;
 
-/// A stretch of polygons, from `first` to the next one's, under a name.
+/// A named run of polygons, from `first` to the start of the next section.
 struct Section {
   std::string name;
   std::size_t first = 0;
 };
 
-/// Begins a section at polygon `first`; one that got no polygons is forgotten, so that there are never more sections
+/// Starts a section at polygon `first`; a section without polygons is dropped, so that there are never more sections
 /// than polygons.
 void begin_section(std::vector<Section>& sections, std::string_view name, std::size_t first) {
   if (sections.empty() || sections.back().first != first) sections.push_back({"", first});
   sections.back().name = name;
 }
 
-/// Reads the statements of an OBJ file; what they mean for components is decided at the end.
+/// Reads the statements of an OBJ file; sections become components at the end.
 class ObjParser {
  public:
   ObjParser(const MeshSource& source, const ImportOptions& options)
@@ -177,7 +177,7 @@ std::string ObjParser::material_of(std::size_t polygon) const {
   return after == materials_.begin() ? "" : std::prev(after)->name;
 }
 
-/// Gives the mesh the vertices that its faces name, in file order, and renumbers the faces.
+/// Copies the vertices that the faces use into the mesh, in file order, and renumbers the faces.
 void ObjParser::compact(TriangleMesh& mesh) {
   std::vector<std::uint32_t> used;
   for (const Face& face : mesh.faces)
@@ -198,7 +198,7 @@ void ObjParser::compact(TriangleMesh& mesh) {
   for (const std::uint32_t v : used) local_index_[v] = 0;
 }
 
-/// Sets the channel to the next word where that is a number.
+/// Sets the channel to the next word if that is a number.
 void take_channel(std::string_view& rest, float& channel) {
   if (const std::optional<double> value = to_double(take_word(rest)))
     channel = static_cast<float>(std::clamp(*value, 0.0, 1.0));

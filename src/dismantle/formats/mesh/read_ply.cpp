@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::uint64_t kRowsPerReport = 65536;
 
-/// The numbers of a binary body, one after another.
+/// Reads the numbers of a binary body in sequence.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view body, std::endian order) : rest_(body), order_(order) {}
 
-  /// The next number; nothing where the body ends.
+  /// The next number; none at the end of the body.
   std::optional<double> next(PlyType type) {
     const std::size_t size = byte_count(type);
     if (rest_.size() < size) return std::nullopt;
@@ -61,12 +61,12 @@ class BinaryNumbers {
   std::endian order_;
 };
 
-/// The numbers of an ASCII body, one after another.
+/// Reads the numbers of an ASCII body in sequence.
 class TextNumbers {
  public:
   explicit TextNumbers(std::string_view body) : words_(body) {}
 
-  /// The next number; nothing where the body ends or something else stands there.
+  /// The next number; none at the end of the body or if the word is not a number.
   std::optional<double> next(PlyType) { return to_double(words_.next()); }
 
   bool skip(PlyType, std::size_t count) {
@@ -81,7 +81,7 @@ class TextNumbers {
   WordReader words_;
 };
 
-/// Reads the body of a PLY file from either kind of numbers.
+/// Reads the body of a PLY file in either encoding.
 template <class Numbers>
 class BodyParser {
  public:
@@ -208,7 +208,7 @@ std::optional<Error> BodyParser<Numbers>::read_corners(const PlyProperty& list, 
   return std::nullopt;
 }
 
-/// The length of a list whose numbers the rest of the body can hold.
+/// The length of a list, checked against the rest of the body.
 template <class Numbers>
 std::optional<std::size_t> BodyParser<Numbers>::list_length(const PlyProperty& list) {
   const std::optional<double> length = numbers_.next(*list.length_type);

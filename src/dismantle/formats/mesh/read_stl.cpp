@@ -64,7 +64,7 @@ class AsciiStl {
   std::optional<Error> solid();
   std::optional<Error> facet();
   std::optional<Error> corner(Vec3& point);
-  /// Takes the next word; an Error where it is not the one wanted.
+  /// Consumes the next word; an Error if it is not the expected one.
   std::optional<Error> expect(std::string_view wanted);
   Error here(const std::string& why) const {
     return malformed(source_, "STL", "line " + std::to_string(words_.line()) + ": " + why);

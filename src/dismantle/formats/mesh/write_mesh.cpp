@@ -41,7 +41,7 @@ void append_bytes(std::string& bytes, T value) {
   bytes.append(number.data(), number.size());
 }
 
-/// A name that a line of text gives back as it is.
+/// A name that survives a round trip through a line of text.
 std::string line_name(const std::string& name) {
   std::string line = clean_name(name);
   if (line.empty()) return "_";
@@ -50,7 +50,7 @@ std::string line_name(const std::string& name) {
   return line;
 }
 
-/// One section whose vertices are counted on from `first_vertex` (from 1 on, as OBJ counts).
+/// One section, its vertices numbered from `first_vertex` (OBJ counts from 1).
 std::string obj_section(const Component& component, std::size_t first_vertex) {
   std::string text = "o " + line_name(component.name) + "\n";
   for (const Vec3& p : assembled_vertices(component)) append_point(text, "v", p);
@@ -118,7 +118,7 @@ void write_ply_faces(AtomicFile& out, const Component& component, std::uint32_t 
   out.write(bytes);
 }
 
-/// Writes a file a component into an existing folder.
+/// Writes one file for each component into an existing folder.
 Result<Done> fill_folder(const fs::path& folder, const Assembly& assembly) {
   std::unordered_set<std::string> taken;
   for (const Component& component : assembly.components) {

@@ -8,7 +8,7 @@ enum class StlForm { Binary, Ascii };
 
 /// Options of write_assembly.
 struct WriteOptions {
-  StlForm stl = StlForm::Binary;
+  StlForm stl = StlForm::Binary;  ///< The form of .stl files.
 };
 
 }  // namespace dismantle

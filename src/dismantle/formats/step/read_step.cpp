@@ -27,7 +27,7 @@ Error unreadable(const std::filesystem::path& file, std::string_view why, std::s
           file.string() + " cannot be read as STEP (" + std::string(why) + "); " + std::string(advice)};
 }
 
-/// Done where the text has the frame of a STEP file around it, else what it is instead.
+/// Done if the text has the header and trailer of a STEP file, else an Error that says what is wrong.
 Result<Done> check_frame(const std::filesystem::path& file, std::string_view text) {
   const std::string_view head = text.substr(0, kSearchedForKeyword);
   if (head.substr(0, 2) == "\x1f\x8b") return unreadable(file, "it is compressed with gzip", "unpack it first");
@@ -62,7 +62,7 @@ Result<Done> import_into_line(std::string_view text, const std::string& name, Im
   }
 }
 
-/// The Error for a child that did not end well.
+/// The Error for a child process that failed.
 Error failure(const std::filesystem::path& file, const IsolatedResult& result) {
   switch (result.ending) {
     case IsolatedEnding::Refused: {

@@ -39,11 +39,11 @@ namespace dismantle {
 
 namespace {
 
-/// Edges of triangles are not made shorter than this part of the deflection [1]: OpenCASCADE's own 0.1 would keep the
-/// angular deflection from refining small round features.
+/// Minimum edge length relative to the deflection [1]: OpenCASCADE's default of 0.1 would keep the angular deflection
+/// from refining small round features.
 constexpr double kMinEdge = 1e-3;
 
-/// Passes OpenCASCADE's progress on as one stage.
+/// Reports OpenCASCADE's progress as one stage.
 class StageProgress : public Message_ProgressIndicator {
  public:
   StageProgress(const ProgressCallback& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
@@ -58,7 +58,7 @@ class StageProgress : public Message_ProgressIndicator {
   std::string stage_;
 };
 
-/// Text as a stream that reports how far it has been read.
+/// A stream over text that reports how far it has been read.
 class TextBuffer : public std::streambuf {
  public:
   TextBuffer(std::string_view text, const ProgressCallback& progress) : text_(text), progress_(progress) {}
@@ -91,7 +91,7 @@ struct LengthUnit {
   std::string name = "mm";
 };
 
-/// The units that a STEP entity assigns to a representation; null where it is no such entity.
+/// The units that a STEP entity assigns to a representation; null if it is not such an entity.
 Handle(StepRepr_GlobalUnitAssignedContext) assigned_units(const Handle(Standard_Transient) & entity) {
   using WithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
   using WithoutUncertainty = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
@@ -102,7 +102,7 @@ Handle(StepRepr_GlobalUnitAssignedContext) assigned_units(const Handle(Standard_
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
 }
 
-/// The first length unit that a representation of the file is given in; mm where none is.
+/// The first length unit of a representation in the file; mm if there is none.
 LengthUnit length_unit(const Interface_InterfaceModel& model) {
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Handle(StepRepr_GlobalUnitAssignedContext) units = assigned_units(model.Value(i));
@@ -147,7 +147,7 @@ double assembly_diagonal(const StepProductTree& products) {
   return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
 }
 
-/// The colour that most of the shape's surface has: a face's own, else its solid's, else the product's; none where
+/// The colour of the largest part of the shape's surface: a face's own, else its solid's, else the product's; none if
 /// none is set.
 std::optional<Color> surface_color(const TopoDS_Shape& shape, const StepProduct& product) {
   const Color* whole = product.subshape_colors.Seek(shape);
@@ -172,13 +172,13 @@ Vec3 vec3(const gp_XYZ& p) {
   return {p.X(), p.Y(), p.Z()};
 }
 
-/// The rigid part of a placement; the scale (negative: mirrored through the origin) is left to the mesh.
+/// The rigid part of a placement; the scale (negative: mirrored through the origin) goes into the mesh.
 RigidTransform rigid_part(const gp_Trsf& placement, double millimetres) {
   const gp_Mat& m = placement.HVectorialPart();
   return {{{vec3(m.Row(1)), vec3(m.Row(2)), vec3(m.Row(3))}}, millimetres * vec3(placement.TranslationPart())};
 }
 
-/// Meshes in the component's frame, made once for every shape and scale, and shared.
+/// Meshes in the component's frame, one for each shape and scale, shared.
 class ComponentMeshes {
  public:
   struct Entry {
@@ -211,7 +211,7 @@ class ComponentMeshes {
   std::map<std::pair<std::uint32_t, double>, Entry> entries_;
 };
 
-/// A scale that is 1 but for the rounding of placements one after another is 1.
+/// A scale within rounding of 1 (from concatenated placements) is 1.
 double tidy_scale(double scale) {
   return std::abs(std::abs(scale) - 1) < 1e-12 ? (scale < 0 ? -1.0 : 1.0) : scale;
 }

@@ -10,9 +10,9 @@
 
 namespace dismantle {
 
-/// Parses and meshes the text of a STEP file in this process, with OpenCASCADE; `name` (the file's stem) names what has
-/// no name. What read_step says of its result holds. Throws what OpenCASCADE throws, leaves its settings changed and
-/// its console output on: only for a process of its own. Progress cannot cancel.
+/// Parses and meshes the text of a STEP file in this process, with OpenCASCADE; `name` (the file's stem) is for
+/// components without a name. The result is that of read_step. Throws OpenCASCADE's exceptions and changes its global
+/// settings: only for a dedicated process. Progress cannot cancel.
 Result<Assembly> import_step(std::string_view text, const std::string& name, const ImportOptions& options);
 
 }  // namespace dismantle

@@ -27,7 +27,7 @@ Vec3 node_position(const Poly_Triangulation& triangulation, int node, const TopL
   return {p.X(), p.Y(), p.Z()};
 }
 
-/// Collects face nodes, and says which of them are the same point of the shape: nodes of different faces on one edge.
+/// Collects face nodes and merges those that are the same point of the shape: nodes of different faces on one edge.
 class NodeWelder {
  public:
   /// Adds the nodes and triangles of one face.
@@ -49,7 +49,7 @@ class NodeWelder {
       mesh_.faces.push_back({{node(first, a), node(first, b), node(first, c)}});
     }
 
-    // Seen from the face's forward side a seam edge comes once each way, and so gives both of its polygons.
+    // In the face's forward orientation a seam edge occurs once in each direction, and so gives both of its polygons.
     for (TopExp_Explorer edges(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); edges.More(); edges.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
       const Handle(Poly_PolygonOnTriangulation) polygon =
@@ -58,7 +58,7 @@ class NodeWelder {
     }
   }
 
-  /// The mesh, without the vertices that others stand for.
+  /// The mesh, without merged vertices.
   TriangleMesh welded() && {
     std::vector<std::uint32_t> kept_index(mesh_.vertices.size());
     std::uint32_t kept = 0;
@@ -108,7 +108,7 @@ class NodeWelder {
     return v;
   }
 
-  /// The earlier node stands for both.
+  /// The earlier node represents both.
   void weld(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);

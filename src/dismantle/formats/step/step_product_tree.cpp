@@ -40,7 +40,7 @@ std::optional<Color> color_of_label(const Handle(XCAFDoc_ColorTool) & tool, cons
   return std::nullopt;
 }
 
-/// The faces of a shape that belong to none of its solids, in one compound; null where there are none.
+/// The faces of a shape outside its solids, in one compound; null if there are none.
 TopoDS_Shape faces_outside_solids(const TopoDS_Shape& shape) {
   TopoDS_Compound compound;
   const BRep_Builder builder;
@@ -53,7 +53,7 @@ TopoDS_Shape faces_outside_solids(const TopoDS_Shape& shape) {
   return any ? TopoDS_Shape(compound) : TopoDS_Shape();
 }
 
-/// One solid (or the rest) of a product: where it is within the product.
+/// One solid (or the remaining faces) of a product, and its placement in the product.
 struct Piece {
   std::uint32_t shape;
   gp_Trsf product_from_shape;
@@ -64,7 +64,7 @@ struct Leaf {
   std::vector<Piece> pieces;
 };
 
-/// What a node takes from those above it.
+/// Properties that a node inherits.
 struct Path {
   gp_Trsf placement;
   std::vector<TDF_Label> instances;  // from the root down
@@ -178,7 +178,7 @@ class Walker {
     return product;
   }
 
-  /// The colour of the innermost instance of a path, as the outermost assembly that says something about it has it.
+  /// The colour of the innermost instance of a path, as set by the outermost assembly that sets one.
   std::optional<Color> instance_color(const Path& path) const {
     for (std::size_t first = 0; first + 1 < path.instances.size(); ++first) {
       TDF_LabelSequence usage;

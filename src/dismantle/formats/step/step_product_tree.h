@@ -16,7 +16,7 @@
 
 namespace dismantle {
 
-/// A product that holds shapes, with the colours that its label and the labels of its sub-shapes give.
+/// A product with shapes, and the colours of its label and of the labels of its sub-shapes.
 struct StepProduct {
   std::optional<Color> color;
   NCollection_DataMap<TopoDS_Shape, Color, TopTools_ShapeMapHasher> subshape_colors;  ///< Keys: without location.
@@ -29,11 +29,11 @@ struct StepOccurrence {
   std::uint32_t product = 0;             ///< Index into StepProductTree::products.
   std::uint32_t tree_node = 0;           ///< Index into StepProductTree::tree.
   gp_Trsf placement;                     ///< assembly_from_shape, perhaps with a scale or a mirroring
-  std::optional<Color> instance_color;   ///< Of this occurrence: stands above the product's colours.
-  std::optional<Color> inherited_color;  ///< Of what it is part of: stands below them.
+  std::optional<Color> instance_color;   ///< Of this occurrence: overrides the product's colours.
+  std::optional<Color> inherited_color;  ///< Of an enclosing assembly: used if there is no other.
 };
 
-/// What the product tree of an XDE document holds.
+/// The product tree of an XDE document.
 struct StepProductTree {
   std::vector<TopoDS_Shape> shapes;  ///< Distinct, without location.
   std::vector<StepProduct> products;
@@ -41,9 +41,9 @@ struct StepProductTree {
   std::vector<TreeNode> tree;               ///< Node 0 is named `root_name`, or is the only free product.
 };
 
-/// Walks the product tree of a document. Each solid of a product is an occurrence; what faces a product has outside of
-/// solids are one more. Names: of the product, else of the instance, else `root_name`. Errors: Unreadable where there
-/// are more occurrences than `limit`, or a tree that branches into far more nodes than that.
+/// Walks the product tree of a document. Each solid of a product is an occurrence; its faces outside solids are one
+/// more. Names: of the product, else of the instance, else `root_name`. Errors: Unreadable if there are more
+/// occurrences than `limit`, or far more tree nodes than that.
 Result<StepProductTree> walk_step_products(const Handle(TDocStd_Document) & document, const std::string& root_name,
                                            std::size_t limit);
 

@@ -23,7 +23,7 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-/// Largest URDF text; the meshes are files of their own.
+/// Largest URDF text [bytes]; meshes are separate files.
 constexpr std::size_t kLargestUrdf = std::size_t{64} << 20;
 
 std::string attribute(const XMLElement& element, const char* name) {
@@ -31,7 +31,7 @@ std::string attribute(const XMLElement& element, const char* name) {
   return text == nullptr ? "" : text;
 }
 
-/// The numbers of an attribute like "0 0 1.5", or nothing where they are not exactly that many finite numbers.
+/// The numbers of an attribute like "0 0 1.5", or none if they are not exactly that many finite numbers.
 template <std::size_t kCount>
 std::optional<std::array<double, kCount>> numbers(std::string_view text) {
   std::array<double, kCount> values{};
@@ -123,7 +123,7 @@ Result<RigidTransform> UrdfParser::origin(const XMLElement& element) const {
   return RigidTransform{rotation_from_rpy(*rpy), *xyz};
 }
 
-/// A material of the robot or of a visual may be named anywhere.
+/// Materials may be defined in the robot or in a visual.
 void UrdfParser::read_materials(const XMLElement& robot) {
   const auto remember = [this](const XMLElement& parent) {
     for (auto* m = parent.FirstChildElement("material"); m != nullptr; m = m->NextSiblingElement("material"))
@@ -161,7 +161,7 @@ std::optional<Error> UrdfParser::read_joints(const XMLElement& robot) {
   return std::nullopt;
 }
 
-/// The link's visuals together, in the link's frame [m].
+/// All visuals of the link, in the link's frame [m].
 Result<MeshPart> UrdfParser::link(const XMLElement& element) {
   MeshPart part;
   part.name = attribute(element, "name");
@@ -231,7 +231,7 @@ Result<TriangleMesh> UrdfParser::primitive(const XMLElement& shape) {
   return std::move(result.mesh);
 }
 
-/// The files that `address` may mean for a URDF in `folder`, the likeliest first.
+/// Candidate files for `address` in a URDF in `folder`, the most likely first.
 std::vector<fs::path> candidates(const std::string& address, const fs::path& folder) {
   constexpr std::string_view kFile = "file://", kPackage = "package://";
   if (address.starts_with(kFile)) return {address.substr(kFile.size())};
@@ -255,7 +255,7 @@ std::vector<fs::path> candidates(const std::string& address, const fs::path& fol
   return files;
 }
 
-/// Reads a mesh that a URDF in `folder` names.
+/// Reads a mesh that a URDF in `folder` refers to.
 Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const std::string& urdf,
                                               const fs::path& folder, const ImportOptions& options) {
   std::error_code ignored;

@@ -64,7 +64,7 @@ TessellatedShape tessellate_sphere(double radius) {
     for (std::uint32_t i = 0; i < kSides; ++i)
       rings.push_back(around(radius * std::cos(latitude), radius * std::sin(latitude), i));
   }
-  // A patch's middle is off by its two arcs' sagittae, one along and one around.
+  // The deviation at the middle of a patch is the sum of the sagittas of its two arcs.
   const double deflection = 2 * radius * (1 - std::cos(std::numbers::pi / kSides));
   return {close_rings(std::move(rings), -radius, radius), deflection};
 }

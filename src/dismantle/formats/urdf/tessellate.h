@@ -5,19 +5,19 @@
 
 namespace dismantle {
 
-/// A closed mesh that stands for a round body, normals out, and the largest distance of its triangles from the body.
+/// A closed mesh that approximates a primitive, with outward normals.
 struct TessellatedShape {
-  TriangleMesh mesh;
-  double deflection = 0;
+  TriangleMesh mesh;      ///< Closed.
+  double deflection = 0;  ///< Largest distance of its triangles from the exact surface, in the units of the shape.
 };
 
-/// A box about the origin with these edge lengths (exact).
+/// A box centred at the origin with these edge lengths (exact).
 TessellatedShape tessellate_box(Vec3 size);
 
-/// A cylinder about the z axis, the origin in its middle, with corners on the surface.
+/// A cylinder about the z axis, centred at the origin, with vertices on the surface.
 TessellatedShape tessellate_cylinder(double radius, double length);
 
-/// A sphere about the origin, with corners on the surface.
+/// A sphere about the origin, with vertices on the surface.
 TessellatedShape tessellate_sphere(double radius);
 
 }  // namespace dismantle
