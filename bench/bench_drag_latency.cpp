@@ -120,12 +120,12 @@ Drag drag(Client& client, std::uint32_t grip, std::uint32_t first, std::uint32_t
 
 /// Metrics of the engine since the server started.
 struct EngineMetrics {
-  double steps = 0, median_us = 0, p99_us = 0;
+  double steps = 0, median_us = 0, p99_us = 0, max_us = 0;
 };
 
 EngineMetrics metrics_of(Client& client) {
   const Json metrics = client.command("metrics");
-  return {metrics["steps"], metrics["step_us"]["median"], metrics["step_us"]["p99"]};
+  return {metrics["steps"], metrics["step_us"]["median"], metrics["step_us"]["p99"], metrics["step_us"]["max"]};
 }
 
 /// Sizes of the scene as the server has it.
@@ -143,11 +143,11 @@ void measure(Client& client, std::uint32_t grip, const char* name, std::uint32_t
   const double seconds = watch.seconds();
   const EngineMetrics after = metrics_of(client);
   const auto count = static_cast<double>(made.ms.size());
-  std::printf("%s\t%llu\t%llu\t%.0f\t%.2f\t%.2f\t%.2f\t%.0f\t%.0f\t%.0f\t%.0f\t%.1f\t%.1f\t%.3f\n", name,
+  std::printf("%s\t%llu\t%llu\t%.0f\t%.2f\t%.2f\t%.2f\t%.0f\t%.0f\t%.0f\t%.0f\t%.0f\t%.1f\t%.1f\t%.3f\n", name,
               static_cast<unsigned long long>(sizes.triangles), static_cast<unsigned long long>(sizes.moving_triangles),
               count / seconds, bench::quantile(made.ms, 0.5), bench::quantile(made.ms, 0.99),
               bench::quantile(made.ms, 1), (after.steps - before.steps) / seconds, after.median_us, after.p99_us,
-              100 * made.stopped / count, made.min_x, made.max_x, made.min_z);
+              after.max_us, 100 * made.stopped / count, made.min_x, made.max_x, made.min_z);
   std::fflush(stdout);
 }
 
@@ -181,7 +181,7 @@ void run(const Settings& settings) {
   drag(client, grip, 1, 1, 0);  // builds the front
   std::printf(
       "targets\ttriangles\tmoving_triangles\ttargets_per_s\tlatency_median_ms\tlatency_p99_ms\tlatency_max_ms\t"
-      "steps_per_s\tstep_median_us\tstep_p99_us\tin_contact_percent\tmin_x_mm\tmax_x_mm\tmin_z_mm\n");
+      "steps_per_s\tstep_median_us\tstep_p99_us\tstep_max_us\tin_contact_percent\tmin_x_mm\tmax_x_mm\tmin_z_mm\n");
   measure(client, grip, "at the rate", 2, settings, 1 / settings.rate, sizes);
   measure(client, grip, "at once", 2 + settings.targets, settings, 0, sizes);
   client.command("release");
