@@ -78,11 +78,24 @@ TEST_F(CliPlan, WritesThePlainPlanWhereNothingIsPreferred) {
   EXPECT_NE(read_all(in("all.path.json")), read_all(in("direction.path.json")));
 }
 
-TEST_F(CliPlan, PrefersWhatItIsToldTo) {
-  const Outcome o = run("plan parts -o all.path.json --prefer support groups --json");
-  ASSERT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_EQ(Json::parse(o.out)["complete"], true);
-  EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+TEST_F(CliPlan, OrdersStepsByThePreferencesGiven) {
+  // A shelf in a slot of a wall, and a larger cup on it.
+  fs::remove_all(in("parts"));
+  fs::create_directory(in("parts"));
+  write_box("over", -20, -30, 2, 0, 30, 40);
+  write_box("under", -20, -30, -40, 0, 30, 0);
+  write_box("shelf", -4, -3, 0, 10, 3, 2);
+  write_box("cup", 0, -6, 2, 9, 6, 22);
+  const auto order = [&](const std::string& preferences) {
+    const Outcome o = run("plan parts -o all.path.json --json --fixed over under --prefer " + preferences);
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+    Json names = Json::array();
+    for (const Json& step : Json::parse(o.out)["steps"]) names.push_back(step["components"]);
+    return names.dump();
+  };
+  EXPECT_EQ(order("direction"), R"([["shelf"],["cup"]])");
+  EXPECT_EQ(order("support groups"), R"([["cup"],["shelf"]])");
   expect_error("plan parts -o all.path.json --prefer beauty", 2, "beauty");
 }
 

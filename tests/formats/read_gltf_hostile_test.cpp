@@ -2,6 +2,7 @@
 // Files that are broken, cut off, or claim what they do not have: one Error each.
 #include "dismantle/formats/gltf/gltf_import.h"
 #include "tests/formats/gltf_files.h"
+#include "tests/support/parse_expectations.h"
 
 #include <gtest/gtest.h>
 
@@ -120,22 +121,35 @@ TEST(ReadGltfHostile, KeepsTheLimits) {
   EXPECT_TRUE(import(glb, options).ok());
 }
 
-TEST(ReadGltfHostile, LivesThroughChangedBytes) {
+TEST(ReadGltfHostile, ReadsOrRefusesFilesWithChangedBytes) {
   const std::string whole =
       glb_of(tetrahedron_json(R"({"mesh": 0, "rotation": [0, 0, 1, 0]}, {"mesh": 0})"), tetrahedron_bytes());
   const unsigned seed = 99;
   std::mt19937 random(seed);
+  const int rounds = 20000;
   int read = 0;
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     std::string changed = whole;
     for (unsigned k = 0; k <= random() % 4; ++k) {
       char& c = changed[random() % changed.size()];
       c = random() % 2 ? static_cast<char>(random()) : "0123456789{}[],:\" "[random() % 18];
     }
     const Result<Assembly> a = import(changed);
-    if (a) ++read;
+    if (!a) {
+      expect_unreadable(a, "");
+      continue;
+    }
+    ++read;
+    for (const Component& component : a->components) {
+      const std::size_t count = component.mesh->vertices.size();
+      for (const Face& face : component.mesh->faces)
+        for (const std::uint32_t vertex : face.v) ASSERT_LT(vertex, count) << "round " << round;
+      for (const Vec3& vertex : component.mesh->vertices) ASSERT_TRUE(is_finite(vertex)) << "round " << round;
+    }
   }
-  std::printf("seed %u: %d of 20000 changed files could still be read\n", seed, read);
+  std::printf("seed %u: %d of %d changed files could still be read\n", seed, read, rounds);
+  EXPECT_GT(read, 0);
+  EXPECT_LT(read, rounds);
 }
 
 }  // namespace

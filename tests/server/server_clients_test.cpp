@@ -163,6 +163,7 @@ TEST_F(ServerClients, StopsWhileThingsMoveAndLoad) {
   client.pose();
   server_.reset();
   client.wait_for_end();
+  EXPECT_EQ(client.close_code(), 1001u);  // going away
 }
 
 }  // namespace
