@@ -54,11 +54,11 @@ bool run(const Fit& fit, std::uint64_t seed) {
   const bool good = made.audit.holds() && (in_time || !required);
   std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
               fit.detail.c_str(), 1e3 * fit.clearance, 1e3 * fit.tolerance, static_cast<unsigned long long>(seed),
-              fit.straight_steps, out, way_made(fit.scene, made.played.steps.back().result.pose), max_depth,
+              fit.straight_steps, out, distance_moved(fit.scene, made.played.steps.back().result.pose), max_depth,
               allowed_depth, made.audit.holds() ? "holds" : "BROKEN", bench::quantile(us, 0.5),
               bench::quantile(us, 0.99), bench::quantile(us, 1), good ? "yes" : "NO");
   std::fflush(stdout);
-  if (!made.audit.holds()) std::fprintf(stderr, "  %s\n", complaints(made.audit).c_str());
+  if (!made.audit.holds()) std::fprintf(stderr, "  %s\n", violations_of(made.audit).c_str());
   return good;
 }
 
@@ -72,7 +72,7 @@ void add_thread(std::vector<Fit>& fits, const std::string& assembly, double pitc
   fit.scene.assembly.components[1].assembly_from_mesh.translation.z += lift;
   fit.scene.moving = ComponentId(1);
   fit.scene.pull = {0, 0, 1};
-  fit.scene.way = 0.98 * pitch / 2;
+  fit.scene.exit_distance = 0.98 * pitch / 2;
   fit.scene.center = assembled_bounds(fit.scene.assembly[fit.scene.moving]).center();
   fit.steady = [pitch](int k) { return Pose{{0, 0, pitch * k / 80}, quat_about({0, 0, 1}, kTurn * k / 80)}; };
   fits.push_back(std::move(fit));
@@ -83,7 +83,7 @@ std::vector<Fit> make_fits(const std::string& name, double tolerance) {
   const auto add = [&](const std::string& detail, double clearance, SlideScene scene) {
     const double step = Hand::Options{}.step;
     const Vec3 pull = scene.pull;
-    const int straight_steps = static_cast<int>(std::ceil(scene.way / step));
+    const int straight_steps = static_cast<int>(std::ceil(scene.exit_distance / step));
     fits.push_back({name, detail, clearance, tolerance, std::move(scene), straight_steps, [step, pull](int k) {
                       return Pose{k * step * pull, {}};
                     }});

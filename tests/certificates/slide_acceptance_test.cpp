@@ -16,9 +16,9 @@ void expect_comes_out(const SlideScene& scene, double tolerance, const Hand::Opt
   const int allowed = steps_allowed(scene, options.step);
   const Drag made = drag(scene, tolerance, pull(Hand(scene, options), allowed));
   const int steps = steps_until_out(scene, made);
-  EXPECT_GT(steps, 0) << "still at " << way_made(scene, made.played.steps.back().result.pose) << " of " << scene.way
+  EXPECT_GT(steps, 0) << "still at " << distance_moved(scene, made.played.steps.back().result.pose) << " of " << scene.exit_distance
                       << " mm after " << allowed << " steps";
-  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
 }
 
 /// A pull without end in one direction, trembling: how far the component gets in it [mm]. The audit must hold.
@@ -26,9 +26,9 @@ double distance_under_force(const SlideScene& scene, double tolerance, Vec3 dire
   SlideScene pulled = scene;
   pulled.pull = normalized(direction);
   const Drag made = drag(pulled, tolerance, pull(Hand(pulled, {1, 0.3, 0.06, 3}), steps));
-  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
   double furthest = 0;
-  for (const PlayedStep& step : made.played.steps) furthest = std::max(furthest, way_made(pulled, step.result.pose));
+  for (const PlayedStep& step : made.played.steps) furthest = std::max(furthest, distance_moved(pulled, step.result.pose));
   return furthest;
 }
 
@@ -73,7 +73,7 @@ TEST(Slide, LeavesACornerWithoutClearanceAndSlidesAlongItsWalls) {
   std::vector<Pose> targets;
   for (int k = 1; k <= 20; ++k) targets.push_back({{0.5 * k, -3, -3}, {}});
   const Drag made = drag(corner, 0.01, targets);
-  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
   EXPECT_NEAR(made.played.steps.back().result.pose.position.x, 10, 0.1);
   EXPECT_NEAR(made.played.steps.back().result.pose.position.y, 0, 0.02);
 }
@@ -93,7 +93,7 @@ TEST(Slide, TakesMeshingGearsApartWhileTheyRoll) {
   const int steps = 60;
   for (int k = 1; k <= steps; ++k) targets.push_back(pair.rolled(0.004 * k, 6.0 * k / steps));
   const Drag made = drag(scene, 0.01, targets);
-  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
   const Vec3 center = transform_from_pose(made.played.steps.back().result.pose) * Vec3{pair.distance(), 0, 0};
   EXPECT_GT(length(center), pair.distance() + 4);
 }
@@ -124,7 +124,7 @@ Pose turned(const RealNut& nut, const SlideScene& scene, int quarters) {
   for (int k = 1; k <= quarters; ++k)
     targets.push_back({{0, 0, nut.pitch * k / 4}, quat_about({0, 0, 1}, kTurn * k / 4)});
   const Drag made = drag(scene, kNutTolerance, targets);
-  EXPECT_TRUE(made.audit.holds()) << complaints(made.audit);
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
   for (std::size_t k = 0; k < made.played.steps.size(); ++k)
     EXPECT_NEAR(made.played.steps[k].result.pose.position.z, targets[k].position.z, 0.01 * nut.pitch)
         << "quarter " << k;

@@ -100,7 +100,7 @@ TEST(Hand, TremblesWithinItsLimitsAndGivesTheSameForTheSameSeed) {
     const Pose target = hand.next();
     EXPECT_EQ(target, same.next());
     EXPECT_NE(target, other.next());
-    EXPECT_NEAR(way_made(scene, target), 0.5 * k, 0.3 + 1e-9);
+    EXPECT_NEAR(distance_moved(scene, target), 0.5 * k, 0.3 + 1e-9);
     const double angle = 2 * std::acos(std::min(1.0, std::abs(target.rotation.w)));
     EXPECT_LE(angle, 0.06 + 1e-9);
   }

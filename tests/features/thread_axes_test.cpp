@@ -62,7 +62,7 @@ TEST(ThreadAxes, FindTheLeadOfAThreadThatWasCutAnewWhereverItIs) {
       const Pose pose = scenes::random_pose(random, offset, 3);
       std::vector<ThreadAxis> found;
       for (const bool inner : {false, true}) {
-        const TriangleMesh straight = scenes::cut_anew(inner ? nut : bolt, inner, 14, random);
+        const TriangleMesh straight = scenes::with_other_vertices(inner ? nut : bolt, inner, 14, random);
         const std::vector<ThreadAxis> threads = threads_of(scenes::moved(left ? mirrored(straight) : straight, pose));
         ASSERT_EQ(threads.size(), 1u) << offset << ' ' << inner << ' ' << left;
         EXPECT_NEAR(threads[0].lead, left ? -1.25 : 1.25, 1e-3);

@@ -16,7 +16,7 @@
 
 namespace dismantle {
 
-/// A binary glTF taken apart without any of the code that wrote it, and everything in it that glTF 2.0 forbids.
+/// A binary glTF, read without any of the code that wrote it, and its violations of glTF 2.0.
 class CheckedGlb {
   using Json = nlohmann::json;
 
@@ -50,7 +50,7 @@ class CheckedGlb {
     return list("nodes").size();
   }
 
-  /// The keys of an animation's channel: times and values; empty where it has none of them.
+  /// The times and values of an animation channel's keys; empty if there is no such channel.
   std::pair<std::vector<float>, std::vector<float>> keys(const Json& animation, std::size_t node,
                                                          const std::string& path) const {
     for (const Json& channel : animation["channels"]) {
@@ -143,12 +143,13 @@ class CheckedGlb {
            name + " has a number that is not finite");
     if (!a.contains("min")) return;
     for (std::size_t k = 0; k < width_of(a); ++k) {
-      float least = values[k], most = values[k];
+      float minimum = values[k], maximum = values[k];
       for (std::size_t i = k; i < values.size(); i += width_of(a)) {
-        least = std::min(least, values[i]);
-        most = std::max(most, values[i]);
+        minimum = std::min(minimum, values[i]);
+        maximum = std::max(maximum, values[i]);
       }
-      expect(a["min"][k].get<float>() == least && a["max"][k].get<float>() == most, name + " lies about its bounds");
+      expect(a["min"][k].get<float>() == minimum && a["max"][k].get<float>() == maximum,
+             name + " has wrong bounds");
     }
   }
 

@@ -11,15 +11,15 @@
 #include <algorithm>
 #include <cstdint>
 
-/// Holds the triangle pair predicates against the exact oracle.
+/// Checks the predicates of triangle pairs against the exact oracle.
 namespace dismantle::scenes {
 
-/// What was asked, and what was wrong.
+/// Counts of checks and of wrong results.
 struct PairCheck {
   std::int64_t pairs = 0, meeting = 0;
   std::int64_t signs = 0, wrong_signs = 0;  ///< Orientation signs.
   std::int64_t wrong_intersections = 0;     ///< Of a and b, or of b and a.
-  std::int64_t wrong_depths = 0;            ///< Beyond the stated error, or not 0 where apart or coplanar.
+  std::int64_t wrong_depths = 0;            ///< Beyond the stated error, or not 0 for pairs that are apart or coplanar.
   std::int64_t wrong_distances = 0;         ///< Beyond the stated error, or points beside their triangles.
   double worst_distance_error = 0;          ///< As below.
   double worst_depth_error = 0;             ///< Relative to the largest coordinate difference.
@@ -59,7 +59,7 @@ inline void check_signs(PairCheck& check, const TrianglePair& pair, const exact:
   }
 }
 
-/// How far `b` still overlaps `a` along the axis after it has moved by the depth.
+/// The overlap that remains along the axis after `b` has moved by the depth.
 inline double left_overlap(const TrianglePair& pair, const Penetration& p) {
   double a_upper = -INFINITY, b_lower = INFINITY;
   for (int i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ inline double left_overlap(const TrianglePair& pair, const Penetration& p) {
   return a_upper - (b_lower + p.depth);
 }
 
-/// @param exact_depth 0 exactly where the triangles are apart, touch or are coplanar
+/// @param exact_depth 0 if and only if the triangles are apart, touch or are coplanar
 inline void check_depth(PairCheck& check, const TrianglePair& pair, double exact_depth) {
   const double size = largest_difference(pair);
   for (const TrianglePair& order : {pair, TrianglePair{pair.b, pair.a}}) {
@@ -82,7 +82,7 @@ inline void check_depth(PairCheck& check, const TrianglePair& pair, double exact
   }
 }
 
-/// How far the point is from the triangle, exactly, relative to `size`.
+/// The exact distance of the point from the triangle, relative to `size`.
 inline double off_triangle(Vec3 p, const Triangle& t, double size) {
   const exact::Scaled s = exact::scaled({p, t[0], t[1], t[2]});
   const exact::Corners face(s.points.begin() + 1, s.points.end());
@@ -107,7 +107,7 @@ inline void check_distance(PairCheck& check, const TrianglePair& pair, bool meet
   }
 }
 
-/// Everything about one pair.
+/// All checks of one pair.
 inline PairCheck check_pair(const TrianglePair& pair) {
   PairCheck check;
   check.pairs = 1;

@@ -8,10 +8,10 @@
 #include <random>
 #include <string_view>
 
-/// Any number of small assemblies of which it is known what comes out of them, and that nothing else does.
+/// A generator of small assemblies with known answers: all parts can be removed, or none can.
 namespace dismantle::scenes {
 
-/// What is asked for: the first ones come apart, those from ClosedShell on are locked.
+/// The kinds of cases. Those before ClosedShell come apart, the others are locked.
 enum class CaseKind {
   Peg,
   Key,
@@ -22,10 +22,10 @@ enum class CaseKind {
   Hook,
   Bayonet,
   Screw,
-  ClosedShell,      ///< A core that is larger than any way out of its shell: there is none.
+  ClosedShell,      ///< A core in a shell without an opening.
   ChainLinks,       ///< Two closed rings, one through the other.
-  Rivet,            ///< A ball of the radius of its heads does not fit through the plate's hole.
-  InterlockedBurr,  ///< Three closed rings, no two of them linked, but all three (Borromean rings).
+  Rivet,            ///< Both heads are larger than the plate's hole.
+  InterlockedBurr,  ///< Three closed rings: no two are linked, all three are (Borromean rings).
 };
 inline constexpr CaseKind kCaseKinds[] = {
     CaseKind::Peg,   CaseKind::Key,        CaseKind::Dovetail,       CaseKind::NestedShells, CaseKind::LiddedBox,
@@ -43,11 +43,11 @@ inline bool comes_apart(CaseKind kind) {
   return kind < CaseKind::ClosedShell;
 }
 
-/// How one case of a kind differs from the next.
+/// The parameters of a case.
 struct CaseShape {
   double clearance = 0.1;     ///< [mm]
-  double wide = 1, high = 1;  ///< Stretched so many times across and along z.
-  std::uint32_t sides = 24;   ///< Of what is round.
+  double wide = 1, high = 1;  ///< Scale factors across and along z.
+  std::uint32_t sides = 24;   ///< Of each cylinder.
 };
 
 inline CaseShape random_shape(std::mt19937_64& random) {
@@ -60,7 +60,7 @@ inline CaseShape random_shape(std::mt19937_64& random) {
   return shape;
 }
 
-/// The first `fixed` components stay; all others come out, or none does.
+/// The first `fixed` components are fixed; all others can be removed, or none can.
 struct DisassemblyCase {
   Assembly assembly;
   std::uint32_t fixed = 1;
@@ -73,7 +73,7 @@ inline TriangleMesh cup(double radius, double wall, double low, double high, std
       sides);
 }
 
-/// Three cups in each other.
+/// Three nested cups.
 inline std::vector<Component> nested_shells(double clearance, std::uint32_t sides) {
   std::vector<Component> cups;
   for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,7 @@ inline std::vector<Component> rivet(double clearance, std::uint32_t sides) {
   return {component("plate", plate), component("rivet", revolved(body, sides))};
 }
 
-/// Three frames in the three coordinate planes, each around the next one's narrow side, and within the one's before.
+/// Three frames in the three coordinate planes, each around the narrow side of the next and inside the one before.
 inline std::vector<Component> interlocked_burr(double clearance) {
   const double half = 5, bar = 2, longer = half + bar + clearance, thick = half - clearance;
   const TriangleMesh frame = box_block(
@@ -172,7 +172,7 @@ inline DisassemblyCase disassembly_case(CaseKind kind, const CaseShape& shape) {
   return made;
 }
 
-/// The same surface of more triangles: every other edge, by chance, is cut in halves.
+/// The same surface with more triangles: edges chosen at random are halved.
 inline TriangleMesh refined(const TriangleMesh& mesh, std::mt19937_64& random) {
   TriangleMesh fine{mesh.vertices, {}};
   constexpr std::uint32_t kWhole = 0xffffffffu;
@@ -205,7 +205,7 @@ inline TriangleMesh refined(const TriangleMesh& mesh, std::mt19937_64& random) {
   return fine;
 }
 
-/// The assembly of more triangles.
+/// The assembly with refined meshes.
 inline Assembly refined(const Assembly& assembly, std::mt19937_64& random) {
   Assembly other = assembly;
   for (Component& c : other.components) c.mesh = std::make_shared<const TriangleMesh>(refined(*c.mesh, random));

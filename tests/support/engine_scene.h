@@ -38,9 +38,9 @@ class EngineScene {
       : assembly_(std::move(assembly)),
         engine_(make_streams_engine(assembly_, PairStates{tolerance, std::move(pairs)}, options)) {}
 
-  /// Sweeps the named components to poses; the others stand still.
+  /// Sweeps the given components to poses; the others do not move.
   SweepResult sweep(const Poses& poses) { return engine_->sweep(with(poses), 0); }
-  /// As sweep, and stays there where it is free.
+  /// As sweep; commits the motion if it is free.
   SweepResult move(const Poses& poses) {
     SweepResult result = sweep(poses);
     if (result.free) engine_->commit();
@@ -68,7 +68,7 @@ class EngineScene {
   std::unique_ptr<SweepEngine> engine_;
 };
 
-/// The pairs whose surfaces intersect: Contact within the tolerance, else Embedded; every triangle pair is tested.
+/// The pairs whose surfaces intersect, by testing every triangle pair: Contact within the tolerance, else Embedded.
 inline PairStates states_by_brute_force(const Assembly& assembly, double tolerance) {
   PairStates states;
   states.tolerance = tolerance;

@@ -10,7 +10,7 @@
 #include <initializer_list>
 #include <vector>
 
-/// What triangles do, in exact integers: the oracle that the floating-point tests are held against. Written from the
+/// Triangle predicates in exact integers: the oracle for the floating-point predicates. Written from the
 /// definitions (linear constraints, supports) and without the library's algorithms.
 namespace dismantle::exact {
 
@@ -79,10 +79,10 @@ inline int orient3d_sign(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return sign_of(dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]));
 }
 
-/// The part of the parameters [0, 1] that linear constraints leave, its ends as fractions of positive denominator.
+/// The part of [0, 1] that satisfies linear constraints, its ends as fractions with positive denominators.
 class ParameterInterval {
  public:
-  /// Keeps where constant + slope * t >= 0.
+  /// Keeps the t with constant + slope * t >= 0.
   void keep_nonnegative(const Integer& constant, const Integer& slope) {
     if (slope == 0) {
       empty_ = empty_ || constant < 0;
@@ -103,7 +103,7 @@ class ParameterInterval {
   bool empty_ = false;
 };
 
-/// True where the closed segment p-q meets the convex hull of three points, which may be a segment or a point.
+/// True if the closed segment p-q meets the convex hull of three points, which may be a segment or a point.
 inline bool segment_meets_hull(const Point& p, const Point& q, const Corners& t) {
   const Point along = q - p;
   ParameterInterval interval;
@@ -135,14 +135,14 @@ inline bool segment_meets_hull(const Point& p, const Point& q, const Corners& t)
   return !interval.empty();
 }
 
-/// Two closed triangles meet where an edge of one meets the other.
+/// True if two closed triangles meet: an edge of one meets the other.
 inline bool triangles_meet(const Corners& a, const Corners& b) {
   for (int i = 0; i < 3; ++i)
     if (segment_meets_hull(a[i], a[(i + 1) % 3], b) || segment_meets_hull(b[i], b[(i + 1) % 3], a)) return true;
   return false;
 }
 
-/// True where all six corners are in one plane.
+/// True if all six corners are in one plane.
 inline bool coplanar(const Corners& a, const Corners& b) {
   std::vector<Point> from_first;
   for (const Corners* t : {&a, &b})
@@ -154,14 +154,14 @@ inline bool coplanar(const Corners& a, const Corners& b) {
   return true;
 }
 
-/// The least translation that parts triangles that meet, from the supports along the normals of the facets that their
-/// Minkowski difference can have.
+/// The minimum translation that separates triangles that meet, from the supports along the normals of the facets that
+/// their Minkowski difference can have.
 inline Real overlap(const Corners& a, const Corners& b, int unit) {
   std::vector<Point> axes = {cross(a[1] - a[0], a[2] - a[0]), cross(b[1] - b[0], b[2] - b[0])};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) axes.push_back(cross(a[(i + 1) % 3] - a[i], b[(j + 1) % 3] - b[j]));
   bool found = false;
-  Integer least = 0, min_scale = 1;  // The squared depth is least / min_scale.
+  Integer minimum = 0, min_scale = 1;  // The squared depth is minimum / min_scale.
   for (const Point& n : axes) {
     if (is_zero(n)) continue;
     Integer a_lower = dot(n, a[0]), a_upper = a_lower, b_lower = dot(n, b[0]), b_upper = b_lower;
@@ -175,14 +175,14 @@ inline Real overlap(const Corners& a, const Corners& b, int unit) {
     const Integer forward = a_upper - b_lower, backward = b_upper - a_lower;
     const Integer overlap = forward < backward ? forward : backward;
     const Integer square = overlap * overlap, scale = dot(n, n);
-    if (!found || square * min_scale < least * scale) least = square, min_scale = scale;
+    if (!found || square * min_scale < minimum * scale) minimum = square, min_scale = scale;
     found = true;
   }
-  return found ? ldexp(sqrt(Real(least) / Real(min_scale)), unit) : Real(0);
+  return found ? ldexp(sqrt(Real(minimum) / Real(min_scale)), unit) : Real(0);
 }
 
-/// The least of some fractions of positive denominator.
-class LeastFraction {
+/// The minimum of fractions with positive denominators.
+class MinFraction {
  public:
   void take(const Integer& numerator, const Integer& denominator) {
     if (found_ && numerator * denominator_ >= numerator_ * denominator) return;
@@ -195,54 +195,54 @@ class LeastFraction {
   Integer numerator_ = 0, denominator_ = 1;
 };
 
-inline void take_point_segment(LeastFraction& least, const Point& p, const Point& from, const Point& to) {
+inline void take_point_segment(MinFraction& minimum, const Point& p, const Point& from, const Point& to) {
   const Point e = to - from, w = p - from;
   const Integer along = dot(w, e), squared = dot(e, e);
-  if (along <= 0) return least.take(dot(w, w), 1);
-  if (along >= squared) return least.take(dot(p - to, p - to), 1);
+  if (along <= 0) return minimum.take(dot(w, w), 1);
+  if (along >= squared) return minimum.take(dot(p - to, p - to), 1);
   const Point area = cross(w, e);
-  least.take(dot(area, area), squared);
+  minimum.take(dot(area, area), squared);
 }
 
-inline void take_point_face(LeastFraction& least, const Point& p, const Corners& face) {
+inline void take_point_face(MinFraction& minimum, const Point& p, const Corners& face) {
   const Point n = cross(face[1] - face[0], face[2] - face[0]);
   if (is_zero(n)) return;
   for (int i = 0; i < 3; ++i)
     if (dot(cross(n, face[(i + 1) % 3] - face[i]), p - face[i]) < 0) return;
   const Integer height = dot(n, p - face[0]);
-  least.take(height * height, dot(n, n));
+  minimum.take(height * height, dot(n, n));
 }
 
-/// Where the common normal of the lines meets both segments.
-inline void take_lines(LeastFraction& least, const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
+/// Takes the distance of the lines if their common normal meets both segments.
+inline void take_lines(MinFraction& minimum, const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
   const Point e = a1 - a0, f = b1 - b0, n = cross(e, f), w = b0 - a0;
   const Integer nn = dot(n, n), s = dot(cross(w, f), n), t = dot(cross(w, e), n);
   if (nn == 0 || s < 0 || s > nn || t < 0 || t > nn) return;
   const Integer height = dot(w, n);
-  least.take(height * height, nn);
+  minimum.take(height * height, nn);
 }
 
 /// The distance of a point from a closed triangle.
 inline Real point_distance(const Point& p, const Corners& face, int unit) {
-  LeastFraction least;
-  take_point_face(least, p, face);
-  for (int i = 0; i < 3; ++i) take_point_segment(least, p, face[i], face[(i + 1) % 3]);
-  return ldexp(sqrt(least.value()), unit);
+  MinFraction minimum;
+  take_point_face(minimum, p, face);
+  for (int i = 0; i < 3; ++i) take_point_segment(minimum, p, face[i], face[(i + 1) % 3]);
+  return ldexp(sqrt(minimum.value()), unit);
 }
 
 /// The distance of triangles that do not meet.
 inline Real distance(const Corners& a, const Corners& b, int unit) {
-  LeastFraction least;
+  MinFraction minimum;
   for (int i = 0; i < 3; ++i) {
-    take_point_face(least, a[i], b);
-    take_point_face(least, b[i], a);
+    take_point_face(minimum, a[i], b);
+    take_point_face(minimum, b[i], a);
     for (int j = 0; j < 3; ++j) {
-      take_point_segment(least, a[i], b[j], b[(j + 1) % 3]);
-      take_point_segment(least, b[i], a[j], a[(j + 1) % 3]);
-      take_lines(least, a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
+      take_point_segment(minimum, a[i], b[j], b[(j + 1) % 3]);
+      take_point_segment(minimum, b[i], a[j], a[(j + 1) % 3]);
+      take_lines(minimum, a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
     }
   }
-  return ldexp(sqrt(least.value()), unit);
+  return ldexp(sqrt(minimum.value()), unit);
 }
 
 }  // namespace dismantle::exact

@@ -9,7 +9,7 @@ namespace dismantle::scenes {
 struct Gear {
   std::uint32_t teeth = 20;
   double module = 2;         ///< [mm]
-  double backlash = 0;       ///< Taken off the thickness of every tooth at the pitch circle [mm].
+  double backlash = 0;       ///< Reduction of each tooth's thickness at the pitch circle [mm].
   double width = 10;         ///< Along z, from 0 [mm]
   double bore = 5;           ///< Radius [mm]
   std::uint32_t points = 6;  ///< On a flank.
@@ -43,7 +43,7 @@ inline Profile tooth_outline(const Gear& gear) {
   return outline;
 }
 
-/// The gear as a closed mesh, a tooth's middle on the x axis. The fans between rim and bore are slivers, as CAD
+/// The gear as a closed mesh, the middle of a tooth on the x axis. The fans between rim and bore are slivers, as CAD
 /// tessellators make them.
 inline TriangleMesh gear_mesh(const Gear& gear) {
   const Profile tooth = tooth_outline(gear);

@@ -5,11 +5,11 @@
 
 #include <random>
 
-/// Close fits at any number of triangles, for measuring.
+/// Close fits with a given number of triangles, for benchmarks.
 namespace dismantle::scenes {
 
-inline std::uint32_t at_least(double count, std::uint32_t least) {
-  return std::max(least, static_cast<std::uint32_t>(std::lround(count)));
+inline std::uint32_t at_least(double count, std::uint32_t minimum) {
+  return std::max(minimum, static_cast<std::uint32_t>(std::lround(count)));
 }
 
 /// A shaft of radius 10 - clearance in a housing with a bore of radius 10, 100 long; triangles as long as wide.
@@ -23,9 +23,9 @@ inline SlideScene shaft_in_hole(std::size_t triangles, double clearance) {
                      {0, 0, 1}, 100);
 }
 
-/// A torus of radii 30 and 5 about z, and a thin ring that it goes through, `clearance` wider; the ring in hand.
+/// A torus of radii 30 and 5 about z, and a thin ring that it goes through, `clearance` wider; the ring moves.
 inline SlideScene ring_on_torus(std::size_t triangles, double clearance) {
-  // Of all triangles the torus gets four fifths.
+  // The torus has four fifths of all triangles.
   const std::uint32_t around = at_least(std::sqrt(static_cast<double>(triangles) * 0.4 * 30 / 5), 24);
   const std::uint32_t across = at_least(static_cast<double>(triangles) * 0.4 / around, 12);
   const std::uint32_t ring_around = at_least(std::sqrt(static_cast<double>(triangles) * 0.1 * 7), 24);
@@ -43,11 +43,11 @@ inline SlideScene ring_on_torus(std::size_t triangles, double clearance) {
 
 /// A peg in a bore, meshed as CAD tessellators do: strips as long as the bore, fans as wide as the faces.
 inline SlideScene sliver_peg(std::size_t triangles, double clearance) {
-  // Of a peg with a shoulder: 10 triangles a side; of the block: 8.
+  // The peg with its shoulder has 10 triangles per side, the block 8.
   return peg_in_hole(at_least(static_cast<double>(triangles) / 18 / 8, 3) * 8, clearance);
 }
 
-/// A thread as M8 has it: pitch 1.25 mm, flanks at 30 degrees, flats at the crests and roots; `wider` in radius.
+/// An M8 thread: pitch 1.25 mm, flanks at 30 degrees, flats at the crests and roots; `wider` in radius.
 inline Winding thread(double wider, double edge_length) {
   const double pitch = 1.25, high = 4, deep = pitch * 5 / 16 / std::tan(kTurn / 12);
   const Profile corners = {{high - deep + wider, 0},
@@ -61,9 +61,9 @@ inline Winding thread(double wider, double edge_length) {
   return w;
 }
 
-/// The surface of a winding (an outer one, or an inner one seen from within), open at its ends, as if it had been cut
-/// anew: its vertices lie on it anywhere, so that no edges are along helices. @param rows of vertices a turn
-inline TriangleMesh cut_anew(const Winding& w, bool inner, std::uint32_t rows, std::mt19937_64& random) {
+/// The surface of a winding (outer, or inner seen from within), open at its ends, with other vertices: they lie
+/// anywhere on it, so that no edges run along helices. @param rows of vertices per turn
+inline TriangleMesh with_other_vertices(const Winding& w, bool inner, std::uint32_t rows, std::mt19937_64& random) {
   std::uniform_real_distribution<double> off(-0.35, 0.35);
   const auto on_profile = [&](double share) {
     std::size_t j = 1;
@@ -92,7 +92,7 @@ inline TriangleMesh cut_anew(const Winding& w, bool inner, std::uint32_t rows, s
   return m;
 }
 
-/// A threaded bolt of 16 turns in a nut of 5, `clearance` between their flanks; the bolt in hand, out by screwing.
+/// A threaded bolt of 16 turns in a nut of 5, `clearance` between their flanks; the bolt moves, out by screwing.
 inline SlideScene bolt_in_nut(std::size_t triangles, double clearance) {
   // The bolt's surface is 32 times, the nut's two 20 times sides * rows triangles.
   const double cells = static_cast<double>(triangles) / 52;
@@ -111,7 +111,7 @@ inline Pose unscrewed(double angle) {
   return {{0, 0, 1.25 * angle / kTurn}, quat_about({0, 0, 1}, angle)};
 }
 
-/// Two gears of about that many triangles.
+/// Two gears with about that many triangles.
 inline GearPair large_gear_pair(std::size_t triangles, double backlash) {
   GearPair pair = gear_pair(backlash);
   // 50 teeth of 2 * points corners, each with 4 triangles a layer and 4 at the ends.

@@ -72,7 +72,7 @@ inline TriangleMesh moved(TriangleMesh mesh, const Pose& pose) {
   return mesh;
 }
 
-/// A component that is where its mesh is.
+/// A component with its mesh in assembly coordinates.
 inline Component component(std::string name, TriangleMesh mesh) {
   Component c;
   c.name = std::move(name);

@@ -6,7 +6,7 @@
 
 namespace dismantle::scenes {
 
-/// The motion of a moving component past one that stands in its assembled pose, between the frames of their trees.
+/// The motion of a component relative to one that rests in its assembled pose, between the frames of their trees.
 inline PairMotion pair_motion(const ObbTree& moving, const ObbTree& fixed, const Pose& start, const Pose& end) {
   const auto between = [&](const Pose& pose) {
     const RigidTransform t = transform_from_pose(pose);

@@ -10,13 +10,13 @@
 
 namespace dismantle {
 
-/// The result's error as text; "" where there is none.
+/// The message of the result's error; "" if there is none.
 template <class T>
 std::string message_of(const Result<T>& result) {
   return result ? "" : result.error().message;
 }
 
-/// An Error of kind Unreadable, one sentence "<problem> (<why>); <what to do>" that says `why`.
+/// Expects an Error of kind Unreadable, one sentence "<problem> (<why>); <what to do>" that contains `why`.
 template <class T>
 void expect_unreadable(const Result<T>& result, std::string_view why) {
   ASSERT_FALSE(result.ok()) << "expected an error about " << why;

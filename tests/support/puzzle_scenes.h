@@ -9,28 +9,30 @@
 #include <string>
 #include <vector>
 
-/// Parts that come apart only by going round a corner or turning, or not at all.
+/// Assemblies that come apart only around a corner or by turning, or not at all.
 namespace dismantle::scenes {
 
-/// A closed solid of the cells of a grid, of which `solid(i, j, k)` says which are solid; `place(i, j, k)` puts the
-/// grid's points, right-handed.
+/// A grid of cells.
 struct CellGrid {
   std::array<int, 3> size;  ///< In cells.
-  bool round = false;       ///< The second index goes round.
+  bool periodic = false;    ///< The second index wraps around.
 };
 
-template <class Place, class Solid>
-TriangleMesh cell_block(const CellGrid& grid, Place place, Solid solid) {
+/// A closed solid made of those cells of a grid for which `solid(i, j, k)`. `position(i, j, k)` gives the grid's
+/// points, right-handed.
+
+template <class Position, class Solid>
+TriangleMesh cell_block(const CellGrid& grid, Position position, Solid solid) {
   TriangleMesh m;
   std::map<std::array<int, 3>, std::uint32_t> known;
   const auto vertex = [&](std::array<int, 3> k) {
-    if (grid.round) k[1] %= grid.size[1];
+    if (grid.periodic) k[1] %= grid.size[1];
     const auto [found, fresh] = known.try_emplace(k, static_cast<std::uint32_t>(m.vertices.size()));
-    if (fresh) m.vertices.push_back(place(k[0], k[1], k[2]));
+    if (fresh) m.vertices.push_back(position(k[0], k[1], k[2]));
     return found->second;
   };
   const auto is_solid = [&](std::array<int, 3> k) {
-    if (grid.round) k[1] = (k[1] + grid.size[1]) % grid.size[1];
+    if (grid.periodic) k[1] = (k[1] + grid.size[1]) % grid.size[1];
     for (std::size_t a = 0; a < 3; ++a)
       if (k[a] < 0 || k[a] >= grid.size[a]) return false;
     return static_cast<bool>(solid(k[0], k[1], k[2]));
@@ -64,7 +66,7 @@ TriangleMesh box_block(const std::array<std::vector<double>, 3>& at, Solid solid
   return cell_block({{cells(0), cells(1), cells(2)}}, place, solid);
 }
 
-/// The same between radii and heights about z [mm], all around in `sides` sectors.
+/// The same between radii and heights about z [mm], the full turn in `sides` sectors.
 template <class Solid>
 TriangleMesh round_block(const std::vector<double>& radii, const std::vector<double>& heights, int sides, Solid solid) {
   const auto place = [&](int i, int j, int k) {
@@ -97,7 +99,7 @@ inline std::vector<Component> chain_links() {
   return {component("link", link), component("next link", moved(link, through))};
 }
 
-/// A round rod bent along a line of points, closed at its ends.
+/// A circular rod bent along a polyline, closed at its ends.
 inline TriangleMesh bent_rod(const std::vector<Vec3>& line, double radius, std::uint32_t sides) {
   TriangleMesh m;
   Vec3 aside;
@@ -123,8 +125,8 @@ inline TriangleMesh bent_rod(const std::vector<Vec3>& line, double radius, std::
   return m;
 }
 
-/// Two open rings of round rod through each other, the gap of each turned away from the other: a rod has to be led
-/// through a gap. Their rods are 3 mm thick, the gaps `gap` wide along the rods' middle lines [mm].
+/// Two open rings through each other, the gap of each turned away from the other: one rod must pass through the other's
+/// gap. The rods are 3 mm thick, the gaps `gap` wide along the rods' centre lines [mm].
 inline std::vector<Component> open_rings(double gap) {
   const double ring = 10, rod = 1.5;
   const auto open_ring = [&](double toward) {
@@ -151,8 +153,8 @@ inline std::vector<Component> l_slot(double clearance) {
   return {component("block", block), component("pin", box({c, c, c}, {6 + c, 6 + c, 6 + c}))};
 }
 
-/// A hook around a bar, between two plates that leave it only its own plane: it goes down, aside from under the bar,
-/// and up beside it. `clearance` between hook and plates [mm].
+/// A hook around a bar, between two plates that confine it to its plane: it moves down, aside from under the bar, and
+/// up beside it. `clearance` between hook and plates [mm].
 ///
 ///     #        ##   bar: ##### with the hook's mouth around its end
 ///     #####  [  #
@@ -169,8 +171,8 @@ inline std::vector<Component> hook(double clearance) {
           component("back", box({-24, -18, 10}, {24, 12, 14})), component("hook", body)};
 }
 
-/// A plug with two lugs in a socket: turned by a tenth of a turn, where stops hold it, its lugs are below their slots,
-/// and it comes out along z. `clearance` all around [mm], at least 0.05 for the sides.
+/// A plug with two lugs in a socket: after a tenth of a turn, up to stops, its lugs are below their slots, and it comes
+/// out along z. `clearance` all around [mm], at least 0.05 for the sides.
 inline std::vector<Component> bayonet(double clearance) {
   constexpr int kSides = 48;
   const double c = clearance;

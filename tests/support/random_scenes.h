@@ -15,7 +15,7 @@ inline Vec3 random_vector(std::mt19937_64& random, double half) {
   return {x, y, z};
 }
 
-/// A rotation by up to `angle` [rad] about a random axis, and a shift by up to `shift` [mm] a coordinate.
+/// A rotation by up to `angle` [rad] about a random axis, and a translation by up to `shift` [mm] per coordinate.
 inline Pose random_pose(std::mt19937_64& random, double shift, double angle) {
   std::uniform_real_distribution<double> turn(-angle, angle);
   const Vec3 axis = normalized(random_vector(random, 1) + Vec3{0, 0, 1e-9});
@@ -23,7 +23,7 @@ inline Pose random_pose(std::mt19937_64& random, double shift, double angle) {
   return {random_vector(random, shift), quat_about(axis, by)};
 }
 
-/// `count` boxes and tubes of 1-4 mm, thrown into a cube of the given half size.
+/// `count` boxes and tubes of 1-4 mm at random poses in a cube of the given half size.
 inline Assembly random_assembly(std::mt19937_64& random, int count, double half) {
   std::vector<Component> components;
   for (int i = 0; i < count; ++i) {

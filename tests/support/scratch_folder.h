@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// A folder for one test's files, removed with everything in it at the end.
+/// A folder for the files of one test, removed at its end.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -32,7 +32,7 @@ class ScratchFolder {
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file (its folders too) and gives its path.
+  /// Writes a file, and its folders if need be. @return its path
   std::filesystem::path put(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
@@ -40,7 +40,7 @@ class ScratchFolder {
     return file;
   }
 
-  /// How many files and folders lie directly in it.
+  /// The number of files and folders directly in it.
   std::size_t entry_count() const {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));

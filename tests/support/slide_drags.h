@@ -7,16 +7,16 @@
 #include "dismantle/session/play_motion.h"
 #include "tests/support/slide_scenes.h"
 
-/// Playing what a hand does to a scene, with an audit of what came of it.
+/// Drags of a component by a simulated hand, with an audit of the path.
 namespace dismantle::scenes {
 
-/// What a hand did and what came of it.
+/// A drag, and the audit of its path.
 struct Drag {
   PlayedMotion played;
   AuditReport audit;
 };
 
-/// The scene's component asked to go through `targets`, a hundredth of a second each.
+/// A motion of the scene's component through `targets`, 0.01 s each.
 inline Motion motion_of(const SlideScene& scene, const std::vector<Pose>& targets,
                         ResponseKind response = ResponseKind::Slide) {
   Motion motion;
@@ -27,21 +27,21 @@ inline Motion motion_of(const SlideScene& scene, const std::vector<Pose>& target
   return motion;
 }
 
-/// The next `count` targets of a trembling hand that pulls straight out.
+/// The next `count` targets of a hand.
 inline std::vector<Pose> pull(Hand hand, int count) {
   std::vector<Pose> targets;
   for (int k = 0; k < count; ++k) targets.push_back(hand.next());
   return targets;
 }
 
-/// How the pairs stand when nothing but the tolerance is given. @pre the scene is not so broken that this fails
+/// The pair states for a tolerance and no other options. @pre the scene can be classified
 inline PairStates states_of(const Assembly& assembly, double tolerance) {
   ClassifyOptions options;
   options.tolerance = tolerance;
   return classify_pairs(assembly, options).value();
 }
 
-/// Plays the targets with the method `certificates` from the assembled state, and audits the path.
+/// Plays the targets with method `certificates` from the assembled state, and audits the path.
 inline Drag drag(const SlideScene& scene, double tolerance, const std::vector<Pose>& targets) {
   const PairStates states = states_of(scene.assembly, tolerance);
   CertificateEngine engine(scene.assembly, states);
@@ -51,20 +51,20 @@ inline Drag drag(const SlideScene& scene, double tolerance, const std::vector<Po
   return made;
 }
 
-/// The number of steps after which the component has come all the way out; 0 where it never has.
+/// The number of steps after which the component is out; 0 if it never is.
 inline int steps_until_out(const SlideScene& scene, const Drag& made) {
   for (std::size_t k = 0; k < made.played.steps.size(); ++k)
-    if (way_made(scene, made.played.steps[k].result.pose) >= scene.way) return static_cast<int>(k) + 1;
+    if (distance_moved(scene, made.played.steps[k].result.pose) >= scene.exit_distance) return static_cast<int>(k) + 1;
   return 0;
 }
 
-/// The steps that a straight pull of `step` mm takes, and a fifth more, as the acceptance of sliding allows.
+/// The number of steps in which the component must be out: those of a straight pull of `step` mm, and a fifth more.
 inline int steps_allowed(const SlideScene& scene, double step) {
-  return static_cast<int>(1.2 * std::ceil(scene.way / step));
+  return static_cast<int>(1.2 * std::ceil(scene.exit_distance / step));
 }
 
-/// What the audit found wrong, for a failed test's message.
-inline std::string complaints(const AuditReport& report) {
+/// The violations that an audit found, for a message.
+inline std::string violations_of(const AuditReport& report) {
   std::string text = std::to_string(report.violations.size()) + " violations";
   for (std::size_t k = 0; k < report.violations.size() && k < 3; ++k) text += "; " + report.violations[k].message;
   return text;

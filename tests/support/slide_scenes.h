@@ -6,31 +6,31 @@
 #include "tests/support/meshes.h"
 #include "tests/support/random_scenes.h"
 
-/// Fits that a hand can take apart only by sliding, at the clearances of real machines.
+/// Fits that come apart only by sliding, at the clearances of real machines.
 namespace dismantle::scenes {
 
-/// An assembly, the component in hand, and the straight way out.
+/// An assembly, its moving component, and the straight motion that removes it.
 struct SlideScene {
   Assembly assembly;
   ComponentId moving;
-  Vec3 pull;       ///< Unit direction of the way out.
-  double way = 0;  ///< How far along `pull` the component must go to be out [mm].
-  Vec3 center;     ///< Of the component's bounding box [mm, assembled]; the hand trembles about it.
+  Vec3 pull;                 ///< Unit direction of the motion.
+  double exit_distance = 0;  ///< Along `pull`, until the component is out [mm].
+  Vec3 center;               ///< Of the component's bounding box [mm, assembled]; the hand's tremor is about it.
 };
 
-/// A scene of components of which the last one is in hand.
-inline SlideScene slide_scene(std::vector<Component> components, Vec3 pull, double way) {
+/// A scene whose last component moves.
+inline SlideScene slide_scene(std::vector<Component> components, Vec3 pull, double exit_distance) {
   SlideScene scene;
   scene.assembly = assembly(std::move(components));
   scene.moving = ComponentId(static_cast<std::uint32_t>(scene.assembly.components.size()) - 1);
   scene.pull = normalized(pull);
-  scene.way = way;
+  scene.exit_distance = exit_distance;
   scene.center = assembled_bounds(scene.assembly[scene.moving]).center();
   return scene;
 }
 
-/// A hand that pulls steadily and trembles in place and direction, and takes no notice of what is in the way. The same
-/// seed gives the same motion.
+/// A simulated hand: pulls steadily with a tremor in position and rotation, whatever blocks the component.
+/// Deterministic.
 class Hand {
  public:
   struct Options {
@@ -42,11 +42,11 @@ class Hand {
 
   Hand(const SlideScene& scene, const Options& options) : scene_(scene), options_(options), random_(options.seed) {}
 
-  /// Where the hand wants the component after `pulled` mm, but for its trembling.
+  /// The target after a pull by `pulled` mm, without tremor.
   Pose steady(double pulled) const { return {pulled * scene_.pull, {}}; }
   /// The next target.
   Pose next() { return trembling(steady(++count_ * options_.step)); }
-  /// `pose` with a tremble about the component's centre.
+  /// `pose` with tremor about the component's centre.
   Pose trembling(const Pose& pose) {
     const Pose shake = random_pose(random_, options_.shake, options_.turn);
     const Vec3 center = transform_from_pose(pose) * scene_.center;
@@ -61,13 +61,13 @@ class Hand {
   int count_ = 0;
 };
 
-/// How far the component has come along its way out at a pose [mm]: its centre's share of it.
-inline double way_made(const SlideScene& scene, const Pose& pose) {
+/// The distance that the component's centre has moved along `pull` at a pose [mm].
+inline double distance_moved(const SlideScene& scene, const Pose& pose) {
   return dot(transform_from_pose(pose) * scene.center - scene.center, scene.pull);
 }
 
-/// A peg of 10 mm with a shoulder that rests on the block, in a bore of `sides` sides that is `clearance` wider in
-/// radius; the sides face each other.
+/// A peg of 10 mm with a shoulder that rests on the block, in a bore of `sides` sides whose radius is larger by
+/// `clearance`; the sides face each other.
 inline SlideScene peg_in_hole(std::uint32_t sides, double clearance, double depth = 22.5) {
   const Profile peg = {{0, 0}, {5, 0}, {5, depth}, {8, depth}, {8, depth + 5}, {0, depth + 5}};
   return slide_scene(
@@ -76,7 +76,7 @@ inline SlideScene peg_in_hole(std::uint32_t sides, double clearance, double dept
       {0, 0, 1}, depth);
 }
 
-/// A pin that is `interference` thicker in radius than the bore that it sits in.
+/// A pin whose radius is larger than that of its bore by `interference`.
 inline SlideScene press_fit_pin(std::uint32_t sides, double interference, double depth = 20) {
   const double r = 5 + interference;
   const Profile pin = {{0, -1}, {r, -1}, {r, depth + 1}, {0, depth + 1}};
@@ -98,14 +98,14 @@ inline SlideScene key_in_slot(double clearance, Vec3 pull) {
       pull, pull.y > 0 ? 8 : 20);
 }
 
-/// A plate that is `excess` thicker than the slot it stands in, out upwards.
+/// A plate thicker by `excess` than the slot it stands in, out upwards.
 inline SlideScene plate_in_slot(double excess) {
   const double half = 1 + excess / 2;
   return slide_scene({component("slot", channel(1, 4, 20)), component("plate", box({-half, 4, 2}, {half, 30, 18}))},
                      {0, 1, 0}, 8);
 }
 
-/// A dovetail slider in its way, `clearance` on its flanks and below; out along z only.
+/// A dovetail slider in its guide, `clearance` on its flanks and below; out along z only.
 inline SlideScene dovetail(double clearance) {
   const double slope = 0.4, aside = clearance * std::sqrt(1 + slope * slope), low = 10 + aside + slope * clearance;
   const Profile groove = {{-6 - aside, 10}, {-low, -clearance}, {low, -clearance}, {6 + aside, 10}};
@@ -122,12 +122,12 @@ inline SlideScene part_in_corner() {
       {1, 1, 1}, 10);
 }
 
-/// Two gears that mesh, the second one in hand; out along the line of their centres (x).
+/// Two meshing gears, of which the second moves; out along the line of their centres (x).
 struct GearPair {
   Gear fixed, moving;
   double distance() const { return fixed.pitch_radius() + moving.pitch_radius(); }
-  /// The moving gear's pose after it has rolled by `angle` about the fixed one's centre (the pitch circles roll), and
-  /// has been drawn out by `apart` along the line of centres.
+  /// The moving gear's pose after it has rolled by `angle` about the fixed one's centre (the pitch circles roll) and
+  /// moved out by `apart` along the line of centres.
   Pose rolled(double angle, double apart = 0) const {
     const double spin = angle * (1 + static_cast<double>(fixed.teeth) / moving.teeth);
     const Vec3 center{(distance() + apart) * std::cos(angle), (distance() + apart) * std::sin(angle), 0};

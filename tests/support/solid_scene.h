@@ -8,7 +8,7 @@
 
 namespace dismantle::scenes {
 
-/// A mesh as the method `certificates` sees it.
+/// A mesh with the tree that method `certificates` works on.
 struct Solid {
   Assembly assembly;
   SolidTree tree;

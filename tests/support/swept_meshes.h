@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-/// Closed meshes, normals out, that are made by turning, extruding and winding a profile.
+/// Closed meshes, normals out, made by revolving, extruding or winding a profile.
 namespace dismantle::scenes {
 
-/// A point of a plane profile: (x, y) of an extruded one, (radius, z) of a turned one [mm].
+/// A point of a plane profile: (x, y) of an extruded one, (radius, z) of a revolved one [mm].
 struct ProfilePoint {
   double x = 0, y = 0;
 };
@@ -24,7 +24,7 @@ inline void add_quad(TriangleMesh& m, std::uint32_t a, std::uint32_t b, std::uin
   m.faces.push_back({{a, c, d}});
 }
 
-/// The profile with more points on its edges, so that no edge is longer than `length`; without an end point.
+/// The profile with points added on its edges, so that no edge is longer than `length`; without an end point.
 inline Profile subdivided(const Profile& profile, double length, bool loop) {
   Profile fine;
   for (std::size_t k = 0; k + (loop ? 0 : 1) < profile.size(); ++k) {
@@ -74,8 +74,8 @@ inline TriangleMesh revolved_loop(const Profile& profile, std::uint32_t sides) {
   return m;
 }
 
-/// What lies between two chains of equally many points (x, y), extruded along z in `layers` layers. The boundary that
-/// goes along `outer` and back along `inner` is counter-clockwise; `ring`: each chain closes on itself instead.
+/// The band between two chains of equally many points (x, y), extruded along z in `layers` layers. Its boundary, along
+/// `outer` and back along `inner`, is counter-clockwise; with `ring`, each chain is closed instead.
 inline TriangleMesh extruded_band(const Profile& outer, const Profile& inner, bool ring, double z0, double z1,
                                   std::uint32_t layers = 1) {
   TriangleMesh m;
@@ -200,7 +200,7 @@ inline TriangleMesh wound_solid(const Winding& w) {
   return m;
 }
 
-/// A round body of radius `outer` with a winding surface as its hole; its ends wind along.
+/// A cylinder of radius `outer` with a winding surface as its hole; its ends follow the winding.
 inline TriangleMesh wound_hole(const Winding& w, double outer) {
   TriangleMesh m;
   add_winding_vertices(m, w, outer);

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-/// Pairs of triangles that are hard for predicates; the same for the same seed.
+/// Pairs of triangles that are hard for predicates. Deterministic.
 namespace dismantle::scenes {
 
 struct TrianglePair {
@@ -18,9 +18,9 @@ struct TrianglePair {
 /// The families of pairs, from easy to nearly or exactly degenerate.
 enum class PairKind {
   Random,           ///< Corners anywhere in one cube.
-  Lattice,          ///< Small integer coordinates: coincidences of every kind, also without area.
+  Lattice,          ///< Small integer coordinates: coincidences of every kind, and triangles without area.
   LatticePlane,     ///< Integer combinations of two integer vectors: exactly coplanar, mostly not axis-aligned.
-  AxisPlanes,       ///< Axis-aligned planes with decimal millimetre coordinates, as CAD gives them.
+  AxisPlanes,       ///< Axis-aligned planes with decimal millimetre coordinates, as in CAD files.
   SharedCorner,     ///< One corner in common.
   SharedEdge,       ///< Two corners in common.
   CornerOnFace,     ///< A corner of one rounded onto the other's face, edge or corner.
@@ -39,7 +39,7 @@ inline const char* name_of(PairKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-/// Makes the pairs.
+/// Generates the pairs.
 class TrianglePairs {
  public:
   explicit TrianglePairs(std::uint64_t seed) : random_(seed) {}
@@ -72,7 +72,7 @@ class TrianglePairs {
     return {{a, b, c}};
   }
 
-  /// A convex weight with many zeros and round values, so that corners and edges come up too.
+  /// A convex weight, often zero or a simple fraction, so that corners and edges occur too.
   double weight() { return chance(2) ? uniform(0, 1) : integer(0, 4) / 4.0; }
   Vec3 point_on(const Triangle& t) {
     const double v = weight(), w = weight() * (1 - v);
@@ -180,7 +180,7 @@ class TrianglePairs {
     if (chance(2)) pair.b[2] = pair.b[0] + uniform(-1, 1) * (pair.a[2] - pair.a[0]) + tilt * point();
   }
 
-  /// Scale and place in the assembly; half of the pairs by powers of two and whole numbers, which keep exact
+  /// Scales and moves a pair into the assembly; half of the pairs by powers of two and integers, which keep
   /// coincidences exact.
   void place(TrianglePair& pair) {
     if (chance(3)) return;
@@ -194,7 +194,7 @@ class TrianglePairs {
       for (Vec3& p : t->corner) p = scale * p + offset;
   }
 
-  /// Moves some coordinates to a neighbouring double, or a few further.
+  /// Moves some coordinates by one or a few units in the last place.
   void nudge(TrianglePair& pair) {
     for (Triangle* t : {&pair.a, &pair.b})
       for (Vec3& p : t->corner)

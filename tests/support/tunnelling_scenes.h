@@ -7,17 +7,16 @@
 /// Motions of one step past, into and through thin walls, with the exact time of their first contact.
 namespace dismantle::scenes {
 
-/// One step of one component against another that stands still.
+/// One step of a component past another that does not move.
 struct OneStep {
   std::string name;
-  TriangleMesh fixed, moving;  ///< Assembled, where the moving one is at `start`.
-  Pose start, target;          ///< Of the moving one.
+  TriangleMesh fixed, moving;  ///< Assembled; the moving one is at `start`.
+  Pose start, target;          ///< Of the moving component.
   bool free = true;
-  double toi = 1;  ///< Of the first touch, exact to rounding; 1 where free.
+  double toi = 1;  ///< Of the first contact, exact to rounding; 1 if free.
 };
 
-/// The first time at which `gap`, a function of the time in [0, 1], is no longer above 0; by bisection between a
-/// thousand samples.
+/// The first time in [0, 1] at which `gap`, a function of time, is not above 0: bisection between a thousand samples.
 template <class Gap>
 double first_touch(const Gap& gap) {
   const int samples = 1000;
@@ -30,7 +29,7 @@ double first_touch(const Gap& gap) {
   return 1;
 }
 
-/// A cube of 2 mm about the origin that goes obliquely, turning by 0.4 rad, through a plate whose lower face is at
+/// A cube of 2 mm about the origin that moves obliquely, turning by 0.4 rad, through a plate with its lower face at
 /// z = 5.
 inline OneStep oblique_cube(double thickness) {
   const Pose target{{3, 2, 10}, quat_about(normalized(Vec3{1, 2, 3}), 0.4)};
@@ -47,7 +46,7 @@ inline OneStep oblique_cube(double thickness) {
 /// A rod of 20 mm along x that swings by 170 degrees about its end at the origin through a 0.1 mm wall above it.
 inline OneStep swinging_rod() {
   const double swing = 170 * std::acos(-1.0) / 180, half = 0.5, wall = 0.05, low = 5;
-  // The first touch: the wall's near lower edge (wall, low) and the rod's leading face, `half` from its middle:
+  // The first contact: the wall's near lower edge (wall, low) and the rod's leading face, `half` from its middle:
   // low cos(a) - wall sin(a) = half.
   const double angle = std::acos(half / std::sqrt(low * low + wall * wall)) - std::atan2(wall, low);
   return {"rod swinging through a wall",
@@ -59,7 +58,7 @@ inline OneStep swinging_rod() {
           angle / swing};
 }
 
-/// The suite about the origin, from the identity.
+/// The suite near the origin, starting from the identity.
 inline std::vector<OneStep> tunnelling_suite() {
   const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1});
   const auto plate = [](double z, double thickness) { return box({-50, -50, z}, {50, 50, z + thickness}); };
@@ -83,16 +82,16 @@ inline std::vector<OneStep> tunnelling_suite() {
   return suite;
 }
 
-/// The same step seen from elsewhere: everything placed by `place`, vertices and motion.
-inline OneStep placed(OneStep step, const Pose& place) {
-  step.fixed = moved(std::move(step.fixed), place);
-  step.moving = moved(std::move(step.moving), place);
-  step.start = place * step.start * inverse(place);
-  step.target = place * step.target * inverse(place);
+/// The same step, with vertices and motion moved by `offset`.
+inline OneStep placed(OneStep step, const Pose& offset) {
+  step.fixed = moved(std::move(step.fixed), offset);
+  step.moving = moved(std::move(step.moving), offset);
+  step.start = offset * step.start * inverse(offset);
+  step.target = offset * step.target * inverse(offset);
   return step;
 }
 
-/// The same step from a start pose that is not the identity: the moving mesh is assembled elsewhere.
+/// The same step from a start pose other than the identity: the moving mesh is assembled elsewhere.
 inline OneStep started_from(OneStep step, const Pose& start) {
   step.moving = moved(std::move(step.moving), inverse(start));
   step.target = step.target * inverse(step.start) * start;
@@ -100,7 +99,7 @@ inline OneStep started_from(OneStep step, const Pose& start) {
   return step;
 }
 
-/// Its assembly: 0 stands, 1 moves; as assembled, not as at the start.
+/// Its assembly: component 1 moves. As assembled, not as at the start.
 inline Assembly assembly_of(const OneStep& step) {
   return assembly({component("fixed", step.fixed), component("moving", step.moving)});
 }
