@@ -60,7 +60,7 @@ std::vector<Removal> removals_of(const Standing& standing, const Plan& plan, con
     Removal removal;
     for (const ComponentId c : step.components) removal.components.push_back(standing.components[c.value]);
     removal.from = standing.poses[step.components[0].value];
-    for (const Frame& f : frames) removal.way.push_back({f.time, body * f.pose});
+    for (const Frame& f : frames) removal.frames.push_back({f.time, body * f.pose});
     if (step.part_of == PlanStep::kWhole) removal.exit = step.exit;
     removals.push_back(std::move(removal));
   }

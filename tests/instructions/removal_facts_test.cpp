@@ -13,26 +13,26 @@ struct Lid {
       work_steps(assembly, scenes::timeline_of(assembly, scenes::bolted_lid_path()), PathDirection::Forward);
 };
 
-TEST(WayClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
+TEST(PathClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
   Lid lid;
   RemovalFacts facts(lid.assembly, lid.pairs, {});
-  const WayClearance up = facts.clearance(lid.steps[0], lid.steps[0].removals[0]);
+  const PathClearance up = facts.clearance(lid.steps[0], lid.steps[0].removals[0]);
   EXPECT_EQ(up.touching, 0);
   EXPECT_EQ(up.touched, ComponentId(1));
   EXPECT_FALSE(up.nearest.valid()) << "the lid, which it leaves, does not count";
 
   const RemovalMove along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
-  const WayClearance slid = facts.clearance(lid.steps[0], along);
+  const PathClearance slid = facts.clearance(lid.steps[0], along);
   EXPECT_EQ(slid.touching, 70) << "it is on the lid all the way";
   EXPECT_FALSE(slid.nearest.valid());
 
   const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
-  const WayClearance passing = facts.clearance(lid.steps[0], over);
+  const PathClearance passing = facts.clearance(lid.steps[0], over);
   EXPECT_EQ(passing.nearest, ComponentId(3));
   EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
 }
 
-TEST(WayClearance, DoesNotCountWhatWasPutAside) {
+TEST(PathClearance, DoesNotCountWhatWasPutAside) {
   Lid lid;
   WorkStep step = lid.steps[0];
   step.before[3].position = {25, 0, 20};  // the other head, near the way of this one
@@ -41,7 +41,7 @@ TEST(WayClearance, DoesNotCountWhatWasPutAside) {
   EXPECT_FALSE(facts.clearance(step, over).nearest.valid());
 }
 
-TEST(WayClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
+TEST(PathClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
   const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({0, 0, 0}, {10, 0.1, 0.1})),
                                        scenes::component("near", scenes::box({0, 0, -5}, {10, 1, -1.9})),
                                        scenes::component("far", scenes::box({0, 2.2, 0}, {10, 9, 1}))});

@@ -30,7 +30,7 @@ TEST(WorkSteps, JoinMovesOfOneSetThatFollowEachOther) {
   path.moves = {path.moves[0], {"on", {"bolt"}, {{0, there}, {1, aside}}}};
   const std::vector<WorkStep> steps = steps_of(scenes::bolted_lid(), path);
   ASSERT_EQ(steps.size(), 1u);
-  EXPECT_EQ(steps[0].removals[0].way, (std::vector<Pose>{{}, there, aside}));
+  EXPECT_EQ(steps[0].removals[0].poses, (std::vector<Pose>{{}, there, aside}));
 }
 
 TEST(WorkSteps, ComeInTheOtherOrderForTheAssemblyButStillLeadAway) {
@@ -38,7 +38,7 @@ TEST(WorkSteps, ComeInTheOtherOrderForTheAssemblyButStillLeadAway) {
       steps_of(scenes::bolted_lid(), scenes::bolted_lid_path(), PathDirection::Reversed);
   ASSERT_EQ(steps.size(), 2u);
   EXPECT_EQ(steps[0].removals[0].components, std::vector<ComponentId>{ComponentId(1)});
-  EXPECT_EQ(steps[0].removals[0].way.back().position, (Vec3{0, 0, 30}));
+  EXPECT_EQ(steps[0].removals[0].poses.back().position, (Vec3{0, 0, 30}));
 }
 
 TEST(Surroundings, AreWhatStandsToASetAsAssembled) {
@@ -46,17 +46,17 @@ TEST(Surroundings, AreWhatStandsToASetAsAssembled) {
   EXPECT_EQ(surroundings(steps[1], steps[1].removals[0]), std::vector<ComponentId>{ComponentId(0)})
       << "the bolts stand elsewhere";
   WorkStep alone = steps[1];
-  alone.removals[0].way = {{{5, 0, 0}, {}}, {{9, 0, 0}, {}}};
+  alone.removals[0].poses = {{{5, 0, 0}, {}}, {{9, 0, 0}, {}}};
   EXPECT_EQ(surroundings(alone, alone.removals[0]).size(), 3u) << "it stands to nothing as assembled";
 }
 
 TEST(PlacesAlong, BeginAtHomeEndAtTheEndAndHaveAllEndsOfScrews) {
   const RemovalMove removal{{ComponentId(0)}, {{}, {{3, 0, 0}, {}}, {{3, 4, 0}, {}}}};
-  const std::vector<WayPlace> places = places_along(removal, {}, 5);
+  const std::vector<PathPose> places = poses_along(removal, {}, 5);
   ASSERT_EQ(places.size(), 11u);
   EXPECT_EQ(places.front().pose, Pose{});
-  EXPECT_EQ(places[5].pose, removal.way[1]);
-  EXPECT_EQ(places.back().pose, removal.way[2]);
+  EXPECT_EQ(places[5].pose, removal.poses[1]);
+  EXPECT_EQ(places.back().pose, removal.poses[2]);
   EXPECT_NEAR(places.back().distance, 7, 1e-12);
   EXPECT_LT(places[1].distance, 3.0 / 5) << "places are close at the beginning";
 }

@@ -91,14 +91,14 @@ TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
 }
 
 TEST_F(BlockingTableTest, LooksAtNothingOnceItIsToldToStop) {
-  bool go_on = true;
-  BlockingTable table(engine_, features_, [&] { return go_on; });
+  bool keep_going = true;
+  BlockingTable table(engine_, features_, [&] { return keep_going; });
   const DirectionId d = table.add_direction({0, 0, 1});
   EXPECT_FALSE(table.blocks(kHigh, d, kLow));
-  go_on = false;
+  keep_going = false;
   EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "it is known";
   EXPECT_TRUE(table.blocks(kHigh, d, kMiddle));
-  go_on = true;
+  keep_going = true;
   EXPECT_FALSE(table.blocks(kHigh, d, kMiddle)) << "what counted as blocked was not noted down";
 }
 

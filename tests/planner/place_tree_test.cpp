@@ -8,9 +8,9 @@
 namespace dismantle {
 namespace {
 
-TEST(PlaceTree, FindsTheNearestPlaceAndTheWayToIt) {
+TEST(SearchTree, FindsTheNearestPlaceAndTheWayToIt) {
   std::mt19937_64 random(4);
-  PlaceTree tree({1, 2, 3}, 5);
+  SearchTree tree({1, 2, 3}, 5);
   std::vector<std::vector<Pose>> ways(1);
   for (int k = 0; k < 60; ++k) {
     const std::size_t from = random() % tree.size();
@@ -21,7 +21,7 @@ TEST(PlaceTree, FindsTheNearestPlaceAndTheWayToIt) {
     ways.push_back(way);
     tree.add({part.back(), from, part});
   }
-  for (std::size_t k = 0; k < tree.size(); ++k) EXPECT_EQ(tree.way_to(k), ways[k]);
+  for (std::size_t k = 0; k < tree.size(); ++k) EXPECT_EQ(tree.path_to(k), ways[k]);
   for (int k = 0; k < 100; ++k) {
     const Pose pose = scenes::random_pose(random, 20, 3);
     const auto [place, apart] = tree.nearest(pose);
@@ -30,15 +30,15 @@ TEST(PlaceTree, FindsTheNearestPlaceAndTheWayToIt) {
   }
 }
 
-TEST(PlaceTree, CountsWhatTheCenterGoesAndTheRimTurns) {
-  const PlaceTree tree({1, 0, 0}, 5);
+TEST(SearchTree, CountsWhatTheCenterGoesAndTheRimTurns) {
+  const SearchTree tree({1, 0, 0}, 5);
   EXPECT_NEAR(tree.distance({}, {{3, 4, 0}, {}}), 5, 1e-12);
   const Pose turned{{1, 0, 0}, quat_about({0, 0, 1}, 0.2)};
   EXPECT_NEAR(tree.distance({}, turned * Pose{{-1, 0, 0}, {}}), 5 * 0.2, 1e-12) << "about its center";
 }
 
-TEST(PlaceTree, TellsHowFarTheCenterHasBeen) {
-  PlaceTree tree({1, 0, 0}, 5);
+TEST(SearchTree, TellsHowFarTheCenterHasBeen) {
+  SearchTree tree({1, 0, 0}, 5);
   EXPECT_EQ(tree.furthest(), std::nullopt);
   const Pose about_center = Pose{{1, 0, 0}, quat_about({0, 0, 1}, 0.2)} * Pose{{-1, 0, 0}, {}};
   tree.add({about_center, 0, {about_center}});

@@ -16,7 +16,7 @@ namespace {
 using scenes::plan_scene;
 using scenes::PlanScene;
 
-const GoOn kAlways = [] { return true; };
+const KeepGoing kAlways = [] { return true; };
 
 /// Two towers of two boxes each on a plate: tower by tower from above.
 ///
@@ -133,8 +133,8 @@ TEST(PrecedenceGraph, TakesBoxesForWaysThatBend) {
   const PlanScene scene = plan_scene(two_towers());
   const Vec3 up{0, 0, 1};
   Plan plan = straight_plan({{2, up}, {1, up}, {4, up}, {3, up}});
-  plan.steps[1].way = {{{0, 20, 0}, {}}};
-  plan.steps[3].way = {{{0, 0, 1}, {}}};
+  plan.steps[1].poses = {{{0, 20, 0}, {}}};
+  plan.steps[3].poses = {{{0, 0, 1}, {}}};
   EXPECT_EQ(graph_of(scene, plan).before, (std::vector<std::vector<std::uint32_t>>{{}, {0}, {}, {2}}));
 }
 

@@ -14,7 +14,7 @@ TEST(PutAside, StaysNearHoweverManyScrewsALaterWayHas) {
                                        scenes::component("nut", scenes::box({-8, -8, 0}, {8, 8, 10})),
                                        scenes::component("lid", scenes::box({-8, -8, 100}, {8, 8, 104}))});
   PlanStep nut{{ComponentId(1)}, PlanTier::Helical, PlanStep::kWhole, {}, {0, 0, 1}};
-  for (int i = 1; i <= 600; ++i) nut.way.push_back({{0, 0, i / 6.0}, quat_about({0, 0, 1}, 0.26 * i)});
+  for (int i = 1; i <= 600; ++i) nut.poses.push_back({{0, 0, i / 6.0}, quat_about({0, 0, 1}, 0.26 * i)});
   Plan plan;
   plan.steps = {{{ComponentId(2)}, PlanTier::Straight, PlanStep::kWhole, {}, {0, 0, 1}}, nut};
   const std::vector<double> distances = put_aside(a, plan);

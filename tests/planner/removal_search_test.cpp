@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-const GoOn kAlways = [] { return true; };
+const KeepGoing kAlways = [] { return true; };
 
 /// A product of which only its blocking relations are told: boxes in random order, whose table is filled by hand.
 class RemovalSearchTest : public testing::Test {

@@ -39,7 +39,7 @@ TEST(SampleSearch, GivesTheSameWayForTheSameInput) {
   ASSERT_EQ(first.steps.size(), 1u);
   EXPECT_EQ(first.steps[0].tier, PlanTier::Sampled);
   ASSERT_EQ(second.steps.size(), 1u);
-  EXPECT_EQ(first.steps[0].way, second.steps[0].way);
+  EXPECT_EQ(first.steps[0].poses, second.steps[0].poses);
 }
 
 TEST(SampleSearch, FindsNoWayOutOfAClosedShellAndEnds) {

@@ -38,7 +38,7 @@ TEST(SlideSearch, FindsTheWayRoundCornersAndOutOfLocks) {
     const Plan plan = plan_for_last(scene);
     ASSERT_EQ(plan.steps.size(), 1u) << puzzle.name;
     EXPECT_EQ(plan.steps[0].tier, PlanTier::Sliding) << puzzle.name;
-    EXPECT_FALSE(plan.steps[0].way.empty()) << puzzle.name;
+    EXPECT_FALSE(plan.steps[0].poses.empty()) << puzzle.name;
     EXPECT_TRUE(plan.complete()) << puzzle.name;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/instructions_page.h"
 
-#include "dismantle/instructions/way_text.h"
+#include "dismantle/instructions/motion_text.h"
 #include "dismantle/report/html_text.h"
 
 namespace dismantle {

@@ -32,14 +32,14 @@ std::vector<ComponentId> put_aside_before(const WorkStep& step, const RemovalMov
 RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
     : assembly_(assembly), pairs_(pairs), engine_(assembly, pairs, options) {}
 
-WayClearance RemovalFacts::clearance(const WorkStep& step, const RemovalMove& removal) {
+PathClearance RemovalFacts::clearance(const WorkStep& step, const RemovalMove& removal) {
   const Aabb box = bounds_of(assembly_, removal.components);
   const double near = kNearShare * diagonal(box);
-  const int pieces = removal.way.size() > kWayPieces ? 1 : kWayPieces;
-  const std::vector<WayPlace> places = places_along(removal, box.center(), pieces);
+  const int pieces = removal.poses.size() > kWayPieces ? 1 : kWayPieces;
+  const std::vector<PathPose> places = poses_along(removal, box.center(), pieces);
   const std::size_t stride = 1 + places.size() / kMaxPlaces;
   std::vector<Pose> poses = with_gone(step.before, put_aside_before(step, removal));
-  WayClearance found;
+  PathClearance found;
   for (std::size_t i = 0; i < places.size(); i += stride) {
     for (const ComponentId c : removal.components) poses[c.value] = places[i].pose;
     engine_.jump(poses);
@@ -47,7 +47,7 @@ WayClearance RemovalFacts::clearance(const WorkStep& step, const RemovalMove& re
     const double least = std::min(found.least, near);
     const Clearance now = engine_.clearance(std::max(least, 2 * pairs_.tolerance));
     if (now.distance <= pairs_.tolerance) {
-      found = WayClearance{};
+      found = PathClearance{};
       found.touching = places[i].distance;
       found.touched = now.fixed;
     } else if (now.distance < least && now.fixed != found.touched) {

@@ -9,7 +9,7 @@
 namespace dismantle {
 
 /// How near a removal comes to what it is taken from.
-struct WayClearance {
+struct PathClearance {
   double touching = 0;  ///< It touches something until it has gone so far [mm]; all of the way where it never leaves.
   ComponentId touched;  ///< What it touches last; invalid where it touches nothing.
   /// After that, the least clearance where something else than what it touched last is nearest [mm]; infinite where
@@ -26,7 +26,7 @@ class RemovalFacts {
 
   /// Exact at places along the way, some kWayPieces for each screw; nothing is told in between. Embedded pairs, and
   /// what earlier steps have put aside, do not count.
-  WayClearance clearance(const WorkStep& step, const RemovalMove& removal);
+  PathClearance clearance(const WorkStep& step, const RemovalMove& removal);
   /// What nothing holds from below once a step's sets are gone, though something did before: it could fall straight
   /// down by kFall of its size. What is in a fit or embedded with anything that is left holds by that. z is up.
   /// @param ground never falls

@@ -2,7 +2,7 @@
 #include "dismantle/instructions/step_picture.h"
 
 #include "dismantle/geometry/aabb_corners.h"
-#include "dismantle/instructions/way_text.h"
+#include "dismantle/instructions/motion_text.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/render/assembly_scene.h"
 #include "dismantle/render/render.h"
@@ -61,14 +61,14 @@ std::vector<Vec3> candidate_views() {
 
 /// What of a removal's way a picture shows: from home to the first place where it is seen to be out.
 /// @param around boxes of the components around it
-std::vector<WayPlace> shown_way(const Assembly& assembly, const RemovalMove& removal, const std::vector<Aabb>& around) {
+std::vector<PathPose> shown_way(const Assembly& assembly, const RemovalMove& removal, const std::vector<Aabb>& around) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
-  std::vector<WayPlace> places = places_along(removal, middle, removal.way.size() > kWayPieces ? 1 : kWayPieces);
+  std::vector<PathPose> places = poses_along(removal, middle, removal.poses.size() > kWayPieces ? 1 : kWayPieces);
   Aabb all;
   for (const Aabb& box : around) all.extend(box);
   const double size = diagonal(bounds_of(assembly, removal.components));
   const double most = std::max(kMaxSizes * size, kMinReach * diagonal(all));
-  const auto is_out = [&](const WayPlace& place) {
+  const auto is_out = [&](const PathPose& place) {
     if (place.distance >= most) return true;
     const Aabb own = inflated(bounds_of(assembly, removal.components, place.pose), kPast * size / 2);
     return place.distance >= kMinSizes * size &&
@@ -77,10 +77,10 @@ std::vector<WayPlace> shown_way(const Assembly& assembly, const RemovalMove& rem
   const auto out = std::find_if(places.begin(), places.end(), is_out);
   if (out == places.end() || out == places.begin()) return places;
 
-  WayPlace before = out[-1];
+  PathPose before = out[-1];
   for (int i = 0; i < kHalvings; ++i) {
     const Pose pose = pose_between(before.pose, out->pose, 0.5);
-    const WayPlace half{pose, (before.distance + out->distance) / 2};
+    const PathPose half{pose, (before.distance + out->distance) / 2};
     (is_out(half) ? *out : before) = half;
   }
   places.erase(out + 1, places.end());
@@ -88,9 +88,9 @@ std::vector<WayPlace> shown_way(const Assembly& assembly, const RemovalMove& rem
 }
 
 /// The way of the set's middle.
-std::vector<Vec3> line_of(const std::vector<WayPlace>& places, const Vec3& middle) {
+std::vector<Vec3> line_of(const std::vector<PathPose>& places, const Vec3& middle) {
   std::vector<Vec3> line;
-  for (const WayPlace& place : places) {
+  for (const PathPose& place : places) {
     const Vec3 point = transform_from_pose(place.pose) * middle;
     if (line.empty() || length(point - line.back()) > 0) line.push_back(point);
   }
@@ -160,9 +160,9 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
     subject.surroundings.extend(around.back());
   }
   for (const RemovalMove& removal : step.removals) {
-    const Aabb home = bounds_of(assembly_, removal.components, removal.way.front());
+    const Aabb home = bounds_of(assembly_, removal.components, removal.poses.front());
     const Vec3 middle = bounds_of(assembly_, removal.components).center();
-    const std::vector<WayPlace> way = shown_way(assembly_, removal, around);
+    const std::vector<PathPose> way = shown_way(assembly_, removal, around);
     const Pose from = is_forward ? way.front().pose : way.back().pose,
                to = is_forward ? way.back().pose : way.front().pose;
     for (const ComponentId c : removal.components) {

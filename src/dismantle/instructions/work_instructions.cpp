@@ -6,7 +6,7 @@
 #include "dismantle/instructions/hexagon_drives.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
-#include "dismantle/instructions/way_text.h"
+#include "dismantle/instructions/motion_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +147,7 @@ class Writer {
     Aabb around;
     for (const ComponentId c : surroundings(step, removal))
       around.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
-    if (overlaps(bounds_of(assembly_, removal.components, removal.way.back()), around)) return "Move";
+    if (overlaps(bounds_of(assembly_, removal.components, removal.poses.back()), around)) return "Move";
     if (std::any_of(legs.begin(), legs.end(), is_screwing)) return is_forward_ ? "Unscrew" : "Screw in";
     return is_forward_ ? "Remove" : "Mount";
   }
@@ -185,7 +185,7 @@ class Writer {
   }
 
   void note_way(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
-    std::string text = way_text(legs, options_.direction);
+    std::string text = motion_text(legs, options_.direction);
     if (step.removals.size() > 1) text += " One after another, each the same way.";
     instruction.notes.push_back({Kind::Way, text});
   }
@@ -193,7 +193,7 @@ class Writer {
   void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
     if (removal.components.size() != 1 || legs.empty()) return;
     const Component& c = assembly_[removal.components[0]];
-    const Mat3 turned = transform_from_pose(removal.way.front()).rotation * c.assembly_from_mesh.rotation;
+    const Mat3 turned = transform_from_pose(removal.poses.front()).rotation * c.assembly_from_mesh.rotation;
     std::map<std::string, std::set<double>> tools;
     for (const RevolutionAxis& axis : revolution_axes(c.mesh->vertices, c.mesh->faces)) {
       if (!lies_along(turned * axis.direction, legs.front())) continue;
@@ -240,9 +240,9 @@ class Writer {
   }
 
   void note_clearance(const WorkStep& step, Instruction& instruction) {
-    WayClearance least = facts_.clearance(step, step.removals.front());
+    PathClearance least = facts_.clearance(step, step.removals.front());
     for (std::size_t i = 1; i < step.removals.size(); ++i) {
-      const WayClearance other = facts_.clearance(step, step.removals[i]);
+      const PathClearance other = facts_.clearance(step, step.removals[i]);
       if (other.least < least.least) {
         least.least = other.least;
         least.nearest = other.nearest;

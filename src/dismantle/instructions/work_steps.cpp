@@ -38,10 +38,10 @@ struct Course {
 
 Course course_of(const Assembly& assembly, const RemovalMove& removal) {
   const Vec3 middle = bounds_of(assembly, removal.components).center();
-  const Vec3 from = transform_from_pose(removal.way.front()) * middle;
-  Course course{normalized(transform_from_pose(removal.way.back()) * middle - from)};
-  for (std::size_t i = 1; i < removal.way.size(); ++i)
-    course.angle += screw_between(removal.way[i - 1], removal.way[i]).angle;
+  const Vec3 from = transform_from_pose(removal.poses.front()) * middle;
+  Course course{normalized(transform_from_pose(removal.poses.back()) * middle - from)};
+  for (std::size_t i = 1; i < removal.poses.size(); ++i)
+    course.angle += screw_between(removal.poses[i - 1], removal.poses[i]).angle;
   return course;
 }
 
@@ -54,7 +54,7 @@ std::vector<RemovalMove> removals_of(const Timeline& timeline) {
   for (const TimelineMove& move : timeline.moves()) {
     if (removals.empty() || removals.back().components != move.components)
       removals.push_back({move.components, {move.frames.front().pose}});
-    for (std::size_t i = 1; i < move.frames.size(); ++i) removals.back().way.push_back(move.frames[i].pose);
+    for (std::size_t i = 1; i < move.frames.size(); ++i) removals.back().poses.push_back(move.frames[i].pose);
   }
   return removals;
 }
@@ -72,7 +72,7 @@ std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timel
   std::vector<Pose> poses(assembly.components.size());
   for (RemovalMove& removal : removals_of(timeline)) {
     if (steps.empty() || !are_equal(steps.back().removals.back(), removal)) steps.push_back({{}, poses});
-    for (const ComponentId c : removal.components) poses[c.value] = removal.way.back();
+    for (const ComponentId c : removal.components) poses[c.value] = removal.poses.back();
     steps.back().removals.push_back(std::move(removal));
   }
   if (direction == PathDirection::Reversed) std::reverse(steps.begin(), steps.end());
@@ -85,19 +85,19 @@ std::vector<ComponentId> surroundings(const WorkStep& step, const RemovalMove& r
     const auto& set = removal.components;
     if (std::find(set.begin(), set.end(), ComponentId(c)) != set.end()) continue;
     others.emplace_back(c);
-    if (same_pose(step.before[c], removal.way.front())) together.emplace_back(c);
+    if (same_pose(step.before[c], removal.poses.front())) together.emplace_back(c);
   }
   return together.empty() ? others : together;
 }
 
-std::vector<WayPlace> places_along(const RemovalMove& removal, const Vec3& middle, int pieces) {
+std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& middle, int pieces) {
   DISMANTLE_EXPECT(pieces >= 1);
-  std::vector<WayPlace> places{{removal.way.front(), 0}};
-  for (std::size_t i = 1; i < removal.way.size(); ++i) {
+  std::vector<PathPose> places{{removal.poses.front(), 0}};
+  for (std::size_t i = 1; i < removal.poses.size(); ++i) {
     for (int k = 1; k <= pieces; ++k) {
       // Contacts end near home: there the places are close.
       const double share = i == 1 ? std::pow(static_cast<double>(k) / pieces, 2) : static_cast<double>(k) / pieces;
-      const Pose pose = k == pieces ? removal.way[i] : pose_between(removal.way[i - 1], removal.way[i], share);
+      const Pose pose = k == pieces ? removal.poses[i] : pose_between(removal.poses[i - 1], removal.poses[i], share);
       const Vec3 from = transform_from_pose(places.back().pose) * middle;
       places.push_back({pose, places.back().distance + length(transform_from_pose(pose) * middle - from)});
     }

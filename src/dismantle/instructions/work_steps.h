@@ -11,7 +11,7 @@ namespace dismantle {
 struct RemovalMove {
   std::vector<ComponentId> components;
   /// From home to where it is put, each by one screw from the one before. At least one pose.
-  std::vector<Pose> way;
+  std::vector<Pose> poses;
 };
 
 /// What a fitter does at a time: one removal, or several of equal components, one after another, along parallel ways.
@@ -29,7 +29,7 @@ std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timel
 std::vector<ComponentId> surroundings(const WorkStep& step, const RemovalMove& removal);
 
 /// A pose on a way.
-struct WayPlace {
+struct PathPose {
   Pose pose;
   double distance = 0;  ///< That the middle of the set has gone [mm].
 };
@@ -38,7 +38,7 @@ struct WayPlace {
 /// into many screws has all their ends.
 /// @param middle of the assembled set [mm]
 /// @param pieces that each screw is cut into, at least 1
-std::vector<WayPlace> places_along(const RemovalMove& removal, const Vec3& middle, int pieces);
+std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& middle, int pieces);
 
 /// The box around a set at a pose [mm].
 Aabb bounds_of(const Assembly& assembly, Span<const ComponentId> components, const Pose& pose = {});

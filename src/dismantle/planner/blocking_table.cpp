@@ -15,8 +15,8 @@ constexpr double kMargin = 0.05;
 
 }  // namespace
 
-BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, GoOn go_on)
-    : engine_(engine), features_(features), go_on_(std::move(go_on)), rows_(features.size()), others_(features.size()) {
+BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going)
+    : engine_(engine), features_(features), keep_going_(std::move(keep_going)), rows_(features.size()), others_(features.size()) {
   for (std::uint32_t c = 0; c < features.size(); ++c) {
     std::vector<ComponentId>& others = others_[c];
     for (std::uint32_t k = 0; k < features.size(); ++k)
@@ -53,14 +53,14 @@ double BlockingTable::way_past(ComponentId moving, DirectionId d, ComponentId fi
   return aside > reach ? 0 : std::max(0.0, along + reach);
 }
 
-double BlockingTable::way_out(ComponentId moving, DirectionId d) const {
+double BlockingTable::exit_distance(ComponentId moving, DirectionId d) const {
   double way = 0;
   for (std::uint32_t c = 0; c < features_.size(); ++c)
     if (c != moving.value) way = std::max(way, way_past(moving, d, ComponentId(c)));
   return way + kMargin * features_[moving.value].radius;
 }
 
-double BlockingTable::way_length(ComponentId moving) const {
+double BlockingTable::max_exit_distance(ComponentId moving) const {
   const ShapeFeatures& m = features_[moving.value];
   double way = 0;
   for (const ShapeFeatures& f : features_) way = std::max(way, length(f.center - m.center) + f.radius);
@@ -70,7 +70,7 @@ double BlockingTable::way_length(ComponentId moving) const {
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
   Known& known = row(moving, d).known[fixed.value];
   if (known == Known::Nothing) {
-    if (!go_on_()) return true;
+    if (!keep_going_()) return true;
     const double way = way_past(moving, d, fixed);
     const bool met =
         way > 0 && engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value();

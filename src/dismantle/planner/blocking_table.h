@@ -3,7 +3,7 @@
 
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
-#include "dismantle/planner/go_on.h"
+#include "dismantle/planner/keep_going.h"
 #include "dismantle/planner/shape_features.h"
 
 #include <cstddef>
@@ -23,9 +23,9 @@ using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a
 class BlockingTable {
  public:
   /// @param engine, features of every component must outlive the table
-  /// @param go_on once it says no, nothing is looked at any more: what is not known then counts as blocked, for that
+  /// @param keep_going once it says no, nothing is looked at any more: what is not known then counts as blocked, for that
   /// time
-  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, GoOn go_on);
+  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going);
 
   /// @param unit Directions within 1e-6 of each other are one.
   DirectionId add_direction(const Vec3& unit);
@@ -33,10 +33,10 @@ class BlockingTable {
   /// The direction the other way.
   DirectionId opposite(DirectionId d) { return add_direction(-directions_[d.value]); }
   /// A way along `d` after which `moving` is past all that is where it was assembled [mm].
-  double way_out(ComponentId moving, DirectionId d) const;
+  double exit_distance(ComponentId moving, DirectionId d) const;
 
   /// A way in any direction after which `moving` is past all that is where it was assembled [mm].
-  double way_length(ComponentId moving) const;
+  double max_exit_distance(ComponentId moving) const;
   /// Center and radius of the sphere around an assembled component [mm].
   Vec3 center(ComponentId c) const { return features_[c.value].center; }
   double radius(ComponentId c) const { return features_[c.value].radius; }
@@ -80,7 +80,7 @@ class BlockingTable {
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
-  GoOn go_on_;
+  KeepGoing keep_going_;
   Expectation expectation_;
   std::vector<Vec3> directions_;
   std::vector<std::map<DirectionId, Row>>

@@ -31,7 +31,7 @@ struct PlanStep {
   std::uint32_t part_of = kWhole;
   /// From the assembled pose through these, each by one screw from the one before, and then straight on along `exit`
   /// for good. Relative to the body that the set is part of: as if that stood in its assembled pose.
-  std::vector<Pose> way;
+  std::vector<Pose> poses;
   Vec3 exit;  ///< Unit.
 };
 

@@ -9,7 +9,7 @@
 #include "dismantle/planner/search/sample_search.h"
 #include "dismantle/planner/search/screw_search.h"
 #include "dismantle/planner/search/slide_search.h"
-#include "dismantle/planner/search/step_maker.h"
+#include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
@@ -58,15 +58,15 @@ class Planner {
         options_(options),
         count_(assembly.components.size()),
         features_(features_of(assembly, options.engine.executor)),
-        maker_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
-               [this] { return go_on(); }),
-        table_(maker_.engine(), features_, [this] { return in_time(); }),
+        validator_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
+               [this] { return keep_going(); }),
+        table_(validator_.engine(), features_, [this] { return in_time(); }),
         directions_(count_),
         tolerance_(pairs.tolerance),
         contacts_(count_),
         threads_(count_),
         modelled_(count_),
-        round_(count_),
+        revolution_axes_(count_),
         sliding_{options.slide_effort, 0, {}},
         sampling_{options.sample_effort, 0, {}} {
     find_directions(pairs.tolerance);
@@ -90,7 +90,7 @@ class Planner {
 
  private:
   /// False once the user or the clock says so.
-  bool go_on() {
+  bool keep_going() {
     const double done = static_cast<double>(taken_out_) / static_cast<double>(std::max<std::size_t>(1, count_));
     if (!stopped_ && !report_progress(options_.progress, "planning", done)) stopped_ = true;
     return in_time();
@@ -125,7 +125,7 @@ class Planner {
   /// Takes the targets out of a body with as few others as possible; where straight ways do not do, by themselves.
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
     const ComponentSet never(count_, options_.fixed);
-    const GoOn ask = [this] { return go_on(); };
+    const KeepGoing ask = [this] { return keep_going(); };
     ComponentSet left = body;
     for (;;) {
       const auto needed = fewest_removals(table_, directions_, body, never, targets, ask);
@@ -138,14 +138,14 @@ class Planner {
       plan_.steps.resize(steps);
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && go_on())
+      if (left.has(target) && keep_going())
         plan_.staying.push_back(explain(table_, target, directions_[target.value], left));
   }
 
   /// Takes what it can out of `body` but for `staying`. @return what is left
   ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of) {
-    while (body.size() > staying.size() && go_on()) {
-      maker_.stand(body);
+    while (body.size() > staying.size() && keep_going()) {
+      validator_.stand(body);
       const std::optional<PlanStep> step = next_step(body, staying);
       if (!step) break;
       body.erase(step->components);
@@ -174,9 +174,9 @@ class Planner {
     const std::vector<StraightRemoval> single = single_removals(body, staying);
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
-    if (!single.empty()) return go_on() ? next_step(body, staying) : std::nullopt;
+    if (!single.empty()) return keep_going() ? next_step(body, staying) : std::nullopt;
     if (auto step = find_screwed(body, staying)) return step;
-    const auto ask = [this] { return go_on(); };
+    const auto ask = [this] { return keep_going(); };
     while (const auto removal = smallest_body(table_, directions_, body, staying, ask))
       if (auto step = try_removal(*removal, body)) return step;
     if (auto step = find_sliding(body, staying)) return step;
@@ -187,11 +187,11 @@ class Planner {
   std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying) {
     for (const ComponentId c : smallest_first(body, staying)) {
       for (const auto& [neighbour, thread] : threads_of(c)) {
-        if (!go_on()) return std::nullopt;
+        if (!keep_going()) return std::nullopt;
         if (!body.has(neighbour)) continue;
         std::vector<ComponentId>& met = met_[{c, neighbour}];
         if (!met.empty() && body.has_all(met)) continue;
-        WaySearch search = screw_out(maker_, table_, c, thread, [this] { return go_on(); });
+        PathSearch search = screw_out(validator_, table_, c, thread, [this] { return keep_going(); });
         if (search.step) return std::move(search.step);
         met = std::move(search.met);
       }
@@ -204,7 +204,7 @@ class Planner {
     struct InVain {
       std::size_t effort = 0;
       std::vector<ComponentId> met;
-      std::optional<double> furthest;  // see WaySearch
+      std::optional<double> furthest;  // see PathSearch
     };
     std::size_t most;                       ///< That all of them may cost,
     std::size_t spent = 0;                  ///< and have cost.
@@ -213,19 +213,19 @@ class Planner {
 
   /// One component that `search` finds a way out for, the smallest first; the longer one is searched for, the fewer
   /// have come out.
-  /// @param search (component, effort) -> WaySearch
+  /// @param search (component, effort) -> PathSearch
   template <class Search>
-  std::optional<PlanStep> find_long(const ComponentSet& body, const ComponentSet& staying, LongSearches& searches,
+  std::optional<PlanStep> search_by_effort(const ComponentSet& body, const ComponentSet& staying, LongSearches& searches,
                                     const Search& search) {
     for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * searches.most; effort *= kEffortGrowth)
       for (const ComponentId c : smallest_first(body, staying)) {
         LongSearches::InVain& before = searches.in_vain[c];
         if (before.effort >= effort && body.has_all(before.met)) continue;
         const std::size_t left = searches.most - std::min(searches.spent, searches.most);
-        if (left == 0 || !go_on()) return std::nullopt;
-        const std::size_t begun = maker_.effort();
-        WaySearch found = search(c, std::min(effort, left));
-        searches.spent += maker_.effort() - begun;
+        if (left == 0 || !keep_going()) return std::nullopt;
+        const std::size_t begun = validator_.effort();
+        PathSearch found = search(c, std::min(effort, left));
+        searches.spent += validator_.effort() - begun;
         if (found.step) return std::move(found.step);
         const bool no_further =
             before.effort > 0 && body.has_all(before.met) && found.furthest <= kFurther * before.furthest.value_or(0);
@@ -236,20 +236,20 @@ class Planner {
   }
 
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
-    return find_long(body, staying, sliding_, [&](ComponentId c, std::size_t effort) {
+    return search_by_effort(body, staying, sliding_, [&](ComponentId c, std::size_t effort) {
       SlideMoves moves = slide_moves(c, body);
       moves.max_effort = effort;
-      return slide_out(maker_, table_, c, moves, [this] { return go_on(); });
+      return slide_out(validator_, table_, c, moves, [this] { return keep_going(); });
     });
   }
 
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying) {
-    return find_long(body, staying, sampling_, [&](ComponentId c, std::size_t effort) {
+    return search_by_effort(body, staying, sampling_, [&](ComponentId c, std::size_t effort) {
       const LongSearches::InVain& slid = sliding_.in_vain[c];
       const double room = std::max(slid.furthest.value_or(0), sampling_.in_vain[c].furthest.value_or(0));
       const bool held_fast = slid.effort > 0 && !slid.furthest, rattles = effort > kFirstEffort && room < kRoom;
-      if (held_fast || rattles) return WaySearch{std::nullopt, slid.met, slid.furthest, true};
-      return sample_out(maker_, table_, c, effort, [this] { return go_on(); });
+      if (held_fast || rattles) return PathSearch{std::nullopt, slid.met, slid.furthest, true};
+      return sample_out(validator_, table_, c, effort, [this] { return keep_going(); });
     });
   }
 
@@ -267,16 +267,16 @@ class Planner {
       if (moves.axes.size() < kMaxTurns && std::none_of(moves.axes.begin(), moves.axes.end(), same))
         moves.axes.push_back({axis.point, axis.direction});
     };
-    for (const RevolutionAxis& axis : round_of(c)) add(axis);
+    for (const RevolutionAxis& axis : revolution_axes_of(c)) add(axis);
     for (const ComponentId near : contacts_[c.value].neighbours)
       if (body.has(near))
-        for (const RevolutionAxis& axis : round_of(near)) add(axis);
+        for (const RevolutionAxis& axis : revolution_axes_of(near)) add(axis);
     for (const WeightedDirection& axis : features_[c.value].axes) add({features_[c.value].center, axis.direction, 0});
     return moves;
   }
 
-  const std::vector<RevolutionAxis>& round_of(ComponentId c) {
-    std::optional<std::vector<RevolutionAxis>>& known = round_[c.value];
+  const std::vector<RevolutionAxis>& revolution_axes_of(ComponentId c) {
+    std::optional<std::vector<RevolutionAxis>>& known = revolution_axes_[c.value];
     if (!known) {
       const TriangleMesh mesh = assembled_mesh(assembly_[c]);
       known = revolution_axes(mesh.vertices, mesh.faces);
@@ -303,7 +303,7 @@ class Planner {
       for (const ThreadAxis& thread : modelled_threads(c))
         for (const ThreadAxis& its : modelled_threads(other))
           if (threads_mate(thread, its)) known->push_back({other, thread});
-    if (known->empty()) known = touched_threads(assembly_, maker_.hold(c), features_[c.value].radius, tolerance_);
+    if (known->empty()) known = touched_threads(assembly_, validator_.hold(c), features_[c.value].radius, tolerance_);
     return *known;
   }
 
@@ -321,7 +321,7 @@ class Planner {
     std::optional<std::vector<ThreadAxis>>& known = modelled_[c.value];
     if (!known) {
       const TriangleMesh mesh = assembled_mesh(assembly_[c]);
-      known = thread_axes(mesh.vertices, mesh.faces, round_of(c));
+      known = thread_axes(mesh.vertices, mesh.faces, revolution_axes_of(c));
     }
     return *known;
   }
@@ -348,8 +348,8 @@ class Planner {
   std::optional<PlanStep> try_removal(const StraightRemoval& removal, const ComponentSet& body) {
     const Vec3 direction = table_.direction(removal.direction);
     double way = 0;
-    for (const ComponentId c : removal.components) way = std::max(way, table_.way_out(c, removal.direction));
-    const StepMaker::Trial trial = maker_.try_straight(removal.components, direction, way);
+    for (const ComponentId c : removal.components) way = std::max(way, table_.exit_distance(c, removal.direction));
+    const MotionValidator::Trial trial = validator_.try_straight(removal.components, direction, way);
     if (trial.free) {
       last_direction_ = removal.direction;
       const PlanTier tier = removal.components.size() == 1 ? PlanTier::Straight : PlanTier::StraightTogether;
@@ -373,10 +373,10 @@ class Planner {
     // What stays needs none; where there are targets, all but these may have to make way.
     const ComponentSet all = ComponentSet::all(count_), none(count_);
     const ComponentSet staying = options_.targets.empty() && count_ > 0 ? staying_of(all) : none;
-    for (std::uint32_t c = 0; c < count_ && go_on(); ++c) {
+    for (std::uint32_t c = 0; c < count_ && keep_going(); ++c) {
       const ComponentId id(c);
       if (!staying.has(id)) {
-        contacts_[c] = contact_normals(assembly_, maker_.hold(id), features_[c].radius, tolerance);
+        contacts_[c] = contact_normals(assembly_, validator_.hold(id), features_[c].radius, tolerance);
         own[c] = candidate_directions(id, contacts_[c], features_);
       }
       double weight = 1;
@@ -441,7 +441,7 @@ class Planner {
 
   void explain_left(const ComponentSet& left, const ComponentSet& staying) {
     for (const ComponentId c : left.members())
-      if (!staying.has(c) && go_on()) plan_.staying.push_back(explain(table_, c, directions_[c.value], left));
+      if (!staying.has(c) && keep_going()) plan_.staying.push_back(explain(table_, c, directions_[c.value], left));
   }
 
   const Assembly& assembly_;
@@ -451,7 +451,7 @@ class Planner {
   std::atomic<bool> stopped_ = false;
   std::size_t taken_out_ = 0;
   std::vector<ShapeFeatures> features_;
-  StepMaker maker_;
+  MotionValidator validator_;
   BlockingTable table_;
   DirectionLists directions_;
   double tolerance_;
@@ -461,7 +461,7 @@ class Planner {
   // Of every component, once they are asked for.
   std::vector<std::optional<std::vector<NeighbourThread>>> threads_;
   std::vector<std::optional<std::vector<ThreadAxis>>> modelled_;
-  std::vector<std::optional<std::vector<RevolutionAxis>>> round_;
+  std::vector<std::optional<std::vector<RevolutionAxis>>> revolution_axes_;
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by those screwed apart in vain
   Plan plan_;

@@ -25,7 +25,7 @@ struct PlanOptions {
   double time_limit = 0;             ///< [s]; 0: none.
   CertificateOptions engine;
   ProgressCallback progress;
-  /// What all searches for sliding ways may cost together: see StepMaker::effort; some 10 us each.
+  /// What all searches for sliding ways may cost together: see MotionValidator::effort; some 10 us each.
   std::size_t slide_effort = 400'000;
   /// The same for all searches for ways at random, which come after them.
   std::size_t sample_effort = 200'000;

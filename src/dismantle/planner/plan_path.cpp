@@ -32,7 +32,7 @@ Path plan_path(const Assembly& assembly, const PairStates& pairs, const Plan& pl
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const PlanStep& step = plan.steps[k];
     const Pose base = step.part_of == PlanStep::kWhole ? Pose{} : ends[step.part_of];
-    std::vector<Pose> way = step.way;
+    std::vector<Pose> way = step.poses;
     const Pose last = way.empty() ? Pose{} : way.back();
     way.push_back({last.position + distances[k] * step.exit, last.rotation});
 

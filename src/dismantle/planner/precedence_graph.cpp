@@ -4,7 +4,7 @@
 #include "dismantle/core/contract.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/planner/component_set.h"
-#include "dismantle/planner/search/step_maker.h"
+#include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/session/session_path.h"
 
 #include <algorithm>
@@ -23,11 +23,11 @@ constexpr double kWayOut = 1.1;
 class PrecedenceFinder {
  public:
   PrecedenceFinder(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
-                   const CertificateOptions& options, const GoOn& go_on)
+                   const CertificateOptions& options, const KeepGoing& keep_going)
       : assembly_(assembly),
         plan_(plan),
         size_(diagonal(assembled_bounds(assembly))),
-        maker_(assembly, pairs, options, kFarAway * size_, go_on) {}
+        validator_(assembly, pairs, options, kFarAway * size_, keep_going) {}
 
   /// All steps that have to come before step `k`, ascending.
   std::vector<std::uint32_t> before(std::uint32_t k) {
@@ -35,7 +35,7 @@ class PrecedenceFinder {
     std::vector<std::uint32_t> earlier, found;
     for (std::uint32_t j = 0; j < k; ++j)
       if (plan_.steps[j].part_of == step.part_of) earlier.push_back(j);
-    found = step.way.empty() ? met_straight(step, earlier) : near_way(step, earlier);
+    found = step.poses.empty() ? met_straight(step, earlier) : near_way(step, earlier);
     if (step.part_of != PlanStep::kWhole) found.push_back(step.part_of);
     std::sort(found.begin(), found.end());
     return found;
@@ -48,8 +48,8 @@ class PrecedenceFinder {
       ComponentSet present(assembly_.components.size(), step.components);
       for (const std::uint32_t j : earlier)
         for (const ComponentId c : plan_.steps[j].components) present.insert(c);
-      maker_.stand(present);
-      const StepMaker::Trial trial = maker_.try_straight(step.components, step.exit, kWayOut * size_);
+      validator_.stand(present);
+      const MotionValidator::Trial trial = validator_.try_straight(step.components, step.exit, kWayOut * size_);
       if (trial.free) break;
       const auto is_met = [&](std::uint32_t j) {
         const ComponentSet other(assembly_.components.size(), plan_.steps[j].components);
@@ -82,7 +82,7 @@ class PrecedenceFinder {
   Aabb box_around_way(const PlanStep& step) const {
     Aabb box = bounds(step, Pose{});
     Pose from;
-    for (const Pose& to : step.way) {
+    for (const Pose& to : step.poses) {
       const Screw screw = screw_between(from, to);
       box.extend(bounds(step, to));
       box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), diagonal(box) / 2)));
@@ -95,7 +95,7 @@ class PrecedenceFinder {
   const Assembly& assembly_;
   const Plan& plan_;
   double size_;
-  StepMaker maker_;
+  MotionValidator validator_;
 };
 
 /// Which steps come before which, by way of any others: the row of a step has a 1 for each.
@@ -114,8 +114,8 @@ Reach reach_of(const std::vector<std::vector<std::uint32_t>>& before) {
 }  // namespace
 
 PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
-                                 const CertificateOptions& options, const GoOn& go_on) {
-  PrecedenceFinder finder(assembly, pairs, plan, options, go_on);
+                                 const CertificateOptions& options, const KeepGoing& keep_going) {
+  PrecedenceFinder finder(assembly, pairs, plan, options, keep_going);
   std::vector<std::vector<std::uint32_t>> all;
   all.reserve(plan.steps.size());
   for (std::uint32_t k = 0; k < plan.steps.size(); ++k) all.push_back(finder.before(k));

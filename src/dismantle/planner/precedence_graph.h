@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/planner/go_on.h"
+#include "dismantle/planner/keep_going.h"
 #include "dismantle/planner/plan.h"
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct PrecedenceGraph {
 /// Found by going each step's way, with the engine, past all that the plan takes away before it. Whatever order keeps
 /// to the graph holds the guarantee, as the plan itself does: what a way meets does not depend on what else is there.
 /// Of ways that are not straight all counts as met whose box is near them, so that less may be allowed than could be.
-/// @param go_on once it says no, all that is not known is taken as in the plan
+/// @param keep_going once it says no, all that is not known is taken as in the plan
 PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
-                                 const CertificateOptions& options, const GoOn& go_on);
+                                 const CertificateOptions& options, const KeepGoing& keep_going);
 
 /// The plan with its steps in another order. @pre `order` has each step once, bodies before their parts
 Plan reordered(const Plan& plan, const std::vector<std::uint32_t>& order);

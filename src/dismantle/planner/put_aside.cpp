@@ -107,7 +107,7 @@ class Aside {
 
   void put_step(std::uint32_t k, const Pose& base, std::vector<SweptBox>& passed) {
     const PlanStep& step = plan_.steps[k];
-    const Pose last = step.way.empty() ? base : base * step.way.back();
+    const Pose last = step.poses.empty() ? base : base * step.poses.back();
     const Vec3 exit = mat3_from_quat(base.rotation) * step.exit;
     const Aabb leaving = bounds(step, last);
     std::vector<SweptBox> inner;
@@ -138,7 +138,7 @@ class Aside {
   Aabb way_box(const PlanStep& step, const Pose& base) const {
     Aabb all = bounds(step, base), last = all;
     Pose from = base;
-    for (const Pose& pose : step.way) {
+    for (const Pose& pose : step.poses) {
       const Pose to = base * pose;
       const Screw screw = screw_between(from, to);
       const Aabb next = bounds(step, to);

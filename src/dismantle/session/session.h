@@ -7,7 +7,7 @@
 #include "dismantle/session/playback.h"
 #include "dismantle/session/session_entry.h"
 #include "dismantle/session/visibility.h"
-#include "dismantle/session/way_out.h"
+#include "dismantle/session/exit_search.h"
 
 #include <memory>
 #include <optional>
@@ -33,7 +33,7 @@ struct Removal {
   Pose from;  ///< Of the set, when the way was found.
   /// The motions that the set has made by then, world frame; the first is none. Where the set has gone elsewhere since
   /// as part of a body that was taken out before, they are relative to that body.
-  std::vector<Frame> way;
+  std::vector<Frame> frames;
   Vec3 exit;  ///< Unit: after the way it goes on like this to a place of its own; zero: it stays at the way's end.
 };
 

@@ -54,8 +54,8 @@ bool are_in_line(const Aabb& a, const Aabb& b, const Vec3& direction) {
 std::vector<Frame> targets_along(const Removal& removal, const Pose& start) {
   const Pose body = start * inverse(removal.from);  // what the body that it is part of has moved since
   std::vector<Frame> targets{{0, start}};
-  for (std::size_t k = 1; k < removal.way.size(); ++k) {
-    const Frame &a = removal.way[k - 1], &b = removal.way[k];
+  for (std::size_t k = 1; k < removal.frames.size(); ++k) {
+    const Frame &a = removal.frames[k - 1], &b = removal.frames[k];
     const int count = std::max(1, static_cast<int>(std::lround((b.time - a.time) * kTargetRate)));
     for (int i = 1; i <= count; ++i) {
       const double s = static_cast<double>(i) / count;
@@ -80,7 +80,7 @@ Result<std::vector<FreeDirection>> Session::free_directions(Span<const Component
     return Error{ErrorKind::Usage,
                  "free directions cannot be told now (another component is moving); let go of it first"};
   if (activity_ == SessionActivity::Idle) engine_->hold(set);
-  return WayOut(*assembly_, *engine_, set).find(kContactReach * pairs_.tolerance);
+  return ExitSearch(*assembly_, *engine_, set).find(kContactReach * pairs_.tolerance);
 }
 
 double Session::parking_distance(const Vec3& direction) const {
@@ -105,7 +105,7 @@ Result<Done> Session::take_out(Span<const ComponentId> components, const std::op
   std::vector<ComponentId> set = sorted_set(components);
   if (Result<Done> sane = check_set(set); !sane) return sane;
   engine_->hold(set);
-  const WayOut out(*assembly_, *engine_, set);
+  const ExitSearch out(*assembly_, *engine_, set);
   std::optional<FreeDirection> way;
   if (direction || out.is_outside()) {
     const std::vector<Vec3> only{direction ? normalized(*direction) : out.outward()};
@@ -137,7 +137,7 @@ Result<Done> Session::take_out_along(std::vector<Removal> removals) {
   for (Removal& removal : removals) {
     removal.components = sorted_set(removal.components);
     if (Result<Done> sane = check_set(removal.components); !sane) return sane;
-    DISMANTLE_EXPECT(!removal.way.empty());
+    DISMANTLE_EXPECT(!removal.frames.empty());
     if (!(poses()[removal.components[0].value] == removal.from))
       return Error{ErrorKind::Usage, "'" + names_of(*assembly_, removal.components) +
                                          "' cannot go the way that was found (it was moved since); search again"};
@@ -236,7 +236,7 @@ StepResult Session::advance_automatic(double dt) {
 
 void Session::finish_automatic(bool reached_end) {
   const bool takes_out = automatic_->kind == AutomaticKind::TakeOut;
-  const bool is_out = takes_out && (reached_end || WayOut(*assembly_, *engine_, moving_).is_outside());
+  const bool is_out = takes_out && (reached_end || ExitSearch(*assembly_, *engine_, moving_).is_outside());
   const bool is_done = std::none_of(moving_.begin(), moving_.end(), [this](ComponentId c) { return moves_again(c); });
   if (is_out && is_done) {
     open_->removed_after = true;

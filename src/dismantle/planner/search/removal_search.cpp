@@ -36,14 +36,14 @@ ComponentSet all_but(const ComponentSet& inside) {
 class RemovalSearch {
  public:
   RemovalSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
-                const ComponentSet& never, const GoOn& go_on)
-      : table_(table), directions_(directions), present_(present), never_(never), go_on_(go_on) {}
+                const ComponentSet& never, const KeepGoing& keep_going)
+      : table_(table), directions_(directions), present_(present), never_(never), keep_going_(keep_going) {}
 
   std::optional<ComponentSet> find(Span<const ComponentId> targets) {
     std::optional<ComponentSet> known = enough_for(targets);
     if (known) most_ = known->size();
     push(ComponentSet(present_.universe(), targets));
-    while (!waiting_.empty() && go_on_()) {
+    while (!waiting_.empty() && keep_going_()) {
       const ComponentSet needed = waiting_.top().needed;
       if (needed.size() >= most_) break;
       waiting_.pop();
@@ -65,8 +65,8 @@ class RemovalSearch {
     std::vector<StraightRemoval> taken;
     while (left.has_any(targets)) {
       const std::vector<StraightRemoval> single =
-          free_components(table_, directions_, left, never_, Executor(), go_on_);
-      if (single.empty() || !go_on_()) return std::nullopt;
+          free_components(table_, directions_, left, never_, Executor(), keep_going_);
+      if (single.empty() || !keep_going_()) return std::nullopt;
       for (const StraightRemoval& removal : single) left.erase(removal.components);
       taken.insert(taken.end(), single.begin(), single.end());
     }
@@ -90,12 +90,12 @@ class RemovalSearch {
   ComponentSet left_over(const ComponentSet& needed) {
     ComponentSet left = present_;
     const ComponentSet others = all_but(needed);
-    while (go_on_()) {
+    while (keep_going_()) {
       const std::vector<StraightRemoval> single =
-          free_components(table_, directions_, left, others, Executor(), go_on_);
+          free_components(table_, directions_, left, others, Executor(), keep_going_);
       for (const StraightRemoval& removal : single) left.erase(removal.components);
       if (!single.empty()) continue;
-      const auto body = smallest_body(table_, directions_, left, others, go_on_);
+      const auto body = smallest_body(table_, directions_, left, others, keep_going_);
       if (!body) break;
       left.erase(body->components);
     }
@@ -109,7 +109,7 @@ class RemovalSearch {
     const std::size_t most = std::min(left.size(), most_) - 1;
     for (const ComponentId c : stuck.members()) {
       for (const DirectionId d : directions_[c.value]) {
-        if (!go_on_()) return;
+        if (!keep_going_()) return;
         const std::vector<ComponentId> blockers = table_.blockers(c, d, left, most_ - needed.size());
         if (never_.has_any(blockers)) continue;
         if (!stuck.has_any(blockers)) push(with(needed, blockers));
@@ -129,7 +129,7 @@ class RemovalSearch {
   const DirectionLists& directions_;
   const ComponentSet& present_;
   const ComponentSet& never_;
-  const GoOn& go_on_;
+  const KeepGoing& keep_going_;
   std::priority_queue<Waiting> waiting_;
   std::set<std::vector<ComponentId>> known_;
   std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< The size of the best set that is known.
@@ -139,14 +139,14 @@ class RemovalSearch {
 
 std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
-                                             const Executor& executor, const GoOn& go_on) {
+                                             const Executor& executor, const KeepGoing& keep_going) {
   std::vector<ComponentId> asked = present.members();
   std::erase_if(asked, [&](ComponentId c) { return never.has(c); });
   std::stable_sort(asked.begin(), asked.end(),
                    [&](ComponentId a, ComponentId b) { return table.radius(a) < table.radius(b); });
   const auto first_free = [&](ComponentId c, Hope hope) {
     for (const DirectionId d : directions[c.value]) {
-      if (!go_on()) break;
+      if (!keep_going()) break;
       if (hope == Hope::Good && table.expects_blocker(c, d, present)) continue;
       if (!table.any_blocker(c, d, present)) return d;
     }
@@ -168,14 +168,14 @@ std::vector<StraightRemoval> free_components(BlockingTable& table, const Directi
 
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
-                                             const GoOn& go_on) {
+                                             const KeepGoing& keep_going) {
   std::optional<StraightRemoval> best;
   std::map<DirectionId, ComponentSet> ends;
   std::size_t most = present.size() - 1;
   for (const ComponentId c : present.members()) {
     if (never.has(c)) continue;
     for (const DirectionId d : directions[c.value]) {
-      if (!go_on()) return std::nullopt;
+      if (!keep_going()) return std::nullopt;
       ComponentSet& ends_it = ends.try_emplace(d, never).first->second;
       if (ends_it.has(c)) continue;
       std::vector<ComponentId> together = table.moving_together(c, d, present, ends_it, most);
@@ -190,8 +190,8 @@ std::optional<StraightRemoval> smallest_body(BlockingTable& table, const Directi
 
 std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,
                                             const ComponentSet& present, const ComponentSet& never,
-                                            Span<const ComponentId> targets, const GoOn& go_on) {
-  return RemovalSearch(table, directions, present, never, go_on).find(targets);
+                                            Span<const ComponentId> targets, const KeepGoing& keep_going) {
+  return RemovalSearch(table, directions, present, never, keep_going).find(targets);
 }
 
 }  // namespace dismantle

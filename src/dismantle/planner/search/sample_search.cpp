@@ -84,19 +84,19 @@ class Bandit {
 
 class SampleOut {
  public:
-  SampleOut(Explorer& explorer, const BlockingTable& table, ComponentId component, std::size_t max_effort,
-            const GoOn& go_on)
-      : explorer_(explorer),
+  SampleOut(LocalPlanner& local_planner, const BlockingTable& table, ComponentId component, std::size_t max_effort,
+            const KeepGoing& keep_going)
+      : local_planner_(local_planner),
         component_(component),
         radius_(table.radius(component)),
-        way_out_(table.way_length(component)),
+        exit_distance_(table.max_exit_distance(component)),
         max_effort_(max_effort),
-        go_on_(go_on),
+        keep_going_(keep_going),
         random_(max_effort),  // a longer search is not the same search again
-        places_(table.center(component), radius_),
+        tree_(table.center(component), radius_),
         out_(1) {}
 
-  const PlaceTree& places() const { return places_; }
+  const SearchTree& places() const { return tree_; }
   /// Nothing new is found any more.
   bool saturated() const { return in_vain_ > kMaxInVain; }
 
@@ -106,11 +106,11 @@ class SampleOut {
       const Aim aim = kAims[arm % std::size(kAims)];
       const double reach = kReaches[arm / std::size(kAims)] * radius_;
       const auto [from, target] = next_motion(aim, reach);
-      explorer_.go_back(places_[from].pose);
-      StepResult made = explorer_.slide(target);
+      local_planner_.go_back(tree_[from].pose);
+      StepResult made = local_planner_.slide(target);
       double gain = 0;
       if (!made.way.empty()) {
-        const double novelty = places_.nearest(made.pose).second;
+        const double novelty = tree_.nearest(made.pose).second;
         gain = std::min(1.0, novelty / (kReaches[1] * radius_));
         if (novelty > kSamePlace * radius_)
           if (auto step = reach_place(from, std::move(made.way))) return step;
@@ -121,7 +121,7 @@ class SampleOut {
   }
 
  private:
-  bool goes_on() const { return !saturated() && explorer_.effort() < max_effort_ && go_on_(); }
+  bool goes_on() const { return !saturated() && local_planner_.effort() < max_effort_ && keep_going_(); }
 
   Vec3 random_direction() {
     std::normal_distribution<double> normal;
@@ -134,7 +134,7 @@ class SampleOut {
 
   /// The pose turned by `angle` about its center, which goes by `shift`.
   Pose displaced(const Pose& pose, const Vec3& shift, const Vec3& axis, double angle) const {
-    const Vec3 center = places_.center_at(pose);
+    const Vec3 center = tree_.center_at(pose);
     const Pose turn{center + shift, quat_about(axis, angle)};
     return turn * Pose{-center, {}} * pose;
   }
@@ -143,53 +143,53 @@ class SampleOut {
     if (aim == Aim::Anywhere) {
       const Vec3 shift = kRegion * radius_ * std::cbrt(random_share()) * random_direction();
       const Pose goal = displaced({}, shift, random_direction(), kHalfTurn * random_share());
-      const auto [from, apart] = places_.nearest(goal);
-      return {from, pose_between(places_[from].pose, goal, std::min(1.0, reach / apart))};
+      const auto [from, apart] = tree_.nearest(goal);
+      return {from, pose_between(tree_[from].pose, goal, std::min(1.0, reach / apart))};
     }
-    std::size_t from = random_() % places_.size();
+    std::size_t from = random_() % tree_.size();
     for (int k = 1; k < kOutermostOf; ++k) {
-      const std::size_t other = random_() % places_.size();
+      const std::size_t other = random_() % tree_.size();
       if (out_[other] > out_[from]) from = other;
     }
     const Vec3 direction = random_direction();
     const bool turns = aim == Aim::Turn;
-    return {from, displaced(places_[from].pose, turns ? Vec3{} : reach * direction, direction,
+    return {from, displaced(tree_[from].pose, turns ? Vec3{} : reach * direction, direction,
                             turns ? std::min(kHalfTurn, reach / radius_) : 0)};
   }
 
   /// Takes up a new place; the step where it is out, or goes straight out from it.
   std::optional<PlanStep> reach_place(std::size_t from, std::vector<Pose> way) {
     const Pose pose = way.back();
-    const Vec3 gone = places_.center_at(pose) - places_.center_at({});
-    places_.add({pose, from, std::move(way)});
+    const Vec3 gone = tree_.center_at(pose) - tree_.center_at({});
+    tree_.add({pose, from, std::move(way)});
     out_.push_back(length(gone));
     in_vain_ = 0;
-    const bool is_out = out_.back() > way_out_;
+    const bool is_out = out_.back() > exit_distance_;
     const bool further = out_.back() > outermost_ + kFurtherOut * radius_;
     if (further) outermost_ = out_.back();
-    if (!is_out && !further && places_.size() % kExitPeriod != 0) return std::nullopt;
+    if (!is_out && !further && tree_.size() % kExitPeriod != 0) return std::nullopt;
     const Vec3 outwards = length(gone) > kSamePlace * radius_ ? normalized(gone) : random_direction();
     for (const Vec3& exit : {outwards, random_direction()}) {
-      if (!is_out && !explorer_.exits(exit, 2 * way_out_)) continue;
+      if (!is_out && !local_planner_.exits(exit, 2 * exit_distance_)) continue;
       return PlanStep{
-          {component_}, PlanTier::Sampled, PlanStep::kWhole, shortened(places_.way_to(places_.size() - 1)), exit};
+          {component_}, PlanTier::Sampled, PlanStep::kWhole, shortened(tree_.path_to(tree_.size() - 1)), exit};
     }
     return std::nullopt;
   }
 
   /// Replaces parts of the way by motions that go there at once.
   std::vector<Pose> shortened(std::vector<Pose> way) {
-    for (int tries = 0; tries < kShortenTries && way.size() > 2 && go_on_(); ++tries) {
+    for (int tries = 0; tries < kShortenTries && way.size() > 2 && keep_going_(); ++tries) {
       std::size_t first = random_() % way.size(), last = random_() % way.size();
       if (first > last) std::swap(first, last);
       if (last - first < 2) continue;
       double as_it_is = 0;
-      for (std::size_t k = first; k < last; ++k) as_it_is += places_.distance(way[k], way[k + 1]);
-      explorer_.go_back(way[first]);
-      const StepResult made = explorer_.slide(way[last]);
+      for (std::size_t k = first; k < last; ++k) as_it_is += tree_.distance(way[k], way[k + 1]);
+      local_planner_.go_back(way[first]);
+      const StepResult made = local_planner_.slide(way[last]);
       if (!made.reached) continue;
-      double at_once = places_.distance(way[first], made.way.front());
-      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += places_.distance(made.way[k - 1], made.way[k]);
+      double at_once = tree_.distance(way[first], made.way.front());
+      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += tree_.distance(made.way[k - 1], made.way[k]);
       if (at_once >= as_it_is) continue;
       const auto begin = way.begin() + static_cast<std::ptrdiff_t>(first) + 1;
       const auto at = way.erase(begin, way.begin() + static_cast<std::ptrdiff_t>(last) + 1);
@@ -198,14 +198,14 @@ class SampleOut {
     return way;
   }
 
-  Explorer& explorer_;
+  LocalPlanner& local_planner_;
   ComponentId component_;
-  double radius_, way_out_;
+  double radius_, exit_distance_;
   std::size_t max_effort_;
-  const GoOn& go_on_;
+  const KeepGoing& keep_going_;
   std::mt19937_64 random_;
   Bandit bandit_;
-  PlaceTree places_;
+  SearchTree tree_;
   std::vector<double> out_;  ///< How far the center is from where it was assembled, at each place [mm].
   double outermost_ = 0;
   int in_vain_ = 0;  ///< Motions since the last new place.
@@ -213,13 +213,13 @@ class SampleOut {
 
 }  // namespace
 
-WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t max_effort,
-                     const GoOn& go_on) {
-  WaySearch search;
-  Explorer explorer(maker, component);
-  SampleOut sampling(explorer, table, component, max_effort, go_on);
+PathSearch sample_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, std::size_t max_effort,
+                     const KeepGoing& keep_going) {
+  PathSearch search;
+  LocalPlanner local_planner(validator, component);
+  SampleOut sampling(local_planner, table, component, max_effort, keep_going);
   search.step = sampling.find();
-  search.met = explorer.met();
+  search.met = local_planner.met();
   search.furthest = sampling.places().furthest();
   search.exhausted = sampling.saturated();
   return search;

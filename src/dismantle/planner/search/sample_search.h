@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/planner/blocking_table.h"
-#include "dismantle/planner/search/explorer.h"
+#include "dismantle/planner/search/local_planner.h"
 
 #include <cstddef>
 
@@ -14,9 +14,9 @@ namespace dismantle {
 /// Auer et al. 2002). Every edge is a motion of the engine that slides along what is in the way, so that narrow
 /// passages draw it in, and is certified as any other. The way that is found is shortened by certified motions. The
 /// same for the same input, but for time limits.
-/// @param maker what is present stands, nothing is in hand; the same after it
-/// @param max_effort see StepMaker::effort
-WaySearch sample_out(StepMaker& maker, const BlockingTable& table, ComponentId component, std::size_t max_effort,
-                     const GoOn& go_on);
+/// @param validator what is present stands, nothing is in hand; the same after it
+/// @param max_effort see MotionValidator::effort
+PathSearch sample_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, std::size_t max_effort,
+                     const KeepGoing& keep_going);
 
 }  // namespace dismantle

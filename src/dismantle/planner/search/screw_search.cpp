@@ -52,15 +52,15 @@ Pose screw_motion(const ThreadAxis& thread, double angle) {
 }
 
 /// Turns one way, as long as that makes something.
-std::optional<PlanStep> turn_out(Explorer& explorer, ThreadAxis thread, double turn, double way_out,
-                                 const GoOn& go_on) {
+std::optional<PlanStep> turn_out(LocalPlanner& local_planner, ThreadAxis thread, double turn, double exit_distance,
+                                 const KeepGoing& keep_going) {
   const Vec3 exit = turn * thread.lead > 0 ? thread.direction : -thread.direction;
   std::vector<Pose> way;
-  const double max_turned = kMaxTurns * kTurn * (1 + way_out / std::abs(thread.lead));
+  const double max_turned = kMaxTurns * kTurn * (1 + exit_distance / std::abs(thread.lead));
   double turned = 0, risen = 0;
-  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < max_turned && go_on(); ++turns) {
-    const Pose before = explorer.pose();
-    const StepResult made = explorer.slide(screw_motion(thread, turn) * before);
+  for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < max_turned && keep_going(); ++turns) {
+    const Pose before = local_planner.pose();
+    const StepResult made = local_planner.slide(screw_motion(thread, turn) * before);
     way.insert(way.end(), made.way.begin(), made.way.end());
 
     const Screw screw = screw_between(before, made.pose);
@@ -71,7 +71,7 @@ std::optional<PlanStep> turn_out(Explorer& explorer, ThreadAxis thread, double t
     if (std::abs(turned) > kTurnToLearn) thread.lead = kTurn * risen / turned;
     const bool moved = angle / turn > kStuckShare;
     stuck = moved ? 0 : stuck + 1;
-    if (turns % kTurnsToLook == 0 && moved && explorer.exits(exit, way_out + std::abs(risen)))
+    if (turns % kTurnsToLook == 0 && moved && local_planner.exits(exit, exit_distance + std::abs(risen)))
       return PlanStep{{}, PlanTier::Helical, PlanStep::kWhole, std::move(way), exit};
   }
   return std::nullopt;
@@ -110,14 +110,14 @@ std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const Cer
   return found;
 }
 
-WaySearch screw_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
-                    const GoOn& go_on) {
-  WaySearch search;
+PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
+                    const KeepGoing& keep_going) {
+  PathSearch search;
   std::set<ComponentId> met;
   for (const double turn : {kHandTurn, -kHandTurn}) {
-    Explorer explorer(maker, component);
-    search.step = turn_out(explorer, thread, turn, table.way_length(component), go_on);
-    for (const ComponentId c : explorer.met()) met.insert(c);
+    LocalPlanner local_planner(validator, component);
+    search.step = turn_out(local_planner, thread, turn, table.max_exit_distance(component), keep_going);
+    for (const ComponentId c : local_planner.met()) met.insert(c);
     if (!search.step) continue;
     search.step->components = {component};
     break;

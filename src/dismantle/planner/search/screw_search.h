@@ -3,7 +3,7 @@
 
 #include "dismantle/features/thread_fit.h"
 #include "dismantle/planner/blocking_table.h"
-#include "dismantle/planner/search/explorer.h"
+#include "dismantle/planner/search/local_planner.h"
 
 #include <vector>
 
@@ -24,8 +24,8 @@ std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const Cer
 
 /// Screws a component out along a thread, one way or the other, until it goes straight on along the axis: the engine
 /// lets it slide along the flanks, so that the thread needs to be known only roughly.
-/// @param maker what is present stands, nothing is in hand; the same after it
-WaySearch screw_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
-                    const GoOn& go_on);
+/// @param validator what is present stands, nothing is in hand; the same after it
+PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
+                    const KeepGoing& keep_going);
 
 }  // namespace dismantle

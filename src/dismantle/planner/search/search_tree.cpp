@@ -6,35 +6,35 @@
 
 namespace dismantle {
 
-double PlaceTree::distance(const Pose& a, const Pose& b) const {
+double SearchTree::distance(const Pose& a, const Pose& b) const {
   return length(center_at(a) - center_at(b)) + radius_ * screw_between(a, b).angle;
 }
 
-std::pair<std::size_t, double> PlaceTree::nearest(const Pose& pose) const {
+std::pair<std::size_t, double> SearchTree::nearest(const Pose& pose) const {
   std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
   const Vec3 center = center_at(pose);
-  for (std::size_t k = 0; k < places_.size(); ++k) {
+  for (std::size_t k = 0; k < configurations_.size(); ++k) {
     // Turning is dear to work out: the centers alone often tell.
-    if (length(center_at(places_[k].pose) - center) >= best.second) continue;
-    const double apart = distance(places_[k].pose, pose);
+    if (length(center_at(configurations_[k].pose) - center) >= best.second) continue;
+    const double apart = distance(configurations_[k].pose, pose);
     if (apart < best.second) best = {k, apart};
   }
   return best;
 }
 
-std::optional<double> PlaceTree::furthest() const {
-  if (places_.size() == 1) return std::nullopt;
+std::optional<double> SearchTree::furthest() const {
+  if (configurations_.size() == 1) return std::nullopt;
   double most = 0;
-  for (const Place& place : places_) most = std::max(most, length(center_at(place.pose) - center_));
+  for (const Configuration& place : configurations_) most = std::max(most, length(center_at(place.pose) - center_));
   return most / radius_;
 }
 
-std::vector<Pose> PlaceTree::way_to(std::size_t place) const {
+std::vector<Pose> SearchTree::path_to(std::size_t place) const {
   std::vector<std::size_t> back;
-  for (std::size_t k = place; k != 0; k = places_[k].from) back.push_back(k);
+  for (std::size_t k = place; k != 0; k = configurations_[k].from) back.push_back(k);
   std::vector<Pose> whole;
   for (auto k = back.rbegin(); k != back.rend(); ++k)
-    whole.insert(whole.end(), places_[*k].way.begin(), places_[*k].way.end());
+    whole.insert(whole.end(), configurations_[*k].way.begin(), configurations_[*k].way.end());
   return whole;
 }
 

@@ -42,22 +42,22 @@ struct Promise {
 
 class SlideOut {
  public:
-  SlideOut(Explorer& explorer, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-           const GoOn& go_on)
-      : explorer_(explorer),
+  SlideOut(LocalPlanner& local_planner, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+           const KeepGoing& keep_going)
+      : local_planner_(local_planner),
         component_(component),
         radius_(table.radius(component)),
-        way_out_(table.way_length(component)),
+        exit_distance_(table.max_exit_distance(component)),
         max_effort_(moves.max_effort),
-        go_on_(go_on),
-        places_(table.center(component), radius_),
+        keep_going_(keep_going),
+        tree_(table.center(component), radius_),
         promises_(1) {
     for (const Vec3& d : moves.directions) moves_.push_back({d, {}});
     for (const TurnAxis& axis : moves.axes)
       for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
   }
 
-  const PlaceTree& places() const { return places_; }
+  const SearchTree& places() const { return tree_; }
 
   std::optional<PlanStep> find() {
     for (;;) {
@@ -69,14 +69,14 @@ class SlideOut {
       const auto index = static_cast<std::size_t>(best - promises_.begin());
       for (const SlideMove& move : moves_) {
         if (!goes_on()) return std::nullopt;
-        explorer_.go_back(places_[index].pose);
+        local_planner_.go_back(tree_[index].pose);
         if (auto step = follow(index, move)) return step;
       }
     }
   }
 
  private:
-  bool goes_on() const { return explorer_.effort() < max_effort_ && go_on_(); }
+  bool goes_on() const { return local_planner_.effort() < max_effort_ && keep_going_(); }
 
   /// Goes on with a move as long as it makes something.
   std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
@@ -86,14 +86,14 @@ class SlideOut {
     std::vector<std::size_t> ends;  // of the hand's steps, in `way`
     double turned = 0;
     for (bool stuck = false; !stuck && turned < kMaxTurn && goes_on();) {
-      const Pose before = explorer_.pose();
-      const StepResult made = explorer_.slide(target(before, held, move));
+      const Pose before = local_planner_.pose();
+      const StepResult made = local_planner_.slide(target(before, held, move));
       way.insert(way.end(), made.way.begin(), made.way.end());
-      stuck = places_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
+      stuck = tree_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
       if (made.way.empty()) break;
       ends.push_back(way.size());
       turned += pushed ? 0 : hand_turn(move.axis);
-      if (pushed && dot(places_.center_at(made.pose) - places_.center_at({}), move.push) > way_out_)
+      if (pushed && dot(tree_.center_at(made.pose) - tree_.center_at({}), move.push) > exit_distance_)
         return step_out(from, way, move.push);
     }
     if (ends.empty()) return std::nullopt;
@@ -102,7 +102,7 @@ class SlideOut {
     };
     // The end first: what lies just before it is not another place.
     if (reach(from, move, until(ends.back()), kEnd))
-      if (auto step = leave(places_.size() - 1)) return step;
+      if (auto step = leave(tree_.size() - 1)) return step;
     ends.pop_back();
     for (const std::size_t end : ends) reach(from, move, until(end), kOnTheWay);
     return std::nullopt;
@@ -113,9 +113,9 @@ class SlideOut {
     std::vector<Vec3> directions;
     for (const SlideMove& move : moves_)
       if (length(move.push) > 0) directions.push_back(move.push);
-    for (const Vec3& exit : explorer_.likely_exits(directions, 2 * way_out_))
-      if (goes_on() && explorer_.exits(exit, 2 * way_out_))
-        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, places_.way_to(place), exit};
+    for (const Vec3& exit : local_planner_.likely_exits(directions, 2 * exit_distance_))
+      if (goes_on() && local_planner_.exits(exit, 2 * exit_distance_))
+        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, tree_.path_to(place), exit};
     return std::nullopt;
   }
 
@@ -123,8 +123,8 @@ class SlideOut {
   /// that it slides around it would be turned further, until it is stuck.
   Pose target(const Pose& pose, const Quat& held, const SlideMove& move) const {
     if (length(move.push) > 0) {
-      const Vec3 center = places_.center_at(pose) + kHandShare * radius_ * move.push;
-      return {center - places_.center_at({{}, held}), held};
+      const Vec3 center = tree_.center_at(pose) + kHandShare * radius_ * move.push;
+      return {center - tree_.center_at({{}, held}), held};
     }
     Screw screw;
     screw.reference = move.axis.point;
@@ -134,7 +134,7 @@ class SlideOut {
   }
 
   double hand_turn(const TurnAxis& axis) const {
-    const double arm = length(cross(axis.direction, places_.center_at({}) - axis.point)) + radius_;
+    const double arm = length(cross(axis.direction, tree_.center_at({}) - axis.point)) + radius_;
     return std::min(0.5, kHandShare * radius_ / arm);
   }
 
@@ -142,19 +142,19 @@ class SlideOut {
   /// @param share that it counts
   bool reach(std::size_t from, const SlideMove& move, std::vector<Pose> way, double share) {
     const Pose pose = way.back();
-    const double nearest = places_.nearest(pose).second;
+    const double nearest = tree_.nearest(pose).second;
     if (nearest < kSamePlace * radius_) return false;
     const double depth = promises_[from].depth + 1;
-    const double apart = nearest + places_.distance({}, pose);
+    const double apart = nearest + tree_.distance({}, pose);
     const Quat held = length(move.push) > 0 ? promises_[from].held : pose.rotation;
     promises_.push_back({share * apart / radius_ - kDepthShare * depth, depth, held, false});
-    places_.add({pose, from, std::move(way)});
+    tree_.add({pose, from, std::move(way)});
     return true;
   }
 
   /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
   PlanStep step_out(std::size_t from, const std::vector<Pose>& way, const Vec3& exit) {
-    std::vector<Pose> whole = places_.way_to(from);
+    std::vector<Pose> whole = tree_.path_to(from);
     whole.insert(whole.end(), way.begin(), way.end());
 
     const Pose last = whole.back();
@@ -164,32 +164,32 @@ class SlideOut {
       return p.rotation == last.rotation && length(apart - dot(apart, exit) * exit) < kStraight * radius_;
     };
     while (first > 0 && on_line(whole[first - 1])) --first;
-    explorer_.go_back(whole[first]);
-    if (explorer_.exits(exit, 2 * way_out_)) whole.resize(first + 1);
+    local_planner_.go_back(whole[first]);
+    if (local_planner_.exits(exit, 2 * exit_distance_)) whole.resize(first + 1);
     return {{component_}, PlanTier::Sliding, PlanStep::kWhole, std::move(whole), exit};
   }
 
-  Explorer& explorer_;
+  LocalPlanner& local_planner_;
   ComponentId component_;
-  double radius_, way_out_;
+  double radius_, exit_distance_;
   std::size_t max_effort_;
-  const GoOn& go_on_;
+  const KeepGoing& keep_going_;
   std::vector<SlideMove> moves_;
-  PlaceTree places_;
+  SearchTree tree_;
   std::vector<Promise> promises_;  ///< Of each place.
 };
 
 }  // namespace
 
-WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-                    const GoOn& go_on) {
-  WaySearch search;
-  Explorer explorer(maker, component);
-  SlideOut sliding(explorer, table, component, moves, go_on);
+PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+                    const KeepGoing& keep_going) {
+  PathSearch search;
+  LocalPlanner local_planner(validator, component);
+  SlideOut sliding(local_planner, table, component, moves, keep_going);
   search.step = sliding.find();
-  search.met = explorer.met();
+  search.met = local_planner.met();
   search.furthest = sliding.places().furthest();
-  search.exhausted = !search.step && explorer.effort() < moves.max_effort;
+  search.exhausted = !search.step && local_planner.effort() < moves.max_effort;
   return search;
 }
 

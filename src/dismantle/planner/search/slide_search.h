@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/planner/blocking_table.h"
-#include "dismantle/planner/search/explorer.h"
+#include "dismantle/planner/search/local_planner.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,15 +19,15 @@ struct TurnAxis {
 struct SlideMoves {
   std::vector<Vec3> directions;  ///< Unit: pushed along these, either way is listed.
   std::vector<TurnAxis> axes;    ///< Turned about these, one way and the other.
-  std::size_t max_effort = 0;    ///< See StepMaker::effort.
+  std::size_t max_effort = 0;    ///< See MotionValidator::effort.
 };
 
 /// Pushes and turns a component as far as each goes, along whatever is in the way (response Slide), then goes on from
 /// the places reached: those first that are new and far from where it began. Ends where a push or a straight
 /// way from its end leads out, where there are no new places, or with the effort.
 /// @param moves of the assembled state
-/// @param maker what is present stands, nothing is in hand; the same after it
-WaySearch slide_out(StepMaker& maker, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-                    const GoOn& go_on);
+/// @param validator what is present stands, nothing is in hand; the same after it
+PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
+                    const KeepGoing& keep_going);
 
 }  // namespace dismantle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/session/way_out.h"
+#include "dismantle/session/exit_search.h"
 
 #include "tests/session/session_table.h"
 
@@ -18,25 +18,25 @@ constexpr double kReach = 3 * kTableTolerance;
 //      +---+          |
 //      block          |
 
-class WayOutOfTheWall : public testing::Test {
+class ExitSearchBesideAWall : public testing::Test {
  protected:
   const Assembly assembly_ = wall_and_block();
   const PairStates pairs_ = *classify_pairs(assembly_, {});
   CertificateEngine engine_{assembly_, pairs_};
-  WayOut out() {
+  ExitSearch out() {
     engine_.hold(kFirst);
     return {assembly_, engine_, kFirst};
   }
 };
 
-TEST_F(WayOutOfTheWall, IsOutsideOnceItsBoxHasLeftThatOfTheAssembly) {
+TEST_F(ExitSearchBesideAWall, IsOutsideOnceItsBoxHasLeftThatOfTheAssembly) {
   EXPECT_FALSE(out().is_outside());
   engine_.jump(std::vector<Pose>{{{-10.5, 0, 0}, {}}, {}});
   EXPECT_TRUE(out().is_outside());
   EXPECT_EQ(out().exit_distance({1, 0, 0}), 0);
 }
 
-TEST_F(WayOutOfTheWall, HasToGoUntilTheWholeBoxIsBehind) {
+TEST_F(ExitSearchBesideAWall, HasToGoUntilTheWholeBoxIsBehind) {
   const double margin = out().exit_distance({-1, 0, 0}) - 10;
   EXPECT_GT(margin, 0);
   EXPECT_LT(margin, 5);
@@ -46,7 +46,7 @@ TEST_F(WayOutOfTheWall, HasToGoUntilTheWholeBoxIsBehind) {
   EXPECT_NEAR(out().exit_distance({-slant, slant, 0}), 10 / slant + margin, 1e-9);
 }
 
-TEST_F(WayOutOfTheWall, LooksAlongAWayAsFarAsItIsFree) {
+TEST_F(ExitSearchBesideAWall, LooksAlongAWayAsFarAsItIsFree) {
   const std::vector<FreeDirection> ways = out().look(std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
   EXPECT_FALSE(ways[0].free);
   EXPECT_EQ(ways[0].blocked_by, ComponentId(1));
@@ -55,7 +55,7 @@ TEST_F(WayOutOfTheWall, LooksAlongAWayAsFarAsItIsFree) {
   EXPECT_TRUE(ways[1].free);
 }
 
-TEST_F(WayOutOfTheWall, FindsTheShortestFreeWayFirst) {
+TEST_F(ExitSearchBesideAWall, FindsTheShortestFreeWayFirst) {
   const std::vector<FreeDirection> ways = out().find(kReach);
   ASSERT_FALSE(ways.empty());
   EXPECT_TRUE(ways[0].free);
@@ -64,7 +64,7 @@ TEST_F(WayOutOfTheWall, FindsTheShortestFreeWayFirst) {
   EXPECT_EQ(ways.back().blocked_by, ComponentId(1));
 }
 
-TEST_F(WayOutOfTheWall, LeavesOutWhatEndsBeforeAHundredthOfTheWay) {
+TEST_F(ExitSearchBesideAWall, LeavesOutWhatEndsBeforeAHundredthOfTheWay) {
   const auto leads_to_the_wall_from = [&](double gap) {
     engine_.jump(std::vector<Pose>{{{10.5 - gap, 0, 0}, {}}, {}});
     const std::vector<FreeDirection> ways = out().find(kReach);
@@ -76,13 +76,13 @@ TEST_F(WayOutOfTheWall, LeavesOutWhatEndsBeforeAHundredthOfTheWay) {
   EXPECT_TRUE(leads_to_the_wall_from(1));
 }
 
-TEST_F(WayOutOfTheWall, LeadsOutwardFromTheMiddle) {
+TEST_F(ExitSearchBesideAWall, LeadsOutwardFromTheMiddle) {
   const Vec3 outward = out().outward();
   EXPECT_NEAR(length(outward), 1, 1e-12);
   EXPECT_LT(outward.x, 0);
 }
 
-TEST(WayOut, FollowsTheNormalsOfWhatTheSetTouches) {
+TEST(ExitSearch, FollowsTheNormalsOfWhatTheSetTouches) {
   const double slant = std::sqrt(0.5);
   const Quat turn = quat_about({0, 0, 1}, std::acos(-1.0) / 4);
   const auto turned = [&](const TriangleMesh& mesh) { return moved(mesh, {{}, turn}); };
@@ -91,7 +91,7 @@ TEST(WayOut, FollowsTheNormalsOfWhatTheSetTouches) {
   const PairStates pairs = *classify_pairs(assembly, {});
   CertificateEngine engine(assembly, pairs);
   engine.hold(kFirst);
-  const std::vector<FreeDirection> ways = WayOut(assembly, engine, kFirst).find(kReach);
+  const std::vector<FreeDirection> ways = ExitSearch(assembly, engine, kFirst).find(kReach);
   const bool has_normal = std::any_of(ways.begin(), ways.end(), [&](const FreeDirection& w) {
     return w.free && length(w.direction - Vec3{slant, slant, 0}) < 1e-6;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/planner/search/step_maker.h"
+#include "dismantle/planner/search/motion_validator.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,32 +18,32 @@ constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
 
 }  // namespace
 
-StepMaker::StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
-                     GoOn go_on)
+MotionValidator::MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
+                     KeepGoing keep_going)
     : assembly_(assembly),
       pairs_(pairs),
       options_(options),
       far_(far),
-      go_on_(std::move(go_on)),
+      keep_going_(std::move(keep_going)),
       engine_(assembly, pairs, options),
       poses_(assembly.components.size()) {}
 
-void StepMaker::stand(const ComponentSet& present) {
+void MotionValidator::stand(const ComponentSet& present) {
   for (std::uint32_t c = 0; c < poses_.size(); ++c)
     poses_[c] = present.has(ComponentId(c)) ? Pose{} : Pose{{far_, 0, 0}, {}};
   engine_.jump(poses_);
 }
 
-StepMaker::Trial StepMaker::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
+MotionValidator::Trial MotionValidator::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
   engine_.hold(set);
-  held_ = set[0];
+  moving_ = set[0];
   embedded_ = engine_.embedded_pairs();
   Trial trial = trial_of(go_straight(direction, way), set);
   put_back();
   return trial;
 }
 
-StepMaker::Trial StepMaker::trial_of(const StepResult& made, Span<const ComponentId> set) const {
+MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<const ComponentId> set) const {
   Trial trial{made.reached, {}};
   const auto moves = [&](ComponentId c) { return std::find(set.begin(), set.end(), c) != set.end(); };
   const auto add = [&](ComponentId a, ComponentId b) {
@@ -58,67 +58,67 @@ StepMaker::Trial StepMaker::trial_of(const StepResult& made, Span<const Componen
   return trial;
 }
 
-void StepMaker::put_back() {
+void MotionValidator::put_back() {
   // What has parted would be taken for parted where it stands in the other again.
   if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
   engine_.jump(poses_);
 }
 
-StepResult StepMaker::step(const Pose& target, ResponseKind response) {
+StepResult MotionValidator::step(const Pose& target, ResponseKind response) {
   StepResult made = engine_.step(target, response);
   effort_ += made.sizes.elementary_tests +
              (kSweepEffort + made.sizes.front / kFrontShare) * static_cast<std::size_t>(made.sweeps);
   return made;
 }
 
-StepResult StepMaker::go_straight(const Vec3& direction, double way) {
+StepResult MotionValidator::go_straight(const Vec3& direction, double way) {
   const Pose from = pose();
   StepResult made;
   for (const double part : kParts) {
-    if (!go_on_()) return {};
+    if (!keep_going_()) return {};
     made = go_part({from.position + part * way * direction, from.rotation}, direction);
     if (!made.reached) break;
   }
   return made;
 }
 
-StepResult StepMaker::go_part(const Pose& target, const Vec3& direction) {
+StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
   for (int starts = 1;; ++starts) {
     const Vec3 before = pose().position;
     StepResult made = step(target, ResponseKind::Touch);
     // Where one start stops, a new one may go on: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMaxStarts || !go_on_() || progress < kNewStartShare * pairs_.tolerance) return made;
+    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * pairs_.tolerance) return made;
   }
 }
 
-const CertificateEngine& StepMaker::hold(ComponentId component) {
+const CertificateEngine& MotionValidator::hold(ComponentId component) {
   engine_.hold({&component, 1});
   return engine_;
 }
 
-void StepMaker::take(ComponentId component) {
+void MotionValidator::take(ComponentId component) {
   engine_.hold({&component, 1});
-  held_ = component;
+  moving_ = component;
   embedded_ = engine_.embedded_pairs();
 }
 
-void StepMaker::go_back(const Pose& pose) {
+void MotionValidator::go_back(const Pose& pose) {
   if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
   std::vector<Pose> poses = poses_;
-  poses[held_.value] = pose;
+  poses[moving_.value] = pose;
   engine_.jump(poses);
-  engine_.hold({&held_, 1});
+  engine_.hold({&moving_, 1});
 }
 
-StepMaker::Trial StepMaker::try_exit(const Vec3& direction, double way) {
+MotionValidator::Trial MotionValidator::try_exit(const Vec3& direction, double way) {
   const Pose from = pose();
-  Trial trial = trial_of(go_straight(direction, way), {&held_, 1});
+  Trial trial = trial_of(go_straight(direction, way), {&moving_, 1});
   go_back(from);
   return trial;
 }
 
-std::vector<Vec3> StepMaker::likely_exits(Span<const Vec3> directions, double way) {
+std::vector<Vec3> MotionValidator::likely_exits(Span<const Vec3> directions, double way) {
   std::vector<Vec3> open(directions.begin(), directions.end());
   // A look at the first part costs little, and settles most.
   for (const double part : {kParts[0], 1.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/session/way_out.h"
+#include "dismantle/session/exit_search.h"
 
 #include "dismantle/session/session_path.h"
 
@@ -30,21 +30,21 @@ void add_direction(std::vector<Vec3>& list, const Vec3& direction) {
 
 }  // namespace
 
-WayOut::WayOut(const Assembly& assembly, const CertificateEngine& engine, Span<const ComponentId> set)
+ExitSearch::ExitSearch(const Assembly& assembly, const CertificateEngine& engine, Span<const ComponentId> set)
     : assembly_(assembly), engine_(engine), pose_(engine.poses()[set[0].value]), all_(assembled_bounds(assembly)) {
   for (const ComponentId c : set) box_.extend(bounds_at(assembly_[c], pose_));
 }
 
-bool WayOut::is_outside() const {
+bool ExitSearch::is_outside() const {
   return !overlaps(all_, box_);
 }
 
-Vec3 WayOut::outward() const {
+Vec3 ExitSearch::outward() const {
   const Vec3 way = box_.center() - all_.center();
   return length(way) > 0 ? normalized(way) : Vec3{0, 0, 1};
 }
 
-double WayOut::exit_distance(const Vec3& direction) const {
+double ExitSearch::exit_distance(const Vec3& direction) const {
   if (is_outside()) return 0;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -54,7 +54,7 @@ double WayOut::exit_distance(const Vec3& direction) const {
   return least + kMarginShare * diagonal(all_);
 }
 
-std::vector<FreeDirection> WayOut::look(Span<const Vec3> directions) const {
+std::vector<FreeDirection> ExitSearch::look(Span<const Vec3> directions) const {
   std::vector<Vec3> ways;
   std::vector<FreeDirection> result;
   for (const Vec3& d : directions) {
@@ -71,7 +71,7 @@ std::vector<FreeDirection> WayOut::look(Span<const Vec3> directions) const {
   return result;
 }
 
-std::vector<FreeDirection> WayOut::find(double contact_reach) const {
+std::vector<FreeDirection> ExitSearch::find(double contact_reach) const {
   std::vector<Vec3> directions;
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
     add_direction(directions, axis);

@@ -27,7 +27,7 @@ std::string direction_words(const Vec3& unit);
 
 /// The way in the sense of `direction` as a sentence: "Turn 4.5 times anticlockwise (seen from where it comes out),
 /// then straight up." Ways of many legs are told by their lengths.
-std::string way_text(const std::vector<Leg>& legs, PathDirection direction);
+std::string motion_text(const std::vector<Leg>& legs, PathDirection direction);
 
 /// A number with three digits, for people.
 std::string number_text(double value);

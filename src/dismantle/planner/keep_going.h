@@ -6,6 +6,6 @@
 namespace dismantle {
 
 /// Whether to go on searching: asked now and then, by any thread.
-using GoOn = std::function<bool()>;
+using KeepGoing = std::function<bool()>;
 
 }  // namespace dismantle

@@ -3,7 +3,7 @@
 
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
-#include "dismantle/planner/go_on.h"
+#include "dismantle/planner/keep_going.h"
 
 #include <utility>
 #include <vector>
@@ -11,12 +11,12 @@
 namespace dismantle {
 
 /// Tries the steps of a plan with the engine, which knows all rules of the guarantee.
-class StepMaker {
+class MotionValidator {
  public:
   /// @param far Distance [mm] at which what was taken away is out of everyone's way.
-  /// @param go_on once it says no, tries end as if blocked
-  StepMaker(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
-            GoOn go_on);
+  /// @param keep_going once it says no, tries end as if blocked
+  MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
+            KeepGoing keep_going);
 
   /// `present` stand in their assembled poses, all others are taken away.
   void stand(const ComponentSet& present);
@@ -36,7 +36,7 @@ class StepMaker {
   /// Takes one component in hand where it was assembled, to look for its way out.
   void take(ComponentId component);
   /// Where the one in hand is.
-  const Pose& pose() const { return engine_.poses()[held_.value]; }
+  const Pose& pose() const { return engine_.poses()[moving_.value]; }
   /// Goes on towards `target`, sliding along what is in the way.
   StepResult slide(const Pose& target) { return step(target, ResponseKind::Slide); }
   /// Puts what is in hand back where it has been.
@@ -60,10 +60,10 @@ class StepMaker {
   const PairStates& pairs_;
   CertificateOptions options_;
   double far_;
-  GoOn go_on_;
+  KeepGoing keep_going_;
   CertificateEngine engine_;
   std::vector<Pose> poses_;
-  ComponentId held_;                     ///< One of the set in hand.
+  ComponentId moving_;                     ///< One of the set in hand.
   std::vector<ComponentPair> embedded_;  ///< When it was taken in hand.
   std::size_t effort_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/instructions/way_text.h"
+#include "dismantle/instructions/motion_text.h"
 
 #include <gtest/gtest.h>
 
@@ -11,50 +11,50 @@ const double kTurn = 2 * std::acos(-1.0);
 /// Turns about z by quarter turns while rising 1 mm a turn, then goes on straight.
 RemovalMove screwed_out(int quarters) {
   RemovalMove removal{{ComponentId(0)}, {{}}};
-  for (int i = 1; i <= quarters; ++i) removal.way.push_back({{0, 0, 0.25 * i}, quat_about({0, 0, 1}, kTurn / 4 * i)});
-  Pose out = removal.way.back();
+  for (int i = 1; i <= quarters; ++i) removal.poses.push_back({{0, 0, 0.25 * i}, quat_about({0, 0, 1}, kTurn / 4 * i)});
+  Pose out = removal.poses.back();
   out.position.z += 30;
-  removal.way.push_back(out);
+  removal.poses.push_back(out);
   return removal;
 }
 
 std::string text_of(const RemovalMove& removal, PathDirection direction = PathDirection::Forward) {
-  return way_text(legs_of(removal, {1, 2, 3}), direction);
+  return motion_text(legs_of(removal, {1, 2, 3}), direction);
 }
 
-TEST(WayText, SaysWhichWayIsUp) {
+TEST(MotionText, SaysWhichWayIsUp) {
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{0, 0, 5}, {}}}}), "Straight up.");
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{0, 0, 5}, {}}}}, PathDirection::Reversed), "Straight down.");
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{-5, 0, 0}, {}}}}), "Straight along -X.");
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{1, 1, 0}, {}}}}), "Straight along the arrow.");
 }
 
-TEST(WayText, CountsTurnsAsTheFitterSeesThem) {
+TEST(MotionText, CountsTurnsAsTheFitterSeesThem) {
   EXPECT_EQ(text_of(screwed_out(18)),
             "Turn 4.5 times anticlockwise (seen from where it comes out, 4.5 mm along the axis), then straight up.");
   EXPECT_EQ(text_of(screwed_out(18), PathDirection::Reversed),
             "Straight down, then turn 4.5 times clockwise (seen from where it comes out, 4.5 mm along the axis).");
 }
 
-TEST(WayText, TellsOfLeftHandedThreads) {
+TEST(MotionText, TellsOfLeftHandedThreads) {
   RemovalMove removal = screwed_out(8);
-  for (Pose& pose : removal.way) pose.rotation = conjugate(pose.rotation);
+  for (Pose& pose : removal.poses) pose.rotation = conjugate(pose.rotation);
   EXPECT_EQ(text_of(removal).substr(0, 20), "Turn 2 times clockwi");
 }
 
-TEST(WayText, TellsLegsInTheOrderInWhichTheyAreGone) {
+TEST(MotionText, TellsLegsInTheOrderInWhichTheyAreGone) {
   const RemovalMove removal{{ComponentId(0)}, {{}, {{4, 0, 0}, {}}, {{4, 0, 30}, {}}}};
   EXPECT_EQ(text_of(removal), "Straight along +X, 4 mm, then straight up.");
   EXPECT_EQ(text_of(removal, PathDirection::Reversed), "Straight down, then straight along -X, 4 mm.");
 }
 
-TEST(WayText, SumsUpWhatAHandDid) {
+TEST(MotionText, SumsUpWhatAHandDid) {
   RemovalMove removal{{ComponentId(0)}, {{}}};
-  for (int i = 1; i <= 40; ++i) removal.way.push_back({{std::sin(i * 1.0), 0.5 * i, 0}, {}});
+  for (int i = 1; i <= 40; ++i) removal.poses.push_back({{std::sin(i * 1.0), 0.5 * i, 0}, {}});
   EXPECT_EQ(text_of(removal).substr(0, 15), "Along the arrow");
 }
 
-TEST(WayText, TellsNumbersForPeople) {
+TEST(MotionText, TellsNumbersForPeople) {
   EXPECT_EQ(number_text(12.3456), "12.3");
   EXPECT_EQ(number_text(0.01234), "0.0123");
   EXPECT_EQ(number_text(12345.6), "12346");

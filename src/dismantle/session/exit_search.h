@@ -17,10 +17,10 @@ struct FreeDirection {
 };
 
 /// The ways out of an assembly for a set that its engine has in hand.
-class WayOut {
+class ExitSearch {
  public:
   /// @param set all at one pose, in hand of `engine`; both must outlive this
-  WayOut(const Assembly& assembly, const CertificateEngine& engine, Span<const ComponentId> set);
+  ExitSearch(const Assembly& assembly, const CertificateEngine& engine, Span<const ComponentId> set);
 
   /// The box around the set where it is [mm].
   const Aabb& box() const { return box_; }

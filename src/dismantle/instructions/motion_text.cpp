@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/instructions/way_text.h"
+#include "dismantle/instructions/motion_text.h"
 
 #include "dismantle/math/screw.h"
 
@@ -61,8 +61,8 @@ std::string leg_text(const Leg& leg, PathDirection direction, bool tells_length)
 
 std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& middle) {
   std::vector<Leg> legs;
-  for (std::size_t i = 1; i < removal.way.size(); ++i) {
-    const Leg leg = leg_of(removal.way[i - 1], removal.way[i], middle);
+  for (std::size_t i = 1; i < removal.poses.size(); ++i) {
+    const Leg leg = leg_of(removal.poses[i - 1], removal.poses[i], middle);
     if (leg.angle == 0 && leg.length == 0) continue;
     if (legs.empty() || !goes_on(legs.back(), leg)) {
       legs.push_back(leg);
@@ -85,7 +85,7 @@ std::string direction_words(const Vec3& unit) {
   return "along the arrow";
 }
 
-std::string way_text(const std::vector<Leg>& legs, PathDirection direction) {
+std::string motion_text(const std::vector<Leg>& legs, PathDirection direction) {
   if (legs.empty()) return "It stays where it is.";
   if (legs.size() > kMaxLegs) {
     double length = 0, angle = 0;
