@@ -66,7 +66,7 @@ BenchScene shaft_touching(const std::string& name, const BenchSize& size) {
 
 BenchScene bolt_nut(const std::string& name, const BenchSize& size) {
   return generated(name, scenes::bolt_in_nut(size.triangles, 0.05), size.steps, [](int k) {
-    return scenes::unscrewed(to_and_fro(k, 600) * scenes::kTurn / 200);  // 1.8 degrees a step
+    return scenes::unscrewed(to_and_fro(k, 600) * kTurn / 200);  // 1.8 degrees a step
   });
 }
 
@@ -78,7 +78,7 @@ BenchScene gears(const std::string& name, const BenchSize& size) {
 
 BenchScene ring_torus(const std::string& name, const BenchSize& size) {
   return generated(name, scenes::ring_on_torus(size.triangles, 0.05), size.steps, [](int k) {
-    return Pose{{}, quat_about({0, 0, 1}, k * scenes::kTurn / 720)};
+    return Pose{{}, quat_about({0, 0, 1}, k * kTurn / 720)};
   });
 }
 

@@ -2,6 +2,7 @@
 #include "dismantle/audit/sweep_helix.h"
 
 #include "dismantle/audit/follow_triangles.h"
+#include "dismantle/math/angle.h"
 #include "tests/audit/audit_scenes.h"
 #include "tests/support/large_scenes.h"
 
@@ -14,9 +15,7 @@
 namespace dismantle::audit {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-
-/// Triangles anywhere around the z axis, small and large.
+/// Small and large triangles anywhere around the z axis.
 TriangleMesh scattered(std::mt19937_64& random, int count, double radius, double size) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -66,14 +65,14 @@ Pose random_axis(std::mt19937_64& random) {
   return {10 * vector(), quat_about(normalized(vector()), normal(random))};
 }
 
-TEST(HelicalRuns, HoldWhatIsOneMotionCutByFrames) {
+TEST(HelicalRuns, JoinTheFramesOfOneHelicalMotion) {
   std::mt19937_64 random(3);
   const HelicalScene scene(scenes::box({-1, -1, -1}, {1, 1, 1}), scenes::box({4, -1, -1}, {5, 1, 1}),
                            random_axis(random), 0.3, 9, 30);
   const auto runs = helical_runs(scene.segments, scene.b, 1e-6);
   ASSERT_EQ(runs.size(), 1u);
   EXPECT_EQ(runs[0].first, 0u);
-  EXPECT_EQ(runs[0].count, 30u);  // the last segment stands still
+  EXPECT_EQ(runs[0].count, 30u);  // the last segment is at rest
   const auto motion = helical_motion(scene.pair, runs[0]);
   ASSERT_TRUE(motion.has_value());
   EXPECT_NEAR(motion->pitch, 0.3, 1e-9);
@@ -86,7 +85,7 @@ TEST(HelicalRuns, HoldWhatIsOneMotionCutByFrames) {
   }
 }
 
-TEST(HelicalRuns, EndWhereThePitchChangesAndLeaveShortTurnsOut) {
+TEST(HelicalRuns, EndAtAChangeOfPitchAndOmitShortTurns) {
   const AuditBody body(scenes::component("b", scenes::box({4, -1, -1}, {5, 1, 1})));
   std::vector<Frame> path = {{0, Pose{}}};
   const auto turn = [&](int frames, double pitch) {
@@ -106,7 +105,7 @@ TEST(HelicalRuns, EndWhereThePitchChangesAndLeaveShortTurnsOut) {
   EXPECT_EQ(runs[1].count, 8u);
 }
 
-TEST(HelicalMotion, IsRefusedFurtherAstrayThanTheResolutionAndTellsHowFarBelow) {
+TEST(HelicalMotion, IsRefusedBeyondTheResolutionAndReportsItsDeviationWithin) {
   std::mt19937_64 random(5);
   HelicalScene scene(scenes::box({-1, -1, -1}, {1, 1, 1}), scenes::box({4, -1, -1}, {5, 1, 1}), random_axis(random),
                      0.3, 6, 20);
@@ -118,13 +117,13 @@ TEST(HelicalMotion, IsRefusedFurtherAstrayThanTheResolutionAndTellsHowFarBelow) 
   EXPECT_FALSE(helical_motion(scene.pair, {0, 20}).has_value());
 }
 
-/// The value of a direction of the profile at a point, up to turns.
+/// The value of a profile direction at a point, modulo turns.
 double along(const ProfileFrame& frame, int k, Vec3 place) {
   return frame.of_r[k] * std::hypot(place.x, place.y) +
          frame.of_u[k] * (place.z - frame.pitch * std::atan2(place.y, place.x));
 }
 
-TEST(ProfileTree, NodesHoldAllPointsOfTheirTriangles) {
+TEST(ProfileTree, NodesContainAllPointsOfTheirTriangles) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform;
   for (const double pitch : {0.0, 0.2, -1.5}) {
@@ -133,7 +132,7 @@ TEST(ProfileTree, NodesHoldAllPointsOfTheirTriangles) {
     const auto helical = helical_pair(scene.pair, {0, 20});
     ASSERT_TRUE(helical.has_value());
     const ProfileFrame& frame = helical->frame;
-    // Each node on the way from the root to a leaf holds points of the leaf's triangle.
+    // Each node on the path from the root to a leaf contains points of the leaf's triangle.
     const auto check = [&](const auto& self, const ProfileTree& tree, std::uint32_t i, std::vector<std::uint32_t> above,
                            const AuditBody& body, const RigidTransform& a_from_body) -> void {
       above.push_back(i);
@@ -168,7 +167,7 @@ TEST(ProfileTree, NodesHoldAllPointsOfTheirTriangles) {
   }
 }
 
-TEST(Arc, UnionsHoldBothAndGapsAreTheLeastWayRound) {
+TEST(Arc, UnionsContainBothAndGapsAreTheShorterArc) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> uniform(-10, 10);
   constexpr double kCircle = 3;
@@ -196,8 +195,7 @@ TEST(Arc, UnionsHoldBothAndGapsAreTheLeastWayRound) {
   }
 }
 
-/// The same breaches as the sweep that knows nothing of helices, wherever the triangles are.
-TEST(SweepHelix, FindsWhatTheSweepOfAnyMotionFinds) {
+TEST(SweepHelix, FindsTheSameBreachesAsTheGeneralSweep) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform;
   int broken = 0, free = 0;
@@ -221,8 +219,7 @@ TEST(SweepHelix, FindsWhatTheSweepOfAnyMotionFinds) {
   EXPECT_GT(free, 60);
 }
 
-/// A bolt that is screwed out of its nut by frames of a quarter radian, at a pitch that is off by `error` [mm per
-/// turn].
+/// A bolt screwed out of its nut in frames of 0.25 rad, at a pitch that is wrong by `error` [mm per turn].
 AuditReport audit_of_thread(double error) {
   constexpr double kClearance = 0.05, kTolerance = 0.001;
   const scenes::SlideScene scene = scenes::bolt_in_nut(6000, kClearance);
@@ -234,12 +231,12 @@ AuditReport audit_of_thread(double error) {
   return audit_path(scene.assembly, path);
 }
 
-TEST(SweepHelix, LetsABoltOutAlongItsThreadOnly) {
+TEST(SweepHelix, LetsABoltOutOnlyAlongItsThread) {
   const AuditReport right = audit_of_thread(0);
   EXPECT_TRUE(right.holds()) << audit_scenes::messages(right);
   const AuditReport wrong = audit_of_thread(0.2);
   ASSERT_FALSE(wrong.holds());
-  // 0.05 mm between the flanks, less what facets take, are used up between a tenth and a half of a turn.
+  // The 0.05 mm between the flanks, minus the facets' sagitta, are used up between 0.1 and 0.5 turns.
   EXPECT_GT(wrong.violations[0].frame, 2u);
   EXPECT_LT(wrong.violations[0].frame, 13u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/thread_bounds.h"
 
+#include "dismantle/math/angle.h"
 #include "tests/support/large_scenes.h"
 #include "tests/support/random_scenes.h"
 
@@ -8,8 +9,6 @@
 
 namespace dismantle {
 namespace {
-
-constexpr double kTurn = 6.283185307179586;
 
 ThreadFrame frame_about(const Pose& pose, double lead) {
   const RigidTransform t = transform_from_pose(pose);
@@ -29,7 +28,7 @@ Vec3 random_point(const Triangle& t, int i, std::mt19937_64& random) {
   return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
 }
 
-/// @return of how many triangles something was known in a node
+/// @return the number of triangles with bounds in a node
 std::size_t expect_bounds(const TriangleMesh& mesh, const ThreadFrame& frame, double rounding, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
@@ -50,7 +49,7 @@ std::size_t expect_bounds(const TriangleMesh& mesh, const ThreadFrame& frame, do
         EXPECT_GE(along, node.begin - rounding);
         EXPECT_LE(along, node.end + rounding);
         const double lift = along - frame.lead * frame.axis.angle(across) / kTurn;
-        // With one number of periods for all directions.
+        // The same number of periods for all directions.
         bool inside = false;
         for (int turns = -60; turns <= 60 && !inside; ++turns) {
           inside = true;
@@ -94,7 +93,7 @@ TEST(ThreadNodes, BoundTrianglesOfAllShapes) {
   EXPECT_GT(expect_bounds(mesh, frame_about({}, 2), 1e-5, 4), 300u);
 }
 
-TEST(ThreadFrame, KeepsOneOfDirectionsThatAreNearlyTheSame) {
+TEST(ThreadFrame, KeepsOneOfNearlyEqualDirections) {
   ThreadFrame frame;
   frame.add_direction({0, -1});
   frame.add_direction({1e-3, 1});

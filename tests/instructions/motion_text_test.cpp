@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/motion_text.h"
 
+#include "dismantle/math/angle.h"
+
 #include <gtest/gtest.h>
 
 namespace dismantle {
 namespace {
-
-const double kTurn = 2 * std::acos(-1.0);
 
 /// Turns about z by quarter turns while rising 1 mm a turn, then goes on straight.
 RemovalMove screwed_out(int quarters) {
@@ -22,7 +22,7 @@ std::string text_of(const RemovalMove& removal, PathDirection direction = PathDi
   return motion_text(legs_of(removal, {1, 2, 3}), direction);
 }
 
-TEST(MotionText, SaysWhichWayIsUp) {
+TEST(MotionText, NamesTheUpwardDirection) {
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{0, 0, 5}, {}}}}), "Straight up.");
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{0, 0, 5}, {}}}}, PathDirection::Reversed), "Straight down.");
   EXPECT_EQ(text_of({{ComponentId(0)}, {{}, {{-5, 0, 0}, {}}}}), "Straight along -X.");
@@ -48,7 +48,7 @@ TEST(MotionText, TellsLegsInTheOrderInWhichTheyAreGone) {
   EXPECT_EQ(text_of(removal, PathDirection::Reversed), "Straight down, then straight along -X, 4 mm.");
 }
 
-TEST(MotionText, SumsUpWhatAHandDid) {
+TEST(MotionText, SummarisesADrag) {
   RemovalMove removal{{ComponentId(0)}, {{}}};
   for (int i = 1; i <= 40; ++i) removal.poses.push_back({{std::sin(i * 1.0), 0.5 * i, 0}, {}});
   EXPECT_EQ(text_of(removal).substr(0, 15), "Along the arrow");

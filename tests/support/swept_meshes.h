@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/geometry/triangle_mesh.h"
+#include "dismantle/math/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ struct ProfilePoint {
   double x = 0, y = 0;
 };
 using Profile = std::vector<ProfilePoint>;
-
-inline constexpr double kTurn = 6.283185307179586;
 
 inline void add_quad(TriangleMesh& m, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   m.faces.push_back({{a, b, c}});

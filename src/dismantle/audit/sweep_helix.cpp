@@ -2,6 +2,7 @@
 #include "dismantle/audit/sweep_helix.h"
 
 #include "dismantle/audit/follow_triangles.h"
+#include "dismantle/math/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace dismantle::audit {
 
 namespace {
-
-constexpr double kTurn = 2 * 3.14159265358979323846;
 
 class HelixSweep {
  public:

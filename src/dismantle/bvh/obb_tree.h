@@ -11,6 +11,10 @@
 
 namespace dismantle {
 
+/// Bounds how far a box's axes are off unit length and right angles, and its float coordinates off doubles: relative to
+/// the lengths that are computed with them, and to the box's radius.
+inline constexpr double kObbAxisRounding = 2e-6;
+
 /// A node of an ObbTree: one cache line.
 struct ObbNode {
   static constexpr std::uint32_t kNone = 0xffffffffu;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/bvh/thread_bounds.h"
 
+#include "dismantle/math/angle.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 /// What coordinates about an axis may be off by, relative to the size of what they are made of.
 constexpr double kRounding = 1e-13;
 /// Directions within this [cosine] are the same.

@@ -3,6 +3,7 @@
 
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/geometry/adjacency.h"
+#include "dismantle/math/angle.h"
 #include "dismantle/math/mat3.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 /// Faces that meet at a larger cosine are parts of one smooth surface.
 constexpr double kSmooth = 0.85;
 /// And at a cosine above this of one plane.

@@ -4,6 +4,7 @@
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/features/thread_axes.h"
 #include "dismantle/geometry/triangle.h"
+#include "dismantle/math/angle.h"
 
 #include <array>
 #include <cmath>
@@ -15,8 +16,6 @@
 /// How a thread's faces lie in its profile, the plane of the distance from the axis and the lift: what finding threads
 /// and sorting their faces share.
 namespace dismantle {
-
-inline constexpr double kTurn = 6.283185307179586;
 
 /// A place about an axis.
 struct AxisPlace {

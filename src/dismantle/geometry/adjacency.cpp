@@ -1,46 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/geometry/adjacency.h"
 
+#include "dismantle/geometry/half_edges.h"
+
 #include <algorithm>
 
 namespace dismantle {
 
 namespace {
-
-struct HalfEdge {
-  std::uint32_t low, high;  // the two vertices, sorted
-  std::uint32_t face;
-  std::uint8_t side;  // from corner `side` to the next one
-  bool forward;       // runs from low to high
-};
-
-std::vector<HalfEdge> sorted_half_edges(Span<const Face> faces) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * faces.size());
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = faces[f].v[k], b = faces[f].v[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), f, k, a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    if (a.low != b.low) return a.low < b.low;
-    if (a.high != b.high) return a.high < b.high;
-    return a.face < b.face;
-  });
-  return edges;
-}
-
-/// Calls visit(first, last) for each run of half edges that are the same edge.
-template <class Visit>
-void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i + 1;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-    visit(&edges[i], &edges[i] + (j - i));
-    i = j;
-  }
-}
 
 /// An edge where the surface ends, in the direction in which its faces run along it.
 struct Rim {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/motion_text.h"
 
+#include "dismantle/math/angle.h"
 #include "dismantle/math/screw.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ constexpr double kSameDirection = 0.02;
 constexpr double kMinTurn = 1e-4;
 /// Ways of more legs are not told one by one.
 constexpr std::size_t kMaxLegs = 4;
-const double kTurn = 2 * std::acos(-1.0);
 
 Leg leg_of(const Pose& from, const Pose& to, const Vec3& middle) {
   const Screw screw = screw_between(from, to);

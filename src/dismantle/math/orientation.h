@@ -42,8 +42,8 @@ DISMANTLE_HOST_DEVICE inline int sure_sign(double det, double bound) {
 DISMANTLE_HOST_DEVICE inline int orient2d_sign(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 u{b.x - a.x, b.y - a.y}, v{c.x - a.x, c.y - a.y};
   const double det = u.x * v.y - u.y * v.x;
-  const double x = detail::larger(detail::magnitude(u.x), detail::magnitude(v.x));
-  const double y = detail::larger(detail::magnitude(u.y), detail::magnitude(v.y));
+  const double x = max(detail::magnitude(u.x), detail::magnitude(v.x));
+  const double y = max(detail::magnitude(u.y), detail::magnitude(v.y));
   const double bound = kOrient2dError * x * y + kOrientationUnderflow;
   const int sign = detail::sure_sign(det, bound);
   if (sign != 0) return sign;

@@ -20,9 +20,6 @@ DISMANTLE_HOST_DEVICE inline double magnitude(double x) {
 DISMANTLE_HOST_DEVICE inline Vec3 magnitude(Vec3 p) {
   return {magnitude(p.x), magnitude(p.y), magnitude(p.z)};
 }
-DISMANTLE_HOST_DEVICE inline double larger(double x, double y) {
-  return x > y ? x : y;
-}
 
 /// Within this range (or 0) the expansions of degree three are exact: the lowest bit of a coordinate is at least
 /// 2^-352, of a product of three differences 2^-1056 > 2^-1074; and no product exceeds 2^905.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/core/host_device.h"
+#include "dismantle/math/min_max.h"
 
 #include <cmath>
 
@@ -62,12 +63,12 @@ DISMANTLE_HOST_DEVICE Vec3T<T> normalized(Vec3T<T> a) {
 
 template <class T>
 DISMANTLE_HOST_DEVICE constexpr Vec3T<T> min(Vec3T<T> a, Vec3T<T> b) {
-  return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
 }
 
 template <class T>
 DISMANTLE_HOST_DEVICE constexpr Vec3T<T> max(Vec3T<T> a, Vec3T<T> b) {
-  return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
 /// The largest absolute coordinate.

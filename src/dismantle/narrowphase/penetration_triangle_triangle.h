@@ -120,7 +120,7 @@ DISMANTLE_HOST_DEVICE inline Penetration penetration_triangle_triangle(const Tri
   double size = 0;
   for (int i = 0; i < 3; ++i) {
     const double of_a = max_abs(pair.local_a[i]), of_b = max_abs(pair.local_b[i]);
-    size = detail::larger(size, detail::larger(of_a, of_b));
+    size = max(size, max(of_a, of_b));
   }
   // `size` is at least M / 2: where the triangles do not overlap, rounding stays below this.
   if (found.depth <= kPenetrationRelativeError * size &&

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/render/render_mesh.h"
 
+#include "dismantle/geometry/half_edges.h"
 #include "dismantle/math/vec3f.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -30,39 +30,14 @@ VertexFaces vertex_faces(const TriangleMesh& mesh) {
   return around;
 }
 
-struct HalfEdge {
-  std::uint32_t low, high, face;
-};
-
-std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.faces.size());
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.faces[f].v[k], b = mesh.faces[f].v[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), f});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    if (a.low != b.low) return a.low < b.low;
-    if (a.high != b.high) return a.high < b.high;
-    return a.face < b.face;
-  });
-  return edges;
-}
-
 std::vector<FeatureEdge> find_feature_edges(const TriangleMesh& mesh, const std::vector<Vec3>& unit_normals,
                                             double smooth_cosine) {
   std::vector<FeatureEdge> features;
-  const std::vector<HalfEdge> edges = sorted_half_edges(mesh);
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i + 1;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-    const std::uint32_t f = edges[i].face, g = edges[j - 1].face;
-    if (j - i != 2 || dot(unit_normals[f], unit_normals[g]) < smooth_cosine)
-      features.push_back({{edges[i].low, edges[i].high}, {f, g}});
-    i = j;
-  }
+  for_each_edge(sorted_half_edges(mesh.faces), [&](const HalfEdge* first, const HalfEdge* last) {
+    const std::uint32_t f = first->face, g = (last - 1)->face;
+    if (last - first != 2 || dot(unit_normals[f], unit_normals[g]) < smooth_cosine)
+      features.push_back({{first->low, first->high}, {f, g}});
+  });
   return features;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/simplify/edge_collapse.h"
 
+#include "dismantle/geometry/half_edges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -64,36 +66,19 @@ void EdgeCollapse::add_face_quadrics() {
 
 /// Finds borders and non-manifold edges: a half edge without its one opposite.
 void EdgeCollapse::add_edge_quadrics() {
-  struct HalfEdge {
-    std::uint32_t low, high, face;
-    bool forward;
-  };
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * faces_.size());
-  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = faces_[f].v[k], b = faces_[f].v[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), f, a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    if (a.low != b.low) return a.low < b.low;
-    return a.high != b.high ? a.high < b.high : a.face < b.face;
-  });
-  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-    const std::uint32_t ends[2] = {edges[i].low, edges[i].high};
-    const bool border = j - i == 1;
-    const bool manifold = border || (j - i == 2 && edges[i].forward != edges[i + 1].forward);
-    if (manifold && !border) continue;
+  for_each_edge(sorted_half_edges(faces_), [&](const HalfEdge* first, const HalfEdge* last) {
+    const std::uint32_t ends[2] = {first->low, first->high};
+    const bool border = last - first == 1;
+    const bool manifold = border || (last - first == 2 && first[0].forward != first[1].forward);
+    if (manifold && !border) return;
     const Vec3 along = positions_[ends[1]] - positions_[ends[0]];
-    const Vec3 across = normalized(cross(along, normal_unscaled(triangle(faces_[edges[i].face]))));
+    const Vec3 across = normalized(cross(along, normal_unscaled(triangle(faces_[first->face]))));
     for (const std::uint32_t v : ends) {
       if (!manifold) locked_[v] = true;
       if (border) on_border_[v] = true;
       if (border) quadrics_[v] += plane_quadric(across, positions_[v], kBorderWeight);
     }
-  }
+  });
 }
 
 std::vector<std::uint32_t> EdgeCollapse::neighbours(std::uint32_t vertex) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/front/thread_separation.h"
 
+#include "dismantle/math/angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 /// Nothing is gained where the axes are further apart than this share of the period, or more at an angle than this
 /// [sine].
 constexpr double kMaxOff = 0.25, kMaxSine = 0.02;

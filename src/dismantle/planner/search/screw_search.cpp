@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/search/screw_search.h"
 
+#include "dismantle/math/angle.h"
 #include "dismantle/math/screw.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 /// How near faces count as those of one thread, at first and at most: in tolerances, and as a share of the component's
 /// size. Loose threads have wide gaps.
 constexpr double kFirstReach = 2;
