@@ -28,7 +28,7 @@ Body body_of(TriangleMesh mesh) {
 
 using FacePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Sweeps the whole front; the pairs of faces that it cannot certify.
+/// Sweeps the whole front. @return the pairs of faces that it cannot certify
 FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, const Pose& start, const Pose& end,
                       LaneCount lanes = widest_lanes()) {
   PairMotion motion = scenes::pair_motion(a.tree, b.tree, start, end);
@@ -56,7 +56,7 @@ Aabb box_of(const Triangle& t) {
   return box;
 }
 
-/// Pairs of faces that are deeper in each other than allowed at one of a few instants of the linear motion.
+/// Pairs of faces that overlap by more than allowed at one of a few instants of the linear motion.
 FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& end) {
   FacePairs found;
   const RigidTransform t0 = transform_from_pose(start), t1 = transform_from_pose(end);
@@ -71,7 +71,7 @@ FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& 
   return found;
 }
 
-/// Sweeps the front and expects all pairs that get too deep to be left to the leaf test; gives how many they are.
+/// Sweeps the front and expects that it leaves all pairs that get too deep to the triangle test. @return their number
 std::size_t expect_deep_ones_left(CertificateFront& front, const Body& a, const Body& b, const Pose& start,
                                   const Pose& end) {
   const FacePairs left = uncertified(front, a, b, start, end), deep = too_deep(a, b, start, end);
@@ -81,7 +81,7 @@ std::size_t expect_deep_ones_left(CertificateFront& front, const Body& a, const 
 
 class CertificateFrontSides : public testing::TestWithParam<SideRule> {};
 
-TEST_P(CertificateFrontSides, LeavesEveryPairThatGetsTooDeepToTheLeafTest) {
+TEST_P(CertificateFrontSides, LeavesEveryPairThatGetsTooDeepToTheTriangleTest) {
   std::mt19937_64 random(20261121);
   const Body a = body_of(scenes::tube(2, 1, 0, 4, 12, 3)), b = body_of(scenes::box({-3, -1, -2}, {3, 1, 2}));
   CertificateFront front(a.tree, b.tree, GetParam());
@@ -128,15 +128,15 @@ struct RevolutionBody : Body {
   std::unique_ptr<RevolutionSurface> round;
 };
 
-TEST(CertificateFront, LeavesWhatGetsTooDeepInABoreToTheLeafTestAndIsAFewPairsWhereNothingDoes) {
+TEST(CertificateFront, LeavesDeepPairsInABoreToTheTriangleTestAndIsOtherwiseAFewPairs) {
   const RevolutionBody shaft(scenes::tube(2, 1, 0, 4, 48, 1)), bush(scenes::tube(4, 2.002, 1, 6, 48, 1));
-  CertificateFront front(shaft.tree, bush.tree, SideRule::Normals, shaft.round.get(), bush.round.get());
+  CertificateFront front(shaft.tree, bush.tree, SideRule::Normals, shaft.revolution.get(), bush.revolution.get());
   std::mt19937_64 random(20261122);
   Pose pose;
   std::size_t deep_pairs = 0;
   for (int step = 0; step < 20; ++step) {
     SCOPED_TRACE(step);
-    // Now and then the hand presses on, up to three times the allowance.
+    // Sometimes it is pressed in further, up to three times the allowance.
     const double play = step % 3 == 0 ? 0.03 : 0.003;
     const Pose next{scenes::random_vector(random, play) + Vec3{0, 0, 0.1 * step}, quat_about({0, 0, 1}, 0.07 * step)};
     deep_pairs += expect_deep_ones_left(front, shaft, bush, pose, next);
@@ -154,7 +154,7 @@ TEST(CertificateFront, StaysAPairOfRootsFarAway) {
   EXPECT_EQ(front.size(), 1u);
 }
 
-TEST(CertificateFront, MergesAgainWhenThingsPart) {
+TEST(CertificateFront, MergesAgainWhenComponentsSeparate) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
   CertificateFront front(a.tree, b.tree, SideRule::Normals);
   uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
@@ -164,7 +164,7 @@ TEST(CertificateFront, MergesAgainWhenThingsPart) {
   EXPECT_LT(front.size(), inside / 20);
 }
 
-TEST(CertificateFront, StaysBoundedBackAndForth) {
+TEST(CertificateFront, StaysBoundedUnderMotionBackAndForth) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 2.05, -1, 5, 48, 12));
   CertificateFront front(a.tree, b.tree, SideRule::Normals);
   uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
@@ -179,7 +179,7 @@ TEST(CertificateFront, StaysBoundedBackAndForth) {
   EXPECT_LE(front.size(), 2 * start);
 }
 
-TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
+TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 1.95, -1, 5, 48, 12));
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
@@ -208,22 +208,22 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsButSaysSo) {
   EXPECT_TRUE(every.complete);
   EXPECT_GT(every.blocked, 200u);
 
-  motion.enough_blocked = 16;
+  motion.max_blocked = 16;
   CertificateFront other(a.tree, b.tree, SideRule::Normals);
   const FrontSweep some = sweep(other);
   EXPECT_FALSE(some.complete);
   EXPECT_GT(some.blocked, 0u);
   EXPECT_LT(some.blocked, every.blocked / 4);
-  // What was left unlooked at is looked at by the next sweep that has to.
-  motion.enough_blocked = PairMotion().enough_blocked;
+  // Nodes that were skipped are evaluated by the next sweep that needs them.
+  motion.max_blocked = PairMotion().max_blocked;
   const FrontSweep again = sweep(other);
   EXPECT_TRUE(again.complete);
   EXPECT_EQ(again.blocked, every.blocked);
 }
 
-TEST(CertificateFront, CutsPartsWhereMostPairsHaveTheSameNode) {
-  // 3000 triangles across one that is as long as all of them, and a ladder of 10,000 through the middle: of the nodes
-  // of the second tree the least is in most pairs, and the others reach far.
+TEST(CertificateFront, CutsPartsInWhichMostPairsShareANode) {
+  // 3000 triangles across one that is as long as all of them, and a ladder of 10,000 through the middle: the smallest
+  // node of the second tree is in most pairs, and the others are long.
   TriangleMesh row;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     const double x = 0.1 * i;
@@ -245,7 +245,7 @@ TEST(CertificateFront, CutsPartsWhereMostPairsHaveTheSameNode) {
   EXPECT_GT(front.part_count(), 1u);
 }
 
-TEST(CertificateFront, LooksWithoutChanging) {
+TEST(CertificateFront, SweepsConstWithoutChanges) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
   const CertificateFront front(a.tree, b.tree, SideRule::Normals);
   PairMotion motion;
@@ -253,7 +253,7 @@ TEST(CertificateFront, LooksWithoutChanging) {
   motion.allowed = kAllowed;
   std::size_t first = 0, second = 0;
   for (std::size_t* count : {&first, &second})
-    front.look(front.begin_look(motion), front_kernels(widest_lanes()),
+    front.look(front.prepare_sweep(motion), front_kernels(widest_lanes()),
                [&](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
                  ++*count;
                  return TrianglePairVerdict{};
@@ -262,8 +262,8 @@ TEST(CertificateFront, LooksWithoutChanging) {
   EXPECT_EQ(front.size(), 1u);
 }
 
-TEST(CertificateFront, TakesNoSideThatNeedsTheAllowanceWhereNoneIsRemembered) {
-  // Nearer to each other than the allowance, either side would do: which one it is only the triangles can tell.
+TEST(CertificateFront, AssumesNoSideWithinTheAllowanceIfNoneIsRemembered) {
+  // Nearer to each other than the allowance, either side is possible: only the triangles tell which.
   const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
   const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
   CertificateFront sheets(a.tree, b.tree, SideRule::Memory), overlapping(a.tree, b.tree, SideRule::Free);
@@ -273,14 +273,14 @@ TEST(CertificateFront, TakesNoSideThatNeedsTheAllowanceWhereNoneIsRemembered) {
 }
 
 TEST(CertificateFront, RemembersSidesWhenRolesAreExchanged) {
-  // A sheet just past another within the allowance: turned round, the sheet must still be blocked from going on.
+  // A sheet just past another within the allowance: with roles exchanged, it must still be blocked in that direction.
   const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
   const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
   CertificateFront front(a.tree, b.tree, SideRule::Memory);
   EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 0.9}, {}}).empty());
   EXPECT_TRUE(uncertified(front, a, b, {{0, 0, 0.9}, {}}, {{0, 0, 1.005}, {}}).empty());
   front.exchange_roles(Mat3{});
-  // Now B moves: down by 0.02 past A, seen from A's frame, where A is 1.005 higher.
+  // Now B moves: down by 0.02 past A in A's frame, where A is 1.005 higher.
   EXPECT_FALSE(uncertified(front, b, a, {{0, 0, -1.005}, {}}, {{0, 0, -1.025}, {}}).empty());
 }
 

@@ -22,7 +22,7 @@ struct Body {
   }
 };
 
-/// How far apart two triangles are, or by minus how much they have to be moved to part.
+/// The distance of two triangles, or minus the translation that separates them.
 double true_gap(const Triangle& a, const Triangle& b) {
   const double distance = distance_triangle_triangle(a, b).distance;
   return distance > 0 ? distance : -penetration_triangle_triangle(a, b).depth;
@@ -37,7 +37,7 @@ PairMotion motion_of(const Body& moving, const Body& fixed, const Pose& start, c
   return scenes::pair_motion(moving.tree, fixed.tree, start, end);
 }
 
-/// The least gap of any triangles under each pair of nodes, at some times of the true screw.
+/// The minimum gap of the triangles under each pair of nodes, at some times of the true screw.
 class TrueGaps {
  public:
   TrueGaps(const Body& moving, const Body& fixed, const Pose& start, const Pose& end)
@@ -65,12 +65,12 @@ class TrueGaps {
   std::vector<std::vector<double>> known_;
 };
 
-/// @return of how many pairs of nodes something was claimed
+/// @return the number of pairs of nodes with a claim
 int expect_true(const Body& moving, const Body& fixed, const Pose& start, const Pose& end) {
-  const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
+  const RadialSweeps sweeps(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin,
                             motion_of(moving, fixed, start, end));
   EXPECT_FALSE(sweeps.get().empty());
-  // What arcs of the moving component are off their chords is the caller's to add.
+  // The deviation of the moving component's arcs from their chords is the caller's to add.
   const Screw screw = screw_between(start, end);
   const double arcs = screw_chord_deviation(screw, screw_radius(screw, start.position, 60));
   TrueGaps gaps(moving, fixed, start, end);
@@ -85,7 +85,7 @@ int expect_true(const Body& moving, const Body& fixed, const Pose& start, const 
   return claims;
 }
 
-TEST(RadialSweep, NeverClaimsMoreThanTrianglesHave) {
+TEST(RadialSweep, NeverClaimsMoreThanTheGapOfTriangles) {
   std::mt19937_64 random(7);
   for (int trial = 0; trial < 4; ++trial) {
     const double clearance = trial % 2 == 0 ? 0 : 0.05;
@@ -103,20 +103,20 @@ TEST(RadialSweep, NeverClaimsMoreThanTrianglesHave) {
   }
 }
 
-TEST(RadialSweep, PartsAWholeShaftFromItsBore) {
+TEST(RadialSweep, SeparatesAWholeShaftFromItsBore) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const bool bush_moves : {false, true}) {
     const Body &moving = bush_moves ? bush : shaft, &fixed = bush_moves ? shaft : bush;
     const Pose end{{0.02, 0, 8}, quat_about({0, 0, 1}, 0.1)};
     const PairMotion motion = motion_of(moving, fixed, {}, end);
-    const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin, motion);
+    const RadialSweeps sweeps(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin, motion);
     ASSERT_EQ(sweeps.get().size(), 1u);
     EXPECT_GT(sweeps.get()[0].gap(0, 0, 0).gap, 0.05) << bush_moves;
   }
 }
 
-TEST(RadialSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
-  // The bore's wall alone: a node of the bush has its outside, too.
+TEST(RadialSweep, CertifiesAShaftInItsBoreUnderMotionsThatKeepItsAxis) {
+  // Only the bore's wall: a node of the bush contains its outside, too.
   TriangleMesh wall = scenes::tube(14, 10, -10, 10, 64, 2);
   std::erase_if(wall.faces, [&](const Face& f) {
     const Vec3 v = wall.vertices[f.v[0]], n = normal_unscaled({{v, wall.vertices[f.v[1]], wall.vertices[f.v[2]]}});
@@ -127,7 +127,7 @@ TEST(RadialSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
   const double sagitta_of_shaft = 9.9 * (1 - std::cos(std::acos(-1.0) / 48));
   for (const bool bore_moves : {false, true}) {
     const Body &moving = bore_moves ? bore : shaft, &fixed = bore_moves ? shaft : bore;
-    const RadialSweeps sweeps(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin,
+    const RadialSweeps sweeps(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin,
                               motion_of(moving, fixed, {}, {{0.3, 0, 0}, {}}));
     ASSERT_EQ(sweeps.get().size(), 1u);
     const double together = sagitta_of_bore + sagitta_of_shaft;
@@ -143,10 +143,10 @@ TEST(RadialSweep, TellsAShaftInItsBoreByWhatKeepsItsAxis) {
   }
 }
 
-TEST(RadialSweeps, LookOnlyAtAxesThatAreNear) {
+TEST(RadialSweeps, ConsiderOnlyAxesThatAreNear) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const Pose& away : {Pose{{5, 0, 0}, {}}, Pose{{}, quat_about({1, 0, 0}, 0.3)}}) {
-    const RadialSweeps sweeps(*shaft.round, shaft.tree.origin, *bush.round, bush.tree.origin,
+    const RadialSweeps sweeps(*shaft.revolution, shaft.tree.origin, *bush.revolution, bush.tree.origin,
                               motion_of(shaft, bush, away, away));
     EXPECT_TRUE(sweeps.get().empty());
   }

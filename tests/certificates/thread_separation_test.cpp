@@ -29,7 +29,7 @@ struct Body {
       : component(scenes::component("part", std::move(mesh))), solid(make_solid_tree(component, Executor())) {}
 };
 
-/// A bolt of six turns in a nut of three, apart by about `clearance`.
+/// A bolt of six turns in a nut of three, with about `clearance`.
 struct Bolted {
   std::unique_ptr<Body> bolt_body, nut_body;
   const SolidTree& bolt() const { return bolt_body->solid; }
@@ -46,7 +46,7 @@ PairMotion motion_of(const SolidTree& moving, const SolidTree& fixed, const Pose
   return scenes::pair_motion(moving.tree, fixed.tree, start, end);
 }
 
-/// The least distance of the triangles under two nodes, at some times of the true screw.
+/// The minimum distance of the triangles under two nodes, at some times of the true screw.
 double min_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& fixed, std::uint32_t f,
                     const Pose& start, const Pose& end) {
   const ObbNode &a = moving.tree.nodes[m], &b = fixed.tree.nodes[f];
@@ -66,11 +66,11 @@ double min_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& f
   return least;
 }
 
-/// @return of how many pairs of small nodes something was claimed
+/// @return the number of pairs of small nodes with a claim
 int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
                 std::uint64_t seed) {
   const std::vector<ThreadMatch> matches =
-      match_threads(*moving.round, moving.tree.origin, *fixed.round, fixed.tree.origin);
+      match_threads(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin);
   EXPECT_EQ(matches.size(), 1u);
   const ThreadSweep sweep(matches.at(0), 0, motion_of(moving, fixed, start, end));
   std::mt19937_64 random(seed);
@@ -83,7 +83,7 @@ int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& sta
     return counts;
   };
   const std::vector<std::size_t> of_moving = count(moving), of_fixed = count(fixed);
-  // Claims are of nodes large and small; what is far apart says little.
+  // Claims for large and small nodes; nodes that are far apart test little.
   for (int trial = 0; trial < 30000 && claims < 60; ++trial) {
     const auto m = static_cast<std::uint32_t>(random() % moving.tree.nodes.size());
     const auto f = static_cast<std::uint32_t>(random() % fixed.tree.nodes.size());
@@ -96,7 +96,7 @@ int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& sta
   return claims;
 }
 
-TEST(ThreadSweep, NeverClaimsMoreThanTrianglesHave) {
+TEST(ThreadSweep, NeverClaimsMoreThanTheGapOfTriangles) {
   std::mt19937_64 random(7);
   for (int trial = 0; trial < 6; ++trial) {
     const Pose frame = scenes::random_pose(random, trial < 3 ? 0 : 100, 3);
@@ -110,19 +110,19 @@ TEST(ThreadSweep, NeverClaimsMoreThanTrianglesHave) {
   }
 }
 
-TEST(ThreadSweep, PartsFlanksOfAWholeBoltFromThoseOfItsNut) {
+TEST(ThreadSweep, SeparatesTheFlanksOfAWholeBoltFromThoseOfItsNut) {
   const Bolted pair(0.05, 64);
   for (const bool nut_moves : {false, true}) {
     const SolidTree &moving = nut_moves ? pair.nut() : pair.bolt(), &fixed = nut_moves ? pair.bolt() : pair.nut();
     const std::vector<ThreadMatch> matches =
-        match_threads(*pair.bolt().round, pair.bolt().tree.origin, *pair.nut().round, pair.nut().tree.origin);
+        match_threads(*pair.bolt().revolution, pair.bolt().tree.origin, *pair.nut().revolution, pair.nut().tree.origin);
     ASSERT_EQ(matches.size(), 1u);
     const Pose out = scenes::unscrewed(2.5), end = nut_moves ? inverse(out) : out;
     const ThreadSweep sweep(matches[0], nut_moves ? 1 : 0, motion_of(moving, fixed, {}, end));
     ASSERT_TRUE(sweep.useful());
-    // The largest node of each part of a profile; of each component the first is what is no thread.
+    // The largest node of each part of a profile; the first of each component is not thread.
     const auto part_roots = [](const SolidTree& solid) {
-      const std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, solid.round->threads());
+      const std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, solid.revolution->threads());
       std::vector<std::uint32_t> roots;
       std::vector<std::set<std::uint8_t>> under(solid.tree.nodes.size());
       for (std::uint32_t n = 0; n < solid.tree.nodes.size(); ++n)
@@ -139,7 +139,7 @@ TEST(ThreadSweep, PartsFlanksOfAWholeBoltFromThoseOfItsNut) {
     int parted = 0;
     for (const std::uint32_t m : of_moving)
       for (const std::uint32_t f : of_fixed) {
-        // The nut's ends wind along and are flanks too, but other turns pass them.
+        // The nut's ends follow the helix and are flanks too, but other turns pass them.
         const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0],
                                 &other = matches[0].sides[nut_moves ? 0 : 1];
         if (own.nodes[m].most > 5 || other.nodes[f].most > 5) continue;
@@ -150,10 +150,10 @@ TEST(ThreadSweep, PartsFlanksOfAWholeBoltFromThoseOfItsNut) {
   }
 }
 
-TEST(ThreadSweep, SaysNothingOfWhatIsPulledStraightOrTilted) {
+TEST(ThreadSweep, ClaimsNothingForStraightPullsAndTilts) {
   const Bolted pair(0.05, 64);
   const std::vector<ThreadMatch> matches =
-      match_threads(*pair.bolt().round, pair.bolt().tree.origin, *pair.nut().round, pair.nut().tree.origin);
+      match_threads(*pair.bolt().revolution, pair.bolt().tree.origin, *pair.nut().revolution, pair.nut().tree.origin);
   ASSERT_EQ(matches.size(), 1u);
   const Pose pulled{{0, 0, 2}, {}}, tilted{{}, quat_about({1, 0, 0}, 0.1)}, aside{{1, 0, 0}, {}};
   EXPECT_FALSE(ThreadSweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), {}, pulled)).useful());
@@ -161,10 +161,10 @@ TEST(ThreadSweep, SaysNothingOfWhatIsPulledStraightOrTilted) {
   EXPECT_FALSE(ThreadSweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), aside, aside)).useful());
 }
 
-TEST(MatchThreads, FindsThoseThatFit) {
+TEST(MatchThreads, FindsMatingThreads) {
   const Bolted pair(0.05, 24);
   const auto matches = [](const SolidTree& a, const SolidTree& b) {
-    return match_threads(*a.round, a.tree.origin, *b.round, b.tree.origin).size();
+    return match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin).size();
   };
   EXPECT_EQ(matches(pair.bolt(), pair.nut()), 1u);
   EXPECT_EQ(matches(pair.bolt(), pair.bolt()), 0u) << "two outer threads";

@@ -11,7 +11,7 @@
 namespace dismantle {
 namespace {
 
-TEST(AssemblyTriangles, HoldEveryTriangleOfEveryComponentWhereItIsAssembled) {
+TEST(AssemblyTriangles, ContainEveryTriangleOfEveryComponentInTheAssembledPose) {
   std::mt19937_64 random(1);
   Assembly assembly = scenes::random_assembly(random, 7, 5);
   assembly.components[3].assembly_from_mesh = transform_from_pose(scenes::random_pose(random, 10, 3));

@@ -51,7 +51,7 @@ TEST(NearestFace, AgreesWithAllFacesWhateverItBeginsWith) {
     }
 }
 
-TEST(NearestFace, FindsNothingWhereThereIsNothing) {
+TEST(NearestFace, FindsNothingInAnEmptyTree) {
   EXPECT_EQ(nearest_face(SolidTree{}, {1, 2, 3}, NearestFace::kNone).face, NearestFace::kNone);
 }
 

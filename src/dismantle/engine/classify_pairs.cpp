@@ -14,10 +14,11 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
+/// The thresholds of one pair [mm].
 struct Limits {
   double tolerance = 0;
   double near = 0;  ///< Pairs further apart are Clear.
-  double fit = 0;   ///< Of this pair.
+  double fit = 0;   ///< Pairs that overlap by more are Embedded.
 };
 
 ComponentPair apart(ComponentPair pair, double distance, const Limits& limits) {
@@ -35,7 +36,7 @@ ComponentPair embedded(ComponentPair pair) {
   return pair;
 }
 
-/// The deepest vertex of either component inside the other, as far as "inside" means something.
+/// The depth of the deepest vertex of either component inside the other one, where that is closed.
 double deepest_vertex(const Assembly& assembly, const AssemblySurface& s, const ComponentPair& pair,
                       const SurfaceOverlap& overlap) {
   double deepest = 0;
@@ -56,7 +57,7 @@ ComponentPair classify(const Assembly& assembly, const AssemblySurface& s, Compo
     return apart(pair, surface_distance(s, pair.a, pair.b, std::max(limits.near, 2 * limits.tolerance)), limits);
   }
   if (rule == ClassifyRule::Paper || overlap.penetration > limits.fit) return embedded(pair);
-  // An audit lets vertices be twice as deep as triangles.
+  // The audit accepts vertices that are twice as deep as triangles.
   const double depth = std::max(overlap.penetration, deepest_vertex(assembly, s, pair, overlap) / 2);
   if (depth > limits.fit && depth > limits.tolerance) return embedded(pair);
   pair.state = depth > limits.tolerance ? PairState::Fit : PairState::Contact;

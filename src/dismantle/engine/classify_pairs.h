@@ -9,29 +9,30 @@
 
 namespace dismantle {
 
-/// Which rule says what an intersecting pair may do.
+/// The rule that classifies intersecting pairs.
 enum class ClassifyRule {
   Auto,   ///< Contact, Fit or Embedded by depth (docs/guarantee.md).
   Paper,  ///< Every pair that intersects or touches is Embedded: the paper's S_i.
 };
 
+/// Options of classify_pairs().
 struct ClassifyOptions {
-  double tolerance = 0;  ///< [mm]; 0: default_tolerance(assembly)
-  double fit = 0;  ///< Deepest overlap that is a Fit [mm]; 0: kDefaultRelativeFit of the smaller component's diagonal.
-  double clearance = 0;  ///< Pairs apart by at most this are listed as Near [mm].
-  ClassifyRule rule = ClassifyRule::Auto;
-  Executor executor;
-  ProgressCallback progress;
+  double tolerance = 0;  ///< Depth that counts as touching [mm]; 0: default_tolerance(assembly).
+  double fit = 0;        ///< Largest depth of a Fit [mm]; 0: kDefaultRelativeFit of the smaller component's diagonal.
+  double clearance = 0;  ///< Pairs that are apart by less than this are listed as Near [mm].
+  ClassifyRule rule = ClassifyRule::Auto;  ///< For pairs that intersect.
+  Executor executor;                       ///< Runs the pairs; the result does not depend on it.
+  ProgressCallback progress;               ///< Called under a lock, from any thread; false cancels.
 };
 
-/// The deepest overlap that counts as a fit, as a share of the smaller component's bounding-box diagonal.
+/// The largest depth of a fit relative to the smaller component's bounding-box diagonal.
 inline constexpr double kDefaultRelativeFit = 0.01;
 
-/// Finds how every pair of components stands in the assembled state. For each pair: does it intersect, in how many
-/// triangle pairs, how deep (the largest depth of a triangle pair), or else how far apart. The allowance also covers
-/// what an audit measures: vertices of one component inside the other, closed one, may be twice as deep as the
-/// allowance. A component that lies inside another without touching its surface is Embedded. Errors: Failed where
-/// `progress` cancelled.
+/// Classifies every pair of components in the assembled state. Each pair that is not Clear is listed with the number of
+/// its intersecting triangle pairs and their largest depth, or else with its distance. The allowance covers what an
+/// audit measures too: vertices of one component inside a closed other one may be twice as deep as the allowance. A
+/// component that lies inside another without touching its surface is Embedded. The result depends on the assembly and
+/// the options alone. Errors: Failed where `progress` cancelled.
 Result<PairStates> classify_pairs(const Assembly& assembly, const ClassifyOptions& options);
 
 }  // namespace dismantle

@@ -5,6 +5,7 @@
 #include "dismantle/narrowphase/nonpenetration_filter.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 #include "dismantle/streams/narrow_phase_kernel.h"
+#include "dismantle/surface/vertex_regions.h"
 
 #include <algorithm>
 #include <cmath>

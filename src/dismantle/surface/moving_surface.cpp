@@ -4,13 +4,15 @@
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/ray_crossing.h"
 
-#include <numeric>
+#include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace dismantle {
 
 namespace {
 
-/// May the ray from `p` along `d` pass through the box of the k-DOP?
+/// True if the ray from `p` along `d` may pass through the box of the k-DOP (its first three slabs).
 bool ray_meets(Vec3 p, Vec3 d, const Kdop16& k) {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
@@ -24,7 +26,7 @@ bool ray_meets(Vec3 p, Vec3 d, const Kdop16& k) {
 /// Visits the leaves of a component below nodes that `enter(bounds)` accepts, until `visit(leaf)` returns false.
 template <class Enter, class Visit>
 void visit_leaves(const MomentaryTriangles& now, ComponentId component, Enter enter, Visit visit) {
-  const Bvh& bvh = now.streams->bvh;
+  const Bvh& bvh = now.triangles->bvh;
   std::vector<NodeIndex> open;
   if (bvh.components[component.value].root != kNoNode) open.push_back(bvh.components[component.value].root);
   while (!open.empty()) {
@@ -55,8 +57,8 @@ Triangle MomentaryTriangles::triangle(NodeIndex leaf) const {
 }
 
 bool point_in_component(const MomentaryTriangles& now, Vec3 point, ComponentId component) {
-  for (const Vec3 direction : kRayDirections) {
-    bool inside = false, unclear = false;
+  return inside_by_rays([&](Vec3 direction) -> std::optional<bool> {
+    bool odd = false, unclear = false;
     visit_leaves(
         now, component, [&](const Kdop16& k) { return ray_meets(point, direction, k); },
         [&](NodeIndex leaf) {
@@ -64,12 +66,12 @@ bool point_in_component(const MomentaryTriangles& now, Vec3 point, ComponentId c
           for (int k = 0; k < 3; ++k) t[k] -= point;
           const RayHit hit = ray_hit(direction, t);
           unclear = hit == RayHit::Unclear;
-          inside = inside != (hit == RayHit::Hit);
+          odd = odd != (hit == RayHit::Hit);
           return !unclear;
         });
-    if (!unclear) return inside;
-  }
-  return false;
+    if (unclear) return std::nullopt;
+    return odd;
+  });
 }
 
 bool surface_within(const MomentaryTriangles& now, Vec3 point, ComponentId component, double distance) {
@@ -88,25 +90,6 @@ bool surface_within(const MomentaryTriangles& now, Vec3 point, ComponentId compo
         return !found;
       });
   return found;
-}
-
-std::vector<std::uint32_t> shell_vertices(const AssemblyTriangles& streams, ComponentId component) {
-  const std::uint32_t begin = streams.vertex_begin[component.value];
-  std::vector<std::uint32_t> parent(streams.vertex_begin[component.value + 1] - begin);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root_of = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  const BvhComponent& range = streams.bvh.components[component.value];
-  for (NodeIndex leaf = range.leaf_begin; leaf < range.leaf_end; ++leaf) {
-    const Face& face = streams.faces[leaf];
-    for (int k = 1; k < 3; ++k) parent[root_of(face.v[k] - begin)] = root_of(face.v[0] - begin);
-  }
-  std::vector<std::uint32_t> shells;
-  for (std::uint32_t v = 0; v < parent.size(); ++v)
-    if (parent[v] == v) shells.push_back(begin + v);
-  return shells;
 }
 
 }  // namespace dismantle

@@ -8,11 +8,13 @@
 
 namespace dismantle {
 
-/// The triangles of a step.
+/// The triangles of a step, whose vertices move linearly.
 struct StepTriangles {
-  Span<const Vec3> vertices_t0, vertices_t1;  ///< S_v(n), S_v(n+1) [mm]
-  Span<const Face> faces;                     ///< In leaf order.
+  Span<const Vec3> vertices_t0;  ///< S_v(n): positions at the beginning [mm].
+  Span<const Vec3> vertices_t1;  ///< S_v(n+1): positions at the end [mm].
+  Span<const Face> faces;        ///< In leaf order.
 
+  /// The triangle of a leaf during the step.
   DISMANTLE_HOST_DEVICE TriangleMotion motion(NodeIndex leaf) const {
     const Face face = faces[leaf];
     TriangleMotion m;
@@ -22,35 +24,32 @@ struct StepTriangles {
     }
     return m;
   }
+  /// The triangle of a leaf at the end of the step.
   DISMANTLE_HOST_DEVICE Triangle end(NodeIndex leaf) const {
     const Face face = faces[leaf];
     return {{vertices_t1[face.v[0]], vertices_t1[face.v[1]], vertices_t1[face.v[2]]}};
   }
 };
 
-/// The triangles of a step at one time of it, with bounds that hold for the whole step; vertices go linearly.
+/// The triangles of a step at one time of it.
 struct MomentaryTriangles {
-  const AssemblyTriangles* streams = nullptr;
-  StepTriangles step;
-  Span<const Kdop16> bounds;
-  double s = 0;  ///< Time in the step, 0 to 1.
+  const AssemblyTriangles* triangles = nullptr;  ///< Their BVH; never null.
+  StepTriangles step;                            ///< Their motion.
+  Span<const Kdop16> bounds;                     ///< Of each node of the BVH, valid for the whole step.
+  double s = 0;                                  ///< Time in the step, 0 to 1.
 
+  /// Position of a vertex at the time `s` [mm].
   Vec3 vertex(std::uint32_t v) const;
+  /// Triangle of a leaf at the time `s`.
   Triangle triangle(NodeIndex leaf) const;
 };
 
-/// True where `point` lies inside the component's closed surface: a ray from it crosses the surface an odd number
-/// of times. Rays that come too near to an edge to be counted are tried in another direction; a point for which all
-/// directions are so counts as outside (it is on the surface, as near as rounding can tell). @pre the component is
-/// closed
+/// True if `point` lies inside the component's closed surface, by inside_by_rays(). A point on the surface, as near as
+/// rounding can tell, counts as outside. @pre the component is closed
 bool point_in_component(const MomentaryTriangles& now, Vec3 point, ComponentId component);
 
-/// True where a point of the component's surface may be within `distance` [mm] of `point`; false is certain, up to
+/// True if a point of the component's surface may be within `distance` [mm] of `point`; false is certain, up to
 /// rounding relative to the coordinates.
 bool surface_within(const MomentaryTriangles& now, Vec3 point, ComponentId component, double distance);
-
-/// One vertex of each connected part of each component's surface: where surfaces do not meet, they say for their
-/// whole part on which side of another surface it is. @return vertex indices in the streams' order
-std::vector<std::uint32_t> shell_vertices(const AssemblyTriangles& streams, ComponentId component);
 
 }  // namespace dismantle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/solid_distance.h"
 
+#include "dismantle/bvh/obb_tree.h"
 #include "dismantle/math/vec3f.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 
@@ -12,20 +13,18 @@ namespace dismantle {
 
 namespace {
 
-/// What a box's axes are off being of unit length and at right angles, at most; relative to lengths.
-constexpr double kAxisRounding = 2e-6;
-/// The rounding of places, relative to coordinates.
-constexpr double kPlaceRounding = 1e-14;
-/// How many pairs of nodes are left open at once, as a rule.
+/// Rounding of positions, relative to coordinates.
+constexpr double kPositionRounding = 1e-14;
+/// Capacity reserved for the pairs of nodes that wait at the same time.
 constexpr std::size_t kUsualDepth = 128;
 
-/// A pair of nodes, and a lower bound of the distance of what is in them [mm].
+/// A pair of nodes and a lower bound of the distance of their triangles [mm].
 struct NodePair {
   std::uint32_t a = 0, b = 0;
   double bound = 0;
 };
 
-/// The axes of a box as they are seen through a rotation, each as long as the box is in its direction.
+/// The half edges of a box, rotated into another frame.
 struct HalfEdges {
   Vec3 along[3];
 };
@@ -35,8 +34,9 @@ HalfEdges half_edges(const Obb& box, const Mat3& rotation) {
            rotation * (box.half[2] * to_double(box.third_axis()))}};
 }
 
-/// The squared distance from a box to the box along its axes around another one, but for the rounding of axes.
-/// @param offset from the center of the first to that of the other
+/// Squared distance from `box` to the box that encloses another one along the axes of `box`, apart from the rounding of
+/// the axes.
+/// @param offset from the centre of `box` to that of the other
 double squared_gap(const Obb& box, const Vec3& offset, const HalfEdges& other) {
   const Vec3 axes[3] = {to_double(box.axis[0]), to_double(box.axis[1]), to_double(box.third_axis())};
   double sum = 0;
@@ -49,7 +49,7 @@ double squared_gap(const Obb& box, const Vec3& offset, const HalfEdges& other) {
   return sum;
 }
 
-/// Looks for the nearest triangles of two trees.
+/// Branch and bound for the nearest triangles of two trees.
 class DistanceSearch {
  public:
   DistanceSearch(const PlacedSolid& a, const PlacedSolid& b)
@@ -57,9 +57,9 @@ class DistanceSearch {
         b_(b),
         a_from_b_(about_origins(inverse(a.world_from_assembled) * b.world_from_assembled)),
         b_from_a_(inverse(a_from_b_)),
-        place_rounding_(kPlaceRounding *
-                        (max_abs(a.world_from_assembled.translation) + max_abs(a.solid->tree.origin) +
-                         max_abs(b.world_from_assembled.translation) + max_abs(b.solid->tree.origin))) {}
+        position_rounding_(kPositionRounding *
+                           (max_abs(a.world_from_assembled.translation) + max_abs(a.solid->tree.origin) +
+                            max_abs(b.world_from_assembled.translation) + max_abs(b.solid->tree.origin))) {}
 
   NodePair pair(std::uint32_t a, std::uint32_t b) const {
     const ObbNode &node_a = nodes_a()[a], &node_b = nodes_b()[b];
@@ -67,8 +67,9 @@ class DistanceSearch {
     const double squared =
         std::max(squared_gap(node_a.box, a_from_b_ * center_b - center_a, half_edges(node_b.box, a_from_b_.rotation)),
                  squared_gap(node_b.box, b_from_a_ * center_a - center_b, half_edges(node_a.box, b_from_a_.rotation)));
-    const double rounding = kAxisRounding * (static_cast<double>(node_a.radius) + static_cast<double>(node_b.radius));
-    return {a, b, std::max(0.0, std::sqrt(squared) * (1 - kAxisRounding) - rounding - place_rounding_)};
+    const double rounding =
+        kObbAxisRounding * (static_cast<double>(node_a.radius) + static_cast<double>(node_b.radius));
+    return {a, b, std::max(0.0, std::sqrt(squared) * (1 - kObbAxisRounding) - rounding - position_rounding_)};
   }
 
   SolidDistance nearest(double limit) const {
@@ -101,7 +102,7 @@ class DistanceSearch {
     return a_from_b;
   }
 
-  /// The larger node is split.
+  /// Splits the larger node.
   std::pair<NodePair, NodePair> halves(const NodePair& whole) const {
     const ObbNode &a = nodes_a()[whole.a], &b = nodes_b()[whole.b];
     if (a.size >= b.size) return {pair(a.child, whole.b), pair(a.child + 1, whole.b)};
@@ -123,7 +124,7 @@ class DistanceSearch {
 
   const PlacedSolid &a_, &b_;
   RigidTransform a_from_b_, b_from_a_;  // about the trees' origins
-  double place_rounding_;
+  double position_rounding_;
 };
 
 }  // namespace

@@ -8,24 +8,27 @@
 
 namespace dismantle {
 
-/// The nearest triangles of two components.
+/// Distance of two components and the nearest triangles.
 struct SolidDistance {
-  double distance = std::numeric_limits<double>::infinity();  ///< 0 where surfaces meet, infinite where none is found.
-  FaceId face_a, face_b;                                      ///< Of the components' own meshes.
-  Vec3 point_a, point_b;                                      ///< [mm, world]
+  /// Distance [mm]: 0 where the surfaces intersect or touch, infinite where none below the limit was found.
+  double distance = std::numeric_limits<double>::infinity();
+  FaceId face_a;  ///< Nearest face in the mesh of `a`.
+  FaceId face_b;  ///< Nearest face in the mesh of `b`.
+  Vec3 point_a;   ///< Nearest point of `a` [mm, world frame].
+  Vec3 point_b;   ///< Nearest point of `b` [mm, world frame].
 };
 
-/// A component's tree and where it is.
+/// A component's tree at a pose.
 struct PlacedSolid {
-  const SolidTree* solid = nullptr;
-  RigidTransform world_from_assembled;
+  const SolidTree* solid = nullptr;     ///< Never null.
+  RigidTransform world_from_assembled;  ///< The pose.
 };
 
-/// A lower bound of the distance of two components, from the roots of their trees alone [mm]. @pre neither is empty
+/// A lower bound of the distance of two components from the root boxes of their trees [mm]. @pre neither is empty
 double bounds_distance(const PlacedSolid& a, const PlacedSolid& b);
 
-/// The nearest triangles of two components, if they are nearer than `limit` [mm]: by branch and bound over both trees,
-/// the nearer boxes first. As exact as distance_triangle_triangle; of equally near pairs always the same one.
+/// The distance of two components where it is below `limit` [mm]: branch and bound over both trees, the nearer boxes
+/// first. As exact as distance_triangle_triangle(); of several pairs at the same distance always the same is returned.
 /// @pre neither is empty
 SolidDistance solid_distance(const PlacedSolid& a, const PlacedSolid& b,
                              double limit = std::numeric_limits<double>::infinity());

@@ -7,7 +7,7 @@ namespace dismantle {
 
 namespace {
 
-/// Fills in what is known of the outside of a component that has one.
+/// Fills in the normals, and the faces at each vertex.
 void find_normals(SolidTree& solid) {
   solid.normals.resize(solid.faces.size());
   solid.around_begin.assign(solid.vertices.size() + 1, 0);
@@ -35,8 +35,8 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   add_cylinder_parts(solid.vertices, solid.faces, axes, parts);
   solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
   if (!solid.tree.empty())
-    solid.round = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes, std::move(axes),
-                                                      std::move(threads));
+    solid.revolution = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes,
+                                                           std::move(axes), std::move(threads));
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

@@ -11,24 +11,29 @@
 
 namespace dismantle {
 
-/// A component as the method `certificates` sees it: its triangles in the assembled state, and their tree.
+/// A component's triangles in the assembled state with their OBB tree, normals and surfaces of revolution: the shape
+/// that the method `certificates` and the queries of solid_tree_query.h and solid_distance.h work on.
 struct SolidTree {
-  std::vector<Vec3> vertices;  ///< [mm, assembled]
-  Span<const Face> faces;
-  bool has_outside = false;  ///< It encloses a volume, and its normals point out of it (MeshFaults::bounds_solid).
-  ObbTree tree;
-  std::unique_ptr<const RevolutionSurface> round;  ///< What of it turns about an axis; null where it has no faces.
-  std::vector<Vec3> normals;                       ///< Unit, of each face; where it has an outside.
-  std::vector<std::uint32_t> around_begin;  ///< Where each vertex's faces begin in `around`, and the end of the last.
-  std::vector<std::uint32_t> around;        ///< The faces at each vertex.
+  std::vector<Vec3> vertices;  ///< Positions in the assembled state [mm, assembly frame].
+  Span<const Face> faces;      ///< Of the component's mesh.
+  /// The mesh bounds a volume and its normals point outwards (MeshFaults::bounds_solid). The next three arrays are
+  /// empty where not.
+  bool has_outside = false;
+  std::vector<Vec3> normals;                ///< Unit outward normal of each face.
+  std::vector<std::uint32_t> around_begin;  ///< Begin of each vertex's range in `around`, shape [vertex_count + 1].
+  std::vector<std::uint32_t> around;        ///< Faces at each vertex.
+  ObbTree tree;                             ///< Boxes over the faces.
+  std::unique_ptr<const RevolutionSurface> revolution;  ///< Its surfaces of revolution; null where it has no faces.
 
+  /// A face's triangle in the assembled state [mm].
   Triangle triangle(std::uint32_t face) const {
     const Face& f = faces[face];
     return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
   }
 };
 
-/// @param component must outlive the tree, which looks at its faces
+/// Builds the tree of a component. The result depends on the component alone.
+/// @param component must outlive the tree, which refers to the faces of its mesh
 SolidTree make_solid_tree(const Component& component, const Executor& executor);
 
 }  // namespace dismantle

@@ -9,36 +9,37 @@
 
 namespace dismantle {
 
-/// The face of a component's surface that is nearest to a point.
+/// Distance of a point from a component's surface and the nearest face.
 struct NearestFace {
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No face.
 
-  double distance = std::numeric_limits<double>::infinity();  ///< Of the point from it [mm].
-  std::uint32_t face = kNone;                                 ///< None for a component without faces.
+  double distance = std::numeric_limits<double>::infinity();  ///< Distance [mm].
+  std::uint32_t face = kNone;                                 ///< kNone for a component without faces.
 };
 
-/// A lower bound of the distance from a point to the component's surface, from the tree's root alone: 0 inside its box
-/// [mm].
+/// A lower bound of the distance from a point to the component's surface, from the tree's root box: 0 inside it [mm].
 double distance_to_bounds(const SolidTree& solid, Vec3 point);
 
-/// The nearest face, up to the rounding of closest_points_vertex_face.
-/// @param point [mm, assembled]
-/// @param hint a face to begin with: the nearer it is the less is looked at; NearestFace::kNone for none
-/// @param enough the search may end with any face that is nearer than this [mm]; 0 for the nearest
-NearestFace nearest_face(const SolidTree& solid, Vec3 point, std::uint32_t hint, double enough = 0);
+/// The nearest face, up to the rounding of closest_points_vertex_face(): branch and bound, the nearer boxes first.
+/// @param point [mm, assembled state]
+/// @param hint a face to start from: the nearer, the fewer nodes are visited; NearestFace::kNone for none
+/// @param accept_below the search ends at the first face that is nearer than this [mm]; 0 for the nearest face
+NearestFace nearest_face(const SolidTree& solid, Vec3 point, std::uint32_t hint, double accept_below = 0);
 
-/// Where a ray goes through a component's surface.
+/// A point where a ray crosses a component's surface.
 struct RayCrossing {
-  double distance = 0;   ///< From where it begins [mm].
-  bool outward = false;  ///< It comes out there, by the face's normal.
-  std::uint32_t face = 0;
+  double distance = 0;     ///< From the ray's origin [mm].
+  bool outward = false;    ///< The ray leaves the solid there, by the face's normal.
+  std::uint32_t face = 0;  ///< The face crossed.
 };
 
-/// All crossings of the ray from `point` along the unit vector `direction`, the first one first; nothing where it comes
-/// too near to an edge to tell.
+/// All crossings of the ray from `point` along the unit vector `direction`, ordered by distance; nothing where the ray
+/// passes too near to an edge to decide.
+/// @param point [mm, assembled state]
 std::optional<std::vector<RayCrossing>> crossings_of(const SolidTree& solid, Vec3 point, Vec3 direction);
 
-/// As point_in_component (solid_query.h), of the assembled component. @pre it is closed
+/// True if `point` [mm, assembled state] lies inside the component, by inside_by_rays(). A point on the surface, as
+/// near as rounding can tell, counts as outside. @pre the component is closed
 bool point_in_solid(const SolidTree& solid, Vec3 point);
 
 }  // namespace dismantle

@@ -6,16 +6,17 @@
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
+#include "dismantle/surface/vertex_regions.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace dismantle {
 
 namespace {
 
-/// Squared distance from a point to a node's box (the first three axes of its k-DOP): never above the true one.
+/// Squared distance from a point to a node's box (the first three slabs of its k-DOP): never above the true one.
 double box_distance_squared(const Kdop16& k, Vec3 p) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -26,6 +27,7 @@ double box_distance_squared(const Kdop16& k, Vec3 p) {
   return sum;
 }
 
+/// Squared distance of two nodes' boxes: never above the true one.
 double box_distance_squared(const Kdop16& a, const Kdop16& b) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -37,48 +39,20 @@ double box_distance_squared(const Kdop16& a, const Kdop16& b) {
   return sum;
 }
 
-/// The component's vertices in regions that are joined by triangles which do not cross the other component.
-class VertexRegions {
- public:
-  VertexRegions(const AssemblySurface& s, ComponentId component, const std::vector<NodeIndex>& crossing)
-      : begin_(s.streams.vertex_begin[component.value]), parent_(s.streams.vertex_begin[component.value + 1] - begin_) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    const BvhComponent& range = s.streams.bvh.components[component.value];
-    for (NodeIndex leaf = range.leaf_begin; leaf < range.leaf_end; ++leaf) {
-      if (std::binary_search(crossing.begin(), crossing.end(), leaf)) continue;
-      const Face& f = s.streams.faces[leaf];
-      join(f.v[0], f.v[1]);
-      join(f.v[0], f.v[2]);
-    }
-  }
-  /// The vertex (a global index) that stands for the region of `vertex`.
-  std::uint32_t region_of(std::uint32_t vertex) {
-    std::uint32_t v = vertex - begin_;
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v + begin_;
-  }
-
- private:
-  void join(std::uint32_t a, std::uint32_t b) { parent_[region_of(a) - begin_] = region_of(b) - begin_; }
-
-  std::uint32_t begin_;
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor) {
   AssemblySurface s;
-  s.streams = make_assembly_triangles(assembly, executor);
-  s.bounds = bounds_at(s.streams, s.streams.vertices, 0, executor);
+  s.triangles = make_assembly_triangles(assembly, executor);
+  s.bounds = bounds_at(s.triangles, s.triangles.vertices, 0, executor);
   return s;
 }
 
 std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& s, double margin,
                                                                       const Executor& executor) {
   std::vector<std::pair<ComponentId, ComponentId>> pairs;
-  const std::vector<Kdop16> grown = bounds_at(s.streams, s.streams.vertices, margin / 2, executor);
-  bvh_traverse_components(s.streams.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
+  const std::vector<Kdop16> grown = bounds_at(s.triangles, s.triangles.vertices, margin / 2, executor);
+  bvh_traverse_components(s.triangles.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -87,7 +61,7 @@ SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, Componen
   SurfaceOverlap overlap;
   const NodePair start{s.root_of(a), s.root_of(b)};
   if (start.a == kNoNode || start.b == kNoNode) return overlap;
-  bvh_traverse(BvhView(s.streams.bvh), s.bounds, start, [&](NodeIndex leaf_a, NodeIndex leaf_b) {
+  bvh_traverse(BvhView(s.triangles.bvh), s.bounds, start, [&](NodeIndex leaf_a, NodeIndex leaf_b) {
     const Triangle ta = s.leaf_triangle(leaf_a), tb = s.leaf_triangle(leaf_b);
     if (!intersect_triangle_triangle(ta, tb)) return;
     ++overlap.triangle_pairs;
@@ -105,10 +79,10 @@ SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, Componen
 double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
   const NodePair start{s.root_of(a), s.root_of(b)};
   if (start.a == kNoNode || start.b == kNoNode) return limit;
-  const BvhView tree(s.streams.bvh);
-  const auto least = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
+  const BvhView tree(s.triangles.bvh);
+  const auto lower_bound = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
   double best = limit * limit;
-  std::vector<std::pair<double, NodePair>> open{{least(start), start}};
+  std::vector<std::pair<double, NodePair>> open{{lower_bound(start), start}};
   while (!open.empty()) {
     const auto [bound, pair] = open.back();
     open.pop_back();
@@ -119,16 +93,15 @@ double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, 
       continue;
     }
     NodePairChildren next = expanded(tree, s.bounds, pair);
-    if (least(next.pair[0]) < least(next.pair[1]))
-      std::swap(next.pair[0], next.pair[1]);  // the nearer one is taken first
-    for (int k = 0; k < next.count; ++k) open.emplace_back(least(next.pair[k]), next.pair[k]);
+    // The nearer pair is taken first.
+    if (lower_bound(next.pair[0]) < lower_bound(next.pair[1])) std::swap(next.pair[0], next.pair[1]);
+    for (int k = 0; k < next.count; ++k) open.emplace_back(lower_bound(next.pair[k]), next.pair[k]);
   }
   return std::sqrt(best);
 }
 
-SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
-  const BvhView tree(s.streams.bvh);
-  SurfaceDistance nearest;
+double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {
+  const BvhView tree(s.triangles.bvh);
   double best = std::numeric_limits<double>::infinity();
   std::vector<NodeIndex> open;
   if (s.root_of(component) != kNoNode) open.push_back(s.root_of(component));
@@ -139,9 +112,7 @@ SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component
     if (tree.is_leaf(node)) {
       const ClosestPoints closest = closest_points_vertex_face(point, s.leaf_triangle(node));
       const double squared = length_squared(closest.point_a - closest.point_b);
-      if (squared >= best) continue;
-      best = squared;
-      nearest.leaf = node;
+      best = std::min(best, squared);
       continue;
     }
     BvhChildren c = tree.children_of(node);
@@ -150,27 +121,27 @@ SurfaceDistance surface_distance(const AssemblySurface& s, ComponentId component
     open.push_back(c.left);
     open.push_back(c.right);
   }
-  nearest.distance = std::sqrt(best);
-  return nearest;
+  return std::sqrt(best);
 }
 
 double deepest_vertex(const AssemblySurface& s, ComponentId inner, ComponentId outer,
                       const std::vector<NodeIndex>& crossing) {
   const NodeIndex root = s.root_of(outer);
   if (root == kNoNode) return 0;
-  VertexRegions regions(s, inner, crossing);
+  VertexRegions regions(s.triangles, inner, crossing);
   enum : std::uint8_t { kUnknown, kInside, kOutside };
-  const std::uint32_t begin = s.streams.vertex_begin[inner.value], end = s.streams.vertex_begin[inner.value + 1];
+  const std::uint32_t begin = s.triangles.vertex_begin[inner.value], end = s.triangles.vertex_begin[inner.value + 1];
   std::vector<std::uint8_t> side(end - begin, kUnknown);
   for (std::uint32_t v = begin; v < end; ++v)
-    if (box_distance_squared(s.bounds[root], s.streams.vertices[v]) > 0) side[regions.region_of(v) - begin] = kOutside;
+    if (box_distance_squared(s.bounds[root], s.triangles.vertices[v]) > 0)
+      side[regions.region_of(v) - begin] = kOutside;
 
   double deepest = 0;
   for (std::uint32_t v = begin; v < end; ++v) {
     std::uint8_t& region_side = side[regions.region_of(v) - begin];
     if (region_side == kUnknown)
-      region_side = point_in_component(s.assembled(), s.streams.vertices[v], outer) ? kInside : kOutside;
-    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.streams.vertices[v]).distance);
+      region_side = point_in_component(s.assembled(), s.triangles.vertices[v], outer) ? kInside : kOutside;
+    if (region_side == kInside) deepest = std::max(deepest, surface_distance(s, outer, s.triangles.vertices[v]));
   }
   return deepest;
 }

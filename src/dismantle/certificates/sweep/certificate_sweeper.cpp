@@ -78,22 +78,22 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
     for (const Vec3& p : solids_.back().vertices) radius = std::max(radius, length(p - centers_.back()));
     radii_.push_back(radius);
   }
-  prepare_round();
+  prepare_radial();
 }
 
-void CertificateSweeper::prepare_round() {
+void CertificateSweeper::prepare_radial() {
   std::vector<std::pair<ComponentId, ComponentId>> near;
   for (std::uint32_t a = 0; a < solids_.size(); ++a)
     for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
-      if (solids_[a].round && solids_[b].round && sphere_gap(ComponentId(a), ComponentId(b), {}, {}, 0) <= 0)
+      if (solids_[a].revolution && solids_[b].revolution && sphere_gap(ComponentId(a), ComponentId(b), {}, {}, 0) <= 0)
         near.emplace_back(a, b);
   std::vector<std::vector<ThreadMatch>> threads(near.size());
   options_.executor.for_each_heavy(near.size(), [&](std::size_t i) {
     const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
-    threads[i] = match_threads(*a.round, a.tree.origin, *b.round, b.tree.origin);
+    threads[i] = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
     PairMotion still;
     still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
-    RadialSweeps(*a.round, a.tree.origin, *b.round, b.tree.origin, still).get();
+    RadialSweeps(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin, still).get();
   });
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
@@ -159,8 +159,8 @@ CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b, SideRul
   return {solid(a).tree,
           solid(b).tree,
           sides,
-          solid(a).round.get(),
-          solid(b).round.get(),
+          solid(a).revolution.get(),
+          solid(b).revolution.get(),
           threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
 }
 
@@ -195,7 +195,7 @@ CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, 
       leaves.emplace(triangle_pair_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
     last = &pair;
     const TrianglePairResult found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
-    ++result.leaf_tests;
+    ++result.triangle_tests;
     if (found.free) continue;
     result.blocked.push_back(pair);
     result.blocked.back().toi = found.contact.toi;
@@ -252,7 +252,7 @@ TrianglePairTest CertificateSweeper::triangle_pair_test(const ActivePair& pair, 
     }
     const float gap = -rounded_up(-found.gap);
     const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
-    return TrianglePairVerdict{found.free, gap, cut_short, found.harmless, pair.leaves.certificate(found, pair.sweep)};
+    return TrianglePairVerdict{found.free, gap, cut_short, found.no_deep_vertex_possible, pair.leaves.certificate(found, pair.sweep)};
   };
 }
 
@@ -272,8 +272,8 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
     CertificateFront& front = front_of(moving, fixed).front;
     const TrianglePairSweep leaves = triangle_pair_sweep(moving, fixed, pose(), end, effort);
     PairMotion motion = leaves.motion();
-    if (effort != Effort::Full) motion.enough_blocked = kSomeBlocked;
-    if (effort == Effort::Fits) motion.fit_spread = tolerance();
+    if (effort != Effort::Full) motion.max_blocked = kSomeBlocked;
+    if (effort == Effort::Fits) motion.max_fit_deviation = tolerance();
     active.push_back({moving, fixed, &front, leaves, front.begin_sweep(motion), allowed(moving, fixed)});
   });
   std::vector<PartTask> tasks;
@@ -297,7 +297,7 @@ CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effor
   for (PartTask& task : tasks) {
     const LinearSweep& sweep = active[task.pair].sweep;
     result.clearance = std::min<double>(result.clearance, task.found.min_gap - sweep.error);
-    result.leaf_tests += task.found.leaf_tests;
+    result.triangle_tests += task.found.triangle_tests;
     result.answered_tests += task.answered;
     result.complete &= task.found.complete;
     active[task.pair].free &= task.found.complete && task.found.blocked == 0;
@@ -331,8 +331,8 @@ bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) cons
   return pairs >= device_.min_pairs;
 }
 
-std::vector<FrontQuery<TrianglePairSweep>> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
-  std::vector<FrontQuery<TrianglePairSweep>> fronts;
+std::vector<FrontQuery> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
+  std::vector<FrontQuery> fronts;
   fronts.reserve(active.size());
   for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep, &pair.leaves});
   return fronts;
@@ -389,7 +389,7 @@ CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, dou
   const TrianglePairSweep leaves(solid(moving), solid(fixed), at(from), at(to), 0,
                                  {allowance, tolerance(), sides(moving, fixed), {}, false});
   PairMotion motion = leaves.motion();
-  motion.enough_blocked = 1;
+  motion.max_blocked = 1;
   look_at(roots(moving, fixed, sides(moving, fixed)), {moving, fixed, leaves, motion, 0}, result);
   finish(result, 0);
   return result;
@@ -397,14 +397,14 @@ CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, dou
 
 void CertificateSweeper::look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const {
   const ActivePair pair{
-      look.moving, look.fixed, nullptr, look.leaves, front.begin_look(look.motion), allowed(look.moving, look.fixed)};
+      look.moving, look.fixed, nullptr, look.leaves, front.prepare_sweep(look.motion), allowed(look.moving, look.fixed)};
   PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}, 0};
   const FrontSweep found = front.look(pair.sweep, kernels_, triangle_pair_test(pair, task, look.window));
   for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
   result.clearance = std::min<double>(result.clearance, found.min_gap - pair.sweep.error);
   result.complete &= found.complete;
-  result.leaf_tests += found.leaf_tests;
+  result.triangle_tests += found.triangle_tests;
   result.front += front.size();
 }
 
@@ -419,7 +419,7 @@ std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
       pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
       return TrianglePairVerdict{};
     };
-    front.look(front.begin_look(motion), kernels_, take);
+    front.look(front.prepare_sweep(motion), kernels_, take);
   });
   std::sort(pairs.begin(), pairs.end(), before);
   return pairs;
