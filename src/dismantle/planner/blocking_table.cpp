@@ -8,15 +8,19 @@ namespace dismantle {
 
 namespace {
 
-/// Directions nearer than this [rad] are one.
+/// Directions within this angle share an id [rad].
 constexpr double kSameDirection = 1e-6;
-/// Ways go this share of a component's radius further than they have to.
+/// Margin of exit distances, as a share of the component's radius.
 constexpr double kMargin = 0.05;
 
 }  // namespace
 
 BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going)
-    : engine_(engine), features_(features), keep_going_(std::move(keep_going)), rows_(features.size()), others_(features.size()) {
+    : engine_(engine),
+      features_(features),
+      keep_going_(std::move(keep_going)),
+      rows_(features.size()),
+      others_(features.size()) {
   for (std::uint32_t c = 0; c < features.size(); ++c) {
     std::vector<ComponentId>& others = others_[c];
     for (std::uint32_t k = 0; k < features.size(); ++k)
@@ -88,7 +92,7 @@ std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, Direct
   for (auto other = others.begin(); other != others.end(); ++other) {
     if (!present.has(*other) || !blocks(moving, d, *other)) continue;
     known.witness = *other;
-    std::rotate(others.begin(), other, other + 1);  // it may well block in other directions, too
+    std::rotate(others.begin(), other, other + 1);  // it probably blocks other directions, too
     return known.witness;
   }
   return std::nullopt;
@@ -121,9 +125,9 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                                         ComponentSet& ends, std::size_t most) {
   ComponentSet together(features_.size());
-  std::vector<ComponentId> blocked_by(features_.size());  // who a member moves along for
+  std::vector<ComponentId> blocked_by(features_.size());  // the component that a member moves along with
   std::vector<ComponentId> unfollowed{moving},
-      unasked;  // members whose known facts, whose other facts are not seen yet
+      unasked;  // members whose known relations, and whose unknown ones, are not expanded yet
   while (!unfollowed.empty() || !unasked.empty()) {
     if (unfollowed.empty()) {
       const ComponentId member = unasked.back();

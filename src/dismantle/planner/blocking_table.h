@@ -17,51 +17,56 @@ namespace dismantle {
 
 using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a BlockingTable.
 
-/// Which component blocks which on its way straight to infinity, from the assembled state: facts that are found when
-/// they are first asked for and hold for good, whatever else is taken away (Wilson, Latombe 1994: directional blocking
-/// graphs). Certified: what does not block is free by the true motion.
+/// Directional blocking relations (Wilson, Latombe 1994): which component blocks which on a straight motion to infinity
+/// from the assembled state. A relation is computed on first use and does not depend on what else is removed.
+/// Certified: a component that does not block is free of contact over the true motion.
 class BlockingTable {
  public:
-  /// @param engine, features of every component must outlive the table
-  /// @param keep_going once it says no, nothing is looked at any more: what is not known then counts as blocked, for that
-  /// time
+  /// @param engine, features (of every component) must outlive the table
+  /// @param keep_going once it returns false, nothing is computed any more: unknown relations then count as
+  /// blocked, without being stored
   BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going);
 
-  /// @param unit Directions within 1e-6 of each other are one.
+  /// Registers a unit direction; directions within 1e-6 of each other share an id.
   DirectionId add_direction(const Vec3& unit);
+  /// The unit vector of a direction.
   const Vec3& direction(DirectionId d) const { return directions_[d.value]; }
-  /// The direction the other way.
+  /// The opposite direction.
   DirectionId opposite(DirectionId d) { return add_direction(-directions_[d.value]); }
-  /// A way along `d` after which `moving` is past all that is where it was assembled [mm].
+  /// Distance along `d` after which `moving` has passed everything that is in its assembled pose [mm].
   double exit_distance(ComponentId moving, DirectionId d) const;
 
-  /// A way in any direction after which `moving` is past all that is where it was assembled [mm].
+  /// Distance in any direction after which `moving` has passed everything that is in its assembled pose [mm].
   double max_exit_distance(ComponentId moving) const;
-  /// Center and radius of the sphere around an assembled component [mm].
+  /// Centre of the bounding sphere of an assembled component [mm].
   Vec3 center(ComponentId c) const { return features_[c.value].center; }
+  /// Radius of that sphere [mm].
   double radius(ComponentId c) const { return features_[c.value].radius; }
 
+  /// True if `fixed` blocks `moving` along `d`.
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
-  /// One of `present` that blocks, if there is one; the same again while it is present.
+  /// A blocking component among `present`, if there is one; the same one as long as it is present.
   std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// Those of `present` that block, ordered; where there are more than `enough`, so many of them.
+  /// The blocking components among `present`, ascending; at most `enough` of them.
   std::vector<ComponentId> blockers(ComponentId moving, DirectionId d, const ComponentSet& present,
                                     std::size_t enough = std::numeric_limits<std::size_t>::max());
-  /// The fewest of `present` that can go along `d` together with `moving`: it, what blocks it, what blocks that, ...
+  /// The smallest subset of `present` that can move along `d` as one body with `moving`: itself, its blockers, theirs,
+  /// ...
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// The same, given up (nothing) once it would hold one of `ends`, or more than `most`. Those that cannot go for that
-  /// reason are added to `ends`: with the same `present`, `d` and no larger `most` they need not be followed again.
+  /// As above, but empty as soon as the subset would contain one of `ends` or more than `most` components. Components
+  /// that fail for that reason are added to `ends`: with the same `present`, `d` and no larger `most` they need not be
+  /// expanded again.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                            ComponentSet& ends, std::size_t most);
-  /// Tells who may well block a component along a unit direction: they are asked first.
+  /// Predicts the components that probably block a component along a unit direction; they are tested first.
   using Expectation = std::function<std::vector<ComponentId>(ComponentId moving, const Vec3& direction)>;
-  /// @pre nothing was asked yet
+  /// Sets the prediction. @pre no relation was computed yet
   void expect_blockers(Expectation expectation) { expectation_ = std::move(expectation); }
-  /// Whether one of `present` is expected to block, or known to.
+  /// True if one of `present` is known or predicted to block.
   bool expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// Makes it known that `fixed` blocks by a rule that one sweep does not see.
+  /// Records that `fixed` blocks, by a rule that a single sweep does not test.
   void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
-  /// The first contact with one that blocks.
+  /// The first contact with a blocking component; none if it does not block.
   std::optional<StraightContact> contact(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
  private:
@@ -75,7 +80,7 @@ class BlockingTable {
   /// One of `present` that blocks and is not in `together`: the expected ones are asked first, then those of `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
                                              const ComponentSet& together, const ComponentSet& ends);
-  /// How far `moving` has to go along `d` to be past `fixed`; nothing where it never comes near it [mm].
+  /// Distance along `d` after which `moving` has passed `fixed` [mm]; 0 if it never comes near it.
   double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
   const CertificateEngine& engine_;

@@ -13,7 +13,8 @@ namespace dismantle {
 namespace {
 
 constexpr double kAxisCosine = 1 - 5e-7;
-/// Of two directions with as many blockers the later one is better only if the component gets so many times as far.
+/// Of two directions with equally many blockers, the later one is preferred only if the component gets this many times
+/// further.
 constexpr double kClearlyFurther = 2;
 
 std::string point_text(const Vec3& p, const char* format) {
@@ -29,7 +30,7 @@ std::string names_text(const Assembly& assembly, const std::vector<ComponentId>&
   return text;
 }
 
-/// How far the component gets before the first of its blockers [mm].
+/// Distance to the first contact with a blocker [mm].
 double way_to_first(const BlockingTable& table, ComponentId component, DirectionId d,
                     const std::vector<ComponentId>& blockers) {
   double way = std::numeric_limits<double>::infinity();
@@ -72,7 +73,7 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
 std::string direction_text(const Vec3& unit) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(unit[k]) > kAxisCosine) return std::string(unit[k] > 0 ? "+" : "-") + "XYZ"[k];
-  // No "-0.000".
+  // Avoids "-0.000".
   const auto rounded = [](double x) { return std::abs(x) < 5e-4 ? 0 : x; };
   return point_text({rounded(unit.x), rounded(unit.y), rounded(unit.z)}, "(%.3f, %.3f, %.3f)");
 }

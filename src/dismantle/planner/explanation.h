@@ -8,17 +8,17 @@
 
 namespace dismantle {
 
-/// Why a component does not come straight out of `present`: along the one of `directions` with the fewest blockers,
-/// and of these the first that it gets clearly further along.
-/// No blockers: it does come out.
+/// Explains what blocks the straight removal of a component from `present`: along the direction with the fewest
+/// blockers, and of equal ones the first along which it gets clearly further. Without blockers it can be removed.
 /// @pre directions is not empty
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
                     const ComponentSet& present);
 
-/// "+Z" or "-X" where it is such an axis, to a thousandth; else "(0.577, -0.577, 0.577)".
+/// "+Z" or "-X" for a coordinate axis (within a thousandth), else "(0.577, -0.577, 0.577)".
 std::string direction_text(const Vec3& unit);
 
-/// One sentence: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with {plate}"; or that it is free.
+/// One sentence: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with {plate}"; or that it can be
+/// removed.
 std::string explanation_text(const Assembly& assembly, const Explanation& explanation);
 
 }  // namespace dismantle

@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-/// Whether to go on searching: asked now and then, by any thread.
+/// Returns false to end a search early. Called regularly, from any thread.
 using KeepGoing = std::function<bool()>;
 
 }  // namespace dismantle

@@ -9,55 +9,57 @@
 
 namespace dismantle {
 
-/// How a step was found.
+/// The kind of motion of a step.
 enum class PlanTier {
-  Straight,          ///< One component goes straight out.
-  Helical,           ///< One component is screwed out along a thread.
-  Sliding,           ///< One component is pushed and turned out, along what is in its way.
-  Sampled,           ///< One component is moved out by a way that was found at random.
-  StraightTogether,  ///< Several go straight out as one body.
+  Straight,          ///< One component moves straight out.
+  Helical,           ///< One component is unscrewed along a thread.
+  Sliding,           ///< One component slides and turns out along the contacts.
+  Sampled,           ///< One component follows a path found by random sampling.
+  StraightTogether,  ///< Several move straight out as one body.
 };
 
-/// "straight", "helical", "sliding", "sampled", "straight together": as reports have it.
+/// "straight", "helical", "sliding", "sampled", "straight together": as in reports.
 std::string_view name_of(PlanTier tier);
 
-/// A set of components leaves what it is part of, rigidly together.
+/// The removal of a set of components from the body that they belong to, as one rigid body.
 struct PlanStep {
+  /// Value of part_of for the whole assembly.
   static constexpr std::uint32_t kWhole = 0xffffffffu;
 
-  std::vector<ComponentId> components;
-  PlanTier tier = PlanTier::Straight;
-  /// Index of the step that took the body away of which this set is a part; kWhole: of the assembly.
+  std::vector<ComponentId> components;  ///< The set that moves.
+  PlanTier tier = PlanTier::Straight;   ///< How it moves.
+  /// Index of the step that removed the body to which this set belongs; kWhole: the assembly.
   std::uint32_t part_of = kWhole;
-  /// From the assembled pose through these, each by one screw from the one before, and then straight on along `exit`
-  /// for good. Relative to the body that the set is part of: as if that stood in its assembled pose.
+  /// The path: from the assembled pose through these poses, one screw motion each, then straight along `exit`. Relative
+  /// to the body that the set belongs to, as if that were in its assembled pose.
   std::vector<Pose> poses;
-  Vec3 exit;  ///< Unit.
+  Vec3 exit;  ///< Unit direction of the last, straight part.
 };
 
-/// What keeps a component from going straight out along one direction.
+/// A component that blocks the straight removal of another along one direction.
 struct Blocker {
-  ComponentId component;
-  StraightContact contact;  ///< The first one with it.
+  ComponentId component;    ///< The blocking component.
+  StraightContact contact;  ///< The first contact with it.
 };
 
-/// Why a component does not come out: along the direction in which the fewest others are in its way.
+/// Why a component cannot be removed: along the direction with the fewest blockers.
 struct Explanation {
-  ComponentId component;
-  Vec3 direction;                     ///< Unit.
-  std::vector<Blocker> blockers;      ///< Nearest first. With these taken away it comes out along the direction.
-  std::vector<ComponentId> together;  ///< The fewest that could go along the direction as one body; itself among them.
-  std::vector<ComponentId> locked;    ///< Those that block each other along it: each of them needs all the others.
+  ComponentId component;          ///< The component that stays.
+  Vec3 direction;                 ///< Unit.
+  std::vector<Blocker> blockers;  ///< Nearest first. Once they are gone it can be removed along the direction.
+  std::vector<ComponentId>
+      together;  ///< The smallest set that could move along the direction as one body, including itself.
+  std::vector<ComponentId> locked;  ///< Components that block each other along it (a strongly connected set).
 };
 
-/// How an assembly comes apart.
+/// A disassembly sequence.
 struct Plan {
-  std::vector<PlanStep> steps;  ///< In order. What a step takes away as one body is taken apart by the steps after it.
-  std::vector<Explanation> staying;  ///< Of what should come out and does not.
-  bool out_of_time = false;          ///< The time limit, or the user, ended the search early.
-  double seconds = 0;                ///< Of the search.
+  std::vector<PlanStep> steps;       ///< In order. A body that a step removes is taken apart by later steps.
+  std::vector<Explanation> staying;  ///< For each component that should be removed and cannot.
+  bool out_of_time = false;          ///< The time limit or the user ended the search early.
+  double seconds = 0;                ///< Duration of the search.
 
-  /// All that was asked for comes out.
+  /// True if everything that was asked for can be removed.
   bool complete() const { return staying.empty() && !out_of_time; }
 };
 

@@ -113,13 +113,13 @@ class Planner {
     return staying;
   }
 
-  /// Takes everything out of a body that can be, and apart what comes out as one.
+  /// Removes everything from a body that can be removed, and takes apart what is removed as one body.
   void take_apart(const ComponentSet& body, std::uint32_t part_of) {
     const ComponentSet left = take_away(body, staying_of(body), part_of);
     explain_left(left, staying_of(left));
   }
 
-  /// Takes the targets out of a body with as few others as possible; where straight ways do not do, by themselves.
+  /// Removes the targets from a body with as few others as possible; if straight motions are not enough, by themselves.
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
     const ComponentSet never(count_, options_.fixed);
     const KeepGoing ask = [this] { return keep_going(); };
@@ -131,7 +131,7 @@ class Planner {
       const std::size_t steps = plan_.steps.size();
       left = take_away(body, staying, part_of);
       if (!needed || !left.has_any(targets) || stopped_) break;
-      // The engine refused a step: what it said is known now.
+      // The engine refused a step; the table knows the reason now.
       plan_.steps.resize(steps);
     }
     for (const ComponentId target : targets)
@@ -139,7 +139,7 @@ class Planner {
         plan_.staying.push_back(explain(table_, target, choice_.directions()[target.value], left));
   }
 
-  /// Takes what it can out of `body` but for `staying`. @return what is left
+  /// Removes what it can from `body` except `staying`. @return the rest
   ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of) {
     while (body.size() > staying.size() && keep_going()) {
       validator_.stand(body);
@@ -155,7 +155,7 @@ class Planner {
     return body;
   }
 
-  /// Goes on with what a step took away as one body: as far as it was asked for.
+  /// Takes apart the body that a step removed, as far as required.
   void go_into(const PlanStep& step, std::uint32_t index) {
     const ComponentSet body(count_, step.components);
     std::vector<ComponentId> targets = options_.targets;
@@ -180,7 +180,7 @@ class Planner {
     return find_sampled(body, staying);
   }
 
-  /// One component that is screwed out, the smallest first.
+  /// A step that unscrews one component, the smallest first.
   std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying) {
     for (const ComponentId c : smallest_first(body, staying)) {
       for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
@@ -196,7 +196,7 @@ class Planner {
     return std::nullopt;
   }
 
-  /// Searches that cost a lot, and what they found out.
+  /// The state of expensive searches over all components.
   struct LongSearches {
     struct InVain {
       std::size_t effort = 0;
@@ -208,8 +208,8 @@ class Planner {
     std::map<ComponentId, InVain> in_vain;  ///< As long as what a component met is there, no less effort helps it.
   };
 
-  /// One component that `search` finds a way out for, the smallest first; the longer one is searched for, the fewer
-  /// have come out.
+  /// A step for one component for which `search` finds a path, the smallest first; the effort grows from round to
+  /// round.
   /// @param search (component, effort) -> PathSearch
   template <class Search>
   std::optional<PlanStep> search_by_effort(const ComponentSet& body, const ComponentSet& staying,
@@ -259,7 +259,7 @@ class Planner {
     return members;
   }
 
-  /// Components that can go straight out by themselves, those to be tried first in front.
+  /// Single components that can be removed straight, in the order in which to try them.
   std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying) {
     if (!options_.preferences.empty()) {
       if (kinds_.empty()) kinds_ = component_kinds(assembly_);
@@ -277,7 +277,7 @@ class Planner {
     return single;
   }
 
-  /// Tries it with the engine, and learns from it where that refuses.
+  /// Validates a removal with the engine, and records the blockers if it fails.
   std::optional<PlanStep> try_removal(const StraightRemoval& removal, const ComponentSet& body) {
     const Vec3 direction = table_.direction(removal.direction);
     double way = 0;
@@ -290,7 +290,7 @@ class Planner {
     }
     for (const auto& [moving, fixed] : trial.against) table_.add_blocker(moving, removal.direction, fixed);
     if (!trial.against.empty()) return std::nullopt;
-    // No pair of components is known to be against it; whatever it is, this way is closed.
+    // No pair of components is known to block; the direction is closed whatever the reason.
     for (const ComponentId c : removal.components)
       for (const ComponentId other : body.members())
         if (std::find(removal.components.begin(), removal.components.end(), other) == removal.components.end())
@@ -316,9 +316,9 @@ class Planner {
   DirectionChoice choice_;
   ComponentAxes axes_;
   DirectionId last_direction_;
-  std::vector<std::uint32_t> kinds_;  // of components, where preferences ask for them
+  std::vector<std::uint32_t> kinds_;  // of components, if preferences need them
   LongSearches sliding_, sampling_;
-  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by those screwed apart in vain
+  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
   Plan plan_;
 };
 

@@ -10,41 +10,41 @@
 
 namespace dismantle {
 
-/// What is preferred of several steps that can come next.
+/// A criterion for choosing among several possible next steps.
 enum class StepPreference {
-  Direction,  ///< It goes on in the direction of the step before.
-  Upright,    ///< It does not lead downwards, so that nothing has to be turned over. z is up.
-  Groups,     ///< What it takes is equal to what the step before took: fasteners of one kind together.
-  Support,    ///< It leaves nothing that nothing holds from below any more, though something did.
+  Direction,  ///< It has the direction of the previous step.
+  Upright,    ///< It does not move downwards, so that nothing has to be turned over. z is up.
+  Groups,     ///< Its components equal those of the previous step: equal fasteners together.
+  Support,    ///< It takes the support from below away from no component.
 };
 
-/// What is asked of a planner.
+/// Options of plan_disassembly.
 struct PlanOptions {
-  std::vector<ComponentId> targets;  ///< These shall come out, with as few others as possible; none: everything.
-  std::vector<ComponentId> fixed;    ///< These never move. Without any, the largest component of each body stays.
+  std::vector<ComponentId> targets;  ///< Components to remove, with as few others as possible; empty: everything.
+  std::vector<ComponentId> fixed;    ///< Components that never move; empty: the largest component of each body.
   double time_limit = 0;             ///< [s]; 0: none.
-  CertificateOptions engine;
-  ProgressCallback progress;
-  /// What all searches for sliding ways may cost together: see MotionValidator::effort; some 10 us each.
+  CertificateOptions engine;         ///< Options of the collision engine.
+  ProgressCallback progress;         ///< May be empty; may cancel.
+  /// Total effort of all searches for sliding paths: see MotionValidator::effort; about 10 us per unit.
   std::size_t slide_effort = 400'000;
-  /// The same for all searches for ways at random, which come after them.
+  /// Total effort of all random searches, which come after them.
   std::size_t sample_effort = 200'000;
-  /// Of single components that can go straight out next: the first counts most. None: the first that are found, those
-  /// in the direction of the step before first, which is faster.
+  /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
+  /// the first that is found, those in the direction of the previous step first, which is faster.
   std::vector<StepPreference> preferences{};
 
-  /// Lets these searches cost `times` as much. @pre not negative
+  /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {
     slide_effort = static_cast<std::size_t>(times * static_cast<double>(slide_effort));
     sample_effort = static_cast<std::size_t>(times * static_cast<double>(sample_effort));
   }
 };
 
-/// How the assembly comes apart. Every step's motion was tried with the engine: it holds the guarantee. Ends with what
-/// was found so far where time is up or `progress` cancels.
+/// Finds a disassembly sequence. Every step's motion was validated by the engine and holds the guarantee. If the time
+/// limit is reached or `progress` cancels, returns what was found so far.
 Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options);
 
-/// Why a component does not come straight out of the assembled state; no blockers where it does.
+/// Explains what blocks the straight removal of a component from the assembled state; no blockers if it can be removed.
 Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
                         const CertificateOptions& options);
 

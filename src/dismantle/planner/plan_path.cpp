@@ -10,10 +10,10 @@ namespace dismantle {
 
 namespace {
 
-/// A move over the assembly's diagonal takes so long [s]; none takes less than the least.
+/// Duration of a move over the assembly's diagonal, and the shortest of any move [s].
 constexpr double kTimePerDiagonal = 2;
 constexpr double kMinTime = 0.2;
-/// A turn by a right angle counts as much as this share of the assembly's diagonal.
+/// Length that a rotation by a right angle counts as, as a share of the assembly's diagonal.
 constexpr double kTurnShare = 0.5;
 
 double time_between(const Pose& a, const Pose& b, double size) {

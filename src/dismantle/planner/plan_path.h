@@ -6,7 +6,8 @@
 
 namespace dismantle {
 
-/// The plan as a path: one move a step, what is taken out put aside where it is in nobody's way. It passes the audit.
+/// The plan as a path: one move for each step; removed components are parked clear of all later moves. It passes the
+/// audit.
 Path plan_path(const Assembly& assembly, const PairStates& pairs, const Plan& plan);
 
 }  // namespace dismantle

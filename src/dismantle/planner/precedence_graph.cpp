@@ -14,12 +14,12 @@ namespace dismantle {
 
 namespace {
 
-/// What was taken away stands so many diameters of the assembly off.
+/// Distance at which removed components are parked, in diagonals of the assembly.
 constexpr double kFarAway = 100;
-/// Ways go on for so many diameters of the assembly: past all of it.
+/// Length of exit motions in diagonals of the assembly: past all of it.
 constexpr double kWayOut = 1.1;
 
-/// Finds what is in the way of each step.
+/// Finds the components that block each step.
 class PrecedenceFinder {
  public:
   PrecedenceFinder(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
@@ -29,7 +29,7 @@ class PrecedenceFinder {
         size_(diagonal(assembled_bounds(assembly))),
         validator_(assembly, pairs, options, kFarAway * size_, keep_going) {}
 
-  /// All steps that have to come before step `k`, ascending.
+  /// All predecessors of step `k`, ascending.
   std::vector<std::uint32_t> before(std::uint32_t k) {
     const PlanStep& step = plan_.steps[k];
     std::vector<std::uint32_t> earlier, found;
@@ -53,7 +53,7 @@ class PrecedenceFinder {
       if (trial.free) break;
       const auto is_met = [&](std::uint32_t j) {
         const ComponentSet other(assembly_.components.size(), plan_.steps[j].components);
-        return trial.against.empty() ||  // by a rule that names nobody: it may be any of them
+        return trial.against.empty() ||  // a rule that names no component: it may be any of them
                std::any_of(trial.against.begin(), trial.against.end(),
                            [&](const auto& pair) { return other.has(pair.second); });
       };
@@ -98,7 +98,7 @@ class PrecedenceFinder {
   MotionValidator validator_;
 };
 
-/// Which steps come before which, by way of any others: the row of a step has a 1 for each.
+/// The transitive closure: the row of a step has a 1 for each predecessor.
 using Reach = std::vector<std::vector<std::uint8_t>>;
 
 Reach reach_of(const std::vector<std::vector<std::uint32_t>>& before) {

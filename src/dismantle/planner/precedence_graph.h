@@ -9,21 +9,21 @@
 
 namespace dismantle {
 
-/// Which steps of a plan have to come before which.
+/// The precedence relation of the steps of a plan.
 struct PrecedenceGraph {
-  /// Of each step, those that have to be done right before it can be: without those that come before these anyway.
-  /// Ascending.
+  /// The direct predecessors of each step (transitively reduced), ascending.
   std::vector<std::vector<std::uint32_t>> before;
-  /// Of each step: 0 where none comes before it, else one more than the highest of those. Steps of one rank can be done
-  /// in any order, or by several people.
+  /// The rank of each step: 0 without predecessors, else one more than the highest rank of those. Steps of equal rank
+  /// can be done in any order, or by several people.
   std::vector<std::uint32_t> ranks;
   friend bool operator==(const PrecedenceGraph&, const PrecedenceGraph&) = default;
 };
 
-/// Found by going each step's way, with the engine, past all that the plan takes away before it. Whatever order keeps
-/// to the graph holds the guarantee, as the plan itself does: what a way meets does not depend on what else is there.
-/// Of ways that are not straight all counts as met whose box is near them, so that less may be allowed than could be.
-/// @param keep_going once it says no, all that is not known is taken as in the plan
+/// Computed by sweeping each step's path, with the engine, against everything that the plan removes before it. Every
+/// order that respects the graph holds the guarantee, as contacts of a path do not depend on what else is present. For
+/// paths that are not straight, every component whose bounding box is near counts as met, so that the relation may be
+/// stricter than necessary.
+/// @param keep_going once it returns false, unknown relations follow the order of the plan
 PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
                                  const CertificateOptions& options, const KeepGoing& keep_going);
 

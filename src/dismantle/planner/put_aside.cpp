@@ -12,10 +12,10 @@ namespace dismantle {
 
 namespace {
 
-/// What is put aside keeps this share of the assembly's diagonal from everything.
+/// Clearance around parked components, as a share of the assembly's diagonal.
 constexpr double kRoom = 0.02;
 
-/// All that a box passes on its way.
+/// The volume that a box sweeps.
 struct SweptBox {
   Aabb box;
   Vec3 way;  ///< [mm]
@@ -43,7 +43,7 @@ Interval projected(const Aabb& box, const Vec3& axis) {
   return {center - reach, center + reach};
 }
 
-/// Along one axis: the distances at which a box that goes along `exit` overlaps what is swept.
+/// Along one axis: the distances at which a box moving along `exit` overlaps the swept volume.
 Interval overlap_along(const Aabb& box, const Vec3& exit, const SweptBox& swept, const Vec3& axis) {
   const Interval own = projected(box, axis);
   Interval other = projected(swept.box, axis);
@@ -55,7 +55,8 @@ Interval overlap_along(const Aabb& box, const Vec3& exit, const SweptBox& swept,
   return {std::min(first, last), std::max(first, last)};
 }
 
-/// The distances along `exit` at which a box is in what is swept: both are convex, and these axes tell.
+/// The distances along `exit` at which a box overlaps the swept volume: both are convex, and these separating axes
+/// suffice.
 Interval overlap(const Aabb& box, const Vec3& exit, const SweptBox& swept) {
   Interval all;
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
@@ -68,7 +69,7 @@ Interval overlap(const Aabb& box, const Vec3& exit, const SweptBox& swept) {
   return all;
 }
 
-/// The least distance that is in no interval.
+/// The smallest distance outside all intervals.
 double first_outside(std::vector<Interval> taken) {
   std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
   double distance = 0;
@@ -92,8 +93,9 @@ class Aside {
   }
 
  private:
-  /// Puts aside what is taken out of a body that stands at `base`, from the last step to the first: each out of the way
-  /// of all that comes after it. @return what all of that passes
+  /// Parks what is removed from a body at `base`, from the last step to the first: each clear of everything that comes
+  /// after it.
+  /// @return the volumes that all of it sweeps
   std::vector<SweptBox> arrange(std::uint32_t body, const Pose& base, const std::vector<ComponentId>& members,
                                 std::vector<SweptBox> passed) {
     ComponentSet staying(assembly_.components.size(), members);
@@ -134,7 +136,7 @@ class Aside {
     return box;
   }
 
-  /// A box around the step's way before it goes straight on.
+  /// A bounding box of the step's path before the final straight part.
   Aabb way_box(const PlanStep& step, const Pose& base) const {
     Aabb all = bounds(step, base), last = all;
     Pose from = base;

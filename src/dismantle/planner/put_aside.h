@@ -7,9 +7,9 @@
 
 namespace dismantle {
 
-/// How far each step of a plan goes along its exit [mm], in the order of the steps: as near as it can be, but outside
-/// the assembled assembly's box, out of the way of every later step, and with room around it for what is taken out of
-/// it. Proven by boxes around what moves.
+/// Distance that each step of a plan moves along its exit [mm], in the order of the steps: the smallest that is outside
+/// the bounding box of the assembly, clear of every later step, and leaves room to take the removed body apart.
+/// Established with bounding boxes of everything that moves.
 std::vector<double> put_aside(const Assembly& assembly, const Plan& plan);
 
 }  // namespace dismantle

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxNormals = 12;
 constexpr std::size_t kMaxAxes = 8;
-/// Faces that meet at less [sine] are taken for one plane, whose cross product is noise.
+/// Faces that meet at a smaller angle [sine] count as one plane; their cross product is noise.
 constexpr double kMinSine = 5e-3;
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace dismantle {
 
 namespace {
 
-/// Two exits are one direction within this.
+/// Exits within this distance count as the same direction.
 constexpr double kSameExit = 1e-6;
-/// What leads down by more than this sine has to be turned over to come out upwards or sideways.
+/// Exits that point down by more than this sine require turning the assembly over.
 constexpr double kDownwards = 0.2;
 
-/// Tells how much speaks against a removal.
+/// Computes the cost of a removal by each criterion.
 class RemovalJudge {
  public:
   RemovalJudge(const RemovalChoice& choice, const ComponentSet& present, const ComponentSet& never,
@@ -48,7 +48,7 @@ class RemovalJudge {
     return 0;
   }
 
-  /// How many could fall without `gone`, that cannot with it.
+  /// Number of components that lose their support when `gone` is removed.
   std::size_t left_loose(ComponentId gone) {
     ComponentSet left = present_;
     left.erase(gone);

@@ -10,29 +10,29 @@
 
 namespace dismantle {
 
-/// By the names that users give them: "direction", "upright", "groups", "support".
+/// Criteria by their names for users: "direction", "upright", "groups", "support".
 const std::map<std::string, StepPreference>& step_preferences();
 
-/// The step before, as far as it matters for the next.
+/// The previous step, as far as criteria compare with it.
 struct StepBefore {
-  ComponentId component;  ///< One of those it took; invalid for the first step.
+  ComponentId component;  ///< One of the components that it removed; invalid for the first step.
   Vec3 exit;              ///< Unit, or zero for the first step.
 };
 
-/// By what removals are compared.
+/// The data for comparing removals.
 struct RemovalChoice {
-  BlockingTable& table;
-  const DirectionLists& directions;
+  BlockingTable& table;                            ///< Blocking relations.
+  const DirectionLists& directions;                ///< Of each component.
   const std::vector<std::uint32_t>& kinds;         ///< Equal for equal components, shape [component_count].
-  const std::vector<StepPreference>& preferences;  ///< The first counts most.
+  const std::vector<StepPreference>& preferences;  ///< The most important first.
 };
 
-/// All single components of `present` outside `never` that come straight out of it, along each of their directions that
-/// is free, what is preferred first; of equals small ones.
+/// All single components of `present` outside `never` that can be removed straight, along each free direction, in order
+/// of preference; ties by size, small ones first.
 std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,
                                                 const ComponentSet& never, const StepBefore& before);
 
-/// A number for each component, the same for those of equal meshes.
+/// A number for each component, equal for components with equal meshes. Shape [component_count].
 std::vector<std::uint32_t> component_kinds(const Assembly& assembly);
 
 }  // namespace dismantle

@@ -11,27 +11,27 @@ namespace dismantle {
 namespace {
 
 constexpr std::size_t kMaxDirections = 32;
-/// Clusters of normals that are paired with each other.
+/// Number of normal clusters that are combined in pairs.
 constexpr std::size_t kMaxPaired = 16;
-/// How near faces count as touching, at first and at most: in tolerances, and as a share of the component's size.
+/// Distance at which faces count as touching, first [tolerances] and at most [share of the component's size].
 constexpr double kFirstReach = 2;
 constexpr double kLargestReach = 0.05;
 constexpr double kReachGrowth = 4;
-/// With so many pairs of faces there is enough to go by.
+/// Number of face pairs that is enough.
 constexpr std::size_t kEnoughContacts = 64;
-/// Two faces look at each other where the cosine of their normals is below.
+/// Faces oppose each other if the cosine of their normals is below this.
 constexpr double kFacing = -0.95;
-/// What pairs of faces that do not look at each other weigh.
+/// Weight of pairs of faces that do not oppose each other.
 constexpr double kEdgeWeight = 1e-3;
-/// A direction that goes against a normal by more [cosine] is blocked by it,
+/// A direction that opposes a normal by more than this [cosine] is blocked by it,
 constexpr double kAgainst = 1e-4;
-/// and one by less is the direction along the face, but for rounding.
+/// and one that opposes it by less is parallel to the face up to rounding.
 constexpr double kAlmostAlong = 0.02;
-/// What a direction opens at this rate, in percents, it opens for the most part.
+/// A direction that separates faces at this rate [percent] separates them for the most part.
 constexpr double kMax = 50;
-/// An axis is that of a plane face where they differ by less [rad].
+/// An axis within this angle of a plane face's normal is that normal [rad].
 constexpr double kSnap = 2e-3;
-/// Of directions nearer than this [rad] the one that was found first is enough: plane faces tell best.
+/// Of directions within this angle [rad] the first is kept: those of plane faces are the most exact.
 constexpr double kSame = 1e-3;
 
 Vec3 assembled_area(const Component& component, FaceId face) {
@@ -81,7 +81,7 @@ class Candidates {
   }
   bool free(const Vec3& d) const { return blocked_weight(d) == 0; }
 
-  /// What touching faces allow first, and of that what leaves most of them behind.
+  /// Directions that the contacts allow first, and of those the ones that separate most of them.
   std::vector<CandidateDirection> ranked() const {
     std::vector<std::pair<Rank, Vec3>> ranks;
     ranks.reserve(list_.size());
@@ -106,7 +106,7 @@ class Candidates {
       if (dot(n.direction, d) < -kAgainst) weight += n.weight;
     return weight;
   }
-  /// How fast the faces that are left behind get away, in whole percents: what differs by less is as good.
+  /// Rate at which the contact faces separate, in whole percent, so that smaller differences are ties.
   double opening(const Vec3& d) const {
     double sum = 0, weight = 0;
     for (const WeightedDirection& n : contacts_.facing) {
@@ -115,8 +115,8 @@ class Candidates {
     }
     return weight > 0 ? std::round(100 * sum / weight) : 0;
   }
-  /// The direction nearest to `d` that goes into none of the faces that it all but goes along; `d` where these
-  /// contradict each other.
+  /// The direction nearest to `d` that enters none of the faces nearly parallel to it; `d` if these contradict each
+  /// other.
   Vec3 along_faces(const Vec3& d) const {
     std::vector<HalfSpace> faces;
     for (const WeightedDirection& n : contacts_.facing) {
@@ -133,7 +133,7 @@ class Candidates {
   std::vector<Vec3> list_;
 };
 
-/// The extreme rays of the cone of directions that no touching face is against, and their sum.
+/// The extreme rays of the cone of directions that no contact face opposes, and their sum.
 void add_cone(const ContactNormals& contacts, Candidates& candidates) {
   const std::size_t count = std::min(contacts.facing.size(), kMaxPaired);
   Vec3 rays, normals;
@@ -153,7 +153,7 @@ void add_cone(const ContactNormals& contacts, Candidates& candidates) {
   candidates.add(normals);
 }
 
-/// The normal of the plane face that an axis goes through squarely, if there is one: planes are more exact.
+/// The normal of the plane face perpendicular to an axis, if there is one: planes are more exact.
 Vec3 snapped(const Vec3& axis, const ShapeFeatures& features) {
   for (const WeightedDirection& n : features.normals)
     if (length(n.direction - axis) < kSnap || length(n.direction + axis) < kSnap) return n.direction;

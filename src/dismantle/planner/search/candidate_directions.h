@@ -10,31 +10,32 @@
 
 namespace dismantle {
 
-/// The faces that bound a component's motion, as unit normals towards it; weights are areas [mm^2].
+/// The contacts that constrain a component's motion, as unit normals towards it; weights are areas [mm^2].
 struct ContactNormals {
-  std::vector<WeightedDirection> facing;                            ///< From faces that look at each other.
-  std::vector<WeightedDirection> other;                             ///< From edges and corners.
-  std::map<ComponentId, std::vector<WeightedDirection>> facing_of;  ///< The first, by the neighbour that they are of.
-  std::set<ComponentId> neighbours;
+  std::vector<WeightedDirection> facing;                            ///< Of face contacts: faces that oppose each other.
+  std::vector<WeightedDirection> other;                             ///< Of edge and corner contacts.
+  std::map<ComponentId, std::vector<WeightedDirection>> facing_of;  ///< `facing` by neighbour.
+  std::set<ComponentId> neighbours;                                 ///< All components in contact.
 };
 
-/// Of the component in hand, in its assembled pose.
+/// The contact normals of the moving component of the engine, in its assembled pose.
 /// @param radius of the component [mm]
 ContactNormals contact_normals(const Assembly& assembly, const CertificateEngine& engine, double radius,
                                double tolerance);
 
-/// The neighbours with faces that a unit direction clearly goes against: as a rule they block it.
+/// The neighbours with contact faces that clearly oppose a unit direction; they usually block it.
 std::vector<ComponentId> neighbours_against(const ContactNormals& contacts, const Vec3& direction);
 
-/// A direction in which a component may well leave.
+/// A direction along which a component can probably be removed.
 struct CandidateDirection {
   Vec3 direction;      ///< Unit.
-  bool opens = false;  ///< It goes against none of the faces that the component touches, and straight away from most.
+  bool opens = false;  ///< It opposes none of the contact faces and separates most of them.
 };
 
-/// The directions in which a component may well leave: extreme rays of the cone that the faces it touches leave free,
-/// their normals and cross products, the axes and plane faces of its own shape and of what it touches. Those that its
-/// contacts allow come first. All are of the geometry: turned assemblies give turned directions. Unit, without repeats.
+/// The candidate directions of a component: extreme rays of the cone of directions that its contacts allow, their
+/// normals and cross products, axes and plane faces of its own shape and of its neighbours. Directions that the
+/// contacts allow come first. They follow the geometry: a rotated assembly gives rotated directions. Unit vectors, no
+/// repeats.
 /// @param features of every component
 std::vector<CandidateDirection> candidate_directions(ComponentId component, const ContactNormals& contacts,
                                                      Span<const ShapeFeatures> features);

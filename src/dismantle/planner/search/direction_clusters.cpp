@@ -8,10 +8,10 @@ namespace dismantle {
 
 namespace {
 
-/// Of the heaviest cells so many are merged: what is lighter does not matter.
+/// Number of the heaviest cells that are merged; lighter ones do not matter.
 constexpr std::size_t kMaxCells = 512;
 
-/// The one of an axis' two directions whose largest coordinate is positive.
+/// The direction of an axis whose largest coordinate is positive.
 Vec3 one_of_two(const Vec3& v) {
   int largest = 0;
   for (int k = 1; k < 3; ++k)
@@ -38,7 +38,7 @@ std::vector<WeightedDirection> DirectionClusters::heaviest(std::size_t count) co
   std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.weight > b.weight; });
   if (cells.size() > kMaxCells) cells.resize(kMaxCells);
 
-  // Cells are as wide as the angle, so that what one cluster was cut into lies within twice of it.
+  // Cells are as wide as the angle, so that the parts of one cluster lie within twice the angle.
   const double same = std::cos(2 * kSameDirectionAngle);
   std::vector<Cell> merged;
   for (const Cell& cell : cells) {

@@ -11,25 +11,26 @@
 
 namespace dismantle {
 
-/// A unit direction and how much speaks for it.
+/// A direction with a weight.
 struct WeightedDirection {
-  Vec3 direction;
-  double weight = 0;
+  Vec3 direction;     ///< Unit.
+  double weight = 0;  ///< As its source defines: often an area [mm^2].
 };
 
-/// Whether a direction and its opposite are the same.
+/// Axis: a direction and its opposite are equal.
 enum class Sense { Directed, Axis };
 
-/// Gathers directions: those within kSameDirectionAngle of each other, or a little more, become one, their weighted
-/// mean.
+/// Clusters directions: those within about kSameDirectionAngle of each other are merged into their weighted mean.
 class DirectionClusters {
  public:
+  /// No directions yet.
   explicit DirectionClusters(Sense sense) : sense_(sense) {}
 
-  /// @param direction of any length but zero
+  /// Adds a direction. @pre direction is not zero
   void add(const Vec3& direction, double weight);
+  /// True if no direction was added.
   bool empty() const { return cells_.empty(); }
-  /// At most `count` of them, by falling weight.
+  /// At most `count` clusters, by descending weight.
   std::vector<WeightedDirection> heaviest(std::size_t count) const;
 
  private:
@@ -41,7 +42,7 @@ class DirectionClusters {
   std::map<std::array<std::int32_t, 3>, Cell> cells_;
 };
 
-/// [rad]
+/// Directions within this angle count as equal [rad].
 inline constexpr double kSameDirectionAngle = 1e-3;
 
 }  // namespace dismantle

@@ -11,39 +11,42 @@
 
 namespace dismantle {
 
-/// What came of the search for a way out that is not straight.
+/// The result of a search for an exit path that is not straight.
 struct PathSearch {
-  std::optional<PlanStep> step;
-  std::vector<ComponentId> met;    ///< What was in the way somewhere: as long as all of it is there, nothing changes.
-  std::optional<double> furthest;  ///< How far its center got, in its radii; nothing where it did not move at all.
-  bool exhausted = false;          ///< All that there is to try was tried: more effort does not help.
+  std::optional<PlanStep> step;    ///< The path found, if any.
+  std::vector<ComponentId> met;    ///< Components that were met: the result stays valid while all of them are present.
+  std::optional<double> furthest;  ///< Largest displacement of its center, in its radii; none if it could not move.
+  bool exhausted = false;          ///< The search space is exhausted: more effort does not help.
 };
 
-/// Moves one component about with the engine, from where it was assembled, and remembers what it met. In the end all
-/// stands as before.
+/// The local planner of the searches: moves one component with the engine, from its assembled pose, and records what it
+/// meets. Its destructor restores the state.
 class LocalPlanner {
  public:
-  /// @param validator must outlive the local_planner, and nobody else may use it until then
-  LocalPlanner(MotionValidator& validator, ComponentId component) : validator_(validator), component_(component), begun_(validator.effort()) {
+  /// @param validator must outlive the local_planner, and must not be used elsewhere until then
+  LocalPlanner(MotionValidator& validator, ComponentId component)
+      : validator_(validator), component_(component), begun_(validator.effort()) {
     validator_.take(component);
   }
   ~LocalPlanner() { validator_.put_back(); }
   LocalPlanner(const LocalPlanner&) = delete;
   LocalPlanner& operator=(const LocalPlanner&) = delete;
 
+  /// The present pose.
   const Pose& pose() const { return validator_.pose(); }
-  /// Goes on towards `target`, sliding along what is in the way.
+  /// Moves towards `target`, sliding along contacts.
   StepResult slide(const Pose& target);
-  /// Whether it can go straight on from where it is by `way` [mm]; it stays where it is.
+  /// True if it can move straight on by `way` [mm] from the present pose, which is kept.
   bool exits(const Vec3& direction, double way);
-  /// Those of `directions` (unit) that it may well go straight on in by `way` [mm]: a look, nothing moves.
+  /// The unit `directions` along which it can probably move straight on by `way` [mm]. Nothing moves.
   std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way) {
     return validator_.likely_exits(directions, way);
   }
-  /// Puts it back where it has been.
+  /// Returns to a pose reached before.
   void go_back(const Pose& pose) { validator_.go_back(pose); }
-  /// What all that it did has cost: see MotionValidator::effort.
+  /// Effort spent so far: see MotionValidator::effort.
   std::size_t effort() const { return validator_.effort() - begun_; }
+  /// The components met so far, ascending.
   std::vector<ComponentId> met() const { return {met_.begin(), met_.end()}; }
 
  private:

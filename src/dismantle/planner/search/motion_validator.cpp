@@ -8,18 +8,18 @@ namespace dismantle {
 
 namespace {
 
-/// A long way is made in parts, short ones while things are close to each other.
+/// A long motion is made in parts, short ones while components are close to each other.
 constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1};
-/// A way that was stopped goes on if a new start makes at least this share of the tolerance.
+/// A motion that was stopped goes on if a restart advances by at least this share of the tolerance.
 constexpr double kNewStartShare = 0.1;
 constexpr int kMaxStarts = 8;
-/// A sweep costs as much as so many tests, and one for so many pairs of its front.
+/// Cost of a sweep in triangle-pair tests, and the number of front pairs that count as one more.
 constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
 
 }  // namespace
 
-MotionValidator::MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
-                     KeepGoing keep_going)
+MotionValidator::MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
+                                 double far, KeepGoing keep_going)
     : assembly_(assembly),
       pairs_(pairs),
       options_(options),
@@ -50,7 +50,7 @@ MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<co
     if (moves(a) != moves(b)) trial.against.emplace_back(moves(a) ? a : b, moves(a) ? b : a);
   };
   for (const CollisionContact& c : made.contacts) add(c.a, c.b);
-  // What has parted and meets again is stopped by a rule that names no faces.
+  // Embedded pairs that have parted and meet again are stopped by a rule that names no faces.
   if (!trial.free && trial.against.empty() && some_parted())
     for (const ComponentPair& pair : embedded_) add(pair.a, pair.b);
   std::sort(trial.against.begin(), trial.against.end());
@@ -59,7 +59,7 @@ MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<co
 }
 
 void MotionValidator::put_back() {
-  // What has parted would be taken for parted where it stands in the other again.
+  // Pairs that have parted would still count as parted back in the assembled pose.
   if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
   engine_.jump(poses_);
 }
@@ -86,9 +86,10 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
   for (int starts = 1;; ++starts) {
     const Vec3 before = pose().position;
     StepResult made = step(target, ResponseKind::Touch);
-    // Where one start stops, a new one may go on: see straight_contact.
+    // A restart may go on where a sweep stopped: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * pairs_.tolerance) return made;
+    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * pairs_.tolerance)
+      return made;
   }
 }
 
@@ -120,7 +121,7 @@ MotionValidator::Trial MotionValidator::try_exit(const Vec3& direction, double w
 
 std::vector<Vec3> MotionValidator::likely_exits(Span<const Vec3> directions, double way) {
   std::vector<Vec3> open(directions.begin(), directions.end());
-  // A look at the first part costs little, and settles most.
+  // Sweeping the first part alone is cheap and decides most cases.
   for (const double part : {kParts[0], 1.0}) {
     std::vector<Vec3> ways, free;
     for (const Vec3& d : open) ways.push_back(part * way * d);

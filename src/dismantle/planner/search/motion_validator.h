@@ -10,47 +10,48 @@
 
 namespace dismantle {
 
-/// Tries the steps of a plan with the engine, which knows all rules of the guarantee.
+/// Validates motions of a plan with the collision engine, which applies all rules of the guarantee.
 class MotionValidator {
  public:
-  /// @param far Distance [mm] at which what was taken away is out of everyone's way.
-  /// @param keep_going once it says no, tries end as if blocked
+  /// @param far Distance at which removed components are parked [mm].
+  /// @param keep_going once it returns false, motions end as if blocked
   MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
-            KeepGoing keep_going);
+                  KeepGoing keep_going);
 
-  /// `present` stand in their assembled poses, all others are taken away.
+  /// Puts `present` into their assembled poses and removes all others.
   void stand(const ComponentSet& present);
-  /// What came of a try.
+  /// The result of a trial motion.
   struct Trial {
-    bool free = false;
-    std::vector<std::pair<ComponentId, ComponentId>> against;  ///< Of the set, and what is in its way.
+    bool free = false;                                         ///< The whole motion is free.
+    std::vector<std::pair<ComponentId, ComponentId>> against;  ///< Pairs that block: one of the set, and the other.
   };
-  /// Whether the set comes out along a unit direction by `way` [mm]. All stands as before.
+  /// Tests whether the set can move along a unit direction by `way` [mm]. The state is restored.
   Trial try_straight(Span<const ComponentId> set, const Vec3& direction, double way);
-  /// What touches a component where it was assembled: the engine with it in hand.
+  /// The engine with one component as the moving set in its assembled pose, for queries.
   const CertificateEngine& hold(ComponentId component);
+  /// The engine.
   const CertificateEngine& engine() const { return engine_; }
-  /// What all motions have cost until now, in tests of two triangles: the same for the same input, whatever the clock.
+  /// The cost of all motions so far, in triangle-pair tests: a deterministic measure of time.
   std::size_t effort() const { return effort_; }
 
-  /// Takes one component in hand where it was assembled, to look for its way out.
+  /// Makes one component the moving set in its assembled pose, to search for its exit path.
   void take(ComponentId component);
-  /// Where the one in hand is.
+  /// The present pose of the moving component.
   const Pose& pose() const { return engine_.poses()[moving_.value]; }
-  /// Goes on towards `target`, sliding along what is in the way.
+  /// Moves towards `target`, sliding along contacts.
   StepResult slide(const Pose& target) { return step(target, ResponseKind::Slide); }
-  /// Puts what is in hand back where it has been.
+  /// Returns the moving component to a pose reached before.
   void go_back(const Pose& pose);
-  /// Whether what is in hand can go straight on from where it is by `way` [mm]; it stays where it is.
+  /// Tests whether the moving component can move straight on by `way` [mm]; it keeps its pose.
   Trial try_exit(const Vec3& direction, double way);
-  /// Those of `directions` (unit) that what is in hand may well go straight on in by `way` [mm]: a look, nothing moves.
+  /// The unit `directions` along which the moving component can probably move straight on by `way` [mm]. Nothing moves.
   std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way);
-  /// All stands as before.
+  /// Restores the assembled pose.
   void put_back();
 
  private:
   StepResult step(const Pose& target, ResponseKind response);
-  /// From where the set in hand is.
+  /// From the present pose.
   StepResult go_straight(const Vec3& direction, double way);
   StepResult go_part(const Pose& target, const Vec3& direction);
   Trial trial_of(const StepResult& made, Span<const ComponentId> set) const;
@@ -63,8 +64,8 @@ class MotionValidator {
   KeepGoing keep_going_;
   CertificateEngine engine_;
   std::vector<Pose> poses_;
-  ComponentId moving_;                     ///< One of the set in hand.
-  std::vector<ComponentPair> embedded_;  ///< When it was taken in hand.
+  ComponentId moving_;                   ///< One of the moving set.
+  std::vector<ComponentPair> embedded_;  ///< Embedded pairs when it became the moving set.
   std::size_t effort_ = 0;
 };
 

@@ -11,12 +11,12 @@ namespace dismantle {
 
 namespace {
 
-/// Which directions are asked: those of which nothing bad is expected, or all.
+/// The directions to test: those without a predicted blocker, or all.
 enum class Hope { Good, Little };
-/// So many components are asked side by side, the smallest first.
+/// Number of components that are tested in parallel, the smallest first.
 constexpr std::size_t kFewComponents = 8;
 
-/// Candidate sets by size, the smallest first; of equal ones the one found first.
+/// Candidate sets by size, the smallest first; ties in the order found.
 struct Waiting {
   ComponentSet needed;
   std::size_t order;
@@ -32,7 +32,7 @@ ComponentSet all_but(const ComponentSet& inside) {
   return rest;
 }
 
-/// The best-first search of fewest_removals.
+/// Best-first search for fewest_removals.
 class RemovalSearch {
  public:
   RemovalSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
@@ -58,8 +58,8 @@ class RemovalSearch {
   }
 
  private:
-  /// Some set that does, found for little: all is taken out that can be until the targets are, then what was in
-  /// nobody's way is left where it is. No set that is not smaller has to be looked at.
+  /// A feasible set, found cheaply: everything removable is removed until the targets are, then components that blocked
+  /// nothing are put back. An upper bound of the search.
   std::optional<ComponentSet> enough_for(Span<const ComponentId> targets) {
     ComponentSet left = present_;
     std::vector<StraightRemoval> taken;
@@ -86,7 +86,7 @@ class RemovalSearch {
     if (known_.insert(needed.members()).second) waiting_.push({std::move(needed), known_.size()});
   }
 
-  /// What of `present_` is left where only members of `needed` are taken out, as long as any can be.
+  /// The rest of `present_` after removing members of `needed` as long as possible.
   ComponentSet left_over(const ComponentSet& needed) {
     ComponentSet left = present_;
     const ComponentSet others = all_but(needed);
@@ -102,8 +102,8 @@ class RemovalSearch {
     return left;
   }
 
-  /// Every set that holds `needed` and can be taken out takes one of the stuck components first, along some direction:
-  /// with what blocks it out before, or together with it.
+  /// Every feasible superset of `needed` removes one of the stuck components first, along some direction: after its
+  /// blockers, or together with them.
   void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
     std::map<DirectionId, ComponentSet> ends;
     const std::size_t most = std::min(left.size(), most_) - 1;

@@ -8,31 +8,31 @@
 
 namespace dismantle {
 
-/// The directions that are considered for each component.
+/// The candidate directions of each component, shape [component_count][].
 using DirectionLists = std::vector<std::vector<DirectionId>>;
 
-/// A set that can go straight out of what is present.
+/// A set of components that can be removed straight along a direction.
 struct StraightRemoval {
-  std::vector<ComponentId> components;
-  DirectionId direction;
+  std::vector<ComponentId> components;  ///< Moves as one body.
+  DirectionId direction;                ///< Of the motion.
 };
 
-/// Some single components outside `never` that come out of `present`, each along the first direction that is free; none
-/// only where none does, or `keep_going` ends the search. Small ones are asked first, and all along the directions that no
-/// blocker is expected in before any is along others.
+/// Some single components outside `never` that can be removed from `present`, each along its first free direction;
+/// empty only if there is none or `keep_going` ends the search. Small ones are tested first, and directions without
+/// predicted blockers before all others.
 std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
                                              const Executor& executor, const KeepGoing& keep_going);
 
-/// The smallest set without any of `never` that blocks itself only, so that it comes out of `present` as one body.
-/// @pre no single component comes out by itself (free_components)
+/// The smallest set without any of `never` that can be removed from `present` as one body.
+/// @pre no single component can be removed (free_components)
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
-                                             const ComponentSet& present, const ComponentSet& never, const KeepGoing& keep_going);
+                                             const ComponentSet& present, const ComponentSet& never,
+                                             const KeepGoing& keep_going);
 
-/// The fewest components that must be taken out of `present` so that all `targets` come out, them included: optimal
-/// for straight motions along the directions considered, of single components or of sets that go together. Nothing
-/// where no such set was found.
-/// @param never these must stay
+/// The smallest set of components whose removal from `present` includes all `targets`: optimal for straight motions
+/// along the candidate directions, of single components or of sets that move together. None if no such set was found.
+/// @param never components that must stay
 std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,
                                             const ComponentSet& present, const ComponentSet& never,
                                             Span<const ComponentId> targets, const KeepGoing& keep_going);

@@ -15,36 +15,36 @@ namespace dismantle {
 namespace {
 
 constexpr double kHalfTurn = 3.14159265358979;
-/// Places nearer to each other than this share of the component's radius are one.
-constexpr double kSamePlace = 0.03;
-/// Random poses are within so many radii of where the component was assembled.
+/// Configurations nearer than this share of the component's radius count as one.
+constexpr double kSameConfiguration = 0.03;
+/// Range of random poses around the assembled pose [radii].
 constexpr double kRegion = 2.5;
-/// How far one motion goes [component's radii].
+/// Length of one motion [radii of the component].
 constexpr double kReaches[] = {0.06, 0.25, 1};
-/// A straight way out is looked for from a place that is this share of the radius further out than all before it, and
-/// from one in so many of the others.
+/// A straight exit is tried from a node that is further out than all before it by this share of the radius, and from
+/// one in this many of the others.
 constexpr double kFurtherOut = 0.1;
 constexpr std::size_t kExitPeriod = 48;
-/// Of so many places drawn, the one that is furthest out goes on.
+/// Number of nodes drawn, of which the furthest is extended.
 constexpr int kOutermostOf = 4;
-/// How much what was seldom tried is worth (UCB1).
+/// Exploration weight (UCB1).
 constexpr double kCuriosity = 0.5;
-/// What was learned longer ago than about so many tries is forgotten.
+/// Number of tries after which gains are forgotten.
 constexpr double kMemory = 200;
-/// After so many motions that led nowhere new there is nothing left to find.
+/// Number of motions without a new node after which the search ends.
 constexpr int kMaxInVain = 400;
-/// The way is made shorter in so many tries.
+/// Number of tries to shorten the path.
 constexpr int kShortenTries = 64;
 
-/// Where the next motion starts and aims.
+/// Where the next motion starts and what it aims at.
 enum class Aim {
-  Anywhere,  ///< From the nearest place towards a random pose.
-  Shift,     ///< From a place far out along a random direction.
+  Anywhere,  ///< From the nearest node towards a random pose.
+  Shift,     ///< From a node far out along a random direction.
   Turn,      ///< From there about a random axis.
 };
 constexpr Aim kAims[] = {Aim::Anywhere, Aim::Shift, Aim::Turn};
 
-/// Chooses among kinds of motions by what they gave.
+/// Chooses among kinds of motions by their gains.
 class Bandit {
  public:
   std::size_t choose() const {
@@ -92,12 +92,12 @@ class SampleOut {
         exit_distance_(table.max_exit_distance(component)),
         max_effort_(max_effort),
         keep_going_(keep_going),
-        random_(max_effort),  // a longer search is not the same search again
+        random_(max_effort),  // a longer search must not repeat the shorter one
         tree_(table.center(component), radius_),
         out_(1) {}
 
-  const SearchTree& places() const { return tree_; }
-  /// Nothing new is found any more.
+  const SearchTree& nodes() const { return tree_; }
+  /// True if nothing new is found any more.
   bool saturated() const { return in_vain_ > kMaxInVain; }
 
   std::optional<PlanStep> find() {
@@ -112,8 +112,8 @@ class SampleOut {
       if (!made.way.empty()) {
         const double novelty = tree_.nearest(made.pose).second;
         gain = std::min(1.0, novelty / (kReaches[1] * radius_));
-        if (novelty > kSamePlace * radius_)
-          if (auto step = reach_place(from, std::move(made.way))) return step;
+        if (novelty > kSameConfiguration * radius_)
+          if (auto step = add_node(from, std::move(made.way))) return step;
       }
       bandit_.learn(arm, gain);
     }
@@ -132,7 +132,7 @@ class SampleOut {
   }
   double random_share() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
-  /// The pose turned by `angle` about its center, which goes by `shift`.
+  /// The pose rotated by `angle` about its center and translated by `shift`.
   Pose displaced(const Pose& pose, const Vec3& shift, const Vec3& axis, double angle) const {
     const Vec3 center = tree_.center_at(pose);
     const Pose turn{center + shift, quat_about(axis, angle)};
@@ -157,8 +157,8 @@ class SampleOut {
                             turns ? std::min(kHalfTurn, reach / radius_) : 0)};
   }
 
-  /// Takes up a new place; the step where it is out, or goes straight out from it.
-  std::optional<PlanStep> reach_place(std::size_t from, std::vector<Pose> way) {
+  /// Adds a node. Returns the step if it is outside, or can be left straight.
+  std::optional<PlanStep> add_node(std::size_t from, std::vector<Pose> way) {
     const Pose pose = way.back();
     const Vec3 gone = tree_.center_at(pose) - tree_.center_at({});
     tree_.add({pose, from, std::move(way)});
@@ -168,7 +168,7 @@ class SampleOut {
     const bool further = out_.back() > outermost_ + kFurtherOut * radius_;
     if (further) outermost_ = out_.back();
     if (!is_out && !further && tree_.size() % kExitPeriod != 0) return std::nullopt;
-    const Vec3 outwards = length(gone) > kSamePlace * radius_ ? normalized(gone) : random_direction();
+    const Vec3 outwards = length(gone) > kSameConfiguration * radius_ ? normalized(gone) : random_direction();
     for (const Vec3& exit : {outwards, random_direction()}) {
       if (!is_out && !local_planner_.exits(exit, 2 * exit_distance_)) continue;
       return PlanStep{
@@ -177,7 +177,7 @@ class SampleOut {
     return std::nullopt;
   }
 
-  /// Replaces parts of the way by motions that go there at once.
+  /// Replaces parts of the path by direct motions.
   std::vector<Pose> shortened(std::vector<Pose> way) {
     for (int tries = 0; tries < kShortenTries && way.size() > 2 && keep_going_(); ++tries) {
       std::size_t first = random_() % way.size(), last = random_() % way.size();
@@ -206,21 +206,21 @@ class SampleOut {
   std::mt19937_64 random_;
   Bandit bandit_;
   SearchTree tree_;
-  std::vector<double> out_;  ///< How far the center is from where it was assembled, at each place [mm].
+  std::vector<double> out_;  ///< How far the center is from where it was assembled, at each node [mm].
   double outermost_ = 0;
-  int in_vain_ = 0;  ///< Motions since the last new place.
+  int in_vain_ = 0;  ///< Motions since the last new node.
 };
 
 }  // namespace
 
-PathSearch sample_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, std::size_t max_effort,
-                     const KeepGoing& keep_going) {
+PathSearch sample_out(MotionValidator& validator, const BlockingTable& table, ComponentId component,
+                      std::size_t max_effort, const KeepGoing& keep_going) {
   PathSearch search;
   LocalPlanner local_planner(validator, component);
   SampleOut sampling(local_planner, table, component, max_effort, keep_going);
   search.step = sampling.find();
   search.met = local_planner.met();
-  search.furthest = sampling.places().furthest();
+  search.furthest = sampling.nodes().furthest();
   search.exhausted = sampling.saturated();
   return search;
 }

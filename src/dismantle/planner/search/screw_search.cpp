@@ -13,26 +13,26 @@ namespace dismantle {
 
 namespace {
 
-/// How near faces count as those of one thread, at first and at most: in tolerances, and as a share of the component's
-/// size. Loose threads have wide gaps.
+/// Distance at which faces count as those of one thread, first [tolerances] and at most [share of the component's
+/// size]: loose threads have wide gaps.
 constexpr double kFirstReach = 2;
 constexpr double kLargestReach = 0.05;
 constexpr double kReachGrowth = 4;
-/// With so many pairs of faces there is enough to go by.
+/// Number of face pairs that is enough.
 constexpr std::size_t kEnoughContacts = 8192;
 
-/// A hand's turn [rad]; what makes less than a share of it is stuck, unless it was only once.
+/// One turn [rad]; a component that advances by less than a share of it is stuck, unless it happens once.
 constexpr double kHandTurn = 0.25;
 constexpr double kStuckShare = 0.3;
 constexpr int kStuckTurns = 3;
-/// After so much [rad] the lead that was made is known better than the one that was measured.
+/// Rotation after which the achieved lead is more exact than the measured one [rad].
 constexpr double kTurnToLearn = 3;
-/// What turns so many times as often as its way out takes turns of the thread just spins.
+/// A component that has turned this many times as often as its exit distance requires only spins.
 constexpr double kMaxTurns = 2;
-/// Turns between looks whether the component is out of the thread.
+/// Turns between tests whether the component has left the thread.
 constexpr int kTurnsToLook = 12;
 
-/// The smooth parts of the faces that are near, of an assembled component.
+/// The smooth patches of the near faces of an assembled component.
 void add_samples(const Component& component, const std::set<FaceId>& near, std::vector<SurfaceSample>& samples) {
   const TriangleMesh mesh = assembled_mesh(component);
   std::vector<std::uint8_t> of_interest(mesh.faces.size());
@@ -41,7 +41,7 @@ void add_samples(const Component& component, const std::set<FaceId>& near, std::
   samples.insert(samples.end(), own.begin(), own.end());
 }
 
-/// The motion by `angle` along a thread [rad].
+/// The screw motion by `angle` [rad] along a thread.
 Pose screw_motion(const ThreadAxis& thread, double angle) {
   Screw screw;
   screw.reference = thread.point;
@@ -51,7 +51,7 @@ Pose screw_motion(const ThreadAxis& thread, double angle) {
   return screw_at(screw, 1);
 }
 
-/// Turns one way, as long as that makes something.
+/// Turns in one sense as long as it advances.
 std::optional<PlanStep> turn_out(LocalPlanner& local_planner, ThreadAxis thread, double turn, double exit_distance,
                                  const KeepGoing& keep_going) {
   const Vec3 exit = turn * thread.lead > 0 ? thread.direction : -thread.direction;
@@ -67,7 +67,7 @@ std::optional<PlanStep> turn_out(LocalPlanner& local_planner, ThreadAxis thread,
     const double angle = screw.angle * dot(screw.axis, thread.direction);
     turned += angle;
     risen += dot(screw.velocity + angle * cross(thread.direction, thread.point - screw.reference), thread.direction);
-    // The flanks know their lead best.
+    // The flanks determine the lead best.
     if (std::abs(turned) > kTurnToLearn) thread.lead = kTurn * risen / turned;
     const bool moved = angle / turn > kStuckShare;
     stuck = moved ? 0 : stuck + 1;
@@ -110,8 +110,8 @@ std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const Cer
   return found;
 }
 
-PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
-                    const KeepGoing& keep_going) {
+PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component,
+                     const ThreadAxis& thread, const KeepGoing& keep_going) {
   PathSearch search;
   std::set<ComponentId> met;
   for (const double turn : {kHandTurn, -kHandTurn}) {

@@ -9,23 +9,23 @@
 
 namespace dismantle {
 
-/// A thread that a component shares with another one.
+/// A thread that a component shares with a neighbour.
 struct NeighbourThread {
-  ComponentId neighbour;
-  ThreadAxis thread;
+  ComponentId neighbour;  ///< The other component.
+  ThreadAxis thread;      ///< In the assembled state.
 };
 
-/// The threads that a component shares with what it touches in the assembled state, whatever their meshes are like:
-/// where both surfaces run along each other.
-/// @param engine with the component in hand, in its assembled pose
+/// The threads that a component shares with its neighbours in the assembled state, found from opposing faces of both
+/// surfaces, whatever the tessellation.
+/// @param engine with the component as its moving set, in its assembled pose
 /// @param radius of the component [mm]
 std::vector<NeighbourThread> touched_threads(const Assembly& assembly, const CertificateEngine& engine, double radius,
                                              double tolerance);
 
-/// Screws a component out along a thread, one way or the other, until it goes straight on along the axis: the engine
-/// lets it slide along the flanks, so that the thread needs to be known only roughly.
-/// @param validator what is present stands, nothing is in hand; the same after it
-PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const ThreadAxis& thread,
-                    const KeepGoing& keep_going);
+/// Unscrews a component along a thread, in either direction, until it can move straight along the axis. The engine lets
+/// it slide along the flanks, so that an approximate thread is enough.
+/// @param validator holds the present components, without a moving set; restored afterwards
+PathSearch screw_out(MotionValidator& validator, const BlockingTable& table, ComponentId component,
+                     const ThreadAxis& thread, const KeepGoing& keep_going);
 
 }  // namespace dismantle

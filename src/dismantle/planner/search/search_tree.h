@@ -10,33 +10,36 @@
 
 namespace dismantle {
 
-/// Where a component has been.
+/// A configuration that a component has reached.
 struct Configuration {
-  Pose pose;
-  std::size_t from = 0;   ///< Index of the place that it came from; of the first one itself.
-  std::vector<Pose> way;  ///< From there, this pose last.
+  Pose pose;                ///< Of the component.
+  std::size_t from = 0;     ///< Index of its parent; the root's is its own.
+  std::vector<Pose> poses;  ///< The edge from the parent, one screw motion each; ends with `pose`.
 };
 
-/// The places that a search has been to, a tree that begins where the component was assembled.
+/// The tree of configurations that a search has reached; its root is the assembled pose.
 class SearchTree {
  public:
   /// @param center, radius of the assembled component [mm]
   SearchTree(const Vec3& center, double radius) : center_(center), radius_(radius), configurations_(1) {}
 
+  /// Number of configurations.
   std::size_t size() const { return configurations_.size(); }
-  const Configuration& operator[](std::size_t place) const { return configurations_[place]; }
-  void add(Configuration place) { configurations_.push_back(std::move(place)); }
+  /// The configuration with that index.
+  const Configuration& operator[](std::size_t index) const { return configurations_[index]; }
+  /// Adds a configuration.
+  void add(Configuration configuration) { configurations_.push_back(std::move(configuration)); }
 
-  /// Where the component's center is at a pose [mm].
+  /// The component's center at a pose [mm].
   Vec3 center_at(const Pose& pose) const { return transform_from_pose(pose) * center_; }
-  /// How far apart two poses are: what the center goes and what the rim turns [mm].
+  /// Distance of two poses: displacement of the center plus rotation times the radius [mm].
   double distance(const Pose& a, const Pose& b) const;
-  /// The place nearest to a pose, and how far that is [mm].
+  /// The index of the configuration nearest to a pose, and its distance [mm].
   std::pair<std::size_t, double> nearest(const Pose& pose) const;
-  /// How far the center has been from where it was assembled, in radii; nothing where there are no other places.
+  /// Largest displacement of the center, in radii; none if there is only the root.
   std::optional<double> furthest() const;
-  /// From where it was assembled to a place.
-  std::vector<Pose> path_to(std::size_t place) const;
+  /// The path from the root to a configuration.
+  std::vector<Pose> path_to(std::size_t index) const;
 
  private:
   Vec3 center_;

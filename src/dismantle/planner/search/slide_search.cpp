@@ -11,28 +11,28 @@ namespace dismantle {
 
 namespace {
 
-/// One push is as long as this share of the component's radius, one turn takes the component's rim as far.
+/// Length of a push, and of a turn at the component's rim, as a share of its radius.
 constexpr double kHandShare = 0.25;
-/// What makes less than this share of a push is as far as it goes.
+/// A move that advances by less than this share of a push has ended.
 constexpr double kStuckShare = 0.05;
-/// Places nearer to each other than this share of the component's radius are one.
-constexpr double kSamePlace = 0.05;
-/// A turn goes on for so long [rad].
+/// Configurations nearer than this share of the component's radius count as one.
+constexpr double kSameConfiguration = 0.05;
+/// Longest turn [rad].
 constexpr double kMaxTurn = 6.4;
-/// A place on the way counts less than its end.
+/// Weight of a node within a move, relative to its end.
 constexpr double kEnd = 1, kOnTheWay = 0.5;
-/// Each place between this one and the assembled one counts against it.
+/// Penalty for each node between this one and the root.
 constexpr double kDepthShare = 0.1;
-/// What is within this share of the component's radius of a straight line is tried as one.
+/// A path within this distance of a straight line is tried as one [share of the component's radius].
 constexpr double kStraight = 1e-6;
 
-/// One thing to do with a component.
+/// One move of a component.
 struct SlideMove {
   Vec3 push;      ///< Unit, or zero.
   TurnAxis axis;  ///< Where not pushed.
 };
 
-/// What a place promises.
+/// The priority of a node.
 struct Promise {
   double worth = 0;
   double depth = 0;   ///< Places before it.
@@ -57,7 +57,7 @@ class SlideOut {
       for (const double sign : {1.0, -1.0}) moves_.push_back({{}, {axis.point, sign * axis.direction}});
   }
 
-  const SearchTree& places() const { return tree_; }
+  const SearchTree& nodes() const { return tree_; }
 
   std::optional<PlanStep> find() {
     for (;;) {
@@ -78,12 +78,12 @@ class SlideOut {
  private:
   bool goes_on() const { return local_planner_.effort() < max_effort_ && keep_going_(); }
 
-  /// Goes on with a move as long as it makes something.
+  /// Continues a move as long as it advances.
   std::optional<PlanStep> follow(std::size_t from, const SlideMove& move) {
     const bool pushed = length(move.push) > 0;
     const Quat held = promises_[from].held;
     std::vector<Pose> way;
-    std::vector<std::size_t> ends;  // of the hand's steps, in `way`
+    std::vector<std::size_t> ends;  // of the steps, in `way`
     double turned = 0;
     for (bool stuck = false; !stuck && turned < kMaxTurn && goes_on();) {
       const Pose before = local_planner_.pose();
@@ -100,7 +100,7 @@ class SlideOut {
     const auto until = [&](std::size_t end) {
       return std::vector<Pose>(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(end));
     };
-    // The end first: what lies just before it is not another place.
+    // The end first, so that configurations just before it do not become nodes.
     if (reach(from, move, until(ends.back()), kEnd))
       if (auto step = leave(tree_.size() - 1)) return step;
     ends.pop_back();
@@ -108,19 +108,19 @@ class SlideOut {
     return std::nullopt;
   }
 
-  /// Straight out of the place where it is, if that goes.
-  std::optional<PlanStep> leave(std::size_t place) {
+  /// A straight exit from the present node, if there is one.
+  std::optional<PlanStep> leave(std::size_t node) {
     std::vector<Vec3> directions;
     for (const SlideMove& move : moves_)
       if (length(move.push) > 0) directions.push_back(move.push);
     for (const Vec3& exit : local_planner_.likely_exits(directions, 2 * exit_distance_))
       if (goes_on() && local_planner_.exits(exit, 2 * exit_distance_))
-        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, tree_.path_to(place), exit};
+        return PlanStep{{component_}, PlanTier::Sliding, PlanStep::kWhole, tree_.path_to(node), exit};
     return std::nullopt;
   }
 
-  /// Where the hand goes next. What it pushes it keeps turned as it was, as well as the walls allow: at every corner
-  /// that it slides around it would be turned further, until it is stuck.
+  /// The next target of a move. A push keeps the rotation of its start as far as the contacts allow; otherwise the
+  /// component would turn further at every corner, until it is stuck.
   Pose target(const Pose& pose, const Quat& held, const SlideMove& move) const {
     if (length(move.push) > 0) {
       const Vec3 center = tree_.center_at(pose) + kHandShare * radius_ * move.push;
@@ -138,12 +138,12 @@ class SlideOut {
     return std::min(0.5, kHandShare * radius_ / arm);
   }
 
-  /// Takes up a place, if it is new.
-  /// @param share that it counts
+  /// Adds a node, if it is new.
+  /// @param share weight of its priority
   bool reach(std::size_t from, const SlideMove& move, std::vector<Pose> way, double share) {
     const Pose pose = way.back();
     const double nearest = tree_.nearest(pose).second;
-    if (nearest < kSamePlace * radius_) return false;
+    if (nearest < kSameConfiguration * radius_) return false;
     const double depth = promises_[from].depth + 1;
     const double apart = nearest + tree_.distance({}, pose);
     const Quat held = length(move.push) > 0 ? promises_[from].held : pose.rotation;
@@ -152,7 +152,7 @@ class SlideOut {
     return true;
   }
 
-  /// The way to `from` and on, which ends far outside: as much of its end as is straight becomes the exit.
+  /// The path to `from` and on to far outside; its straight end becomes the exit.
   PlanStep step_out(std::size_t from, const std::vector<Pose>& way, const Vec3& exit) {
     std::vector<Pose> whole = tree_.path_to(from);
     whole.insert(whole.end(), way.begin(), way.end());
@@ -176,19 +176,19 @@ class SlideOut {
   const KeepGoing& keep_going_;
   std::vector<SlideMove> moves_;
   SearchTree tree_;
-  std::vector<Promise> promises_;  ///< Of each place.
+  std::vector<Promise> promises_;  ///< Of each node.
 };
 
 }  // namespace
 
-PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-                    const KeepGoing& keep_going) {
+PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component,
+                     const SlideMoves& moves, const KeepGoing& keep_going) {
   PathSearch search;
   LocalPlanner local_planner(validator, component);
   SlideOut sliding(local_planner, table, component, moves, keep_going);
   search.step = sliding.find();
   search.met = local_planner.met();
-  search.furthest = sliding.places().furthest();
+  search.furthest = sliding.nodes().furthest();
   search.exhausted = !search.step && local_planner.effort() < moves.max_effort;
   return search;
 }

@@ -9,25 +9,25 @@
 
 namespace dismantle {
 
-/// An axis to turn about.
+/// An axis of rotation.
 struct TurnAxis {
-  Vec3 point;      ///< On it [mm].
+  Vec3 point;      ///< A point of it [mm].
   Vec3 direction;  ///< Unit, of either sign.
 };
 
-/// What a search for a sliding way may try, and what it may cost.
+/// The moves that a search for a sliding path tries, and its effort.
 struct SlideMoves {
-  std::vector<Vec3> directions;  ///< Unit: pushed along these, either way is listed.
-  std::vector<TurnAxis> axes;    ///< Turned about these, one way and the other.
+  std::vector<Vec3> directions;  ///< Unit directions of pushes; opposite ones are listed separately.
+  std::vector<TurnAxis> axes;    ///< Axes of rotation, tried in both senses.
   std::size_t max_effort = 0;    ///< See MotionValidator::effort.
 };
 
-/// Pushes and turns a component as far as each goes, along whatever is in the way (response Slide), then goes on from
-/// the places reached: those first that are new and far from where it began. Ends where a push or a straight
-/// way from its end leads out, where there are no new places, or with the effort.
-/// @param moves of the assembled state
-/// @param validator what is present stands, nothing is in hand; the same after it
-PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component, const SlideMoves& moves,
-                    const KeepGoing& keep_going);
+/// Searches an exit path by pushing and turning a component as far as each move goes, sliding along contacts, then from
+/// the configurations reached: first from new ones far from the start. Ends when a push, or a straight motion from its
+/// end, leads out, when there are no new configurations, or when the effort is spent.
+/// @param moves in the assembled state
+/// @param validator holds the present components, without a moving set; restored afterwards
+PathSearch slide_out(MotionValidator& validator, const BlockingTable& table, ComponentId component,
+                     const SlideMoves& moves, const KeepGoing& keep_going);
 
 }  // namespace dismantle
