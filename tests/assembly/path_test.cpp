@@ -15,7 +15,7 @@ Path two_moves() {
   return path;
 }
 
-TEST(Path, GoesThereAndBackToWhereItBegan) {
+TEST(Path, ReturnsToItsStartThereAndBack) {
   const Path path = two_moves(), both = there_and_back(path);
   ASSERT_EQ(both.moves.size(), 4u);
   EXPECT_EQ(both.moves[0], path.moves[0]);
@@ -23,11 +23,11 @@ TEST(Path, GoesThereAndBackToWhereItBegan) {
   EXPECT_EQ(both.moves[2].label, "lift plate, reversed");
   EXPECT_EQ(both.moves[3].components, path.moves[0].components);
   EXPECT_EQ(both.moves[3].frames, (std::vector<Frame>{{0, {{0, 0, 40}, {}}}, {0.75, {{0, 0, 3}, {}}}, {1, {}}}));
-  EXPECT_TRUE(both.removed.empty()) << "nothing is taken away in the end";
+  EXPECT_TRUE(both.removed.empty()) << "nothing remains removed";
   EXPECT_EQ(both.components, path.components);
 }
 
-TEST(Path, OfNoMovesHasNoWayBack) {
+TEST(Path, OfNoMovesHasNoReturn) {
   EXPECT_EQ(there_and_back(Path{}), Path{});
 }
 

@@ -17,7 +17,7 @@ Vec3 random_point(std::mt19937_64& random, double reach) {
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-TEST(DistanceToTriangle, IsTheLeastOverItsPoints) {
+TEST(DistanceToTriangle, IsTheMinimumOverItsPoints) {
   std::mt19937_64 random(21);
   for (int i = 0; i < 200; ++i) {
     const Triangle t{{random_point(random, 1), random_point(random, 1), random_point(random, 1)}};
@@ -41,7 +41,7 @@ TEST(DistanceToTriangle, WorksForTrianglesWithoutArea) {
   EXPECT_DOUBLE_EQ(distance_to_triangle(point, {1, 1, 4}), 3);
 }
 
-TEST(AuditBody, FindsTheClosestTriangleAsALookAtAllDoes) {
+TEST(AuditBody, FindsTheSameClosestTriangleAsBruteForce) {
   std::mt19937_64 random(22);
   const AuditBody body(scenes::component("tube", scenes::tube(5, 3, -4, 4, 40, 6)));
   for (int i = 0; i < 500; ++i) {
@@ -55,7 +55,7 @@ TEST(AuditBody, FindsTheClosestTriangleAsALookAtAllDoes) {
   }
 }
 
-TEST(AuditBody, KnowsWhatIsInsideATube) {
+TEST(AuditBody, KnowsWhichPointsAreInsideATube) {
   std::mt19937_64 random(23);
   const AuditBody body(scenes::component("tube", scenes::moved(scenes::tube(5, 3, -4, 4, 200, 3), {{100, 0, 7}, {}})));
   const double facet = 1 - std::cos(std::acos(-1.0) / 200);
@@ -71,7 +71,7 @@ TEST(AuditBody, KnowsWhatIsInsideATube) {
   EXPECT_GT(inside, 500);
 }
 
-TEST(AuditBody, KnowsWhatIsInsideOnARegularGridOfPoints) {
+TEST(AuditBody, KnowsWhichPointsOfARegularGridAreInside) {
   const AuditBody body(scenes::component("box", scenes::box({-2, -2, -2}, {2, 2, 2})));
   for (int x = -5; x <= 5; ++x)
     for (int y = -5; y <= 5; ++y)
@@ -82,7 +82,7 @@ TEST(AuditBody, KnowsWhatIsInsideOnARegularGridOfPoints) {
       }
 }
 
-TEST(AuditBody, TakesAnInsideOutMeshForASolid) {
+TEST(AuditBody, TreatsAnInsideOutMeshAsASolid) {
   TriangleMesh mesh = scenes::box({-2, -2, -2}, {2, 2, 2});
   for (Face& face : mesh.faces) std::swap(face.v[0], face.v[1]);
   const AuditBody body(scenes::component("box", mesh));
@@ -91,7 +91,7 @@ TEST(AuditBody, TakesAnInsideOutMeshForASolid) {
   EXPECT_FALSE(body.contains({2.1, 0.2, 0.3}));
 }
 
-TEST(AuditBody, FindsAVertexOfEachPiece) {
+TEST(AuditBody, FindsAVertexOfEachConnectedPiece) {
   TriangleMesh mesh = scenes::box({0, 0, 0}, {1, 1, 1});
   const TriangleMesh other = scenes::box({3, 0, 0}, {4, 1, 1});
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());

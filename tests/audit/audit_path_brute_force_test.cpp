@@ -27,7 +27,7 @@ TriangleMesh tetrahedron(std::mt19937_64& random, Vec3 center, double size) {
   return mesh;
 }
 
-/// The depth of two triangles, straight from its definition: the least overlap over the facet normals of the Minkowski
+/// The depth of two triangles, by its definition: the minimum overlap over the facet normals of the Minkowski
 /// difference. The triangles are random: no edges are parallel.
 double depth_by_definition(const Triangle& a, const Triangle& b) {
   std::vector<Vec3> axes = {normal_unscaled(a), normal_unscaled(b)};
@@ -51,7 +51,7 @@ double deepest_triangles(const TriangleMesh& a, const TriangleMesh& b) {
   return deepest;
 }
 
-/// How deep the deepest vertex of `points` lies inside the tetrahedron: its distance to the nearest face plane.
+/// The depth of the deepest vertex of `points` inside the tetrahedron: its distance to the nearest face plane.
 double deepest_vertex(const TriangleMesh& points, const TriangleMesh& solid) {
   double deepest = 0;
   for (const Vec3& p : points.vertices) {
@@ -67,7 +67,7 @@ double deepest_vertex(const TriangleMesh& points, const TriangleMesh& solid) {
 
 struct Deepest {
   double triangles = 0, vertices = 0;
-  double between = 0;  // how much deeper it may have been between two samples
+  double between = 0;  // that it may have been deeper between two samples
 };
 
 Deepest look_densely(const TriangleMesh& fixed, const TriangleMesh& moving, const std::vector<Pose>& poses) {
@@ -98,7 +98,7 @@ std::vector<Pose> random_poses(std::mt19937_64& random, double way, double angle
   return poses;
 }
 
-/// Both directions: what is surely deeper than allowed is found, and nothing is reported where surely nothing is.
+/// Both directions: what is certainly deeper than allowed is found, and what is certainly not is not reported.
 TEST(AuditPath, AgreesWithDenseSamplingOnRandomScenes) {
   constexpr std::uint64_t kSeed = 31;
   std::mt19937_64 random(kSeed);
@@ -124,7 +124,7 @@ TEST(AuditPath, AgreesWithDenseSamplingOnRandomScenes) {
       EXPECT_EQ(triangles, 0u) << trace << audit_scenes::messages(report);
     }
     if (deepest.vertices > 2 * kTolerance + missable) {
-      EXPECT_FALSE(report.holds()) << trace;  // or the triangles broke their rule before
+      EXPECT_FALSE(report.holds()) << trace;  // or rule 1 was violated before
     } else if (deepest.vertices + deepest.between <= 2 * kTolerance) {
       EXPECT_EQ(vertices, 0u) << trace << audit_scenes::messages(report);
     }
@@ -137,8 +137,8 @@ TEST(AuditPath, AgreesWithDenseSamplingOnRandomScenes) {
   EXPECT_GT(clean, 50);
 }
 
-/// Moves that come just to the tolerance: the last pose is put where the depth is a little more or less than allowed.
-TEST(AuditPath, DecidesRightCloseToTheTolerance) {
+/// Moves that end at the tolerance: the depth at the last pose is slightly more or less than allowed.
+TEST(AuditPath, DecidesCorrectlyCloseToTheTolerance) {
   constexpr std::uint64_t kSeed = 32;
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> excess(0.06, 0.5);

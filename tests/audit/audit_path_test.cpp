@@ -46,7 +46,7 @@ TEST(AuditPath, HoldsForAnEmptyPathOfAnAssemblyWithoutOverlaps) {
   EXPECT_TRUE(audit_path(Assembly{}, Path{}).holds());
 }
 
-TEST(AuditPath, FindsAThinPlateThatIsTunnelledThroughInOneFrame) {
+TEST(AuditPath, FindsTunnellingThroughAThinPlateInOneFrame) {
   const Assembly a = cube_over_plate(5, 0.001);
   const AuditReport report = audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})});
   EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
@@ -54,7 +54,7 @@ TEST(AuditPath, FindsAThinPlateThatIsTunnelledThroughInOneFrame) {
   EXPECT_NEAR(report.violations[0].time, 0.1 * 5 / 20, 1e-4);
 }
 
-TEST(AuditPath, FindsASheetThatIsTunnelledThroughInOneFrame) {
+TEST(AuditPath, FindsTunnellingThroughASheetInOneFrame) {
   TriangleMesh sheet;
   sheet.vertices = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}};
   sheet.faces = {{{0, 1, 2}}, {{0, 2, 3}}};
@@ -63,7 +63,7 @@ TEST(AuditPath, FindsASheetThatIsTunnelledThroughInOneFrame) {
   EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})}).holds());
 }
 
-/// A cube turns by a right angle about its centre, over a plate: its edge reaches sqrt(1/2) below the centre half way.
+/// A cube turns by 90 degrees about its centre, above a plate: midway its edge reaches sqrt(1/2) below the centre.
 AuditReport audit_turning_cube(double overlap) {
   const double reach = std::sqrt(0.5);
   const Assembly a = assembly({component("plate", box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10})),
@@ -71,7 +71,7 @@ AuditReport audit_turning_cube(double overlap) {
   return audit(a, {move_through({"cube"}, {Pose{}, turned_about_z(std::acos(0.0), {})})});
 }
 
-TEST(AuditPath, FindsAGrazeInMidFrameThatIsClearAtBothFrames) {
+TEST(AuditPath, FindsAMidFrameGrazeThatIsClearAtBothFrames) {
   const AuditReport report = audit_turning_cube(1.5 * kTolerance);
   ASSERT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
   EXPECT_NEAR(report.violations[0].time, 0.05, 0.01);
@@ -106,13 +106,13 @@ TEST(AuditPath, AcceptsSlidingInExactContact) {
   EXPECT_LT(report.samples, 20000u);
 }
 
-TEST(AuditPath, AcceptsStandingInTheToleranceAndRefusesDeeper) {
+TEST(AuditPath, AcceptsRestingWithinTheToleranceAndRefusesDeeper) {
   const Assembly a = cube_over_plate(0);
   EXPECT_TRUE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -0.9 * kTolerance)})}).holds());
   EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -1.1 * kTolerance)})}).holds());
 }
 
-/// A pin of 24 sides in a hole of 24 sides, `clearance` between them; negative: pressed in.
+/// A pin of 24 sides in a hole of 24 sides, `clearance` between them; negative for a press fit.
 Assembly pin_in_hole(double clearance) {
   return assembly({component("housing", tube(10, 5, 0, 10, 24)), component("pin", tube(5 - clearance, 0, 1, 12, 24))});
 }
@@ -154,7 +154,7 @@ TEST(AuditPath, FindsAFitThatGoesDeeperThanDeclared) {
   EXPECT_FALSE(audit(a, {move_through({"pin"}, {Pose{}, shifted(0.3, 0, 0)})}, {fit}).holds());
 }
 
-TEST(AuditPath, FreesAnEmbeddedPairUntilItPartsAndFindsItMeetingAgain) {
+TEST(AuditPath, ExemptsAnEmbeddedPairUntilItSeparatesAndFindsItMeetingAgain) {
   const Assembly a = cube_over_plate(-0.5);
   const PathPair embedded{"cube", "plate", PairState::Embedded, 0};
   const std::vector<Pose> away = {Pose{}, shifted(1, 0, 0), shifted(1, 0, -0.2), shifted(1, 0, 2)};
@@ -169,14 +169,14 @@ TEST(AuditPath, FreesAnEmbeddedPairUntilItPartsAndFindsItMeetingAgain) {
   EXPECT_TRUE(audit(a, {move_through({"cube"}, away), touch}, {embedded}).holds());
 }
 
-TEST(AuditPath, TakesAnEmbeddedPartInsideAnotherForNotApart) {
+TEST(AuditPath, DoesNotTakeAnEmbeddedPartInsideAnotherAsSeparated) {
   const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
                                component("ball", box({-1, -1, -1}, {1, 1, 1}))});
   const PathPair embedded{"block", "ball", PairState::Embedded, 0};
   EXPECT_TRUE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2, 0, 0), shifted(20, 0, 0)})}, {embedded}).holds());
 }
 
-TEST(AuditPath, FindsAComponentSwallowedWholeInTheAssembledState) {
+TEST(AuditPath, FindsAComponentInsideAnotherInTheAssembledState) {
   const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
                                component("ball", box({-1, -1, -1}, {1, 1, 1}))});
   const AuditReport report = audit(a, {});
@@ -185,8 +185,8 @@ TEST(AuditPath, FindsAComponentSwallowedWholeInTheAssembledState) {
   EXPECT_DOUBLE_EQ(report.violations[0].depth, 4);
 }
 
-/// A surface tessellated finer than the tolerance is permeable to rule 1: its triangles are never deep in anything.
-TEST(AuditPath, FindsATinyComponentThatIsSwallowedOnTheWay) {
+/// Rule 1 does not see a surface tessellated finer than the tolerance: its triangles are never deep in anything.
+TEST(AuditPath, FindsATinyComponentThatEndsUpInsideAnother) {
   const double size = 0.5 * kTolerance;
   const Assembly a = assembly(
       {component("block", box({-5, -5, -5}, {5, 5, 5})), component("grain", box({0, 0, 6}, {size, size, 6 + size}))});
@@ -206,7 +206,7 @@ TEST(AuditPath, FindsATinyComponentThatPassesThroughInOneFrame) {
   EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
 }
 
-/// In one frame it goes through a plate that is thinner than a vertex may be deep, and then into a block.
+/// In one frame it passes a plate thinner than the allowed depth of a vertex, and then enters a block.
 TEST(AuditPath, FollowsAVertexBeyondTheFirstSurfaceThatItCrosses) {
   const double size = 0.5 * kTolerance;
   TriangleMesh both = box({-5, -5, 0}, {5, 5, 1.5 * kTolerance});
@@ -221,13 +221,13 @@ TEST(AuditPath, FollowsAVertexBeyondTheFirstSurfaceThatItCrosses) {
   EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
 }
 
-/// A grain of `size` (a part of the tolerance: permeable to rule 1) with its bottom `height` over a large block.
+/// A grain of `size` (below the tolerance: rule 1 does not see it) with its bottom `height` above a large block.
 Assembly grain_over_block(double size, double height) {
   return assembly({component("block", box({-50, -50, -50}, {50, 50, 0})),
                    component("grain", box({0.1, 0.2, height}, {0.1 + size, 0.2 + size, height + size}))});
 }
 
-TEST(AuditPath, FollowsAVertexThatIsInsideFromMoveToMove) {
+TEST(AuditPath, FollowsAVertexInsideFromMoveToMove) {
   const double size = 0.5 * kTolerance;
   const Assembly a = grain_over_block(size, 1);
   const Pose below = shifted(0, 0, -1 - 1.2 * size);
@@ -248,7 +248,7 @@ Pose turned_about_y(double angle, Vec3 point) {
   return {point - mat3_from_quat(q) * point, q};
 }
 
-/// The ends of the arc lie on the surface, its middle below:  ---.       .---
+/// The ends of the arc are on the surface, its middle below:  ---.       .---
 ///                                                               `-----'
 TEST(AuditPath, FollowsAVertexOnItsArcNotOnTheChord) {
   const double radius = 10;
@@ -262,8 +262,8 @@ TEST(AuditPath, FollowsAVertexOnItsArcNotOnTheChord) {
   EXPECT_EQ(count(run(2.6 * kTolerance), AuditViolationKind::VertexInside), 1u) << messages(run(2.6 * kTolerance));
 }
 
-/// It starts level with the surface and curves through it, so that only its acceleration says that it crosses.
-TEST(AuditPath, SeesACrossingThatOnlyTheCurvingOfThePathMakes) {
+/// It starts parallel to the surface and curves through it: only the acceleration reveals the crossing.
+TEST(AuditPath, FindsACrossingCausedOnlyByTheCurvatureOfThePath) {
   const double size = 0.2 * kTolerance, radius = 10;
   const Assembly a = grain_over_block(size, 0.1 * kTolerance);
   const double angle = std::acos(1 - 0.5 * kTolerance / radius);
@@ -274,7 +274,7 @@ TEST(AuditPath, SeesACrossingThatOnlyTheCurvingOfThePathMakes) {
   EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
 }
 
-/// A finely tessellated rod turns by half a turn and more in a few frames; a pin stands where it passes in mid-frame.
+/// A finely tessellated rod makes more than half a turn in a few frames; it meets a pin between two frames.
 TEST(AuditPath, FindsAPinThatASwingingRodPassesInMidFrame) {
   const Vec3 pin{9 * std::cos(0.4), 9 * std::sin(0.4), 0};
   const Assembly a = assembly(
@@ -308,7 +308,7 @@ TEST(AuditPath, AcceptsAComponentInTheCavityOfAnother) {
   EXPECT_FALSE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2.2, 0, 0)})}).holds());
 }
 
-TEST(AuditPath, LooksAtPairsOfWhichOneMovesOnly) {
+TEST(AuditPath, ChecksOnlyPairsOfWhichOneMoves) {
   const Assembly a =
       assembly({component("plate", box({-10, -10, -1}, {10, 10, 0})), component("left", box({-3, 0, 0}, {-2, 1, 1})),
                 component("right", box({2, 0.5, 0}, {3, 1.5, 1}))});
@@ -323,7 +323,7 @@ TEST(AuditPath, LooksAtPairsOfWhichOneMovesOnly) {
   }
 }
 
-TEST(AuditPath, GoesOnFromWhereTheMovesBeforeEnded) {
+TEST(AuditPath, ContinuesFromTheEndOfThePrecedingMoves) {
   const Assembly a = cube_over_plate(5);
   const Move sideways = move_through({"cube"}, {Pose{}, shifted(20, 0, 0)});
   const Move down = move_through({"cube"}, {shifted(20, 0, 0), shifted(20, 0, -8)});
@@ -378,7 +378,7 @@ TEST(AuditPath, WorksFarFromTheOriginAndAtAllScales) {
     const double tolerance = 1e-3 * scale;
     const auto holds = [&](double dip) {
       Path path = path_of(a, tolerance);
-      // Turns about the cube's own upright axis and dips by so many tolerances on the way.
+      // Turns about the cube's vertical axis and dips by `dip` tolerances meanwhile.
       const Quat q = quat_about({0, 0, 1}, 1);
       const Vec3 across = far - mat3_from_quat(q) * far;
       path.moves = {move_through({"cube"}, {Pose{}, {across - Vec3{0, 0, dip * tolerance}, q}})};

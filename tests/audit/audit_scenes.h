@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// Paths and moves that the tests of the audit share.
+/// Paths and moves for the tests of the audit.
 namespace dismantle::audit_scenes {
 
 inline Path path_of(const Assembly& assembly, double tolerance) {
@@ -44,7 +44,7 @@ inline std::size_t count(const AuditReport& report, AuditViolationKind kind) {
   return found;
 }
 
-/// All messages, for the output of a failing test.
+/// All messages, for the output of a failed test.
 inline std::string messages(const AuditReport& report) {
   std::string text;
   for (const AuditViolation& violation : report.violations) text += violation.message + "\n";

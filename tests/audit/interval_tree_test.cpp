@@ -22,7 +22,7 @@ class Draw {
   Vec3 vector() { return {normal(), normal(), normal()}; }
   RigidTransform pose() { return transform_from_pose({vector(), quat_about(normalized(vector()), normal())}); }
   Screw screw() { return {{}, magnitude(-2) * 3 * vector(), normalized(vector()), magnitude(-3)}; }
-  /// Often long and thin, as the boxes of the facets of a cylinder are.
+  /// Often long and thin, like the boxes of a cylinder's facets.
   BoxNode box() {
     BoxNode node;
     node.center = vector();
@@ -48,7 +48,7 @@ double distance_to_box(const BoxNode& box, Vec3 point) {
   return length(max(max(offset, -offset) - box.half, Vec3{}));
 }
 
-/// The least distance that a corner of one box has from the other box, at 41 instants.
+/// The minimum distance of a corner of one box from the other box, at 41 instants.
 double sampled_distance(const RelativeMotion& motion, const BoxNode& a, const BoxNode& b) {
   double least = 1e300;
   for (int step = 0; step <= 40; ++step) {
@@ -72,7 +72,7 @@ TEST(Interval, ClearanceIsNeverMoreThanTheDistance) {
     positive += clearance > 0 ? 1 : 0;
     ASSERT_LE(clearance, sampled_distance(motion, a, b) + 1e-9) << "scene " << i;
   }
-  EXPECT_GT(positive, 4000) << "it must be good for something";
+  EXPECT_GT(positive, 4000) << "it must not be trivially 0";
 }
 
 TEST(Interval, ClearanceHoldsForARodThatSwingsPastAPoint) {
@@ -89,7 +89,7 @@ TEST(Interval, ClearanceHoldsForARodThatSwingsPastAPoint) {
   EXPECT_GT(interval_of(motion).clearance(point, rod), 0);
 }
 
-TEST(Interval, ReachBoundsHowFarAPointGets) {
+TEST(Interval, ReachBoundsTheTravelOfAPoint) {
   Draw draw(12);
   for (int i = 0; i < 2000; ++i) {
     const RelativeMotion motion{draw.pose(), draw.screw()};
@@ -100,7 +100,7 @@ TEST(Interval, ReachBoundsHowFarAPointGets) {
   }
 }
 
-/// A pair whose second body makes `count` random screws.
+/// A pair whose second body makes `count` random screw motions.
 struct Scene {
   AuditBody a{scenes::component("a", scenes::box({0, 0, 0}, {2, 2, 2}))};
   AuditBody b{scenes::component("b", scenes::box({3, 0, 0}, {4, 1, 2}))};
@@ -148,7 +148,7 @@ TEST(IntervalTree, BoundsEveryInstantOfEveryInterval) {
   }
 }
 
-TEST(IntervalTree, HalvesTimeInOrderWithoutGaps) {
+TEST(IntervalTree, BisectsTimeInOrderWithoutGaps) {
   const Scene scene(5);
   IntervalTree tree(scene.pair, scene.spans);
   double reached = 0;

@@ -21,7 +21,7 @@ Assembly two_cubes() {
                            scenes::component("right", scenes::box({3, 0, 0}, {4, 1, 1}))});
 }
 
-/// A path that holds.
+/// A valid path.
 Path good_path() {
   Path path = path_of(two_cubes(), 0.01);
   path.moves = {move_through({"left"}, {Pose{}, shifted(0, 0, 1), shifted(0, 0, 2)}),
@@ -31,8 +31,7 @@ Path good_path() {
   return path;
 }
 
-/// The number of inconsistencies that the audit finds after `spoil` has been at the good path; nothing else may be
-/// wrong.
+/// The number of inconsistencies that the audit finds in the valid path after `spoil`; it must find nothing else.
 template <class Spoil>
 std::size_t faults_after(const Spoil& spoil) {
   Path path = good_path();
@@ -54,19 +53,19 @@ TEST(PathConsistency, FindsNamesThatTheAssemblyDoesNotHave) {
   EXPECT_EQ(faults_after([](Path& p) { p.pairs.push_back({"left", "third", PairState::Fit, 0.1}); }), 1u);
 }
 
-TEST(PathConsistency, FindsNamesThatComeTwice) {
+TEST(PathConsistency, FindsDuplicateNames) {
   EXPECT_EQ(faults_after([](Path& p) { p.moves[1].components = {"right", "right"}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.removed.push_back("left"); }), 1u);
 }
 
-TEST(PathConsistency, FindsAFirstFrameThatIsNotWhereTheComponentIs) {
+TEST(PathConsistency, FindsAFirstFrameThatIsNotThePoseOfTheComponent) {
   EXPECT_EQ(faults_after([](Path& p) { p.moves[2].frames[0].pose.position.x = 1e-8; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.moves[2].frames[0].pose.position.x = 1e-10; }), 0u);
   EXPECT_EQ(faults_after([](Path& p) { p.moves[2].frames[0].pose.rotation = quat_about({0, 0, 1}, 1e-7); }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.moves[2].frames[0].pose.rotation = Quat{-1, 0, 0, 0}; }), 0u);
 }
 
-TEST(PathConsistency, FindsASetThatHasNotOnePose) {
+TEST(PathConsistency, FindsASetWithoutACommonPose) {
   EXPECT_EQ(faults_after([](Path& p) {
               p.moves[2].components = {"left", "right"};
               p.removed = {"left", "right"};
@@ -82,12 +81,12 @@ TEST(PathConsistency, FindsTimesThatDoNotStartAtZeroOrRunBackwards) {
 
 TEST(PathConsistency, FindsQuaternionsThatAreNotUnitAndNumbersThatAreNotFinite) {
   EXPECT_EQ(faults_after([](Path& p) { p.moves[0].frames[1].pose.rotation.w = 1.001; }), 1u);
-  // A move that cannot be followed leaves its component where it was: the later move starts elsewhere.
+  // A move that cannot be followed leaves its component in place: the later move starts elsewhere.
   EXPECT_EQ(faults_after([](Path& p) { p.moves[0].frames[1].pose.position.x = std::nan(""); }), 2u);
   EXPECT_EQ(faults_after([](Path& p) { p.moves[0].frames.clear(); }), 2u);
 }
 
-TEST(PathConsistency, FindsPairsThatMakeNoSense) {
+TEST(PathConsistency, FindsInvalidPairs) {
   EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "left", PairState::Fit, 0.1}}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PairState::Near, 0.1}}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PairState::Fit, -0.1}}; }), 1u);
@@ -97,7 +96,7 @@ TEST(PathConsistency, FindsPairsThatMakeNoSense) {
             1u);
 }
 
-TEST(PathConsistency, FindsAToleranceThatIsNoLength) {
+TEST(PathConsistency, FindsAnInvalidTolerance) {
   EXPECT_EQ(faults_after([](Path& p) { p.tolerance = -1; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.tolerance = std::numeric_limits<double>::quiet_NaN(); }), 1u);
 }

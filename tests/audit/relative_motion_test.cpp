@@ -15,7 +15,7 @@ Pose random_pose(std::mt19937_64& random, double reach) {
           normalized(Quat{normal(random), normal(random), normal(random), normal(random)})};
 }
 
-TEST(RelativeMotion, IsTheScrewOfTheWorldSeenFromTheOtherBody) {
+TEST(RelativeMotion, IsTheWorldScrewInTheFrameOfTheOtherBody) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
     const Pose a = random_pose(random, 10), start = random_pose(random, 10), end = random_pose(random, 10);
@@ -46,7 +46,7 @@ TEST(RelativeMotion, GivesVelocityAndAccelerationOfPoints) {
   }
 }
 
-TEST(RelativeMotion, OfAStandingBodyIsStill) {
+TEST(RelativeMotion, OfABodyAtRestIsZero) {
   EXPECT_TRUE(relative_motion({}, {}, screw_between({}, {})).still());
   EXPECT_FALSE(relative_motion({}, {}, screw_between({}, {{1, 0, 0}, {}})).still());
 }

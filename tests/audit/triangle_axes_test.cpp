@@ -25,7 +25,7 @@ Triangle moved_by(const Triangle& t, Vec3 shift) {
   return {{t[0] + shift, t[1] + shift, t[2] + shift}};
 }
 
-TEST(WidestGap, IsTheLeastTranslationThatParts) {
+TEST(WidestGap, IsTheShortestSeparatingTranslation) {
   std::mt19937_64 random(11);
   int overlapping = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -52,7 +52,7 @@ TEST(WidestGap, StaysExactForSliversAndNearlyParallelEdges) {
     const Vec3 nearly = along + tiny * random_vector(random);
     const Triangle b{{-1.0 * nearly, nearly, random_vector(random)}};
     const double gap = widest_gap(a, b, kAll).gap;
-    // Against the smooth truth: no direction near the best one does better.
+    // No direction near the best one is better.
     const Vec3 best = widest_gap(a, b, kAll).axis;
     for (int k = 0; k < 50; ++k) {
       const double turn = std::pow(10, exponent(random));

@@ -15,7 +15,7 @@ namespace dismantle::batch {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 class BatchFolder : public testing::Test {
  protected:
   void SetUp() override {
@@ -36,7 +36,7 @@ class BatchFolder : public testing::Test {
     return text.str();
   }
 
-  /// Items a, b, c, ... whose work is up to the test; results go to out/.
+  /// Items a, b, c, ... whose work the test defines; results are in out/.
   BatchJob job(std::size_t count, BatchWork work) const {
     BatchJob job;
     for (std::size_t i = 0; i < count; ++i) {

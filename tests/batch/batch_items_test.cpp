@@ -31,7 +31,7 @@ TEST_F(BatchItems, AreTheAssemblyFilesAtEveryDepthInOrder) {
   EXPECT_EQ(names(), "a/b.glb a/b/c.STP z.step ");
 }
 
-TEST_F(BatchItems, AreFoldersOfMeshesOrSingleMeshes) {
+TEST_F(BatchItems, AreFoldersOfMeshesOrSingleMeshFiles) {
   for (const char* name : {"pair/one.obj", "pair/two.stl", "pair/readme", "single/part.ply"}) write(name, "x");
   EXPECT_EQ(names(), "pair single/part.ply ");
   BatchSelection each;
@@ -39,7 +39,7 @@ TEST_F(BatchItems, AreFoldersOfMeshesOrSingleMeshes) {
   EXPECT_EQ(names(each), "pair/one.obj pair/two.stl single/part.ply ");
 }
 
-TEST_F(BatchItems, AreTheFolderItselfWhereItHoldsMeshes) {
+TEST_F(BatchItems, AreTheFolderItselfIfItContainsMeshes) {
   write("one.obj", "x");
   write("two.obj", "x");
   ASSERT_EQ(names(), ". ");
@@ -52,7 +52,7 @@ TEST_F(BatchItems, CanBeChosenByPatternAndLeaveOutTheOutput) {
   EXPECT_EQ(names({MeshGrouping::Folder, "", root_ / "out"}), "a/x.step b/x.step ");
 }
 
-TEST_F(BatchItems, HaveFoldersOfTheirOwn) {
+TEST_F(BatchItems, HaveSeparateOutputFolders) {
   for (const char* name : {"a/b.step", "a__b.step"}) write(name, "x");
   const std::vector<BatchItem> items = find();
   ASSERT_EQ(items.size(), 2u);
@@ -73,7 +73,7 @@ TEST_F(BatchItems, HaveKeysThatChangeWithTheInputAndTheOptionsOnly) {
   EXPECT_NE(key("a.step"), before);
 }
 
-TEST_F(BatchItems, HaveKeysThatCoverTheFilesThatTheyMayName) {
+TEST_F(BatchItems, HaveKeysThatCoverReferencedFiles) {
   write("robot/urdf/arm.urdf", "x");
   write("robot/meshes/link.stl", "x");
   write("scene/scene.gltf", "x");
@@ -86,7 +86,7 @@ TEST_F(BatchItems, HaveKeysThatCoverTheFilesThatTheyMayName) {
   EXPECT_NE(key("scene/scene.gltf"), scene);
 }
 
-TEST_F(BatchItems, AreRefusedWhereThereAreNone) {
+TEST_F(BatchItems, AreRefusedIfThereAreNone) {
   write("notes.txt", "x");
   const Result<std::vector<BatchItem>> none = find_batch_items(root_, {}, "");
   ASSERT_FALSE(none.ok());

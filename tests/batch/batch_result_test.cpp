@@ -21,7 +21,7 @@ class BatchResults : public BatchFolder {
   BatchJob job_;
 };
 
-TEST_F(BatchResults, AreFoundAgainUntilTheirKeyChanges) {
+TEST_F(BatchResults, AreReusedUntilTheirKeyChanges) {
   EXPECT_FALSE(find_result(job_, job_.items[0]));
   publish(job_.items[0], {"", R"({"components": 3})"});
   ASSERT_TRUE(find_result(job_, job_.items[0]));
@@ -30,7 +30,7 @@ TEST_F(BatchResults, AreFoundAgainUntilTheirKeyChanges) {
   EXPECT_FALSE(find_result(job_, job_.items[0]));
 }
 
-TEST_F(BatchResults, TakeThePlaceOfOlderOnesWhole) {
+TEST_F(BatchResults, ReplaceOlderOnesEntirely) {
   std::ofstream(job_.workshop() / "work" / "only-of-the-first.txt") << "x";
   publish(job_.items[0], {"", "{}"});
   EXPECT_TRUE(fs::exists(job_.output / "a" / "only-of-the-first.txt"));
@@ -41,13 +41,13 @@ TEST_F(BatchResults, TakeThePlaceOfOlderOnesWhole) {
   EXPECT_EQ(find_result(job_, job_.items[0])->error, "it broke (why); do that");
 }
 
-TEST_F(BatchResults, AreNotThereWhereTheFileIsBroken) {
+TEST_F(BatchResults, AreMissingIfTheFileIsBroken) {
   publish(job_.items[0], {"", "{}"});
   std::ofstream(job_.output / "a" / "result.json") << "{\"format\": \"dismantle-batch-re";
   EXPECT_FALSE(find_result(job_, job_.items[0]));
 }
 
-TEST_F(BatchResults, MakeATableWithAColumnForEverythingThatIsTold) {
+TEST_F(BatchResults, MakeATableWithAColumnForEachValue) {
   publish(job_.items[0], {"", R"({"components": 3, "name": "tab\there"})"});
   publish(job_.items[1], {"it broke (why); do that", "{}"});
   const Result<BatchTables> tables = write_tables(job_);
@@ -62,7 +62,7 @@ TEST_F(BatchResults, MakeATableWithAColumnForEverythingThatIsTold) {
   EXPECT_EQ(read(job_.output / "timing.tsv"), "assembly\tseconds\thost\na\t1.5\thost\nb\t1.5\thost\n");
 }
 
-TEST_F(BatchResults, MakeNoTableWhereOneIsGone) {
+TEST_F(BatchResults, MakeNoTableIfOneIsMissing) {
   publish(job_.items[0], {"", "{}"});
   const Result<BatchTables> tables = write_tables(job_);
   ASSERT_FALSE(tables.ok());

@@ -13,28 +13,28 @@
 namespace dismantle::batch {
 namespace {
 
-constexpr double kLongLease = 1000;  // [s]: what is seen sooner is seen by other means
+constexpr double kLongLease = 1000;  // [s]: longer than any test, so that expiry plays no part
 
 class Claims : public BatchFolder {
  protected:
-  /// The link of the first attempt, as somebody of another machine would have made it.
+  /// The link of the first attempt, as a process on another machine would have made it.
   void claim_from_elsewhere() const { fs::create_symlink("another-machine 1 1", root_ / "item.claim.1"); }
 };
 
-TEST_F(Claims, AreOfOneProcessOnly) {
+TEST_F(Claims, BelongToOneProcessOnly) {
   ClaimFolder folder(root_, kLongLease);
   std::optional<Claim> claim = folder.take("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 1);
   EXPECT_TRUE(claim->holds());
-  EXPECT_FALSE(ClaimFolder(root_, kLongLease).take("item")) << "its owner lives";
+  EXPECT_FALSE(ClaimFolder(root_, kLongLease).take("item")) << "its owner is alive";
   EXPECT_TRUE(folder.take("another"));
   claim->release();
   EXPECT_FALSE(claim->holds());
   EXPECT_TRUE(ClaimFolder(root_, kLongLease).take("item"));
 }
 
-TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithWhatItLeft) {
+TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
   const pid_t child = fork();
   if (child == 0) {
     const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).take("item");
@@ -50,23 +50,23 @@ TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithWhatItLeft) {
   EXPECT_TRUE(fs::is_empty(root_));
 }
 
-TEST_F(Claims, OfAnotherMachineAreLostAfterItsSilence) {
+TEST_F(Claims, OfAnotherMachineExpireWithoutRenewal) {
   claim_from_elsewhere();
   ClaimFolder folder(root_, 0.05);
-  EXPECT_FALSE(folder.take("item")) << "it was not silent for long";
+  EXPECT_FALSE(folder.take("item")) << "it has not been silent long enough";
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::optional<Claim> claim = folder.take("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 2);
 }
 
-TEST_F(Claims, OfAnotherMachineStayWhileItShowsLife) {
+TEST_F(Claims, OfAnotherMachineLastWhileItRenewsThem) {
   claim_from_elsewhere();
   ClaimFolder folder(root_, 0.05);
   for (int k = 1; k <= 3; ++k) {
     EXPECT_FALSE(folder.take("item"));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    const timespec times[2] = {{k, 0}, {k, 0}};  // its clock is far off, which must not matter
+    const timespec times[2] = {{k, 0}, {k, 0}};  // its clock may be wrong
     utimensat(AT_FDCWD, (root_ / "item.claim.1").c_str(), times, AT_SYMLINK_NOFOLLOW);
   }
   EXPECT_FALSE(folder.take("item"));
@@ -80,13 +80,13 @@ TEST_F(Claims, AreRenewedByTheirOwner) {
   claim.renew(kLongLease);
   struct stat status {};
   lstat(link.c_str(), &status);
-  EXPECT_EQ(status.st_mtim.tv_sec, 1) << "not so soon again";
+  EXPECT_EQ(status.st_mtim.tv_sec, 1) << "not again so soon";
   claim.renew(0);
   lstat(link.c_str(), &status);
   EXPECT_GT(status.st_mtim.tv_sec, 1);
 }
 
-TEST_F(Claims, AreKnownToBeLostByTheirOwner) {
+TEST_F(Claims, AreReportedLostToTheirFormerOwner) {
   Claim claim = *ClaimFolder(root_, kLongLease).take("item");
   fs::create_symlink("another-machine 1 1", root_ / "item.claim.2");
   EXPECT_FALSE(claim.holds());

@@ -13,7 +13,7 @@
 namespace dismantle::batch {
 namespace {
 
-/// Work that writes a file of its item's name, and takes down in attempts/ that it was done once more.
+/// Work that writes a file named after its item, and counts its runs in attempts/.
 class RunBatch : public BatchFolder {
  protected:
   BatchWork work() const {
@@ -26,7 +26,7 @@ class RunBatch : public BatchFolder {
   }
   std::size_t attempts(const std::string& item) const { return read(root_ / "attempts" / item).size(); }
 
-  /// All that is in the output folder, but for what it cost.
+  /// Everything in the output folder but the costs.
   std::map<std::string, std::string> output() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(root_ / "out"))
@@ -51,7 +51,7 @@ TEST_F(RunBatch, GivesTheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(first.size(), 9 * 2 + 2u);
 }
 
-TEST_F(RunBatch, DoesOnlyWhatIsNotDone) {
+TEST_F(RunBatch, SkipsItemsThatAreDone) {
   BatchJob batch = job(3, work());
   ASSERT_TRUE(run_batch(batch, {2, false, {}}).ok());
   std::map<std::uint32_t, BatchProgress> progress;
@@ -64,7 +64,7 @@ TEST_F(RunBatch, DoesOnlyWhatIsNotDone) {
   EXPECT_EQ(progress[1], BatchProgress::Made);
 }
 
-TEST_F(RunBatch, TakesACrashAnErrorAndAnExceptionAsFailedLines) {
+TEST_F(RunBatch, RecordsACrashAnErrorAndAnExceptionAsFailures) {
   const BatchWork bad = [good = work()](const BatchItem& item, const fs::path& folder) -> Result<std::string> {
     if (item.name == "a") std::abort();
     if (item.name == "b") return Error{ErrorKind::Unreadable, "b cannot be read (why); do that"};
@@ -81,14 +81,14 @@ TEST_F(RunBatch, TakesACrashAnErrorAndAnExceptionAsFailedLines) {
   EXPECT_NE(tables->tsv.find("d\td\tdone"), std::string::npos);
 
   ASSERT_TRUE(run_batch(job(4, work()), {2, false, {}}).ok());
-  EXPECT_EQ(attempts("a"), 0u) << "what failed is not done again by itself";
+  EXPECT_EQ(attempts("a"), 0u) << "failed items are not repeated automatically";
   const Result<BatchTables> again = run_batch(job(4, work()), {2, true, {}});
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again->failed, 0u);
   EXPECT_EQ(attempts("d"), 1u);
 }
 
-TEST_F(RunBatch, EndsAnItemThatComputesForTooLong) {
+TEST_F(RunBatch, StopsAnItemThatExceedsItsTime) {
   BatchJob batch = job(2, [good = work()](const BatchItem& item, const fs::path& folder) {
     volatile bool forever = item.name == "a";
     while (forever) {
@@ -102,8 +102,8 @@ TEST_F(RunBatch, EndsAnItemThatComputesForTooLong) {
   EXPECT_NE(tables->tsv.find("came to no end"), std::string::npos);
 }
 
-TEST_F(RunBatch, DoesAgainWhatAKilledWorkerHad) {
-  // The item's process kills its worker, which is its parent, and so itself: the first time only.
+TEST_F(RunBatch, RedoesTheItemOfAKilledWorker) {
+  // On its first run, the item's process kills its worker, which is its parent, and itself.
   const BatchWork murder = [root = root_, good = work()](const BatchItem& item, const fs::path& folder) {
     const fs::path done = root / "murder-done";
     if (item.name == "b" && !fs::exists(done)) {
@@ -123,7 +123,7 @@ TEST_F(RunBatch, DoesAgainWhatAKilledWorkerHad) {
   EXPECT_EQ(output(), with_murder);
 }
 
-TEST_F(RunBatch, GivesUpWhatKillsItsWorkersEveryTime) {
+TEST_F(RunBatch, GivesUpAnItemThatKillsItsWorkerEveryTime) {
   const BatchWork murder = [good = work()](const BatchItem& item, const fs::path& folder) {
     if (item.name == "b") {
       kill(getppid(), SIGKILL);
@@ -137,10 +137,10 @@ TEST_F(RunBatch, GivesUpWhatKillsItsWorkersEveryTime) {
   EXPECT_NE(tables->tsv.find("3 processes died over it"), std::string::npos) << tables->tsv;
 }
 
-TEST_F(RunBatch, StopsOnASignalWithoutLossAndGoesOnLater) {
+TEST_F(RunBatch, StopsOnASignalWithoutLossAndResumes) {
   const pid_t child = fork();
   if (child == 0) {
-    // The largest first: d and c are done when b stops the batch.
+    // Largest items first: d and c are done when b stops the batch.
     const BatchWork stopping = [top = getpid(), good = work()](const BatchItem& item, const fs::path& folder) {
       if (item.name == "b") {
         kill(top, SIGINT);
@@ -154,7 +154,7 @@ TEST_F(RunBatch, StopsOnASignalWithoutLossAndGoesOnLater) {
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_TRUE(fs::is_empty(root_ / "out" / ".batch")) << "no claim, nothing half made";
+  EXPECT_TRUE(fs::is_empty(root_ / "out" / ".batch")) << "no claims and no partial results";
   EXPECT_FALSE(fs::exists(root_ / "out" / "b"));
 
   ASSERT_TRUE(run_batch(job(4, work()), {2, false, {}}).ok());
@@ -163,7 +163,7 @@ TEST_F(RunBatch, StopsOnASignalWithoutLossAndGoesOnLater) {
   EXPECT_EQ(attempts("b"), 1u);
 }
 
-TEST_F(RunBatch, SaysWhereTheOutputCannotBe) {
+TEST_F(RunBatch, ReportsAnOutputFolderThatCannotBeCreated) {
   write("out", "a file");
   const Result<BatchTables> tables = run_batch(job(1, work()), {1, false, {}});
   ASSERT_FALSE(tables.ok());

@@ -41,7 +41,7 @@ TEST(BvhBuild, GivesAWellFormedTreeOverRandomAssemblies) {
   }
 }
 
-TEST(BvhBuild, TakesNothingOneTriangleAndEmptyComponents) {
+TEST(BvhBuild, AcceptsNoTrianglesOneTriangleAndEmptyComponents) {
   Boxes none;
   EXPECT_TRUE(bvh_build(none.input(), {}).empty());
 
@@ -67,7 +67,7 @@ TEST(BvhBuild, IsTheSameOnEveryExecutor) {
   for (const Executor& executor : all_executors()) EXPECT_EQ(bvh_build(b.input(), executor), expected);
 }
 
-TEST(BvhBuild, StaysShallowWhereAllBoxesAreTheSame) {
+TEST(BvhBuild, StaysShallowIfAllBoxesAreTheSame) {
   Boxes b;
   b.boxes.assign(5000, Aabb{{0, 0, 0}, {1, 1, 1}});
   b.component_begin = {0, 5000};
@@ -76,8 +76,8 @@ TEST(BvhBuild, StaysShallowWhereAllBoxesAreTheSame) {
   EXPECT_LE(bvh_depth(bvh), 13);
 }
 
-TEST(BvhBuild, BoundsItsDepthWhereTheHeuristicWouldNot) {
-  Boxes b;  // sizes and places grow geometrically: each split by area takes one box off
+TEST(BvhBuild, BoundsItsDepthWhenTheHeuristicWouldNot) {
+  Boxes b;  // sizes and positions grow geometrically: each split by area cuts off one box
   double at = 1;
   for (int i = 0; i < 600; ++i, at *= 1.3) b.boxes.push_back({{at, at, at}, {1.1 * at, 1.1 * at, 1.1 * at}});
   b.component_begin = {0, 600};

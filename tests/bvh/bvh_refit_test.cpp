@@ -11,7 +11,7 @@
 namespace dismantle {
 namespace {
 
-/// True where the point's projections lie within the bounds; rounding of the projections in double is far below the
+/// True if the point's projections lie within the bounds; rounding of the projections in double is far below the
 /// outward rounding of the bounds.
 bool holds(const Kdop16& k, Vec3 p) {
   const double along[8] = {p.x, p.y, p.z, p.x + p.y, p.x + p.z, p.y + p.z, p.x - p.y, p.x - p.z};
@@ -58,7 +58,7 @@ TEST(BvhRefit, BoundsContainEveryVertexAllAlongItsPath) {
   }
 }
 
-TEST(BvhRefit, OfSomeComponentsGivesWhatFittingAllGives) {
+TEST(BvhRefit, OfSomeComponentsEqualsTheRefitOfAll) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     Step step = random_step(seed);

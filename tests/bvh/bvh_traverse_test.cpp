@@ -25,7 +25,7 @@ Scene random_scene(unsigned seed, double margin) {
   return scene;
 }
 
-/// Every two leaves of different components (of `only`, if given) whose bounds overlap.
+/// All pairs of leaves of different components (of `only`, if given) whose bounds overlap.
 LeafPairs brute_force(const Scene& scene, std::pair<std::uint32_t, std::uint32_t> only, bool all) {
   LeafPairs pairs;
   const Bvh& bvh = scene.streams.bvh;
@@ -47,7 +47,7 @@ LeafPairs traversed(const Scene& scene, NodePair start) {
   return pairs;
 }
 
-TEST(BvhTraverse, FindsWhatBruteForceFindsFromTheRoot) {
+TEST(BvhTraverse, FindsTheSamePairsAsBruteForceFromTheRoot) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     for (const double margin : {0.0, 0.4}) {
@@ -60,7 +60,7 @@ TEST(BvhTraverse, FindsWhatBruteForceFindsFromTheRoot) {
   }
 }
 
-TEST(BvhTraverse, FindsWhatBruteForceFindsBetweenTwoComponents) {
+TEST(BvhTraverse, FindsTheSamePairsAsBruteForceBetweenTwoComponents) {
   const Scene scene = random_scene(11, 0.2);
   const std::vector<BvhComponent>& components = scene.streams.bvh.components;
   for (std::uint32_t a = 0; a < components.size(); ++a)

@@ -16,7 +16,7 @@ ObbTree tree_of(const TriangleMesh& mesh, const Executor& executor = {}) {
   return obb_tree_build(mesh.vertices, mesh.faces, executor);
 }
 
-TEST(ObbTree, ContainsEveryTriangleWhereverTheMeshIs) {
+TEST(ObbTree, ContainsEveryTriangleAtAnyScaleAndPosition) {
   std::mt19937_64 random(20261121);
   for (const double scale : {1e-3, 1.0, 1e3})
     for (const double offset : {0.0, 1e3, 1e5}) {
@@ -39,7 +39,7 @@ TEST(ObbTree, ContainsRandomTrianglesOfAllShapes) {
   EXPECT_STREQ(obb_tree_fault(tree_of(mesh), mesh.vertices, mesh.faces), "");
 }
 
-TEST(ObbTree, PartsWhatBelongsToDifferentPartsFirst) {
+TEST(ObbTree, SeparatesDifferentPartsFirst) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 9);
   std::vector<std::uint8_t> parts(mesh.faces.size());
   for (std::size_t f = 0; f < parts.size(); ++f) parts[f] = static_cast<std::uint8_t>(f * 7 % 5);
@@ -51,10 +51,10 @@ TEST(ObbTree, PartsWhatBelongsToDifferentPartsFirst) {
       for (std::uint32_t up = n; up != ObbNode::kNone; up = tree.nodes[up].parent)
         under[up].insert(parts[tree.nodes[n].child]);
   const auto mixed = [](const std::set<std::uint8_t>& of) { return of.size() > 1; };
-  EXPECT_EQ(std::count_if(under.begin(), under.end(), mixed), 4) << "one cut less than there are parts";
+  EXPECT_EQ(std::count_if(under.begin(), under.end(), mixed), 4) << "one split fewer than there are parts";
 }
 
-TEST(ObbSubtree, HoldsWhatIsBelowItsNode) {
+TEST(ObbSubtree, ContainsTheNodesBelowItsRoot) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 12, 3);
   const ObbTree tree = tree_of(mesh);
   const auto is_below = [&](std::uint32_t node, std::uint32_t top) {
@@ -88,9 +88,9 @@ TEST(ObbTree, IsFlatOnAFlatFace) {
     }
 }
 
-TEST(ObbTree, CutsASideIntoStripsAlongIt) {
-  // Boxes no thicker than 0.05 mm on a side of radius 5: strips of 10 degrees would do, however long it is. As wide as
-  // long they would be some 4000.
+TEST(ObbTree, CutsACylinderIntoStripsAlongItsAxis) {
+  // Boxes at most 0.05 mm thick on a cylinder of radius 5: strips of 10 degrees suffice, at any length. Square boxes
+  // would be some 4000.
   const TriangleMesh mesh = scenes::tube(5, 4, 0, 40, 128, 128);
   const ObbTree tree = tree_of(mesh);
   const auto thin = [&](std::uint32_t n) {
@@ -114,7 +114,7 @@ TEST(ObbTree, KnowsTheCornersOfEveryFace) {
     }
 }
 
-TEST(ObbTree, ConesTellWhichDirectionsEveryNormalFaces) {
+TEST(ObbTree, ConesTellWhichDirectionsAllNormalsFace) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 4);
   const ObbTree tree = tree_of(mesh);
   std::mt19937_64 random(3);

@@ -29,7 +29,7 @@ TEST(RevolutionSurface, BoundsEveryPointOfEveryNode) {
                                   {});
     ASSERT_EQ(shape.axes().size(), 1u);
     const RevolutionAxis axis = shape.axes()[0];
-    const RadialBoundsList& nodes = shape.about(0);
+    const RadialBoundsList& nodes = shape.bounds_about(0);
     ASSERT_EQ(nodes.size(), tree.nodes.size());
     const double rounding = 1e-9 * (1 + offset);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
@@ -37,7 +37,7 @@ TEST(RevolutionSurface, BoundsEveryPointOfEveryNode) {
       faces_under(tree, n, faces);
       const RadialBounds& node = nodes[n];
       if (faces.size() < RevolutionSurface::kLargeNode) {
-        ASSERT_GT(node.most, 1e9);
+        ASSERT_GT(node.max_radius, 1e9);
         continue;
       }
       for (const std::uint32_t f : faces) {
@@ -49,8 +49,8 @@ TEST(RevolutionSurface, BoundsEveryPointOfEveryNode) {
           const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - axis.point;
           const double along = dot(p, axis.direction);
           const Vec3 across = p - along * axis.direction;
-          ASSERT_GE(length(across), node.least - rounding);
-          ASSERT_LE(length(across), node.most + rounding);
+          ASSERT_GE(length(across), node.min_radius - rounding);
+          ASSERT_LE(length(across), node.max_radius + rounding);
           ASSERT_GE(along, node.begin - rounding);
           ASSERT_LE(along, node.end + rounding);
           ASSERT_GE(dot(across, to_double(node.toward)), (node.cosine - 1e-5) * length(across) - rounding);
@@ -63,30 +63,30 @@ TEST(RevolutionSurface, BoundsEveryPointOfEveryNode) {
   }
 }
 
-TEST(RevolutionSurface, KnowsWhichWayFacesLook) {
+TEST(RevolutionSurface, KnowsWhetherFacesPointOutwards) {
   const TriangleMesh mesh = scenes::tube(10, 6, -20, 20, 20, 4);
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
   const RevolutionSurface shape(mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces), {});
   double outermost = 0, innermost = 1e9;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const RadialBounds& node = shape.about(0)[n];
+    const RadialBounds& node = shape.bounds_about(0)[n];
     ASSERT_FALSE(node.faces_out && node.faces_in);
-    if (node.faces_out) innermost = std::min<double>(innermost, node.least);
-    if (node.faces_in) outermost = std::max<double>(outermost, node.most);
+    if (node.faces_out) innermost = std::min<double>(innermost, node.min_radius);
+    if (node.faces_in) outermost = std::max<double>(outermost, node.max_radius);
   }
   EXPECT_GT(innermost, 9.8);
   EXPECT_LT(innermost, 9.9) << "the middle of a facet";
   EXPECT_NEAR(outermost, 6, 1e-5);
 }
 
-/// The spread of the node that is all of the mesh.
+/// The spread of the root node.
 float spread_of(const TriangleMesh& mesh) {
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
   const RevolutionSurface shape(mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces), {});
-  return shape.about(0)[0].spread;
+  return shape.bounds_about(0)[0].radial_deviation;
 }
 
-TEST(RevolutionSurface, KnowsAWholeCylinderWithItsEnds) {
+TEST(RevolutionSurface, RecognisesAWholeCylinderWithItsEnds) {
   for (const std::uint32_t sides : {8u, 24u, 200u}) {
     const double sagitta = 10 * (1 - std::cos(std::acos(-1.0) / sides));
     EXPECT_NEAR(spread_of(scenes::tube(10, 0, -20, 20, sides, 3)), sagitta, 1e-5) << sides;
@@ -94,7 +94,7 @@ TEST(RevolutionSurface, KnowsAWholeCylinderWithItsEnds) {
   EXPECT_GT(spread_of(scenes::tube(10, 9, -20, 20, 200)), 1e9) << "wall and bore";
 }
 
-TEST(RevolutionSurface, TellsACylinderWithAGapFromAWholeOne) {
+TEST(RevolutionSurface, DistinguishesACylinderWithAGapFromAWholeOne) {
   std::mt19937_64 random(9);
   for (int trial = 0; trial < 40; ++trial) {
     TriangleMesh mesh = scenes::moved(scenes::tube(10, 0, -20, 20, 48, 5), scenes::random_pose(random, 5, 3));

@@ -32,30 +32,30 @@ Vec3 random_point(const Triangle& t, int i, std::mt19937_64& random) {
 std::size_t expect_bounds(const TriangleMesh& mesh, const ThreadFrame& frame, double rounding, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const ObbTree tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-  const ThreadNodes nodes(frame, mesh.vertices, mesh.faces, tree.nodes);
+  const ThreadBoundsList nodes(frame, mesh.vertices, mesh.faces, tree.nodes);
   std::size_t known = 0;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     if (!tree.nodes[n].leaf()) continue;
     const Triangle t = mesh.triangle(tree.nodes[n].child);
     for (std::uint32_t up = tree.nodes[n].parent; up != ObbNode::kNone; up = tree.nodes[up].parent) {
-      const ThreadNode& node = nodes[up];
+      const ThreadBounds& node = nodes[up];
       if (!(node.high[0] < 1e30f)) continue;
       ++known;
       for (int i = 0; i < 20; ++i) {
         const Vec3 p = random_point(t, i, random), across = frame.axis.across(p);
         const double distance = length(across), along = frame.axis.along(p);
-        EXPECT_GE(distance, node.least - rounding);
-        EXPECT_LE(distance, node.most + rounding);
+        EXPECT_GE(distance, node.min_radius - rounding);
+        EXPECT_LE(distance, node.max_radius + rounding);
         EXPECT_GE(along, node.begin - rounding);
         EXPECT_LE(along, node.end + rounding);
-        const double lift = along - frame.lead * frame.axis.angle(across) / kTurn;
+        const double axial_offset = along - frame.lead * frame.axis.angle(across) / kTurn;
         // The same number of periods for all directions.
         bool inside = false;
         for (int turns = -60; turns <= 60 && !inside; ++turns) {
           inside = true;
           for (int k = 0; k < frame.direction_count; ++k) {
             const ProfileDirection d = frame.directions[k];
-            const double x = d.radial * distance + d.lift * (lift + turns * frame.period);
+            const double x = d.radial * distance + d.axial * (axial_offset + turns * frame.period);
             inside &=
                 x >= static_cast<double>(node.low[k]) - rounding && x <= static_cast<double>(node.high[k]) + rounding;
           }
@@ -67,7 +67,7 @@ std::size_t expect_bounds(const TriangleMesh& mesh, const ThreadFrame& frame, do
   return known;
 }
 
-TEST(ThreadNodes, BoundEveryPointOfAThread) {
+TEST(ThreadBoundsList, BoundEveryPointOfAThread) {
   std::mt19937_64 random(5);
   for (const double offset : {0.0, 1e3})
     for (const double lead : {1.25, -1.25, 0.9}) {
@@ -80,7 +80,7 @@ TEST(ThreadNodes, BoundEveryPointOfAThread) {
     }
 }
 
-TEST(ThreadNodes, BoundTrianglesOfAllShapes) {
+TEST(ThreadBoundsList, BoundTrianglesOfAllShapes) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> exponent(-3, 0.9);
   TriangleMesh mesh;

@@ -11,7 +11,7 @@
 namespace dismantle {
 namespace {
 
-/// Every node below this one, parents first.
+/// All nodes below this one, parents first.
 void list(const VertexNode& node, std::vector<VertexNode>& nodes) {
   nodes.push_back(node);
   if (node.leaf()) return;
@@ -25,7 +25,7 @@ std::vector<VertexNode> nodes_of(const VertexTree& tree) {
   return nodes;
 }
 
-TEST(VertexTree, ContainsEveryVertexWhereverTheMeshIs) {
+TEST(VertexTree, ContainsEveryVertexAtAnyScaleAndPosition) {
   std::mt19937_64 random(3);
   for (const double scale : {1e-3, 1.0, 1e3})
     for (const double offset : {0.0, 1e3, 1e5}) {
@@ -58,7 +58,7 @@ TEST(VertexTree, HasEveryVertexOnceAndASphereOfItsOwnForEachInnerNode) {
   EXPECT_EQ(*places.rbegin() + 1, tree.spheres.size());
 }
 
-TEST(VertexTree, JoinsHalvesOfTheSameNodeOnly) {
+TEST(VertexTree, MergesOnlyChildrenOfTheSameNode) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 7, 3);
   const VertexTree tree = vertex_tree_build(mesh.vertices, {});
   const std::vector<VertexNode> nodes = nodes_of(tree);
@@ -75,7 +75,7 @@ TEST(VertexTree, JoinsHalvesOfTheSameNodeOnly) {
 }
 
 TEST(VertexTree, IsTheSameForEveryExecutor) {
-  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 100, 90);  // more than one task's vertices
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 100, 90);  // more vertices than one task has
   const VertexTree serial = vertex_tree_build(mesh.vertices, {});
   for (const Executor& executor : {Executor(ExecutorKind::Threads, 3), Executor(ExecutorKind::Shuffled)}) {
     const VertexTree other = vertex_tree_build(mesh.vertices, executor);
@@ -87,7 +87,7 @@ TEST(VertexTree, IsTheSameForEveryExecutor) {
   }
 }
 
-TEST(VertexTree, TakesOneVertexManyEqualOnesAndNone) {
+TEST(VertexTree, AcceptsOneVertexManyEqualOnesAndNone) {
   EXPECT_TRUE(vertex_tree_build({}, {}).empty());
   const std::vector<Vec3> one{{1, 2, 3}};
   const VertexTree single = vertex_tree_build(one, {});

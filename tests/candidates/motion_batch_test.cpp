@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates by the batch against the same motions swept one by one, on every executor, and on the CUDA device where
-// there is one.
+// Candidate motions of a batch compared with the same motions swept one by one, on every executor and on a CUDA device
+// if there is one.
 #include "dismantle/candidates/motion_batch.h"
 
 #include "dismantle/candidates/candidate_kernel.h"
@@ -19,7 +19,7 @@ using scenes::pair_of;
 
 constexpr double kTolerance = 0.01;
 
-/// Batches on every executor, and on the CUDA device where there is one.
+/// Batches on every executor, and on a CUDA device if there is one.
 std::vector<std::unique_ptr<MotionBatch>> all_batches(const Assembly& assembly, const PairStates& states) {
   std::vector<std::unique_ptr<MotionBatch>> batches;
   for (const Executor& executor : all_executors())
@@ -28,7 +28,7 @@ std::vector<std::unique_ptr<MotionBatch>> all_batches(const Assembly& assembly, 
   return batches;
 }
 
-/// A random assembly of which two components are in hand, somewhere, and the rest is elsewhere.
+/// A random assembly in a random state, with a moving set of two components.
 struct RandomState {
   Assembly assembly;
   PairStates states;
@@ -41,7 +41,7 @@ struct RandomState {
     poses[3] = poses[4] = scenes::random_pose(random, 2, 1);
   }
 
-  /// What a sweep of method `streams` says about the way to a pose, in pieces as they are given.
+  /// The result of a sweep of method `streams` to a pose, in the given number of pieces.
   FirstContact swept(const Pose& target, int pieces) const {
     std::vector<RigidTransform> state;
     for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
@@ -67,7 +67,7 @@ void expect_agree(const FirstContact& batch, const FirstContact& swept) {
   EXPECT_NEAR(batch.toi, swept.toi, 1e-4);
 }
 
-TEST(MotionBatch, StopsStraightWaysWhereSweepsDoAndGivesTheSameBytesEverywhere) {
+TEST(MotionBatch, StopsLinearMotionsWhereSweepsDoAndGivesTheSameBytesEverywhere) {
   std::size_t free = 0, stopped_on_the_way = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -145,7 +145,7 @@ TEST(MotionBatch, NamesTheComponentAndTheFacesThatMeetFirst) {
   EXPECT_TRUE(contacts[2].free);
 }
 
-TEST(MotionBatch, LetsEmbeddedPairsGoAndHoldsFitsToTheirAllowance) {
+TEST(MotionBatch, ExemptsEmbeddedPairsAndLimitsFitsToTheirAllowance) {
   const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-5, -5, -1}, {5, 5, 1})),
                                               scenes::component("peg", scenes::box({-1, -1, -2}, {1, 1, 2}))});
   const std::vector<ComponentId> peg{ComponentId(1)};
@@ -165,24 +165,24 @@ OverlapTimes times_of(double way, double allowed) {
   return t;
 }
 
-TEST(OverlapTimes, BeginAndEndWhereExtentsMeetAndPart) {
+TEST(OverlapTimes, BeginAndEndWhereExtentsMeetAndSeparate) {
   EXPECT_NEAR(times_of(8, 0).begin, 0.25, 1e-9);
   EXPECT_NEAR(times_of(8, 0).end, 0.5, 1e-9);
   EXPECT_LE(times_of(8, 0).begin, 0.25);  // never late
   EXPECT_GE(times_of(8, 0).end, 0.5);
-  EXPECT_GT(times_of(1, 0).contact(), 1);   // it does not get there
-  EXPECT_GT(times_of(0, 0).contact(), 1);   // it stands apart
-  EXPECT_GT(times_of(-5, 0).contact(), 1);  // it goes away
+  EXPECT_GT(times_of(1, 0).contact(), 1);   // it does not reach it
+  EXPECT_GT(times_of(0, 0).contact(), 1);   // it does not move
+  EXPECT_GT(times_of(-5, 0).contact(), 1);  // it moves away
 }
 
-TEST(OverlapTimes, AllowADepthOnTheSideThatThingsCameFrom) {
+TEST(OverlapTimes, AllowADepthOnTheSideOfTheStart) {
   EXPECT_NEAR(times_of(8, 0.4).contact(), 0.3, 1e-9);
   EXPECT_LE(times_of(8, 0.4).contact(), 0.3);
   EXPECT_GT(times_of(2.3, 0.4).contact(), 1);
-  OverlapTimes sheet;  // through something without thickness
+  OverlapTimes sheet;  // through a sheet without thickness
   sheet.meet({0, 0}, 8, {2, 2}, 0.4);
   EXPECT_NEAR(sheet.contact(), 0.3, 1e-9);
-  OverlapTimes resting;  // on it, and away
+  OverlapTimes resting;  // resting on it, then away
   resting.meet({2, 3}, 8, {1, 2}, 0.4);
   EXPECT_GT(resting.contact(), 1);
 }

@@ -26,13 +26,13 @@ PairStates states_of(const Assembly& assembly) {
   return *classify_pairs(assembly, classify);
 }
 
-/// An engine with one component in hand.
+/// An engine with one moving component.
 struct Held {
   Held(const Assembly& assembly, const PairStates& states, std::uint32_t component,
        const CertificateOptions& options = {})
       : engine(assembly, states, options) {
     const ComponentId id(component);
-    engine.hold({&id, 1});
+    engine.grab({&id, 1});
   }
   CertificateEngine engine;
 };
@@ -42,7 +42,7 @@ Assembly block_and_floor() {
       {component("block", box({0, 0, 1}, {10, 10, 11})), component("floor", box({-50, -50, -5}, {50, 50, 0}))});
 }
 
-TEST(CertificateEngine, StopsWhereTheWholeStepIsNotFree) {
+TEST(CertificateEngine, StopsIfTheWholeStepIsNotFree) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -60,7 +60,7 @@ TEST(CertificateEngine, TouchesWithinTheTolerance) {
   EXPECT_EQ(r.pose.position.x, 0);
 }
 
-TEST(CertificateEngine, SlidesAlongTheFloorAndSaysWhatItTouches) {
+TEST(CertificateEngine, SlidesAlongTheFloorAndNamesItsContacts) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -79,7 +79,7 @@ TEST(CertificateEngine, SlidesAlongTheFloorAndSaysWhatItTouches) {
   }
 }
 
-/// A shaft in a bush, both fine, and the smallest of the two in hand or the largest.
+/// A shaft in a bush, both finely meshed; either the smaller or the larger one moves.
 Assembly shaft_in_bush(double clearance) {
   return scenes::assembly({component("shaft", tube(5 - clearance, 0, -20, 20, 128, 2)),
                            component("bush", scenes::extruded_band(scenes::square_around(12, 128),
@@ -99,7 +99,7 @@ TEST(CertificateEngine, SlidesAWholeCylinderAlongItsBoreAsOne) {
           h.engine.step({{press.x, press.y, 0.2 * step}, quat_about({0, 0, 1}, 0.03 * step)}, ResponseKind::Slide);
       EXPECT_NEAR(r.pose.position.z, 0.2 * step, 0.02) << step;
       EXPECT_LT(std::hypot(r.pose.position.x, r.pose.position.y), 0.005 + kTolerance) << step;
-      if (step <= 4) continue;  // its triangles found that it is one
+      if (step <= 4) continue;  // the cylinder is found from its triangles first
       looked_at += r.sizes.elementary_tests;
       ASSERT_FALSE(r.contacts.empty());
       ASSERT_FALSE(r.touching.empty());
@@ -110,15 +110,15 @@ TEST(CertificateEngine, SlidesAWholeCylinderAlongItsBoreAsOne) {
         EXPECT_NEAR(outwards, moving == 0 ? -1 : 1, 0.01);
         EXPECT_LT(std::abs(c.gap), kTolerance);
         const Triangle own = assembly[c.moving].mesh->triangle(c.face_moving.value);
-        EXPECT_LT(std::abs(normalized(normal_unscaled(own)).z), 0.01) << "it is the cylinder that touches";
+        EXPECT_LT(std::abs(normalized(normal_unscaled(own)).z), 0.01) << "the cylinder is in contact";
       }
     }
-    EXPECT_LT(looked_at, 26 * 8u) << "but for some of the rims";
+    EXPECT_LT(looked_at, 26 * 8u) << "apart from the rims";
   }
 }
 
-TEST(CertificateEngine, ReachesWhatTrianglesAllowAndTheirCylinderDoesNot) {
-  // Corners of the shaft in corners of the bore: up to its flats there is less room.
+TEST(CertificateEngine, ReachesPosesThatTrianglesAllowAndTheirCylindersDoNot) {
+  // Corners of the shaft in corners of the bore: there is less room up to the bore's flats.
   const Assembly assembly = shaft_in_bush(0.004);
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -134,8 +134,8 @@ TEST(CertificateEngine, ReachesWhatTrianglesAllowAndTheirCylinderDoesNot) {
   EXPECT_GT(allowed, 5);
 }
 
-TEST(CertificateEngine, LeavesABoreWhereItIsOpenToOneSide) {
-  // A ring, and on it half a ring that goes on in the same bore.
+TEST(CertificateEngine, LeavesABoreThatIsOpenToOneSide) {
+  // A ring, and on it half a ring that continues its bore.
   const std::uint32_t sides = 96;
   TriangleMesh seat = scenes::extruded_band(scenes::circle(9, sides), scenes::circle(5, sides), true, 0, 10);
   scenes::Profile outer = scenes::circle(9, sides), inner = scenes::circle(5, sides);
@@ -157,7 +157,7 @@ TEST(CertificateEngine, LeavesABoreWhereItIsOpenToOneSide) {
   EXPECT_LT(r.pose.position.y, -19);
 }
 
-TEST(CertificateEngine, RestsWithoutAnyMotion) {
+TEST(CertificateEngine, StaysAtRestWithoutMotion) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -171,7 +171,7 @@ TEST(CertificateEngine, RestsWithoutAnyMotion) {
   }
 }
 
-TEST(CertificateEngine, ComesAwayFromAContact) {
+TEST(CertificateEngine, LeavesAContact) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -192,7 +192,7 @@ TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
     CertificateEngine engine(assembly, states, options);
     for (std::uint32_t c = 0; c < 4; ++c) {
       const ComponentId id(c);
-      engine.hold({&id, 1});
+      engine.grab({&id, 1});
       for (int step = 0; step < 12; ++step)
         way.push_back(engine.step(scenes::random_pose(random, 4, 1), ResponseKind::Slide).pose);
     }
@@ -213,7 +213,7 @@ TEST(CertificateEngine, AnyFrontGivesTheSameFirstContact) {
     Held fresh(assembly, states, 0);
     fresh.engine.jump(used.engine.poses());
     const ComponentId id(0);
-    fresh.engine.hold({&id, 1});
+    fresh.engine.grab({&id, 1});
     const Pose by_used = used.engine.step(target, ResponseKind::Touch).pose;
     const Pose by_fresh = fresh.engine.step(target, ResponseKind::Touch).pose;
     EXPECT_NEAR(length(by_used.position - by_fresh.position), 0, kTolerance) << "step " << step;
@@ -235,12 +235,12 @@ TEST(CertificateEngine, MeasuresTheClearanceExactly) {
     const Clearance clearance = h.engine.clearance();
     EXPECT_NEAR(clearance.distance, least, 1e-9);
     EXPECT_NEAR(length(clearance.point_moving - clearance.point_fixed), clearance.distance, 1e-9);
-    EXPECT_FALSE(h.engine.clearance(clearance.distance).fixed.valid()) << "nothing is below it";
+    EXPECT_FALSE(h.engine.clearance(clearance.distance).fixed.valid()) << "nothing is nearer";
     EXPECT_EQ(h.engine.clearance(clearance.distance + 0.1).fixed, clearance.fixed);
   }
 }
 
-TEST(CertificateEngine, NamesTheFirstOfComponentsThatAreEquallyNear) {
+TEST(CertificateEngine, NamesTheFirstOfEquallyNearComponents) {
   // The box around the wedge is nearer than the posts, the wedge is not.
   const Assembly assembly = scenes::assembly(
       {component("block", box({-1, -1, -1}, {1, 1, 1})), component("post", box({-9, -1, -1}, {-4, 1, 1})),
@@ -265,8 +265,8 @@ TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
   EXPECT_LE(r.clearance, h.engine.clearance().distance);
 }
 
-TEST(CertificateEngine, ClaimsNoClearanceThatIsNotThere) {
-  // A peg that shakes in its bore: contacts come and go within the steps.
+TEST(CertificateEngine, NeverOverstatesTheClearance) {
+  // A peg that shakes in its bore: contacts begin and end within the steps.
   const Assembly assembly =
       scenes::assembly({component("peg", tube(4.95, 0, 0, 20, 24)), component("block", tube(12, 5, 0, 20, 24))});
   const PairStates states = states_of(assembly);
@@ -294,7 +294,7 @@ TEST(CertificateEngine, FindsTheFirstContactOfEachCandidate) {
   EXPECT_EQ(h.engine.poses()[0], Pose{});
 }
 
-TEST(CertificateEngine, TellsHowFarTheSetCanGoStraightWhereverAllAre) {
+TEST(CertificateEngine, TellsHowFarTheMovingSetCanGoStraightFromAnyState) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   std::mt19937_64 random(8);
@@ -304,7 +304,7 @@ TEST(CertificateEngine, TellsHowFarTheSetCanGoStraightWhereverAllAre) {
     const Pose all = scenes::random_pose(random, 300, 3);
     h.engine.jump(std::vector<Pose>{all * Pose{{0, 0, 3}, quat_about({0, 0, 1}, 0.2)}, all});
     const ComponentId block(0);
-    h.engine.hold({&block, 1});
+    h.engine.grab({&block, 1});
     std::vector<Vec3> ways;
     std::vector<Pose> targets;
     for (int i = 0; i < 10; ++i) {
@@ -327,7 +327,7 @@ TEST(CertificateEngine, TellsHowFarTheSetCanGoStraightWhereverAllAre) {
   EXPECT_GT(blocked, 50);
 }
 
-TEST(CertificateEngine, GivesTheContactsWithinReach) {
+TEST(CertificateEngine, ReportsTheContactsWithinReach) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
   Held h(assembly, states, 0);
@@ -338,7 +338,7 @@ TEST(CertificateEngine, GivesTheContactsWithinReach) {
   EXPECT_NEAR(near[0].normal.z, 1, 1e-9);
 }
 
-TEST(CertificateEngine, FreesAnEmbeddedPairUntilItIsApartAndNotAfter) {
+TEST(CertificateEngine, ExemptsAnEmbeddedPairUntilItIsApart) {
   const Assembly assembly = scenes::assembly(
       {component("rod", box({0, 0, 0}, {4, 4, 20})), component("block", box({-10, -10, -10}, {10, 10, 10}))});
   ClassifyOptions classify;
@@ -350,13 +350,13 @@ TEST(CertificateEngine, FreesAnEmbeddedPairUntilItIsApartAndNotAfter) {
   for (int step = 1; step <= 30; ++step) h.engine.step({{0, 0, 0.5 * step}, {}}, ResponseKind::Slide);
   EXPECT_TRUE(h.engine.embedded_pairs().empty());
   EXPECT_NEAR(h.engine.poses()[0].position.z, 15, 1e-12);
-  // The way back is shut now.
+  // It cannot return now.
   const StepResult back = h.engine.step({{0, 0, 5}, {}}, ResponseKind::Slide);
   EXPECT_NEAR(back.pose.position.z, 10, kTolerance);
 }
 
-TEST(CertificateEngine, HoldsOpenSheetsApart) {
-  // Two parallel sheets without any thickness, pressed together in small steps and from either side.
+TEST(CertificateEngine, KeepsOpenSheetsApart) {
+  // Two parallel sheets without thickness, pressed together in small steps from either side.
   const TriangleMesh low{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{{0, 1, 2}}}};
   const TriangleMesh high{{{-3, -3, 1}, {3, -3, 1}, {0, 3, 1}}, {{{0, 1, 2}}}};
   const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
@@ -365,7 +365,7 @@ TEST(CertificateEngine, HoldsOpenSheetsApart) {
   for (int step = 0; step < 400; ++step) h.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
   EXPECT_GE(h.engine.poses()[0].position.z, -1 - kTolerance);
   const ComponentId other(1);
-  h.engine.hold({&other, 1});
+  h.engine.grab({&other, 1});
   for (int step = 0; step < 200; ++step) h.engine.step({{0, 0, 0.005 * step}, {}}, ResponseKind::Slide);
   EXPECT_LE(h.engine.poses()[1].position.z - h.engine.poses()[0].position.z, 1 + 2 * kTolerance);
 }
@@ -373,7 +373,7 @@ TEST(CertificateEngine, HoldsOpenSheetsApart) {
 TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) {
   const TriangleMesh low{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{{0, 1, 2}}}};
   for (const double gap : {0.9 * kTolerance, 0.3 * kTolerance, 0.0}) {
-    // Face to face: the upper one looks down.
+    // Face to face: the upper one faces down.
     const TriangleMesh high{{{-3, -3, gap}, {3, -3, gap}, {0, 3, gap}}, {{{0, 2, 1}}}};
     const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
     const PairStates states = states_of(assembly);
@@ -387,7 +387,7 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
   }
 }
 
-TEST(CertificateEngine, DoesNotCareHowTheAssemblyIsTurned) {
+TEST(CertificateEngine, DoesNotDependOnTheOrientationOfTheAssembly) {
   const Pose turn{{30, -20, 10}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)};
   Assembly turned = block_and_floor();
   for (Component& c : turned.components) c.assembly_from_mesh = transform_from_pose(turn) * c.assembly_from_mesh;
@@ -403,7 +403,7 @@ TEST(CertificateEngine, DoesNotCareHowTheAssemblyIsTurned) {
   }
 }
 
-TEST(CertificateEngine, TellsWhatOneComponentMeetsStraightOnWhateverWasMoved) {
+TEST(CertificateEngine, FindsTheStraightContactOfOneComponentAfterAnyMotion) {
   const Assembly assembly = scenes::assembly(
       {component("block", box({0, 0, 1}, {10, 10, 11})), component("near", box({4, 4, 20}, {6, 6, 22})),
        component("far", box({0, 0, 31}, {10, 10, 32})), component("aside", box({20, 0, 0}, {30, 10, 40}))});
@@ -422,7 +422,7 @@ TEST(CertificateEngine, TellsWhatOneComponentMeetsStraightOnWhateverWasMoved) {
   EXPECT_FALSE(h.engine.straight_contact(block, near, {0, 0, 8}, StraightSearch::Any)) << "it does not go that far";
 }
 
-TEST(CertificateEngine, LetsFitsGoStraightAllTheWayOut) {
+TEST(CertificateEngine, LetsFitsOutAlongALine) {
   for (const double interference : {0.005, 0.02, 0.04}) {
     const scenes::SlideScene scene = scenes::press_fit_pin(36, interference);
     const PairStates states = states_of(scene.assembly);

@@ -13,7 +13,7 @@ Assembly assembly_of(const TriangleMesh& mesh) {
   return scenes::assembly({scenes::component("part", mesh)});
 }
 
-TEST(ChooseCertificateDevice, TakesTheCpuWithoutAWordWhereItIsAskedFor) {
+TEST(ChooseCertificateDevice, TakesTheCpuSilentlyIfRequested) {
   const ChosenCertificateDevice chosen =
       choose_certificate_device(assembly_of(scenes::box({0, 0, 0}, {1, 1, 1})), DeviceChoice::Cpu);
   EXPECT_FALSE(chosen.use.fronts);
@@ -31,7 +31,7 @@ TEST(ChooseCertificateDevice, TakesCudaForEverySweepOrSaysWhyNot) {
   EXPECT_EQ(chosen.why.empty(), cuda.ok());
 }
 
-TEST(ChooseCertificateDevice, TakesCudaByItselfOnlyForManyTrianglesAndThenForLargeSweeps) {
+TEST(ChooseCertificateDevice, TakesCudaAutomaticallyOnlyForManyTrianglesAndLargeSweeps) {
   const ChosenCertificateDevice few =
       choose_certificate_device(assembly_of(scenes::box({0, 0, 0}, {1, 1, 1})), DeviceChoice::Auto);
   EXPECT_FALSE(few.use.fronts);

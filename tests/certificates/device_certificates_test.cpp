@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of the method `certificates` that ask a device against the same that do not, step by step: on devices that
-// executors play, and on the CUDA device where there is one.
+// Motions of method `certificates` with a device, compared step by step with the same without: on emulated devices, and
+// on a CUDA device if there is one.
 #include "dismantle/documents/motion_file.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/math/vec3f.h"
@@ -19,7 +19,7 @@ using namespace scenes;
 
 struct Device {
   const char* name;
-  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None for the CUDA device.
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
 
@@ -37,38 +37,36 @@ struct Asked {
   std::size_t parents = 0;       ///< Pairs of nodes that it separated for merging.
 };
 
-/// What the host finds of the same faces, bit for bit.
+/// Expects the result of the host for the same faces, bit for bit.
 void expect_same_leaf(const TrianglePairResult& found, const TrianglePairResult& expected) {
   EXPECT_EQ(found.free, expected.free);
   EXPECT_EQ(found.gap, expected.gap);
-  EXPECT_EQ(found.harmless, expected.harmless);
+  EXPECT_EQ(found.no_deep_vertex_possible, expected.no_deep_vertex_possible);
   EXPECT_EQ(found.contact.face_moving, expected.contact.face_moving);
   EXPECT_EQ(found.contact.face_fixed, expected.contact.face_fixed);
   EXPECT_EQ(found.contact.toi, expected.contact.toi);
   EXPECT_EQ(found.contact.axis, expected.contact.axis);
 }
 
-/// Counts what goes through it, and looks at what no sweep may take.
+/// Counts queries, and checks results that no sweep uses.
 class CountedDevice final : public FrontDevice {
  public:
   CountedDevice(std::unique_ptr<FrontDevice> device, Asked& asked) : device_(std::move(device)), asked_(asked) {}
-  FrontResults ask(Span<const FrontQuery<TrianglePairSweep>> fronts, bool to_the_end) override {
+  FrontResults ask(Span<const FrontQuery> fronts, bool to_the_end) override {
     const FrontResults answers = device_->ask(fronts, to_the_end);
     ++asked_.sweeps;
     std::size_t part = 0;
-    for (const FrontQuery<TrianglePairSweep>& asked : fronts)
+    for (const FrontQuery& asked : fronts)
       for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
     return answers;
   }
-  Span<const NodeSeparation> separate(Span<const FrontQuery<TrianglePairSweep>> fronts,
-                                      Span<const MergeCandidate> pairs) override {
+  Span<const NodeSeparation> separate(Span<const FrontQuery> fronts, Span<const MergeCandidate> pairs) override {
     asked_.parents += pairs.size();
     return device_->separate(fronts, pairs);
   }
 
  private:
-  void count(const PartResults& part, Span<const TrianglePairResult> leaves,
-             const FrontQuery<TrianglePairSweep>& asked) {
+  void count(const PartResults& part, Span<const TrianglePairResult> leaves, const FrontQuery& asked) {
     std::vector<std::uint32_t> left = part.roots;
     asked_.failing += left.size();
     for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairResult::None ? 1 : 0;
@@ -79,7 +77,7 @@ class CountedDevice final : public FrontDevice {
         left.insert(left.end(), {answer.first_child, answer.first_child + 1});
       if (answer.leaf == PairResult::kNone) continue;
       ++asked_.tests;
-      if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is not told
+      if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is unknown
       const TrianglePairResult& found = leaves[answer.leaf];
       const Vec3 hint = to_double(answer.separation.certificate.axis);
       expect_same_leaf(found, asked.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
@@ -104,7 +102,7 @@ class DeviceCertificates : public testing::TestWithParam<Device> {
     return std::make_unique<CountedDevice>(std::move(device), asked);
   }
 
-  /// Plays a motion on the CPU and with the device: every step must be the same.
+  /// Plays a motion on the CPU and with the device, and expects equal steps.
   Asked expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t min_pairs = 0) {
     const PairStates states = states_of(assembly, tolerance);
     Asked asked;
@@ -143,7 +141,7 @@ std::string name_of_device(const testing::TestParamInfo<Device>& device) {
 
 INSTANTIATE_TEST_SUITE_P(On, DeviceCertificates, testing::ValuesIn(kDevices), name_of_device);
 
-TEST_P(DeviceCertificates, PullPegsOutAsTheCpuDoes) {
+TEST_P(DeviceCertificates, PullPegsOutLikeTheCpu) {
   for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
     const SlideScene peg = peg_in_hole(48, 0.01);
     const Asked asked = expect_same(peg.assembly, 0.005, motion_of(peg, pull(Hand(peg, {}), 30), response));
@@ -152,12 +150,12 @@ TEST_P(DeviceCertificates, PullPegsOutAsTheCpuDoes) {
     EXPECT_GT(asked.answered, 0u);
     EXPECT_GT(asked.tests, 1000u);
     EXPECT_GT(asked.tests_taken, 0u);
-    // What comes after a contact, and pairs from which sweeps stop early, are the host's.
+    // The host evaluates what comes after a contact, and pairs at which sweeps stop early.
     EXPECT_LT(asked.tests_taken, asked.tests_wanted);
   }
 }
 
-TEST_P(DeviceCertificates, DrawKeysAndCornersAsTheCpuDoes) {
+TEST_P(DeviceCertificates, PullKeysAndCornersLikeTheCpu) {
   for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)}) {
     const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
     EXPECT_GT(asked.failing, 50u);
@@ -165,7 +163,7 @@ TEST_P(DeviceCertificates, DrawKeysAndCornersAsTheCpuDoes) {
   }
 }
 
-TEST_P(DeviceCertificates, RollGearsApartAsTheCpuDoes) {
+TEST_P(DeviceCertificates, RollGearsApartLikeTheCpu) {
   const GearPair pair = gear_pair(0.05);
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
@@ -175,7 +173,7 @@ TEST_P(DeviceCertificates, RollGearsApartAsTheCpuDoes) {
   EXPECT_GT(asked.parents, 100u);
 }
 
-TEST_P(DeviceCertificates, ScrewBoltsOutAsTheCpuDoes) {
+TEST_P(DeviceCertificates, ScrewBoltsOutLikeTheCpu) {
   const SlideScene bolt = bolt_in_nut(12'000, 0.02);
   Hand hand(bolt, {0.5, 0.05, 0.01, 4});
   std::vector<Pose> targets;
@@ -183,7 +181,7 @@ TEST_P(DeviceCertificates, ScrewBoltsOutAsTheCpuDoes) {
   EXPECT_GT(expect_same(bolt.assembly, 0.01, motion_of(bolt, targets)).answered, 1000u);
 }
 
-TEST_P(DeviceCertificates, AskTheDeviceForLargeFrontsOnly) {
+TEST_P(DeviceCertificates, QueryTheDeviceForLargeFrontsOnly) {
   const GearPair pair = gear_pair(0.05);
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
@@ -196,7 +194,7 @@ TEST_P(DeviceCertificates, AskTheDeviceForLargeFrontsOnly) {
   EXPECT_EQ(expect_same(scene.assembly, 0.01, motion, 1'000'000'000).sweeps, 0u);
 }
 
-TEST_P(DeviceCertificates, PlayTheMicroscopesMotionAsTheCpuDoes) {
+TEST_P(DeviceCertificates, PlayTheMicroscopesMotionLikeTheCpu) {
   const std::string sample = DISMANTLE_SOURCE_DIR "/samples/microscope";
   const Assembly assembly = load_assembly(sample + ".step").value();
   Motion motion = read_motion(sample + ".motion.json").value();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fronts that ask a device against fronts that do not: on devices that executors play, and on the CUDA device where
-// there is one.
+// Fronts with a device compared with fronts without: on emulated devices, and on a CUDA device if there is one.
 #include "dismantle/certificates/device/front_device.h"
 #include "dismantle/certificates/front/certificate_front.h"
 #include "tests/support/meshes.h"
@@ -20,7 +19,7 @@ constexpr double kAllowed = 0.01;
 
 struct Device {
   const char* name;
-  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None for the CUDA device.
   std::size_t capacity;
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
@@ -57,13 +56,13 @@ std::string name_of_device(const testing::TestParamInfo<Device>& device) {
 
 INSTANTIATE_TEST_SUITE_P(On, DeviceFronts, testing::ValuesIn(kDevices), name_of_device);
 
-/// What a sweep of a whole front came to.
+/// The result of a sweep of a whole front.
 struct Swept {
   float min_gap = 3e38f;
   std::size_t blocked = 0;
   bool complete = true, touching = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
-  std::size_t parents = 0;  ///< Pairs of nodes of which a device was asked for merging: nothing that was found.
+  std::size_t parents = 0;  ///< Pairs of nodes queried for merging; no result.
   friend bool operator==(const Swept& x, const Swept& y) {
     return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.touching == y.touching &&
            x.tested == y.tested;
@@ -93,7 +92,7 @@ bool free_of(const Swept& swept) {
   return swept.blocked == 0 && swept.complete;
 }
 
-/// What siblings of the parts may merge into, for a device.
+/// The merge candidates of the parts, for a device.
 std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
   std::vector<MergeCandidate> parents;
   for (const std::vector<Siblings>& of_part : siblings)
@@ -101,14 +100,13 @@ std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>&
   return parents;
 }
 
-/// Merges by what a device says; gives of how many pairs it was asked.
+/// Merges by a device's results. @return the number of pairs queried
 std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
-  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
+  const FrontQuery asked{&front, &linear};
   std::vector<std::vector<Siblings>> siblings;
   for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
   const std::vector<MergeCandidate> parents = parents_of(siblings);
-  const Span<const NodeSeparation> found =
-      device.separate(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), parents);
+  const Span<const NodeSeparation> found = device.separate(Span<const FrontQuery>(&asked, 1), parents);
   std::size_t begin = 0;
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     const std::size_t count = siblings[part].size();
@@ -123,10 +121,10 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
   Span<const PartResults> answers;
-  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
+  const FrontQuery asked{&front, &linear};
   if (device) {
     swept.parents = merge_by(*device, front, linear);
-    answers = device->ask(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), to_the_end).parts;
+    answers = device->ask(Span<const FrontQuery>(&asked, 1), to_the_end).parts;
   }
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     if (!device) front.merge_part(part, linear, kernels);
@@ -136,7 +134,7 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   return swept;
 }
 
-/// Every bit of what two fronts hold, and in which order.
+/// Expects two fronts to be equal bit by bit, including their order.
 void expect_same_fronts(CertificateFront& front, CertificateFront& expected) {
   ASSERT_EQ(front.part_count(), expected.part_count());
   for (std::size_t p = 0; p < front.part_count(); ++p) {
@@ -150,9 +148,9 @@ void expect_same_fronts(CertificateFront& front, CertificateFront& expected) {
   }
 }
 
-// A shaft that a trembling hand presses against its bore: fronts of several parts that grow, merge, are cut and joined,
-// and change who moves; sweeps that ask and sweeps that do not.
-TEST_P(DeviceFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
+// A shaft pressed against its bore with tremor: fronts of several parts that grow, merge, are cut and joined, and
+// exchange roles; sweeps with and without the device.
+TEST_P(DeviceFronts, EqualTheFrontsOfTheHostFromCapacityOne) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 64, 16)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 64, 16));
   for (const SideRule sides : {SideRule::Normals, SideRule::Memory, SideRule::Free}) {
     CertificateFront front(a, b, sides), expected(a, b, sides);
@@ -174,7 +172,7 @@ TEST_P(DeviceFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
       PairMotion motion =
           exchanged ? scenes::pair_motion(b, a, inverse(pose), inverse(next)) : scenes::pair_motion(a, b, pose, next);
       motion.allowed = kAllowed;
-      if (step % 4 == 1) motion.enough_blocked = 8;
+      if (step % 4 == 1) motion.max_blocked = 8;
       const Swept wanted = sweep(expected, motion, nullptr, true);
       const Swept found = sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0);
       EXPECT_EQ(found, wanted);
@@ -192,15 +190,14 @@ TEST_P(DeviceFronts, AreTheFrontsThatTheHostMakesFromCapacityOne) {
   }
 }
 
-TEST_P(DeviceFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
+TEST_P(DeviceFronts, LeaveNothingToTheHostInAnExhaustiveQuery) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
   CertificateFront front(a, b, SideRule::Normals);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
-  const FrontQuery<TrianglePairSweep> asked{&front, &linear};
-  const Span<const PartResults> answers =
-      device_->ask(Span<const FrontQuery<TrianglePairSweep>>(&asked, 1), true).parts;
+  const FrontQuery asked{&front, &linear};
+  const Span<const PartResults> answers = device_->ask(Span<const FrontQuery>(&asked, 1), true).parts;
   ASSERT_EQ(answers.size(), 1u);
   ASSERT_EQ(answers[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
@@ -219,8 +216,8 @@ TEST_P(DeviceFronts, LeaveNothingToTheHostWhenAskedToTheEnd) {
   EXPECT_EQ(of_kind[PairResult::Split] + 1, of_kind[PairResult::Boxes] + of_kind[PairResult::Triangles]);
 }
 
-// A front that has moved away merges by what it is told alone: nothing where no parents are said to be apart.
-TEST_P(DeviceFronts, MergeByWhatTheDeviceSaysOfParents) {
+// A front that has moved away merges only by the given results: not at all if no parents are certified.
+TEST_P(DeviceFronts, MergeByTheDevicesResultsForParents) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
   CertificateFront front(a, b, SideRule::Normals);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.01, 0, 0}, {}});
@@ -244,7 +241,7 @@ TEST_P(DeviceFronts, MergeByWhatTheDeviceSaysOfParents) {
   expect_same_fronts(front, expected);
 }
 
-TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
+TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreQueriedTogether) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 24, 6)),
                 c = tree_of(scenes::box({-3, -3, 4.5}, {3, 3, 6}));
   CertificateFront in_bore(a, b, SideRule::Normals), to_box(a, c, SideRule::Free);
@@ -256,9 +253,8 @@ TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreAskedTogether) {
       motion.allowed = kAllowed;
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
-    const FrontQuery<TrianglePairSweep> asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartResults> answers =
-        device_->ask(Span<const FrontQuery<TrianglePairSweep>>(asked, 2), true).parts;
+    const FrontQuery asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
+    const Span<const PartResults> answers = device_->ask(Span<const FrontQuery>(asked, 2), true).parts;
     ASSERT_EQ(answers.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {

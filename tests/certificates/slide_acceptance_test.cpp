@@ -16,19 +16,20 @@ void expect_comes_out(const SlideScene& scene, double tolerance, const Hand::Opt
   const int allowed = steps_allowed(scene, options.step);
   const Drag made = drag(scene, tolerance, pull(Hand(scene, options), allowed));
   const int steps = steps_until_out(scene, made);
-  EXPECT_GT(steps, 0) << "still at " << distance_moved(scene, made.played.steps.back().result.pose) << " of " << scene.exit_distance
-                      << " mm after " << allowed << " steps";
+  EXPECT_GT(steps, 0) << "still at " << distance_moved(scene, made.played.steps.back().result.pose) << " of "
+                      << scene.exit_distance << " mm after " << allowed << " steps";
   EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
 }
 
-/// A pull without end in one direction, trembling: how far the component gets in it [mm]. The audit must hold.
+/// The distance that a steady pull in one direction, with tremor, moves the component [mm]. The audit must hold.
 double distance_under_force(const SlideScene& scene, double tolerance, Vec3 direction, int steps) {
   SlideScene pulled = scene;
   pulled.pull = normalized(direction);
   const Drag made = drag(pulled, tolerance, pull(Hand(pulled, {1, 0.3, 0.06, 3}), steps));
   EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
   double furthest = 0;
-  for (const PlayedStep& step : made.played.steps) furthest = std::max(furthest, distance_moved(pulled, step.result.pose));
+  for (const PlayedStep& step : made.played.steps)
+    furthest = std::max(furthest, distance_moved(pulled, step.result.pose));
   return furthest;
 }
 
@@ -39,7 +40,7 @@ TEST(Slide, TakesAPegWithAShoulderOutOfItsHole) {
   }
 }
 
-TEST(Slide, TakesAKeyOutOfItsSlotEitherWay) {
+TEST(Slide, TakesAKeyOutOfItsSlotInBothDirections) {
   for (const double clearance : {0.0, 0.01}) {
     SCOPED_TRACE(clearance);
     expect_comes_out(key_in_slot(clearance, {0, 1, 0}), 0.01);
@@ -47,7 +48,7 @@ TEST(Slide, TakesAKeyOutOfItsSlotEitherWay) {
   }
 }
 
-TEST(Slide, TakesADovetailOutOfItsWayAndNotThroughItsFlanks) {
+TEST(Slide, TakesADovetailOutOfItsGuideAndNotThroughItsFlanks) {
   for (const double clearance : {0.0, 0.01}) expect_comes_out(dovetail(clearance), 0.01);
   EXPECT_LT(distance_under_force(dovetail(0.01), 0.01, {0, 1, 0}, 40), 0.2);
 }
@@ -59,7 +60,7 @@ TEST(Slide, TakesAPressFittedPinOutAlongItsAxisOnly) {
     EXPECT_LT(distance_under_force(pin, 0.01, sideways, 40), 0.2);
 }
 
-TEST(Slide, TakesAPlateOutOfASlotThatIsThinnerThanIt) {
+TEST(Slide, TakesAPlateOutOfASlotThinnerThanThePlate) {
   expect_comes_out(plate_in_slot(0.0009), 0.01);
   EXPECT_LT(distance_under_force(plate_in_slot(0.0009), 0.001, {1, 0, 0}, 20), 0.1);
 }
@@ -69,7 +70,7 @@ TEST(Slide, LeavesACornerWithoutClearanceAndSlidesAlongItsWalls) {
   expect_comes_out(corner, 0.01);
   EXPECT_LT(distance_under_force(corner, 0.01, {-1, -1, -1}, 40), 0.05);
 
-  // Along the x axis while the hand presses into the floor and the other wall.
+  // Along the x axis, pressed into the floor and the other wall.
   std::vector<Pose> targets;
   for (int k = 1; k <= 20; ++k) targets.push_back({{0.5 * k, -3, -3}, {}});
   const Drag made = drag(corner, 0.01, targets);
@@ -101,8 +102,8 @@ TEST(Slide, TakesMeshingGearsApartWhileTheyRoll) {
 /// A nut on a bolt with real threads, from the data folder. The nut moves; it can be screwed upwards.
 struct RealNut {
   std::filesystem::path parts;
-  double pitch;     ///< [mm]
-  double lift = 0;  ///< That puts the nut in the middle of its axial play [mm].
+  double pitch;       ///< [mm]
+  double offset = 0;  ///< Along z, to the middle of the nut's axial play [mm].
 };
 const RealNut kM16{data_folder() / "assemblies/factory_nut_bolt_m16/parts", 2};
 const RealNut kM8{data_folder() / "assemblies/factory_nut_bolt_m8_loose/parts", 1.25, 0.9 * 1.25};
@@ -111,7 +112,7 @@ constexpr double kNutTolerance = 0.005;  ///< [mm]
 SlideScene scene_of(const RealNut& nut) {
   SlideScene scene;
   scene.assembly = load_assembly(nut.parts).value();
-  scene.assembly.components[1].assembly_from_mesh.translation.z += nut.lift;
+  scene.assembly.components[1].assembly_from_mesh.translation.z += nut.offset;
   scene.moving = ComponentId(1);
   scene.pull = {0, 0, 1};
   scene.center = assembled_bounds(scene.assembly[scene.moving]).center();
@@ -152,7 +153,7 @@ TEST(Slide, ReachesEveryTargetThatAStraightMotionReaches) {
   const PairStates states = states_of(scene.assembly, 0.01);
   CertificateEngine engine(scene.assembly, states);
   const ComponentId moving[] = {scene.moving};
-  engine.hold({moving, 1});
+  engine.grab({moving, 1});
   Hand hand(scene, {});
   for (int k = 0; k < 40; ++k) {
     engine.step(hand.next(), ResponseKind::Slide);
@@ -166,7 +167,7 @@ TEST(Slide, ReachesEveryTargetThatAStraightMotionReaches) {
       EXPECT_TRUE(result.reached);
       EXPECT_EQ(result.pose, target);
       engine.jump(before);
-      engine.hold({moving, 1});
+      engine.grab({moving, 1});
     }
   }
 }

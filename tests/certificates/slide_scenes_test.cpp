@@ -11,7 +11,7 @@ namespace {
 
 using namespace scenes;
 
-/// Every mesh is closed, outward and without a degenerate triangle; the pair in hand stands as it should.
+/// Expects closed meshes, oriented outwards, without degenerate triangles; and the pair's state.
 void expect_sound(const SlideScene& scene, PairState state, double penetration = 0) {
   for (const Component& c : scene.assembly.components) {
     EXPECT_EQ(c.faults, MeshFaults{}) << c.name;
@@ -30,7 +30,7 @@ void expect_sound(const SlideScene& scene, PairState state, double penetration =
   }
 }
 
-TEST(SlideScenes, HaveSoundMeshesAtEveryClearance) {
+TEST(SlideScenes, HaveValidMeshesAtEveryClearance) {
   for (const double clearance : {0.0, 0.001, 0.05}) {
     const PairState state = clearance > 0 ? PairState::Clear : PairState::Contact;
     for (const std::uint32_t sides : {24u, 64u, 256u}) expect_sound(peg_in_hole(sides, clearance), PairState::Contact);
@@ -47,7 +47,7 @@ TEST(SlideScenes, HaveGearsThatMeshWhereverTheyHaveRolled) {
     const GearPair pair = large_gear_pair(triangles, 0.1);
     SlideScene scene = meshing_gears(pair);
     expect_sound(scene, PairState::Clear);
-    // The rim's fans do not overlap: the triangles of an end face make up its area.
+    // The rim's fans do not overlap: the triangles of an end face add up to its area.
     const TriangleMesh mesh = gear_mesh(pair.moving);
     double up = 0, all = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -76,7 +76,7 @@ TEST(SlideScenes, HaveThreadsThatStayClearWhileTheyAreUnscrewed) {
   }
 }
 
-TEST(SlideScenes, HaveAboutAsManyTrianglesAsWereAskedFor) {
+TEST(SlideScenes, HaveAboutTheRequestedNumberOfTriangles) {
   for (const std::size_t triangles : {10000u, 100000u}) {
     const std::vector<SlideScene> all = {shaft_in_hole(triangles, 0.1), ring_on_torus(triangles, 0.1),
                                          sliver_peg(triangles, 0.1), bolt_in_nut(triangles, 0.05),
@@ -93,7 +93,7 @@ TEST(SlideScenes, HaveAboutAsManyTrianglesAsWereAskedFor) {
   expect_sound(ring_on_torus(10000, 0.1), PairState::Clear);
 }
 
-TEST(Hand, TremblesWithinItsLimitsAndGivesTheSameForTheSameSeed) {
+TEST(Hand, HasTremorWithinItsLimitsAndIsDeterministic) {
   const SlideScene scene = peg_in_hole(24, 0.01);
   Hand hand(scene, {}), same(scene, {}), other(scene, {0.5, 0.3, 0.06, 2});
   for (int k = 1; k <= 20; ++k) {

@@ -13,7 +13,7 @@ namespace {
 
 using scenes::Solid;
 
-/// The least distance of all triangles at some places of the way.
+/// The minimum distance of all triangles at some positions of the motion.
 double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
   constexpr int kPlaces = 16;
   double least = std::numeric_limits<double>::infinity();
@@ -27,8 +27,8 @@ double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
   return least;
 }
 
-/// What both looks say of ways is true, and they say something of most.
-TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
+/// Both results for a motion are true, and most motions have one.
+TEST(StraightWay, IsNeverFreeIfItMeetsNorDeepIfItDoesNot) {
   std::mt19937_64 random(5);
   int free = 0, deep = 0, unsettled = 0;
   for (const double offset : {1.0, 1e4})
@@ -36,7 +36,7 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
       const Pose pose = scenes::random_pose(random, offset, 3);
       const Solid fixed(scenes::moved(scenes::tube(3, 1, -2, 2, 9, 1), pose));
       const Vec3 at = assembled_bounds(fixed.assembly.components[0]).center();
-      // Assembled somewhere else, but brought near.
+      // Assembled elsewhere, but moved near.
       const Pose own = scenes::random_pose(random, offset, 3);
       const Solid solid(scenes::moved(scenes::tube(0.8, 0.3, -1, 1, 7, 1), own));
       const Pose near{at + scenes::random_vector(random, 4), pose.rotation};
@@ -54,7 +54,7 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
       if (!found) continue;
       ASSERT_GE(found->share, 0);
       ASSERT_LE(found->share, 1);
-      // Of one of the two it is a vertex there, in the other one it is deep.
+      // There it is a vertex of one of the two, deep in the other.
       const Vec3 of_moving = inverse(moving.at) * (found->point - found->share * moving.way);
       const auto is_deep = [](const SolidTree& in, const Vec3& p) {
         return point_in_solid(in, p) && nearest_face(in, p, NearestFace::kNone).distance > 0.05 - 1e-6;
@@ -73,7 +73,7 @@ TEST(StraightWay, IsNeverCalledFreeThatMeetsNorDeepThatIsNot) {
   EXPECT_LT(unsettled, 40) << free << " free, " << deep << " deep";
 }
 
-TEST(StraightWay, PassesWhatItsShadowMissesByHundredthsOrThatIsBehind) {
+TEST(StraightWay, PassesObstaclesBehindOrBesideItsShadow) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), plate(scenes::box({1.01, -500, 5}, {500, 500, 6})),
       behind(scenes::box({-5, -5, -2}, {5, 5, -0.01})), beyond(scenes::box({-5, -5, 12.01}, {5, 5, 13}));
   for (const Solid* other : {&plate, &behind, &beyond}) EXPECT_TRUE(passes_by({bar.tree, {}, {0, 0, 10}}, other->tree));
@@ -82,20 +82,20 @@ TEST(StraightWay, PassesWhatItsShadowMissesByHundredthsOrThatIsBehind) {
   EXPECT_FALSE(passes_by({bar.tree, {}, {0, 0, 10.2}}, beyond.tree));
 }
 
-TEST(StraightWay, IsDeepWhereAVertexIsAndNotWhereTheOtherIsThinOrOpen) {
+TEST(StraightWay, IsDeepAtADeepVertexUnlessTheOtherIsThinOrOpen) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), wall(scenes::box({-5, -5, 3}, {5, 5, 4})),
       foil(scenes::box({-5, -5, 3}, {5, 5, 3.05}));
   EXPECT_TRUE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, wall.tree, 0.1));
   EXPECT_TRUE(deep_vertex_on({wall.tree, {}, {0, 0, -1.5}}, bar.tree, 0.1)) << "the bar's vertices are in the wall";
-  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 0.9}}, wall.tree, 0.1)) << "it does not go that far";
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 0.9}}, wall.tree, 0.1)) << "it does not move that far";
   EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, -10}}, wall.tree, 0.1));
-  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, foil.tree, 0.1)) << "nothing is so deep in a foil";
+  EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, foil.tree, 0.1)) << "nothing can be that deep in a foil";
   TriangleMesh open = scenes::box({-5, -5, 3}, {5, 5, 4});
   open.faces.resize(open.faces.size() - 2);
   EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, Solid(open).tree, 0.1));
 }
 
-TEST(StraightWay, PassesOverVerticesOfNoFace) {
+TEST(StraightWay, IgnoresVerticesWithoutFaces) {
   TriangleMesh mesh = scenes::box({-1, -1, 0}, {1, 1, 2});
   mesh.vertices.push_back({20, 0, 0});
   Component component = scenes::component("bar", scenes::box({-1, -1, 0}, {1, 1, 2}));

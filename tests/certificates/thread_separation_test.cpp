@@ -142,7 +142,7 @@ TEST(ThreadSweep, SeparatesTheFlanksOfAWholeBoltFromThoseOfItsNut) {
         // The nut's ends follow the helix and are flanks too, but other turns pass them.
         const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0],
                                 &other = matches[0].sides[nut_moves ? 0 : 1];
-        if (own.nodes[m].most > 5 || other.nodes[f].most > 5) continue;
+        if (own.nodes[m].max_radius > 5 || other.nodes[f].max_radius > 5) continue;
         EXPECT_GT(sweep.gap(m, f), 0.01) << m << ' ' << f;
         ++parted;
       }

@@ -49,7 +49,7 @@ LinearSweep sweep_between(const Pose& start, const Pose& end) {
   return sweep;
 }
 
-/// The least gap along the axis at both ends, in double.
+/// The minimum gap along the axis at both ends, in double.
 double gap_along(Vec3 w, const TriangleF& a, const TriangleF& b, const Pose& start, const Pose& end) {
   double least = 1e300, most = -1e300;
   for (int k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ TEST(TriangleKernels, GapsAreTrueWithinTheirError) {
   EXPECT_GT(separated, 10'000u);
 }
 
-TEST(TriangleKernels, FindEveryPairThatAnAxisOfTheirsParts) {
+TEST(TriangleKernels, FindEveryPairSeparatedByOneOfItsAxes) {
   std::mt19937_64 random(7);
   const FrontKernels kernels = front_kernels(widest_lanes());
   for (int trial = 0; trial < 5000; ++trial) {
@@ -99,8 +99,8 @@ TEST(TriangleKernels, FindEveryPairThatAnAxisOfTheirsParts) {
   }
 }
 
-TEST(TriangleKernels, FacesOfClosedSolidsThatTouchAreOnlyPartedAlongTheirNormals) {
-  // A faces up, B down, A just above where B begins: behind each other's backs by less than some allowances.
+TEST(TriangleKernels, SeparateTouchingFacesOfClosedSolidsOnlyAlongTheirNormals) {
+  // A faces up, B down, A just above B: behind each other by less than some allowances.
   const TriangleF a{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, b{{{-1, -1, 0}, {0, 1, 0}, {1, -1, 0}}};
   const FrontKernels kernels = front_kernels(widest_lanes());
   for (const double height : {0.0, 0.005, 0.02, 0.028}) {

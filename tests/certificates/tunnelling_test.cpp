@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step at thin walls: exact times of contact are known, from the identity and from baked-in start poses, near the
+// One step towards thin walls with known times of contact, from the identity and from other start poses, near the
 // origin and far from it.
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/certificates/certificate_engine.h"
@@ -16,7 +16,7 @@ using namespace scenes;
 /// A tenth of the thinnest wall.
 constexpr double kTolerance = 1e-4;
 
-/// How far a time of contact may be from the exact one: what the tolerance of contact is worth along the motion.
+/// The allowed error of a time of contact: the time that the motion takes for the tolerance.
 double allowed_error(const OneStep& step) {
   const Screw screw = screw_between(step.start, step.target);
   const double path = length(step.target.position - step.start.position) + screw.angle * 5;
@@ -28,12 +28,12 @@ std::unique_ptr<CertificateEngine> engine_for(const Assembly& assembly, const On
   const Pose poses[] = {Pose{}, step.start};
   engine->jump({poses, 2});
   const ComponentId moving[] = {ComponentId(1)};
-  engine->hold({moving, 1});
+  engine->grab({moving, 1});
   return engine;
 }
 
-/// The step's assembly where the moving component is at its start already, and what `way` came to from there.
-void expect_audited(const OneStep& step, const std::vector<Pose>& way) {
+/// Audits `poses` as a path of the assembly in which the moving component is at its start.
+void expect_audited(const OneStep& step, const std::vector<Pose>& poses) {
   OneStep baked = step;
   baked.moving = moved(step.moving, step.start);
   const Assembly assembly = assembly_of(baked);
@@ -41,7 +41,7 @@ void expect_audited(const OneStep& step, const std::vector<Pose>& way) {
   path.components = {"fixed", "moving"};
   path.tolerance = kTolerance;
   path.moves.push_back({"step", {"moving"}, {{0, {}}}});
-  for (const Pose& pose : way)
+  for (const Pose& pose : poses)
     path.moves[0].frames.push_back({path.moves[0].frames.back().time + 1, pose * inverse(step.start)});
   const AuditReport report = audit_path(assembly, path);
   EXPECT_TRUE(report.holds()) << (report.violations.empty() ? "" : report.violations[0].message);

@@ -26,7 +26,7 @@ inline std::string read_all(const fs::path& file) {
   return text.str();
 }
 
-/// A folder of its own for each test, with an assembly: a block in front of a wall.
+/// A separate folder for each test, with an assembly: a block in front of a wall.
 class Cli : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program as a user does, and looks at its exit code and what it prints and writes.
+// Runs the program as a user does, and checks its exit code, its output and its files.
 #include "tests/cli/cli_fixture.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST_F(Cli, ListsItsCommandsInTheHelp) {
     EXPECT_NE(o.out.find(command), std::string::npos) << command;
 }
 
-TEST_F(Cli, AnswersWrongUsageWithTwo) {
+TEST_F(Cli, ExitsWith2OnWrongUsage) {
   EXPECT_EQ(run("").exit_code, 2);
   EXPECT_EQ(run("dance").exit_code, 2);
   EXPECT_EQ(run("info").exit_code, 2);
@@ -32,7 +32,7 @@ TEST_F(Cli, AnswersWrongUsageWithTwo) {
   EXPECT_EQ(run("check parts --device abacus").exit_code, 2);
 }
 
-TEST_F(Cli, ComputesOnTheCpuAndSaysWhyWhereThereIsNoDeviceOrNoUseForOne) {
+TEST_F(Cli, ComputesOnTheCpuAndSaysWhyWithoutADeviceOrAUseForOne) {
   const Outcome check = run("check parts --device cuda");
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_NE(check.err.find("note: computing on the CPU"), std::string::npos) << check.err;
@@ -51,7 +51,7 @@ TEST_F(Cli, ComputesOnTheCpuAndSaysWhyWhereThereIsNoDeviceOrNoUseForOne) {
   }
 }
 
-TEST_F(Cli, AnswersUnreadableInputWithThreeAndOneSentence) {
+TEST_F(Cli, ExitsWith3AndOneSentenceOnUnreadableInput) {
   expect_error("info missing.step", 3, "missing.step");
   write("broken.obj", "v 0 0 0\nf 1 2 3\n");
   expect_error("info broken.obj", 3, "broken.obj");
@@ -64,7 +64,7 @@ TEST_F(Cli, AnswersUnreadableInputWithThreeAndOneSentence) {
   EXPECT_FALSE(fs::exists(in("out.path.json")));
 }
 
-TEST_F(Cli, TellsAboutAnAssembly) {
+TEST_F(Cli, DescribesAnAssembly) {
   const Outcome o = run("info parts --json");
   ASSERT_EQ(o.exit_code, 0) << o.err;
   const Json info = Json::parse(o.out);
@@ -100,8 +100,8 @@ TEST_F(Cli, MovesTouchesAndPassesItsOwnAudit) {
   EXPECT_EQ(run("audit parts pull.path.json").exit_code, 0);
 }
 
-TEST_F(Cli, SaysHowFarTheMiddleOfWhatMovedGot) {
-  // A quarter turn about an axis through its middle, and 3 mm back: the origin of its coordinates goes 7 mm.
+TEST_F(Cli, ReportsHowFarTheCentreOfTheMovingSetWent) {
+  // A quarter turn about an axis through its centre, and 3 mm back: the origin of its coordinates moves 7 mm.
   write("turn.motion.json", R"({"format": "dismantle-motion", "version": 1, "response": "slide", "moves": [
       {"components": ["block"], "targets": [
         {"t": 0.0, "position": [0, 0, 0], "rotation": [1, 0, 0, 0]},
@@ -138,11 +138,11 @@ TEST_F(Cli, WritesTheSameBytesForEveryThreadCount) {
   EXPECT_EQ(read_all(in("one.path.json")), read_all(in("many.path.json")));
 }
 
-TEST_F(Cli, SaysWhatToDoWhereStreamsShouldSlide) {
+TEST_F(Cli, SaysWhatToDoIfStreamsShouldSlide) {
   expect_error("move parts pull.motion.json -o pull.path.json --method streams --response slide", 2, "certificates");
 }
 
-TEST_F(Cli, RefusesAContinuousTestThatTheMethodHasNoUseFor) {
+TEST_F(Cli, RefusesAContinuousTestThatTheMethodDoesNotUse) {
   expect_error("move parts pull.motion.json -o pull.path.json --ccd elementary", 2, "streams");
 }
 
@@ -153,7 +153,7 @@ TEST_F(Cli, SlidesByDefault) {
   EXPECT_EQ(run("audit parts pull.path.json").exit_code, 0);
 }
 
-TEST_F(Cli, LeavesNoHalfWrittenFileWhereItCannotWrite) {
+TEST_F(Cli, LeavesNoPartialFileIfItCannotWrite) {
   expect_error("move parts pull.motion.json -o nowhere/pull.path.json", 4, "nowhere");
 }
 

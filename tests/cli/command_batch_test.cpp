@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Below products/: assemblies of two or three boxes, and one that cannot be read.
+/// In products/: assemblies of two or three boxes, and one that cannot be read.
 class CliBatch : public Cli {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class CliBatch : public Cli {
     write("products/broken.step", "this is no STEP file");
   }
 
-  /// All results in a folder but for what they cost.
+  /// All results in a folder, without their costs.
   std::map<std::string, std::string> results(const std::string& folder) const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(in(folder)))
@@ -37,7 +37,7 @@ class CliBatch : public Cli {
   }
 };
 
-TEST_F(CliBatch, ChecksAndPlansEveryAssemblyAndTellsWhatFailed) {
+TEST_F(CliBatch, ChecksAndPlansEveryAssemblyAndReportsFailures) {
   const Outcome o = run("batch products -o out --workers 2");
   EXPECT_EQ(o.exit_code, 1) << o.err;
   EXPECT_NE(o.out.find("] one: 3 components; pairs: 1 in contact, 0 fits, 0 embedded; 2 come out in 2 steps"),
@@ -56,11 +56,11 @@ TEST_F(CliBatch, ChecksAndPlansEveryAssemblyAndTellsWhatFailed) {
   EXPECT_EQ(table["assemblies"][1]["complete"], true);
 }
 
-TEST_F(CliBatch, DoesAgainOnlyWhatChanged) {
+TEST_F(CliBatch, RedoesOnlyWhatChanged) {
   ASSERT_EQ(run("batch products -o out --quiet --only 'deep/*' --check-only").exit_code, 0);
   const Outcome same = run("batch products -o out --only 'deep/*' --check-only");
   EXPECT_NE(same.out.find("[3/3] "), std::string::npos) << same.out;
-  EXPECT_EQ(same.out.find("] deep/five: 3"), std::string::npos) << "it is done again: " << same.out;
+  EXPECT_EQ(same.out.find("] deep/five: 3"), std::string::npos) << "it is repeated: " << same.out;
   EXPECT_NE(same.out.find("] deep/five: (was done) 3"), std::string::npos) << same.out;
   fs::remove(in("products/deep/five/lid.obj"));
   const Outcome changed = run("batch products -o out --only 'deep/*' --check-only");
@@ -77,7 +77,7 @@ TEST_F(CliBatch, PrintsTheTableAsJson) {
   EXPECT_NE(o.err.find("[1/1] one: "), std::string::npos);
 }
 
-TEST_F(CliBatch, RefusesWhatMakesNoSense) {
+TEST_F(CliBatch, RefusesInvalidArguments) {
   expect_error("batch missing -o out", 3, "missing cannot be read");
   fs::create_directories(in("empty"));
   expect_error("batch empty -o out", 3, "empty holds nothing to work on");
@@ -104,16 +104,16 @@ class CliBatchRanks : public CliBatch {
   }
 };
 
-TEST_F(CliBatchRanks, GiveWhatOneProcessGives) {
+TEST_F(CliBatchRanks, GiveTheResultsOfOneProcess) {
   const Outcome o = run_ranks("", "'" DISMANTLE_PROGRAM "' batch products -o ranks --workers 1");
   EXPECT_EQ(o.exit_code, 1) << "one assembly cannot be read: " << o.err;
   EXPECT_EQ(results("ranks"), results("alone"));
   EXPECT_NE(o.out.find("7 assemblies, 1 failed"), std::string::npos) << o.out;
-  EXPECT_EQ(o.out.find("7 assemblies"), o.out.rfind("7 assemblies")) << "more than one rank speaks: " << o.out;
+  EXPECT_EQ(o.out.find("7 assemblies"), o.out.rfind("7 assemblies")) << "more than one rank prints: " << o.out;
 }
 
-TEST_F(CliBatchRanks, GiveTheSameWhereOneIsKilled) {
-  // The last rank is killed, with all that it runs, once something is being worked on.
+TEST_F(CliBatchRanks, GiveTheSameResultsIfOneIsKilled) {
+  // The last rank is killed, with its processes, once work has begun.
   write("rank.sh", R"(#!/bin/sh
 if [ "$OMPI_COMM_WORLD_RANK" != 3 ]; then exec ")" DISMANTLE_PROGRAM R"(" batch products -o ranks --workers 1; fi
 ")" DISMANTLE_PROGRAM R"(" batch products -o ranks --workers 1 &

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// With the path of the block that goes 7 mm and then up to the wall.
+/// With the path of a block that moves by 7 mm and then up to the wall.
 class CliExport : public Cli {
  protected:
   void SetUp() override {
@@ -34,20 +34,20 @@ TEST_F(CliExport, WritesAnAnimatedGlb) {
   EXPECT_EQ(places[3], 0.007f);
 }
 
-TEST_F(CliExport, PutsTheAssemblyTogetherWhereReversed) {
+TEST_F(CliExport, AssemblesIfReversed) {
   ASSERT_EQ(export_to("back.glb --reverse").exit_code, 0);
   const CheckedGlb glb(read_all(in("back.glb")));
   EXPECT_EQ(glb.faults(), std::vector<std::string>{});
   EXPECT_EQ(glb.json()["animations"][0]["name"], "all, reversed");
-  EXPECT_GT(glb.json()["nodes"][glb.node_of("block")]["translation"][0], 0.0104) << "it begins taken apart";
+  EXPECT_GT(glb.json()["nodes"][glb.node_of("block")]["translation"][0], 0.0104) << "it begins disassembled";
 }
 
-TEST_F(CliExport, WritesAPageThatHoldsEverything) {
+TEST_F(CliExport, WritesASelfContainedPage) {
   ASSERT_EQ(export_to("pull.html").exit_code, 0);
   const std::string page = read_all(in("pull.html"));
   EXPECT_EQ(page.find("<!DOCTYPE html>"), 0u);
   EXPECT_NE(page.find("id=\"offline-model\""), std::string::npos);
-  EXPECT_GT(page.size(), 400'000u) << "the viewer is not in it";
+  EXPECT_GT(page.size(), 400'000u) << "it does not contain the viewer";
   EXPECT_EQ(page.find("<link rel=\"stylesheet\""), std::string::npos);
   EXPECT_EQ(page.find("<script type=\"module\" src"), std::string::npos);
 }
@@ -99,7 +99,7 @@ TEST_F(CliExport, WritesTheBillOfMaterials) {
   EXPECT_EQ(Json::parse(read_all(in("bom.json")))["items"].size(), 2u);
 }
 
-TEST_F(CliExport, WritesAPathThatComesBackAndPassesTheAudit) {
+TEST_F(CliExport, WritesAPathThatReadsBackAndPassesTheAudit) {
   ASSERT_EQ(export_to("same.path.json").exit_code, 0);
   EXPECT_EQ(Json::parse(read_all(in("same.path.json"))), Json::parse(read_all(in("pull.path.json"))));
   ASSERT_EQ(export_to("back.path.json --reverse").exit_code, 0);
@@ -109,7 +109,7 @@ TEST_F(CliExport, WritesAPathThatComesBackAndPassesTheAudit) {
   EXPECT_EQ(run("audit parts back.path.json").exit_code, 0);
 }
 
-TEST_F(CliExport, FindsTheAssemblyBesideAPathThatStandsAlone) {
+TEST_F(CliExport, FindsTheAssemblyBesideAPathGivenAlone) {
   const Outcome o = run("export pull.path.json -o alone.glb");
   ASSERT_EQ(o.exit_code, 0) << o.err;
   EXPECT_EQ(read_all(in("alone.glb")).substr(0, 4), "glTF");
@@ -130,12 +130,12 @@ TEST_F(CliExport, WritesWorkInstructions) {
   expect_error("export parts -o parts.pdf", 2, "there is no path to export");
 }
 
-TEST_F(CliExport, TakesTheFormatByNameWhereTheFileTellsNone) {
+TEST_F(CliExport, TakesTheFormatByNameIfTheFileHasNoExtension) {
   ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
   expect_error("export parts pull.path.json -o pull.xyz", 2, "its name tells no format");
 }
 
-TEST_F(CliExport, RefusesWhatMakesNoSense) {
+TEST_F(CliExport, RefusesInvalidArguments) {
   expect_error("export parts -o moves.csv", 2, "there is no path to export");
   expect_error("export parts -o parts.path.json", 2, "there is no path to export");
   expect_error("export parts -o bom.csv --reverse", 2, "--reverse has nothing to reverse");
@@ -149,7 +149,7 @@ TEST_F(CliExport, RefusesAPathOfAnotherAssembly) {
   EXPECT_FALSE(fs::exists(in("pull.glb")));
 }
 
-TEST_F(CliExport, LeavesTheOldFileWhereItFails) {
+TEST_F(CliExport, LeavesTheOldFileIfItFails) {
   write("pull.glb", "what was there");
   write("broken.path.json", "{");
   expect_error("export parts broken.path.json -o pull.glb", 3, "broken.path.json");

@@ -32,7 +32,7 @@ class CliPlan : public Cli {
   }
 };
 
-TEST_F(CliPlan, TakesEverythingApartAndItsPathPassesTheAudit) {
+TEST_F(CliPlan, DisassemblesEverythingOnAPathThatPassesTheAudit) {
   const Outcome o = run("plan parts -o all.path.json --json");
   ASSERT_EQ(o.exit_code, 0) << o.err;
   const Json plan = Json::parse(o.out);
@@ -43,7 +43,7 @@ TEST_F(CliPlan, TakesEverythingApartAndItsPathPassesTheAudit) {
   EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
 }
 
-TEST_F(CliPlan, WritesWhatHasToComeBeforeWhat) {
+TEST_F(CliPlan, WritesThePrecedenceGraph) {
   const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
   ASSERT_EQ(run(open + "order.json").exit_code, 0);
   const Json graph = Json::parse(read_all(in("order.json")));
@@ -56,7 +56,7 @@ TEST_F(CliPlan, WritesWhatHasToComeBeforeWhat) {
   expect_error(open + "order.txt", 2, "its name tells no format");
 }
 
-TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
+TEST_F(CliPlan, RemovesAsFewAsPossibleForATarget) {
   const std::string walls = " --fixed floor roof left right end";
   const Outcome o = run("plan parts -o one.path.json --json --target back" + walls);
   ASSERT_EQ(o.exit_code, 0) << o.err;
@@ -67,13 +67,13 @@ TEST_F(CliPlan, TakesAsFewAsPossibleOutForATarget) {
   EXPECT_EQ(run("audit parts one.path.json").exit_code, 0);
 }
 
-TEST_F(CliPlan, WritesThePlainPlanWhereNothingIsPreferred) {
+TEST_F(CliPlan, WritesThePlainPlanWithoutPreferences) {
   ASSERT_EQ(run("plan parts -o all.path.json").exit_code, 0);
   const Assembly assembly = load_assembly(in("parts").string()).value();
   const PairStates pairs = classify_pairs(assembly, {}).value();
   const Plan plain = plan_disassembly(assembly, pairs, {});
   EXPECT_EQ(read_all(in("all.path.json")), path_text(plan_path(assembly, pairs, plain)));
-  // Preferences can tell another order, so that this is not true of everything.
+  // Preferences can change the path, so that the test above means something.
   ASSERT_EQ(run("plan parts -o direction.path.json --prefer direction").exit_code, 0);
   EXPECT_NE(read_all(in("all.path.json")), read_all(in("direction.path.json")));
 }
@@ -99,7 +99,7 @@ TEST_F(CliPlan, OrdersStepsByThePreferencesGiven) {
   expect_error("plan parts -o all.path.json --prefer beauty", 2, "beauty");
 }
 
-TEST_F(CliPlan, AnswersOneAndSaysWhyWhereNotAllComesOut) {
+TEST_F(CliPlan, ExitsWith1AndSaysWhatBlocksIfNotAllCanBeRemoved) {
   const Outcome o = run("plan parts -o none.path.json --target back --fixed floor roof left right end front");
   EXPECT_EQ(o.exit_code, 1);
   EXPECT_NE(o.out.find("back is blocked by"), std::string::npos) << o.out;
@@ -117,7 +117,7 @@ TEST_F(CliPlan, TellsWhatBlocksAComponent) {
   EXPECT_NE(free.out.find("back comes out along"), std::string::npos);
 }
 
-TEST_F(CliPlan, RefusesWhatMakesNoSense) {
+TEST_F(CliPlan, RefusesInvalidArguments) {
   expect_error("plan parts -o x.path.json --target lid", 2, "'lid' is unknown");
   expect_error("plan parts -o x.path.json --target back --fixed back", 2, "it is a target, and fixed");
   expect_error("why parts lid", 2, "'lid' is unknown");
@@ -128,12 +128,12 @@ TEST_F(CliPlan, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(fs::exists(in("x.path.json")));
 }
 
-TEST_F(CliPlan, SearchesNoLongerThanItIsTold) {
+TEST_F(CliPlan, KeepsTheTimeLimit) {
   EXPECT_EQ(run("plan parts -o straight.path.json --effort 0").exit_code, 0);
   EXPECT_EQ(run("audit parts straight.path.json").exit_code, 0);
 }
 
-TEST_F(CliPlan, WritesWhatItHasWhereTimeIsUp) {
+TEST_F(CliPlan, WritesThePartialPlanWhenTimeIsUp) {
   const Outcome o = run("plan parts -o early.path.json --json --time-limit 1e-6");
   EXPECT_EQ(o.exit_code, 1) << o.err;
   EXPECT_EQ(Json::parse(o.out)["out_of_time"], true);

@@ -10,7 +10,7 @@ namespace dismantle::device {
 
 namespace {
 
-/// Where the narrow phase's kernel puts what it finds.
+/// Receives the results of the narrow-phase kernel.
 class NarrowSink {
  public:
   __device__ NarrowSink(AppendView<TrianglePairContact> contacts, AppendView<std::uint64_t> intersections,
@@ -38,7 +38,7 @@ struct NarrowBody {
   }
 };
 
-/// A kernel over items that are listed.
+/// A kernel over a list of items.
 struct NodeListBody {
   BvhRefitNodeKernel kernel;
   Span<const NodeIndex> inner;
@@ -83,7 +83,7 @@ std::vector<Kdop16> fitted_bounds(const Bvh& bvh, const BvhRefitInput& input) {
   for (const std::vector<NodeIndex>& level : nodes_by_level(bvh)) {
     const DeviceArray<NodeIndex> inner(queue, Span<const NodeIndex>(level));
     queue.launch(level.size(), NodeListBody{{tree, bounds.view()}, inner.view()});
-    queue.wait();  // the list goes
+    queue.wait();  // the list is destroyed
   }
   return brought_down(queue, bounds, bounds.size());
 }

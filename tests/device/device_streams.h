@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-/// The kernel bodies of a step of method `streams`, each run once on a CUDA device over data that is copied there and
-/// back: to compare with the CPU. Errors are thrown as CudaError. @pre there is a device
+/// The kernel bodies of a step of method `streams`, each run once on a CUDA device over data copied there and back, for
+/// comparison with the CPU. Throws CudaError. @pre there is a device
 namespace dismantle::device {
 
 /// S_v0, S_tm -> S_v.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel bodies of method streams on a CUDA device against the same bodies on the CPU: every bit. Without a device
-// they are skipped, and say so.
+// The kernel bodies of method streams on a CUDA device, compared bit by bit with the same bodies on the CPU. Skips
+// without a device.
 #include "tests/device/device_streams.h"
 
 #include "bench/baselines/device_appender.h"
@@ -75,7 +75,7 @@ TEST_F(StreamsOnTheDevice, FitBoundsToTheSameBits) {
   EXPECT_TRUE(same_bits<Kdop16>(device::fitted_bounds(fixed.bvh, refit_input()), expected));
 }
 
-TEST_F(StreamsOnTheDevice, SproutTheSameFrontWithEveryWayOfAppendingFromCapacityOne) {
+TEST_F(StreamsOnTheDevice, SproutTheSameFrontWithEveryAppendVariantFromCapacityOne) {
   const NodeIndex root = streams_->fixed().bvh.root();
   root_ = {pair_key(root, root)};
   FrontAppender expected(AppendVariant::GlobalLock, 1 << 16);
@@ -95,7 +95,7 @@ TEST_F(StreamsOnTheDevice, SproutTheSameFrontWithEveryWayOfAppendingFromCapacity
   }
 }
 
-/// Keeps what the kernel finds on the CPU.
+/// Keeps the results of the kernel on the CPU.
 struct FindsOnHost {
   device::NarrowFinds finds;
   void contact(const TrianglePairContact& found) { finds.contacts.push_back(found); }
@@ -114,7 +114,7 @@ TEST_F(StreamsOnTheDevice, TestTrianglePairsToTheSameBitsWithBothTestsFromCapaci
   front.run(front_kernel(), Executor());
   const AssemblyTriangles& fixed = streams_->fixed();
   PairStates states = states_;
-  states.pairs.resize(states.pairs.size() / 2);  // the others that are in each other are in contact
+  states.pairs.resize(states.pairs.size() / 2);  // the other overlapping pairs are contacts
   const PairRules rules(states);
   for (const ElementaryTest test : {ElementaryTest::Certified, ElementaryTest::Elementary}) {
     const NarrowPhaseKernel kernel{front.values(FrontAppender::TrianglePairs),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One kernel for each shared body: that they compile as device code is the test.
+// One kernel for each shared body. The test is that they compile as device code.
 #include "dismantle/geometry/kdop.h"
 #include "dismantle/narrowphase/ccd_edge_edge.h"
 #include "dismantle/narrowphase/ccd_triangle_triangle.h"

@@ -36,7 +36,7 @@ Assembly pinned() {
   return a;
 }
 
-TEST(BillOfMaterials, CountsEqualShapesOfOneColorOnALine) {
+TEST(BillOfMaterials, CountsEqualShapesOfOneColourInOneRow) {
   const std::vector<BillItem> bill = bill_of_materials(pinned());
   ASSERT_EQ(bill.size(), 3u);
   EXPECT_EQ(bill[0].name, "pin");
@@ -55,7 +55,7 @@ TEST(BillOfMaterials, MeasuresTheShape) {
   EXPECT_FALSE(bill[1].volume.has_value()) << "an open surface encloses nothing";
 }
 
-TEST(BillOfMaterials, TellsWhereComponentsAreInTheTree) {
+TEST(BillOfMaterials, GivesThePlacesOfComponentsInTheTree) {
   const std::vector<BillItem> bill = bill_of_materials(pinned());
   EXPECT_EQ(bill[0].places, (std::vector<std::string>{"jaw/pin", "jaw/pin#2", "jaw/pin#3"}));
 }

@@ -32,7 +32,7 @@ PairStates four_states() {
   return states;
 }
 
-TEST(CheckReportJson, HasTheMembersThatFormatsNames) {
+TEST(CheckReportJson, HasTheDocumentedMembers) {
   const auto json = nlohmann::ordered_json::parse(check_report_json(four_boxes(), four_states()));
   const auto keys = [](const nlohmann::ordered_json& object) {
     std::vector<std::string> names;
@@ -99,7 +99,7 @@ TEST(CheckReportText, ColumnsLineUpDespiteUmlauts) {
   EXPECT_EQ(column_of("fit       0.3", "cap"), column_of("fit       0.1", "Büchse"));
 }
 
-TEST(CheckReportText, IsASummaryOnlyWhereNoPairIsListed) {
+TEST(CheckReportText, IsOnlyASummaryIfNoPairIsListed) {
   const std::string text = check_report_text(four_boxes(), {0.5, {}});
   EXPECT_NE(text.find("0 embedded, 0 fit, 0 contact, 0 near\n"), std::string::npos);
   EXPECT_EQ(text.find("depth"), std::string::npos);

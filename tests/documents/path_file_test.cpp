@@ -122,7 +122,7 @@ TEST(PathFile, ScalesQuaternionsToUnitLength) {
   EXPECT_NEAR(dot(q, q), 1, 1e-15);
 }
 
-TEST(PathFile, AllowsWhatIsNotNeededToBeAbsent) {
+TEST(PathFile, AllowsOptionalMembersToBeAbsent) {
   EXPECT_TRUE(parse(without("", "pairs")).ok());
   EXPECT_TRUE(parse(without("", "removed")).ok());
   EXPECT_TRUE(parse(without("/moves/0", "label")).ok());
@@ -168,7 +168,7 @@ TEST(PathFile, SaysWhatIsWrongAndWhere) {
   expect_unreadable(parse("[]"), "(the document: not an object)");
 }
 
-TEST(PathFile, SaysWhereTheJsonBreaks) {
+TEST(PathFile, ReportsThePositionOfASyntaxError) {
   expect_unreadable(parse(""), "line 1, column 1: no well-formed JSON");
   expect_unreadable(parse("{\n \"format\": nan}"), "line 2, column 13: no well-formed JSON");
   expect_unreadable(parse("{\"tolerance_mm\": 1e999}"), "a number is too large");

@@ -31,7 +31,7 @@ Assembly two(TriangleMesh a, TriangleMesh b) {
   return scenes::assembly({component("a", std::move(a)), component("b", std::move(b))});
 }
 
-TEST(ClassifyPairs, ListsNothingWhereAllIsFarApart) {
+TEST(ClassifyPairs, ListsNothingIfAllIsFarApart) {
   EXPECT_TRUE(classified(two(box({0, 0, 0}, {1, 1, 1}), box({3, 0, 0}, {4, 1, 1}))).pairs.empty());
 }
 
@@ -78,7 +78,7 @@ TEST(ClassifyPairs, CallsASolidInsideAnotherEmbedded) {
   EXPECT_EQ(states.pairs[0].triangle_pairs, 0u);
 }
 
-TEST(ClassifyPairs, LeavesASolidInACavityAlone) {
+TEST(ClassifyPairs, ListsNoPairForASolidInACavity) {
   TriangleMesh shell = box({0, 0, 0}, {10, 10, 10});
   TriangleMesh cavity = box({2, 2, 2}, {8, 8, 8});
   for (Face f : cavity.faces) {
@@ -89,7 +89,7 @@ TEST(ClassifyPairs, LeavesASolidInACavityAlone) {
   EXPECT_TRUE(classified(two(shell, box({4, 4, 4}, {6, 6, 6}))).pairs.empty());
 }
 
-TEST(ClassifyPairs, MakesEveryMeetingPairEmbeddedByThePapersRule) {
+TEST(ClassifyPairs, MakesEveryIntersectingPairEmbeddedByThePapersRule) {
   const Assembly touching = two(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1}));
   EXPECT_EQ(classified(touching, 0.01, 0, ClassifyRule::Paper).pairs.at(0).state, PairState::Embedded);
 }
@@ -101,7 +101,7 @@ TEST(ClassifyPairs, FindsDeepVerticesThatFineTrianglesHide) {
   EXPECT_GE(2 * (states.pairs[0].allowed_penetration - 0.01), 0.199);
 }
 
-TEST(ClassifyPairs, AnswersAlikeForEveryThreadCount) {
+TEST(ClassifyPairs, GivesTheSameForEveryThreadCount) {
   std::vector<Component> parts;
   for (int i = 0; i < 6; ++i)
     parts.push_back(
@@ -123,7 +123,7 @@ TEST(ClassifyPairs, StopsWhenCancelled) {
   EXPECT_FALSE(classify_pairs(two(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})), options).ok());
 }
 
-TEST(SurfaceQueries, TellInsideFromOutsideAndTheDistance) {
+TEST(SurfaceQueries, GiveTheSideAndTheDistanceOfAPoint) {
   const Assembly assembly = scenes::assembly({component("tube", tube(9, 5, 0, 20, 64, 8))});
   const AssemblySurface surface = make_assembly_surface(assembly, Executor());
   std::mt19937_64 random(11);

@@ -34,7 +34,7 @@ TEST(PairRules, GiveEveryStateItsTest) {
   EXPECT_EQ(rules.view().find(3, 4).allowed_penetration, 0.01);
 }
 
-TEST(PairRules, AllowAPartedPairTheToleranceForGood) {
+TEST(PairRules, AllowASeparatedPairTheToleranceForGood) {
   PairStates states;
   states.tolerance = 0.02;
   states.pairs = {pair(3, 9, PairState::Embedded, std::numeric_limits<double>::infinity())};

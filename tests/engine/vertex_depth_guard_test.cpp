@@ -19,7 +19,7 @@ using scenes::tube;
 
 constexpr double kTolerance = 0.01;
 
-/// A pin 0.2 mm too thick for its bore, both finer than that: no triangle pair can be deeper than a triangle's size.
+/// A pin 0.2 mm too thick for its bore, both with finer meshes: no triangle pair can be deeper than a triangle's size.
 Assembly fine_press_fit() {
   return scenes::assembly(
       {component("pin", tube(2, 0, -1, 5, 100, 50)), component("bush", tube(4, 1.8, 0, 4, 100, 36))});
@@ -36,28 +36,28 @@ std::vector<RigidTransform> pin_at(Vec3 position) {
   return {{{}, position}, {}};
 }
 
-TEST(VertexDepthGuard, LetsAPinSlideOutThatIsPushedAgainstItsBore) {
+TEST(VertexDepthGuard, LetsAPinPressedAgainstItsBoreSlideOut) {
   const Assembly assembly = fine_press_fit();
   const ComponentId pin(0);
-  // How fast depends on which corners come to lie in which facets, so on the direction.
+  // Its speed depends on which corners lie in which facets, and so on the direction.
   double together = 0;
   for (const double angle : {0.0, 0.02, 0.05}) {
     CertificateEngine engine(assembly, states_of(assembly), {});
-    engine.hold({&pin, 1});
+    engine.grab({&pin, 1});
     const Vec3 aside{2 * std::cos(angle), 2 * std::sin(angle), 0};
     double furthest_aside = 0;
     for (int k = 1; k <= 10; ++k) {
       const StepResult step = engine.step({aside + Vec3{0, 0, 0.5 * k}, {}}, ResponseKind::Slide);
       furthest_aside = std::max(furthest_aside, std::hypot(step.pose.position.x, step.pose.position.y));
     }
-    EXPECT_GT(engine.poses()[0].position.z, 1) << "of 5 mm, pushed at " << angle;
-    EXPECT_LT(furthest_aside, 0.6) << "twice what may overlap";
+    EXPECT_GT(engine.poses()[0].position.z, 1) << "of 5 mm, pressed at " << angle;
+    EXPECT_LT(furthest_aside, 0.6) << "twice the allowed overlap";
     together += engine.poses()[0].position.z;
   }
   EXPECT_GT(together, 6) << "of 15 mm";
 }
 
-TEST(VertexDepthGuard, LetsAFinePressedPinOutAlongItsAxis) {
+TEST(VertexDepthGuard, LetsAFinelyMeshedPressFitOutAlongItsAxis) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   ASSERT_EQ(states.pairs.at(0).state, PairState::Fit);
@@ -69,13 +69,13 @@ TEST(VertexDepthGuard, LetsAFinePressedPinOutAlongItsAxis) {
   }
 }
 
-TEST(VertexDepthGuard, HoldsItBackFromTheWall) {
+TEST(VertexDepthGuard, KeepsAPinOutOfTheWall) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   VertexDepthGuard guard(assembly, states, solids_of(assembly, Executor()), Executor());
   const std::vector<VertexContact> contacts = guard.sweep(pin_at({0, 0, 0}), pin_at({2, 0, 0}));
   ASSERT_FALSE(contacts.empty());
-  // 0.2 mm deep at the start; twice the allowance is what the deepest vertex may have.
+  // 0.2 mm deep at the start; the deepest vertex may have twice the allowance.
   const double limit = 2 * states.pairs[0].allowed_penetration;
   EXPECT_LE(2 * contacts[0].toi + 0.2, limit + 1e-3);
   EXPECT_GE(2 * contacts[0].toi + 0.2, limit - 0.01);
@@ -83,16 +83,16 @@ TEST(VertexDepthGuard, HoldsItBackFromTheWall) {
   EXPECT_EQ(contacts[0].b, ComponentId(1));
 }
 
-TEST(VertexDepthGuard, FindsADiveThatIsOverAtBothEnds) {
+TEST(VertexDepthGuard, FindsAnIntrusionThatIsClearAtBothEnds) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   VertexDepthGuard guard(assembly, states, solids_of(assembly, Executor()), Executor());
-  // From beside the bush to its other side in one sweep.
+  // From one side of the bush to the other in one sweep.
   EXPECT_FALSE(guard.sweep(pin_at({-10, 0, 0}), pin_at({10, 0, 0})).empty());
   EXPECT_TRUE(guard.sweep(pin_at({-10, 0, 20}), pin_at({10, 0, 20})).empty());
 }
 
-TEST(VertexDepthGuard, KeepsSlacksOnlyOfCommittedSweeps) {
+TEST(VertexDepthGuard, KeepsOnlyTheSlackOfCommittedSweeps) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   VertexDepthGuard guard(assembly, states, solids_of(assembly, Executor()), Executor());
@@ -104,7 +104,7 @@ TEST(VertexDepthGuard, KeepsSlacksOnlyOfCommittedSweeps) {
   EXPECT_FALSE(guard.sweep(pin_at({0, 0, 1}), pin_at({2, 0, 1})).empty());
 }
 
-TEST(VertexDepthGuard, HoldsBackVerticesOfCoarseFits) {
+TEST(VertexDepthGuard, LimitsVerticesOfCoarseFits) {
   // The bore's corners are 0.02 mm inside the pin from the start.
   const Assembly assembly =
       scenes::assembly({component("pin", tube(5, 0, -2, 22, 48)), component("plate", tube(20, 4.98, 0, 20, 48))});
@@ -114,7 +114,7 @@ TEST(VertexDepthGuard, HoldsBackVerticesOfCoarseFits) {
   EXPECT_TRUE(guard.sweep(pin_at({0, 0, 0}), pin_at({0, 0, 5})).empty());
 }
 
-TEST(VertexDepthGuard, WatchesNothingWhereNothingOverlaps) {
+TEST(VertexDepthGuard, WatchesNothingIfNothingOverlaps) {
   const Assembly assembly =
       scenes::assembly({component("pin", tube(5, 0, -2, 22, 48)), component("plate", tube(20, 5, 0, 20, 48))});
   ASSERT_EQ(states_of(assembly).pairs.at(0).state, PairState::Contact);
@@ -122,14 +122,14 @@ TEST(VertexDepthGuard, WatchesNothingWhereNothingOverlaps) {
       VertexDepthGuard(assembly, states_of(assembly), solids_of(assembly, Executor()), Executor()).watches_nothing());
 }
 
-/// A tube along z by formulas: an oracle that has nothing in common with the guard.
+/// A tube along z by formulas: an oracle independent of the guard.
 struct TubeShape {
   double outer, inner, z0, z1;
   std::uint32_t sides;
 
   TriangleMesh mesh(std::uint32_t rings) const { return tube(outer, inner, z0, z1, sides, rings); }
 
-  /// The distance of a point inside from the surface; 0 outside.
+  /// The depth of a point; 0 outside.
   double depth(Vec3 p) const {
     const double turn = 2 * std::acos(-1.0) / sides;
     double beside_outer = std::numeric_limits<double>::infinity(), beside_inner = beside_outer;
@@ -151,7 +151,7 @@ struct TubeShape {
   }
 };
 
-/// A pin in a bush, finer than their allowance, and how deep a vertex of either is in the other.
+/// A pin in a bush, finer than their allowance, and the depth of each one's vertices in the other.
 struct FineFit {
   TubeShape pin_shape{2, 0, -1.03, 5, 40}, bush_shape{2.8, 1.95, 0, 4, 32};
   TriangleMesh pin = pin_shape.mesh(12), bush = bush_shape.mesh(8);
@@ -208,7 +208,7 @@ TEST(VertexDepthGuard, KeepsEveryVertexWithinTheLimitOnRandomDrags) {
           ++free;
           break;
         }
-        // No false alarm.
+        // No false positive.
         ++stops;
         ASSERT_GE(fit.deepest(pose_between(pose, next, toi)), fit.limit - 1.01 * resolution) << seed << " " << step;
         part *= toi * 0.999;
@@ -220,8 +220,8 @@ TEST(VertexDepthGuard, KeepsEveryVertexWithinTheLimitOnRandomDrags) {
 }
 
 TEST(VertexDepthGuard, WatchesAFitWhoseTrianglesEndWhereTheOthersBegin) {
-  // The pin's rings lie in the planes of the bush's ends, so that no triangles are in each other, however far it is
-  // pushed aside; and they are too large to be within the allowance.
+  // The pin's rings lie in the planes of the bush's ends, so that no triangles intersect however far it is pushed
+  // aside; and they are too large to be within the allowance.
   const Assembly assembly =
       scenes::assembly({component("pin", tube(2, 0, -1, 5, 60, 30)), component("bush", tube(2.8, 1.95, 0, 4, 48, 20))});
   const PairStates states = states_of(assembly);
@@ -233,10 +233,10 @@ TEST(VertexDepthGuard, WatchesAFitWhoseTrianglesEndWhereTheOthersBegin) {
 
 TEST(VertexDepthGuard, FindsTheSameOnAllExecutors) {
   const FineFit fit;
-  std::vector<std::vector<CollisionContact>> all;
+  std::vector<std::vector<BlockingPair>> all;
   for (const Executor& executor : {Executor(), Executor(ExecutorKind::Threads, 3), Executor(ExecutorKind::Shuffled)}) {
     VertexDepthGuard guard(fit.assembly, fit.states, solids_of(fit.assembly, executor), executor);
-    std::vector<CollisionContact> found;
+    std::vector<BlockingPair> found;
     for (int k = 0; k < 20; ++k) {
       const auto at = [](int step) { return states_at({{0.002 * (step % 3), 0, 0.2 * step}, {}}); };
       ASSERT_TRUE(guard.sweep(at(k), at(k + 1)).empty());
@@ -247,7 +247,7 @@ TEST(VertexDepthGuard, FindsTheSameOnAllExecutors) {
     ASSERT_GE(found.size(), 20u);
     all.push_back(found);
   }
-  for (const std::vector<CollisionContact>& other : all) {
+  for (const std::vector<BlockingPair>& other : all) {
     ASSERT_EQ(other.size(), all[0].size());
     for (std::size_t i = 0; i < other.size(); ++i) {
       EXPECT_EQ(other[i].toi, all[0][i].toi);

@@ -26,7 +26,7 @@ TEST(CellGrid, MarksEveryCellThatATriangleTouchesAndNoneThatIsFarFromIt) {
       const Vec3 on = t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
       EXPECT_TRUE(grid.is_marked(on)) << round;
       EXPECT_TRUE(grid.is_marked(on + 0.0999 * normal)) << round << ", in the margin";
-      // Further off than the diagonal of an enlarged cell.
+      // Farther than the diagonal of an enlarged cell.
       const Vec3 off = on + (std::sqrt(3) * 0.8 + 1e-9) * (share(random) < 0.5 ? normal : -normal);
       const bool is_in = overlaps({off, off}, kTen);
       EXPECT_FALSE(is_in && grid.is_marked(off)) << round;
@@ -34,7 +34,7 @@ TEST(CellGrid, MarksEveryCellThatATriangleTouchesAndNoneThatIsFarFromIt) {
   }
 }
 
-TEST(CellGrid, HasASurfaceWithoutFaultsAroundWhateverIsMarked) {
+TEST(CellGrid, HasAValidSurfaceAroundAnyMarkedCells) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> place(0, 10);
   for (int round = 0; round < 10; ++round) {
@@ -56,7 +56,7 @@ TEST(CellGrid, HasASurfaceWithoutFaultsAroundWhateverIsMarked) {
   }
 }
 
-TEST(CellGrid, MarksWholeRegionsThatDoNotReachTheBorder) {
+TEST(CellGrid, FillsRegionsThatDoNotReachTheBorder) {
   // The walls of a cube.
   CellGrid grid = *CellGrid::around(kTen, 0.5, 1'000'000);
   const auto wall = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
@@ -76,7 +76,7 @@ TEST(CellGrid, MarksWholeRegionsThatDoNotReachTheBorder) {
   EXPECT_FALSE(grid.is_marked({1, 1, 1})) << "outside";
 }
 
-TEST(CellGrid, IsNotMadeWhereItWouldBeTooLarge) {
+TEST(CellGrid, IsNotMadeIfItWouldBeTooLarge) {
   EXPECT_TRUE(CellGrid::around(kTen, 1, 4000).has_value());
   EXPECT_FALSE(CellGrid::around(kTen, 1, 3000).has_value());
   EXPECT_FALSE(CellGrid::around(kTen, 1e-30, 1'000'000'000).has_value());

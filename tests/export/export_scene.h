@@ -6,7 +6,7 @@
 
 namespace dismantle::scenes {
 
-/// A block on a plate, and a knob on the block: the knob is screwed off and put aside, then the block.
+/// A block on a plate, and a knob on the block: the knob is unscrewed and put aside, then the block.
 inline Assembly knob_on_block() {
   Assembly a =
       assembly({component("plate", box({-50, -50, -5}, {50, 50, 0})),

@@ -18,7 +18,7 @@ std::string made(ExportFormat format, PathDirection direction = PathDirection::F
   return file.ok() ? *file : std::string();
 }
 
-TEST(ExportedFile, IsWhatTheFormatSays) {
+TEST(ExportedFile, HasTheFormatRequested) {
   EXPECT_EQ(CheckedGlb(made(ExportFormat::Glb)).json()["animations"].size(), 8u);
   EXPECT_EQ(made(ExportFormat::Html).find("<!DOCTYPE html>"), 0u);
   EXPECT_EQ(made(ExportFormat::Moves).find("move,label,"), 0u);
@@ -27,7 +27,7 @@ TEST(ExportedFile, IsWhatTheFormatSays) {
   EXPECT_EQ(*parse_path(made(ExportFormat::Path), "a.path.json"), scenes::knob_path());
 }
 
-TEST(ExportedFile, BeginsTakenApartWhereReversed) {
+TEST(ExportedFile, BeginsDisassembledIfReversed) {
   const CheckedGlb glb(made(ExportFormat::Glb, PathDirection::Reversed));
   EXPECT_NEAR(glb.json()["nodes"][glb.node_of("block")]["translation"][1].get<double>(), 0.06, 1e-9);
   EXPECT_EQ(parse_path(made(ExportFormat::Path, PathDirection::Reversed), "a.path.json")->moves.size(), 6u);

@@ -13,7 +13,7 @@
 namespace dismantle {
 namespace {
 
-/// The rows by the header's names. The scene's names hold no commas.
+/// The rows by column name. The scene's names contain no commas.
 std::vector<std::map<std::string, std::string>> parse(const std::string& csv) {
   const auto split = [](const std::string& line) {
     std::vector<std::string> fields(1);
@@ -39,7 +39,7 @@ std::vector<std::map<std::string, std::string>> parse(const std::string& csv) {
   return rows;
 }
 
-TEST(MovesTable, TellsWhatMovesWhenAndHowFar) {
+TEST(MovesTable, ListsWhatMovesWhenAndHowFar) {
   const Assembly a = scenes::knob_on_block();
   const auto rows = parse(moves_csv(a, scenes::timeline_of(a, scenes::knob_path())));
   ASSERT_EQ(rows.size(), 3u);
@@ -58,16 +58,16 @@ TEST(MovesTable, TellsWhatMovesWhenAndHowFar) {
   EXPECT_EQ(rows[0].at("least_clearance_mm"), "") << "it was not measured";
 }
 
-TEST(MovesTable, MeasuresTheWayAlongTheScrew) {
+TEST(MovesTable, MeasuresThePathLengthAlongTheScrew) {
   const Assembly a = scenes::knob_on_block();
   const auto rows = parse(moves_csv(a, scenes::timeline_of(a, scenes::knob_path())));
-  // The knob's middle is 3 mm from the axis: a helix of 6 mm rise over 2.5 rad, then 24 mm straight on.
+  // The knob's centre is 3 mm from the axis: a helix of 6 mm rise over 2.5 rad, then 24 mm straight.
   EXPECT_NEAR(std::stod(rows[0].at("length_mm")), std::hypot(2.5 * 3, 6) + 24, 1e-6);
   EXPECT_NEAR(std::stod(rows[0].at("angle_rad")), 2.5, 1e-9);
   EXPECT_NEAR(std::stod(rows[0].at("displacement_mm")), std::hypot(2 * 3 * std::sin(1.25), 30), 1e-6);
 }
 
-TEST(MovesTable, HasTheMovesTheOtherWayForTheAssembly) {
+TEST(MovesTable, HasTheReversedMovesForAssembly) {
   const Assembly a = scenes::knob_on_block();
   const auto rows = parse(moves_csv(a, scenes::timeline_of(a, scenes::knob_path()), {PathDirection::Reversed, {}}));
   ASSERT_EQ(rows.size(), 3u);
@@ -79,7 +79,7 @@ TEST(MovesTable, HasTheMovesTheOtherWayForTheAssembly) {
   EXPECT_EQ(rows[2].at("end_s"), "3.75");
 }
 
-TEST(MovesTable, TellsTheLeastClearanceAndOfWhat) {
+TEST(MovesTable, GivesTheMinimumClearanceAndItsComponents) {
   const Assembly a = scenes::assembly({scenes::component("post", scenes::box({0, 0, 0}, {10, 10, 10})),
                                        scenes::component("ball", scenes::box({30, 0, 0}, {40, 10, 10})),
                                        scenes::component("far", scenes::box({0, 500, 0}, {10, 510, 10}))});
@@ -102,7 +102,7 @@ TEST(MovesTable, TellsTheLeastClearanceAndOfWhat) {
   EXPECT_EQ(back[0].at("least_clearance_s"), "1");
 }
 
-TEST(MovesTable, MissesNoFrameThatIsNearerThanThoseThatItMeasures) {
+TEST(MovesTable, MissesNoFrameNearerThanThoseMeasured) {
   const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({-20, -2, 0}, {20, 2, 4})),
                                        scenes::component("post", scenes::box({21, -3, 0}, {25, 3, 4})),
                                        scenes::component("stop", scenes::box({-8, 9, 0}, {8, 30, 4}))});
@@ -124,17 +124,17 @@ TEST(MovesTable, MissesNoFrameThatIsNearerThanThoseThatItMeasures) {
   CertificateEngine engine(a, states);
   for (const Frame& frame : path.moves[0].frames) {
     engine.jump(std::vector<Pose>{frame.pose, {}, {}});
-    engine.hold(std::vector<ComponentId>{ComponentId(0)});
+    engine.grab(std::vector<ComponentId>{ComponentId(0)});
     const Clearance now = engine.clearance();
     if (now.distance < least.distance) least = {now.distance, frame.time, now.fixed};
   }
-  EXPECT_GT(least.time, 0) << "else the test shows nothing";
+  EXPECT_GT(least.time, 0) << "otherwise the test is void";
   EXPECT_EQ(found->front().distance, least.distance);
   EXPECT_EQ(found->front().time, least.time);
   EXPECT_EQ(found->front().neighbour, least.neighbour);
 }
 
-TEST(MovesTable, SaysNothingOfAClearanceWhereThereIsNothingElse) {
+TEST(MovesTable, GivesNoClearanceIfThereIsNothingElse) {
   const Assembly a = scenes::assembly({scenes::component("post", scenes::box({0, 0, 0}, {10, 10, 10}))});
   Path path;
   path.components = {"post"};
@@ -145,7 +145,7 @@ TEST(MovesTable, SaysNothingOfAClearanceWhereThereIsNothingElse) {
   EXPECT_EQ(parse(moves_csv(a, timeline, {PathDirection::Forward, *clearances}))[0].at("least_clearance_mm"), "");
 }
 
-TEST(MovesTable, StopsMeasuringWhereItIsCancelled) {
+TEST(MovesTable, StopsMeasuringWhenCancelled) {
   const Assembly a = scenes::knob_on_block();
   const Timeline timeline = scenes::timeline_of(a, scenes::knob_path());
   EXPECT_FALSE(

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 const ViewerFiles kFiles{"const end = '</script>', note = '<!--';", "body { color: red }", "p { margin: 0 }", "<svg/>"};
 
-/// What a block of the page holds.
+/// The content of a block of the page.
 std::string block(const std::string& page, const std::string& id) {
   const std::size_t begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
   return page.substr(begin, page.find("</script>", begin) - begin);
@@ -53,7 +53,7 @@ std::string page_of(const Assembly& assembly, const Path& path, const OfflinePag
   return page.ok() ? *page : std::string();
 }
 
-TEST(OfflinePage, HoldsTheModelAndThePath) {
+TEST(OfflinePage, ContainsTheModelAndThePath) {
   const Assembly a = scenes::knob_on_block();
   const std::string page = page_of(a, scenes::knob_path());
   EXPECT_EQ(inflated(decoded(block(page, "offline-model"))), *glb_from_assembly(a));
@@ -67,7 +67,7 @@ TEST(OfflinePage, HoldsTheModelAndThePath) {
   EXPECT_EQ(model["triangles"], triangle_count(a));
 }
 
-TEST(OfflinePage, BeginsTakenApartWhereReversed) {
+TEST(OfflinePage, BeginsDisassembledIfReversed) {
   OfflinePageOptions options;
   options.direction = PathDirection::Reversed;
   const Json path = Json::parse(block(page_of(scenes::knob_on_block(), scenes::knob_path(), options), "offline-path"));
@@ -76,7 +76,7 @@ TEST(OfflinePage, BeginsTakenApartWhereReversed) {
   EXPECT_EQ(path["moves"][2]["frames"].back()["position"], Json::array({0.0, 0.0, 0.0}));
 }
 
-TEST(OfflinePage, LetsNoNameOfAComponentOutOfItsBlock) {
+TEST(OfflinePage, EscapesComponentNames) {
   Assembly a = scenes::knob_on_block();
   a.components[1].name = "</script><script>alert(1)</script>";
   a.source_file = "<img src=x>.step";
@@ -92,12 +92,12 @@ TEST(OfflinePage, LetsNoNameOfAComponentOutOfItsBlock) {
   EXPECT_EQ(Json::parse(block(page, "offline-path"))["moves"][2]["label"], "<!-- move");
 }
 
-TEST(OfflinePage, KeepsItsScriptWhole) {
+TEST(OfflinePage, ContainsItsScriptUnchanged) {
   const std::string page = page_of(scenes::knob_on_block(), scenes::knob_path());
   EXPECT_NE(page.find("const end = '<\\/script>', note = '<\\!--';</script>"), std::string::npos);
 }
 
-TEST(OfflinePage, ForbidsItselfToLoadAnything) {
+TEST(OfflinePage, ForbidsLoadingAnything) {
   const std::string page = page_of(scenes::knob_on_block(), scenes::knob_path());
   EXPECT_NE(page.find("default-src 'none'; script-src 'unsafe-inline'"), std::string::npos);
   EXPECT_EQ(page.find("http:"), std::string::npos);
@@ -105,13 +105,13 @@ TEST(OfflinePage, ForbidsItselfToLoadAnything) {
   EXPECT_EQ(page.find(" src="), std::string::npos);
 }
 
-TEST(OfflinePage, IsMadeOfAnAssemblyAlone) {
+TEST(OfflinePage, CanBeMadeOfAnAssemblyAlone) {
   const std::string page = page_of(scenes::knob_on_block(), {});
   EXPECT_TRUE(Json::parse(block(page, "offline-path"))["moves"].empty());
   EXPECT_GT(Json::parse(block(page, "offline-assembly"))["tolerance"].get<double>(), 0);
 }
 
-TEST(OfflinePage, IsNotMadeWhereItIsCancelled) {
+TEST(OfflinePage, IsNotMadeIfCancelled) {
   OfflinePageOptions options;
   options.progress = [](std::string_view, double) { return false; };
   const Result<std::string> page = offline_page(scenes::knob_on_block(), scenes::knob_path(), kFiles, options);

@@ -26,7 +26,7 @@ struct Animated {
   }
 };
 
-/// The node's place and turn at the key nearest to a time, in mm.
+/// The node's position [mm] and rotation at the key nearest to a time.
 RigidTransform at(const CheckedGlb& glb, const nlohmann::json& animation, const std::string& component, double time) {
   const std::size_t node = glb.node_of(component);
   const auto [times, places] = glb.keys(animation, node, "translation");
@@ -43,11 +43,11 @@ RigidTransform at(const CheckedGlb& glb, const nlohmann::json& animation, const 
 }
 
 void expect_near(const RigidTransform& a, const RigidTransform& b) {
-  // Floats: 2^-24 of 0.2 m, and of a turn at 100 mm.
+  // Rounding of floats: 2^-24 of 0.2 m, and of a rotation at 100 mm.
   for (const Vec3& p : {Vec3{}, Vec3{100, 0, 0}, Vec3{0, 100, 0}}) EXPECT_LT(length(a * p - b * p), 5e-5);
 }
 
-TEST(PathAnimations, MakeAFileThatBreaksNoRule) {
+TEST(PathAnimations, MakeAValidFile) {
   const Animated made;
   EXPECT_EQ(made.glb.faults(), std::vector<std::string>{});
   const std::vector<Pose> ends = made.timeline.poses_at(made.timeline.end(), 3);
@@ -55,7 +55,7 @@ TEST(PathAnimations, MakeAFileThatBreaksNoRule) {
   EXPECT_EQ(other.faults(), std::vector<std::string>{});
 }
 
-TEST(PathAnimations, AreOneForAllAndOneAMoveInBothDirections) {
+TEST(PathAnimations, AreOneForTheWholePathAndOnePerMoveInBothDirections) {
   const Animated made;
   std::vector<std::string> names;
   for (const auto& animation : made.glb.json()["animations"]) names.push_back(animation["name"]);
@@ -85,7 +85,7 @@ TEST(PathAnimations, HaveTheFramesOfThePathAsKeys) {
   }
 }
 
-TEST(PathAnimations, LeaveOthersWhereTheyAreInTheMove) {
+TEST(PathAnimations, DoNotMoveOtherComponents) {
   const Animated made;
   const auto& animations = made.glb.json()["animations"];
   const Pose aside = made.timeline.moves()[1].frames.back().pose;
@@ -93,9 +93,9 @@ TEST(PathAnimations, LeaveOthersWhereTheyAreInTheMove) {
   expect_near(at(made.glb, animations[6], "knob", 0), knob);
   expect_near(at(made.glb, animations[6], "knob", 2), knob);
   const auto plate = made.glb.keys(animations[6], made.glb.node_of("plate"), "translation");
-  EXPECT_TRUE(plate.first.empty()) << "what never moves has no channel";
+  EXPECT_TRUE(plate.first.empty()) << "components that never move have no channel";
   const auto block = made.glb.keys(animations[2], made.glb.node_of("block"), "translation");
-  EXPECT_TRUE(block.first.empty()) << "it is where the node is anyway";
+  EXPECT_TRUE(block.first.empty()) << "it is the node's own pose";
 }
 
 TEST(PathAnimations, KeepInstancesShared) {
@@ -115,7 +115,7 @@ TEST(PathAnimations, AreNoneWithoutMoves) {
   EXPECT_TRUE(path_animations(Timeline{}).empty());
 }
 
-TEST(PathAnimations, StopWhereTheyAreCancelled) {
+TEST(PathAnimations, StopWhenCancelled) {
   const Animated made;
   GlbOptions options;
   options.animations = path_animations(made.timeline);

@@ -13,7 +13,7 @@ struct Steps {
   Timeline timeline = scenes::timeline_of(assembly, scenes::knob_path());
 };
 
-TEST(StepScene, ShowsWhereThingsAreBeforeTheMove) {
+TEST(StepScene, ShowsThePosesBeforeTheMove) {
   const Steps s;
   const RenderScene scene = step_scene(s.assembly, s.timeline, 1);
   const RigidTransform knob =
@@ -22,7 +22,7 @@ TEST(StepScene, ShowsWhereThingsAreBeforeTheMove) {
   EXPECT_EQ(scene.items[1].world_from_mesh, s.assembly.components[1].assembly_from_mesh);
 }
 
-TEST(StepScene, MarksWhatMovesAndWhereItGoes) {
+TEST(StepScene, MarksTheMovingComponentsAndTheirMotion) {
   const Steps s;
   const RenderScene scene = step_scene(s.assembly, s.timeline, 2);
   ASSERT_EQ(scene.items.size(), 5u) << "three components, a ghost and an arrow";
@@ -30,10 +30,10 @@ TEST(StepScene, MarksWhatMovesAndWhereItGoes) {
   EXPECT_LT(scene.items[3].color.a, 0.5f);
   EXPECT_EQ(scene.items[3].world_from_mesh.translation, (Vec3{0, 60, 0}));
   EXPECT_TRUE(scene.items[4].overlay);
-  EXPECT_EQ(scene.items[4].world_from_mesh.translation, (Vec3{0, 0, 10})) << "the arrow begins in the middle";
+  EXPECT_EQ(scene.items[4].world_from_mesh.translation, (Vec3{0, 0, 10})) << "the arrow begins at the centre";
 }
 
-TEST(StepScene, GoesTheOtherWayForTheAssembly) {
+TEST(StepScene, IsReversedForAssembly) {
   const Steps s;
   const RenderScene scene = step_scene(s.assembly, s.timeline, 0, PathDirection::Reversed);
   EXPECT_EQ(scene.items[1].world_from_mesh.translation, (Vec3{0, 60, 0}));
@@ -42,7 +42,7 @@ TEST(StepScene, GoesTheOtherWayForTheAssembly) {
   EXPECT_EQ(scene.items[2].world_from_mesh, transform_from_pose(aside) * s.assembly.components[2].assembly_from_mesh);
 }
 
-TEST(StepScene, HasNoArrowWhereNothingGoesFar) {
+TEST(StepScene, HasNoArrowForAShortMotion) {
   const Assembly a = scenes::knob_on_block();
   Path path = scenes::knob_path();
   path.moves = {{"turn knob", {"knob"}, {{0, {}}, {1, {{0, 0, 0.5}, {}}}}}};

@@ -20,7 +20,7 @@ TimelineMove move_of(std::vector<ComponentId> components, const std::vector<Pose
   return move;
 }
 
-/// Poses of a move, close to each other.
+/// Closely spaced poses of a move.
 std::vector<Pose> poses_of(const TimelineMove& move) {
   std::vector<Pose> poses;
   for (std::size_t i = 1; i < move.frames.size(); ++i)
@@ -29,7 +29,7 @@ std::vector<Pose> poses_of(const TimelineMove& move) {
   return poses;
 }
 
-/// The mesh as a solid that can be asked.
+/// The mesh as a solid for inside queries.
 struct Solid {
   explicit Solid(TriangleMesh mesh) : component(scenes::component("solid", std::move(mesh))) {}
   Component component;
@@ -42,7 +42,8 @@ void expect_closed(const TriangleMesh& mesh) {
   EXPECT_GT(signed_volume(mesh), 0);
 }
 
-/// It holds all vertices at all times, and none of its own is further from the set than the tolerance at all times.
+/// Expects that it contains all vertices at all times, and that each of its own is within the tolerance of the set at
+/// some time.
 void expect_swept(const Assembly& assembly, const TimelineMove& move, double tolerance) {
   const Result<SweptVolume> swept = swept_volume(assembly, move, {tolerance, {}});
   ASSERT_TRUE(swept.ok()) << swept.error().message;
@@ -56,7 +57,7 @@ void expect_swept(const Assembly& assembly, const TimelineMove& move, double tol
       for (const Vec3& p : part.component.mesh->vertices)
         ASSERT_TRUE(point_in_solid(all.tree, transform_from_pose(pose) * p));
 
-  // Between two of the poses it goes on for less than this.
+  // It moves by less than this between two poses.
   const double between = screw_path_length(screw_between(poses[0], poses[1]), diagonal(bounds(swept->mesh)));
   for (std::size_t i = 0; i < swept->mesh.vertices.size(); i += 7) {
     const Vec3& p = swept->mesh.vertices[i];
@@ -69,7 +70,7 @@ void expect_swept(const Assembly& assembly, const TimelineMove& move, double tol
   }
 }
 
-TEST(SweptVolume, HoldsAllThatIsPassedAndLittleMore) {
+TEST(SweptVolume, ContainsTheSweptSpaceAndLittleMore) {
   const Assembly a = scenes::assembly({scenes::component("bar", scenes::box({-1, -1, -4}, {1, 1, 4})),
                                        scenes::component("knob", scenes::tube(2, 0.8, 4, 6, 12))});
   const Pose out{{0, 3, 9}, {}};
@@ -78,8 +79,8 @@ TEST(SweptVolume, HoldsAllThatIsPassedAndLittleMore) {
   expect_swept(a, move_of({ComponentId(0), ComponentId(1)}, {{}, {{2, 0, 0}, quat_about({0, 1, 0}, 1.2)}, out}), 3.5);
 }
 
-TEST(SweptVolume, HasTheInsideOfSolidsAndLeavesRoomThatNothingPasses) {
-  // A block is full; a box with a hollow in it, that hardly moves, stays hollow.
+TEST(SweptVolume, ContainsTheInsideOfSolidsAndKeepsCavitiesOpen) {
+  // A block is filled; a hollow box that hardly moves stays hollow.
   const Assembly block = scenes::assembly({scenes::component("block", scenes::box({-5, -5, -5}, {5, 5, 5}))});
   const TimelineMove nudge = move_of({ComponentId(0)}, {{}, {{0.5, 0, 0}, {}}});
   const Result<SweptVolume> full = swept_volume(block, nudge, {1.8, {}});
@@ -98,7 +99,7 @@ TEST(SweptVolume, HasTheInsideOfSolidsAndLeavesRoomThatNothingPasses) {
   EXPECT_FALSE(point_in_solid(Solid(swept->mesh).tree, {0.25, 0.01, 0.02}));
 }
 
-TEST(SweptVolume, HasAToleranceOfItsOwnAndRefusesTooFineOnes) {
+TEST(SweptVolume, HasADefaultToleranceAndRefusesOnesThatAreTooFine) {
   const Assembly a = scenes::assembly({scenes::component("block", scenes::box({0, 0, 0}, {2, 2, 2}))});
   const TimelineMove move = move_of({ComponentId(0)}, {{}, {{0, 0, 4}, {}}});
   const Result<SweptVolume> usual = swept_volume(a, move);

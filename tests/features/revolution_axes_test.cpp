@@ -16,7 +16,7 @@ double off(const RevolutionAxis& axis, Vec3 p) {
   return length(cross(p - axis.point, axis.direction));
 }
 
-TEST(RevolutionAxes, FindsTheAxisOfATubeWhereverItIs) {
+TEST(RevolutionAxes, FindsTheAxisOfATubeInAnyPose) {
   std::mt19937_64 random(3);
   for (const double offset : {0.0, 10.0, 1e4})
     for (const std::uint32_t sides : {12u, 64u, 400u})
@@ -32,7 +32,7 @@ TEST(RevolutionAxes, FindsTheAxisOfATubeWhereverItIs) {
       }
 }
 
-TEST(RevolutionAxes, FindsAllThatOneMeshHasTheLongestTurnFirst) {
+TEST(RevolutionAxes, FindsAllAxesOfAMeshTheLargestFirst) {
   TriangleMesh mesh = scenes::tube(10, 6, 0, 20, 48, 3);
   const std::size_t first = mesh.vertices.size();
   const TriangleMesh other = scenes::moved(scenes::tube(3, 2, 0, 20, 24, 1), Pose{{40, 0, 0}, {}});
@@ -48,7 +48,7 @@ TEST(RevolutionAxes, FindsAllThatOneMeshHasTheLongestTurnFirst) {
   EXPECT_LT(off(axes[1], {40, 0, 5}), 1e-6);
 }
 
-TEST(CylinderParts, GiveEveryCylinderANumberAndLeaveFlatFacesAlone) {
+TEST(CylinderParts, NumberEveryCylinderAndSkipFlatFaces) {
   std::mt19937_64 random(5);
   const Pose pose = scenes::random_pose(random, 30, 3);
   const TriangleMesh mesh = scenes::moved(scenes::tube(10, 6, -20, 20, 48, 3), pose);
@@ -74,7 +74,7 @@ TEST(CylinderParts, GiveEveryCylinderANumberAndLeaveFlatFacesAlone) {
   EXPECT_FALSE(outside.count(0) || inside.count(0));
 }
 
-TEST(CylinderParts, KeepNumbersThatThereAreAndLeaveLessThanHalfACylinderAlone) {
+TEST(CylinderParts, KeepExistingNumbersAndSkipLessThanHalfACylinder) {
   TriangleMesh mesh = scenes::tube(10, 6, 0, 20, 48, 1);
   const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
   std::vector<std::uint8_t> parts(mesh.faces.size());
@@ -95,7 +95,7 @@ TEST(CylinderParts, KeepNumbersThatThereAreAndLeaveLessThanHalfACylinderAlone) {
   EXPECT_EQ(std::count(parts.begin(), parts.end(), 0), static_cast<std::ptrdiff_t>(third.faces.size()));
 }
 
-TEST(RevolutionAxes, FindsNoneWhereNothingIsRound) {
+TEST(RevolutionAxes, FindsNoneWithoutSurfacesOfRevolution) {
   const TriangleMesh box = scenes::box({0, 0, 0}, {3, 4, 5});
   EXPECT_TRUE(revolution_axes(box.vertices, box.faces).empty());
   EXPECT_TRUE(revolution_axes({}, {}).empty());

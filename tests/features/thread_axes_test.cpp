@@ -29,7 +29,7 @@ TriangleMesh mirrored(TriangleMesh mesh) {
   return mesh;
 }
 
-TEST(ThreadAxes, FindTheLeadOfAThreadWhereverItIs) {
+TEST(ThreadAxes, FindTheLeadOfAThreadInAnyPose) {
   std::mt19937_64 random(11);
   for (const double offset : {0.0, 1e3})
     for (const std::uint32_t sides : {24u, 100u})
@@ -54,7 +54,7 @@ TEST(ThreadAxes, FindTheLeadOfAThreadWhereverItIs) {
         }
 }
 
-TEST(ThreadAxes, FindTheLeadOfAThreadThatWasCutAnewWhereverItIs) {
+TEST(ThreadAxes, FindTheLeadOfARemeshedThreadInAnyPose) {
   std::mt19937_64 random(3);
   for (const double offset : {0.0, 1e3})
     for (const bool left : {false, true}) {
@@ -76,7 +76,7 @@ TEST(ThreadAxes, FindTheLeadOfAThreadThatWasCutAnewWhereverItIs) {
     }
 }
 
-TEST(ThreadAxes, TellSeveralStartsFromOne) {
+TEST(ThreadAxes, DistinguishSeveralStartsFromOne) {
   scenes::Winding w = winding(48, 4);
   const scenes::Profile once = w.profile;
   for (std::size_t i = 1; i < once.size(); ++i) w.profile.push_back({once[i].x, once[i].y + w.pitch});
@@ -87,14 +87,14 @@ TEST(ThreadAxes, TellSeveralStartsFromOne) {
   EXPECT_EQ(threads[0].starts, 2);
 }
 
-TEST(ThreadAxes, AreNotFoundWhereNothingWinds) {
+TEST(ThreadAxes, AreNotFoundWithoutAHelix) {
   for (const TriangleMesh& mesh : {scenes::tube(10, 6, -20, 20, 48, 9), scenes::box({0, 0, 0}, {3, 4, 5}),
                                    scenes::extruded(scenes::circle(5, 6), 0, 4),
                                    scenes::revolved_loop({{4, 0}, {6, 1}, {5, 2}, {6, 3}, {4, 4}}, 40), TriangleMesh{}})
     EXPECT_TRUE(threads_of(mesh).empty()) << mesh.faces.size();
 }
 
-TEST(ThreadAxes, MateWhereOneIsTheScrewAndTheOtherItsNut) {
+TEST(ThreadAxes, MateOnlyAsAScrewAndItsNut) {
   const auto thread_of = [](const TriangleMesh& mesh) { return threads_of(mesh).at(0); };
   const TriangleMesh bolt = scenes::wound_solid(winding(24, 6));
   const ThreadAxis screw = thread_of(bolt), nut = thread_of(scenes::wound_hole(winding(24, 4), 7));

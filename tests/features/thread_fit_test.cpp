@@ -12,7 +12,7 @@ std::vector<SurfaceSample> samples_of(const TriangleMesh& mesh) {
   return smooth_samples(mesh, std::vector<std::uint8_t>(mesh.faces.size(), 1));
 }
 
-/// The bolt of 1.25 mm pitch, as it comes or mirrored.
+/// A bolt of 1.25 mm pitch, right-handed or mirrored.
 TriangleMesh bolt(bool left_handed) {
   TriangleMesh mesh = *scenes::bolt_in_nut(20000, 0.05).assembly.components[1].mesh;
   if (left_handed) {
@@ -22,7 +22,7 @@ TriangleMesh bolt(bool left_handed) {
   return mesh;
 }
 
-TEST(ThreadFit, FindsAxisPitchAndHandInAnyOrientation) {
+TEST(ThreadFit, FindsAxisPitchAndHandednessInAnyOrientation) {
   std::mt19937_64 random(5);
   for (const bool left_handed : {false, true})
     for (int round = 0; round < 5; ++round) {
@@ -36,7 +36,7 @@ TEST(ThreadFit, FindsAxisPitchAndHandInAnyOrientation) {
     }
 }
 
-TEST(ThreadFit, FindsItAmongSeatsAndCollars) {
+TEST(ThreadFit, FindsTheThreadBesideSeatsAndCollars) {
   std::vector<SurfaceSample> samples = samples_of(bolt(false));
   for (const SurfaceSample& s : samples_of(scenes::tube(4.5, 3, 22, 23, 64))) samples.push_back(s);
   const auto thread = fit_thread(samples);
@@ -44,7 +44,7 @@ TEST(ThreadFit, FindsItAmongSeatsAndCollars) {
   EXPECT_NEAR(thread->lead, 1.25, 0.02);
 }
 
-TEST(ThreadFit, FindsNoneOnWhatOnlyTurnsOrShifts) {
+TEST(ThreadFit, FindsNoneOnSurfacesOfRevolutionOrExtrusion) {
   EXPECT_FALSE(fit_thread(samples_of(scenes::tube(12, 10, 0, 30, 48, 4))));
   EXPECT_FALSE(fit_thread(samples_of(scenes::revolved({{0, 0}, {5, 0}, {4, 3}, {6, 6}, {4, 9}, {0, 9}}, 64))));
   EXPECT_FALSE(fit_thread(samples_of(scenes::box({0, 0, 0}, {10, 20, 30}))));

@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-TEST(AtomicFile, AppearsWholeAndLeavesNothingElse) {
+TEST(AtomicFile, AppearsCompleteAndLeavesNothingElse) {
   const ScratchFolder folder;
   const std::string large(3'000'000, 'x');
   ASSERT_TRUE(write_file(folder / "a.txt", large).ok());
@@ -17,7 +17,7 @@ TEST(AtomicFile, AppearsWholeAndLeavesNothingElse) {
   EXPECT_EQ(folder.entry_count(), 1u);
 }
 
-TEST(AtomicFile, IsNotThereBeforeItIsCommitted) {
+TEST(AtomicFile, DoesNotExistBeforeItIsCommitted) {
   const ScratchFolder folder;
   auto file = AtomicFile::create(folder / "a.txt");
   ASSERT_TRUE(file.ok());
@@ -59,7 +59,7 @@ TEST(AtomicFile, NeverReplacesADevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-TEST(AtomicFile, SaysThatTheDiskIsFull) {
+TEST(AtomicFile, ReportsAFullDisk) {
   DISMANTLE_NEED("/dev/full");
   const auto result = write_file("/dev/full", "text");
   ASSERT_FALSE(result.ok());

@@ -8,14 +8,14 @@
 namespace dismantle {
 namespace {
 
-TEST(CsvText, QuotesOnlyWhatNeedsIt) {
+TEST(CsvText, QuotesOnlyWhereNeeded) {
   EXPECT_EQ(csv_field(std::string_view("lid screw M6x22")), "lid screw M6x22");
   EXPECT_EQ(csv_field(std::string_view("a,b")), "\"a,b\"");
   EXPECT_EQ(csv_field(std::string_view("3/8\" nut")), "\"3/8\"\" nut\"");
   EXPECT_EQ(csv_field(std::string_view("two\nlines")), "\"two\nlines\"");
 }
 
-TEST(CsvText, WritesNumbersShortAndWithAPoint) {
+TEST(CsvText, WritesShortNumbersWithADecimalPoint) {
   EXPECT_EQ(csv_field(0.1 + 0.2), "0.3");
   EXPECT_EQ(csv_field(-0.0), "0");
   EXPECT_EQ(csv_field(1.0 / 3), "0.333333333");

@@ -22,7 +22,7 @@ IsolatedResult run(const IsolatedWork& work, const IsolationLimits& limits = {},
   return run_isolated(work, limits, progress);
 }
 
-TEST(RunIsolated, BringsBackEveryByteInOrder) {
+TEST(RunIsolated, ReturnsEveryByteInOrder) {
   std::vector<std::uint32_t> numbers(1'500'000);  // more than one message takes
   for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i * 2654435761u;
   const IsolatedResult result = run([&](IsolatedLine& line) -> Result<Done> {
@@ -46,7 +46,7 @@ TEST(RunIsolated, PassesOnTheErrorOfTheWork) {
   EXPECT_TRUE(result.bytes.empty());
 }
 
-TEST(RunIsolated, OutlivesSignalsExceptionsAndExits) {
+TEST(RunIsolated, SurvivesSignalsExceptionsAndExits) {
   const IsolatedResult killed = run([](IsolatedLine&) -> Result<Done> {
     std::raise(SIGSEGV);
     return Done{};
@@ -60,7 +60,7 @@ TEST(RunIsolated, OutlivesSignalsExceptionsAndExits) {
   EXPECT_EQ(run([](IsolatedLine&) -> Result<Done> { _exit(0); }).ending, IsolatedEnding::Crashed);
 }
 
-TEST(RunIsolated, StopsWorkThatEatsMemory) {
+TEST(RunIsolated, StopsWorkThatExceedsItsMemory) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "memory is not limited under the sanitizers";
 #endif
@@ -76,7 +76,7 @@ TEST(RunIsolated, StopsWorkThatEatsMemory) {
   EXPECT_EQ(run(eat(std::size_t{128} << 20), limits).ending, IsolatedEnding::OutOfMemory);
 }
 
-TEST(RunIsolated, StopsWorkThatComputesForEver) {
+TEST(RunIsolated, StopsWorkThatNeverEnds) {
   IsolationLimits limits;
   limits.cpu_seconds = 0;  // rounded up to a whole second
   const IsolatedResult result = run(
@@ -88,7 +88,7 @@ TEST(RunIsolated, StopsWorkThatComputesForEver) {
   EXPECT_EQ(result.ending, IsolatedEnding::OutOfTime);
 }
 
-TEST(RunIsolated, StopsWorkThatFallsSilentButNotWorkThatReports) {
+TEST(RunIsolated, StopsSilentWorkButNotWorkThatReports) {
   IsolationLimits limits;
   limits.silence_seconds = 0.3;
   const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(150)); };
@@ -111,7 +111,7 @@ TEST(RunIsolated, StopsWorkThatFallsSilentButNotWorkThatReports) {
   EXPECT_EQ(talking.ending, IsolatedEnding::Done);
 }
 
-TEST(RunIsolated, TellsProgressAndKillsOnCancel) {
+TEST(RunIsolated, ReportsProgressAndStopsWhenCancelled) {
   std::string stage;
   double fraction = 0;
   const IsolatedResult result = run(
@@ -141,7 +141,7 @@ TEST(RunIsolated, SilencesTheStandardOutput) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-TEST(RunIsolated, GivesTheWorkNoFilesOfTheParent) {
+TEST(RunIsolated, InheritsNoFilesOfTheParent) {
   int ends[2] = {-1, -1};
   ASSERT_EQ(pipe(ends), 0);
   const IsolatedResult result = run([&](IsolatedLine& line) -> Result<Done> {

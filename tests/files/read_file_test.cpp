@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-TEST(ReadFile, GivesEveryByte) {
+TEST(ReadFile, ReadsEveryByte) {
   const ScratchFolder folder;
   const std::string bytes("a\0b\r\n\xff", 6);
   const auto result = read_file(folder.put("a.bin", bytes), 6);
@@ -17,7 +17,7 @@ TEST(ReadFile, GivesEveryByte) {
   EXPECT_EQ(*result, bytes);
 }
 
-TEST(ReadFile, RefusesWhatIsNotAFileOfThatSize) {
+TEST(ReadFile, RefusesNonFilesAndFilesAboveTheLimit) {
   const ScratchFolder folder;
   EXPECT_NE(message_of(read_file(folder / "missing", 10)).find("No such file"), std::string::npos);
   EXPECT_NE(message_of(read_file(folder.path(), 10)).find("it is a folder"), std::string::npos);

@@ -10,7 +10,7 @@ TEST(TextName, LeavesCleanNamesAlone) {
     EXPECT_EQ(clean_name(name), name);
 }
 
-TEST(TextName, TakesWhatIsNoUtf8AsLatin1) {
+TEST(TextName, ReadsInvalidUtf8AsLatin1) {
   EXPECT_EQ(clean_name("Geh\xe4use"), "Geh\xc3\xa4use");
   EXPECT_EQ(clean_name("\xc0\xaf"), "\xc3\x80\xc2\xaf") << "overlong";
   EXPECT_EQ(clean_name("\xed\xa0\x80"), "\xc3\xad\xc2\xa0_") << "a surrogate; its last byte is a control character";

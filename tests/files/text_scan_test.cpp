@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-TEST(TextScan, ReadsNumbersWhole) {
+TEST(TextScan, ReadsNumbers) {
   EXPECT_EQ(to_double("1.5"), 1.5);
   EXPECT_EQ(to_double("+2e3"), 2000.0);
   EXPECT_EQ(to_double("-.5"), -0.5);
@@ -17,27 +17,27 @@ TEST(TextScan, ReadsNumbersWhole) {
   EXPECT_EQ(to_integer("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
 }
 
-TEST(TextScan, RefusesWhatIsNoFiniteNumber) {
+TEST(TextScan, RefusesNonFiniteNumbers) {
   for (const char* word : {"", "-", "+", "+-1", "1,5", "1.5x", "0x10", "nan", "inf", "-inf", "1e400", "1#INF", "e5"})
     EXPECT_EQ(to_double(word), std::nullopt) << word;
   for (const char* word : {"", "1.0", "9223372036854775808", "1a", "--1"})
     EXPECT_EQ(to_integer(word), std::nullopt) << word;
 }
 
-TEST(TextScan, TakesTooSmallNumbersAsZeroAndKeepsSubnormalOnes) {
+TEST(TextScan, ReadsUnderflowAsZeroAndKeepsSubnormals) {
   EXPECT_EQ(to_double("1e-400"), 0.0);
   EXPECT_EQ(to_double("4.9e-324"), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(to_double("0." + std::string(400, '0') + "1"), 0.0);
   EXPECT_EQ(to_double("1" + std::string(400, '0')), std::nullopt);
 }
 
-TEST(TextScan, DoesNotCareAboutTheLocale) {
+TEST(TextScan, DoesNotDependOnTheLocale) {
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "no German locale here";
   EXPECT_EQ(to_double("1.5"), 1.5);
   std::setlocale(LC_ALL, "C");
 }
 
-TEST(TextScan, TakesWordsOffALine) {
+TEST(TextScan, SplitsALineIntoWords) {
   std::string_view rest = " \ta  bc\r";
   EXPECT_EQ(take_word(rest), "a");
   EXPECT_EQ(take_word(rest), "bc");
@@ -53,7 +53,7 @@ TEST(TextScan, GivesLinesOfBothKinds) {
   EXPECT_EQ(lines.next(), std::nullopt);
 }
 
-TEST(TextScan, PassesOverAByteOrderMark) {
+TEST(TextScan, SkipsAByteOrderMark) {
   EXPECT_EQ(LineReader("\xef\xbb\xbfply\n").next(), "ply");
   EXPECT_EQ(WordReader("\xef\xbb\xbfsolid").next(), "solid");
 }

@@ -35,7 +35,7 @@ Assembly three_components() {
   return a;
 }
 
-TEST(AssemblyBytes, BringEverythingBackWithMeshesShared) {
+TEST(AssemblyBytes, ReadBackEverythingWithSharedMeshes) {
   const Assembly a = three_components();
   const std::optional<Assembly> b = assembly_from_bytes(bytes_from(a));
   ASSERT_TRUE(b);
@@ -62,7 +62,7 @@ TEST(AssemblyBytes, BringEverythingBackWithMeshesShared) {
   EXPECT_NE(b->components[0].mesh, b->components[1].mesh);
 }
 
-TEST(AssemblyBytes, RefuseEveryPrefixAndAnythingBehind) {
+TEST(AssemblyBytes, RefuseEveryPrefixAndTrailingBytes) {
   std::vector<std::byte> bytes = bytes_from(three_components());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_FALSE(assembly_from_bytes(Span<const std::byte>(bytes.data(), size))) << size;

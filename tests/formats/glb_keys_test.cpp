@@ -14,14 +14,14 @@ namespace {
 
 const RigidTransform kPlacement = transform_from_pose({{120, -40, 7.5}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)});
 
-/// The mesh's frame as keys have it at `key`, in mm.
+/// The mesh's frame at a key, in mm.
 RigidTransform at_key(const GlbKeys& keys, std::size_t key) {
   const auto t = [&](std::size_t k) { return 1e3 * static_cast<double>(keys.translations[3 * key + k]); };
   const auto q = [&](std::size_t k) { return static_cast<double>(keys.rotations[4 * key + k]); };
   return {mat3_from_quat({q(3), q(0), q(1), q(2)}), {t(0), t(1), t(2)}};
 }
 
-/// As a glTF player has it: straight, and along the shorter great circle.
+/// The interpolation of a glTF player: linear, and along the shorter great circle.
 RigidTransform at_time(const GlbKeys& keys, double time) {
   std::size_t next = 0;
   while (next < keys.times.size() && static_cast<double>(keys.times[next]) < time) ++next;
@@ -42,7 +42,7 @@ double apart(const RigidTransform& a, const RigidTransform& b) {
   return most;
 }
 
-TEST(GlbKeys, HoldEachFrameAsTheNearestFloats) {
+TEST(GlbKeys, StoreEachFrameAsTheNearestFloats) {
   const std::vector<Frame> frames{{0, {}},
                                   {0.1, {{1.0 / 3, -2e3 / 7, 1e-4}, quat_about({0, 1, 0}, 0.01)}},
                                   {0.35, {{512.3, -2e3 / 7, 1e-4}, quat_about({0, 1, 0}, 0.013)}}};
@@ -62,7 +62,7 @@ TEST(GlbKeys, HoldEachFrameAsTheNearestFloats) {
   }
 }
 
-TEST(GlbKeys, FollowAScrewThatBends) {
+TEST(GlbKeys, FollowACurvedScrew) {
   const std::uint32_t seed = 20261122;
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
@@ -76,13 +76,14 @@ TEST(GlbKeys, FollowAScrewThatBends) {
     const GlbKeys keys = glb_keys(kPlacement, std::vector<Frame>{{0, start}, {2, end}});
     for (double s = 0; s <= 1; s += 0.037) {
       const RigidTransform truth = transform_from_pose(pose_between(start, end, s)) * kPlacement;
-      // The bend, and what floats lose: of coordinates of some 0.5 m, of a turn over 50 mm, of a time at this speed.
+      // The deviation, and rounding of floats: of coordinates of 0.5 m, of a rotation at 50 mm, of the time at this
+      // speed.
       ASSERT_LT(apart(at_time(keys, 2 * s), truth), kGlbDeviation + 3e-4) << i << " at " << s;
     }
   }
 }
 
-TEST(GlbKeys, StayOnOneSideOfTheSphere) {
+TEST(GlbKeys, StayOnOneHemisphereOfQuaternions) {
   std::vector<Frame> frames;
   for (int i = 0; i <= 40; ++i) {
     const Quat q = quat_about({0, 0, 1}, 0.4 * i);
@@ -97,7 +98,7 @@ TEST(GlbKeys, StayOnOneSideOfTheSphere) {
   }
 }
 
-TEST(GlbKeys, AscendWhereAFloatCannotTellTimesApart) {
+TEST(GlbKeys, AscendEvenIfFloatsCannotDistinguishTimes) {
   std::vector<Frame> frames;
   for (int i = 0; i < 8; ++i) frames.push_back({1000 + 1e-6 * i, {{1.0 * i, 0, 0}, {}}});
   frames.push_back({frames.back().time, {{9, 0, 0}, {}}});
@@ -106,7 +107,7 @@ TEST(GlbKeys, AscendWhereAFloatCannotTellTimesApart) {
   for (std::size_t k = 1; k < keys.times.size(); ++k) EXPECT_GT(keys.times[k], keys.times[k - 1]);
 }
 
-TEST(GlbKeys, LeaveOutTheMiddleOfARest) {
+TEST(GlbKeys, OmitTheMiddleOfARest) {
   std::vector<Frame> frames{{0, {}}};
   for (int i = 1; i < 100; ++i) frames.push_back({0.01 * i, {{5, 0, 0}, {}}});
   frames.push_back({1, {{6, 0, 0}, {}}});
@@ -114,7 +115,7 @@ TEST(GlbKeys, LeaveOutTheMiddleOfARest) {
   EXPECT_EQ(keys.times, (std::vector<float>{0, 0.01f, 0.99f, 1}));
 }
 
-TEST(GlbKeys, NeedNoSecondKeyForASecondFrameThatIsTheSame) {
+TEST(GlbKeys, OmitRepeatedFrames) {
   const std::vector<Frame> frames{{0, {}}, {1, {{3, 0, 0}, {}}}, {1, {{3, 0, 0}, {}}}, {2, {{4, 0, 0}, {}}}};
   EXPECT_EQ(glb_keys({}, frames).times, (std::vector<float>{0, 1, 2}));
 }

@@ -16,7 +16,7 @@ std::string bytes_from(const std::vector<T>& values) {
   return bytes;
 }
 
-/// A binary glTF of these parts, as they are: broken ones too.
+/// A binary glTF of these parts, unchecked.
 inline std::string glb_of(std::string json, std::string_view binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const auto size = [](std::size_t n) { return bytes_from(std::vector<std::uint32_t>{static_cast<std::uint32_t>(n)}); };

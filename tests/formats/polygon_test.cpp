@@ -19,7 +19,7 @@ std::vector<Face> triangulate(const std::vector<Vec3>& points) {
   return faces;
 }
 
-/// Checks that the triangles cover a polygon in a plane of normal `n` once: all turn as it does and their areas add up.
+/// Expects that the triangles cover a polygon in a plane of normal `n` once: same orientation, and areas that add up.
 void expect_cover(const std::vector<Vec3>& points, Vec3 n, double area) {
   const std::vector<Face> faces = triangulate(points);
   EXPECT_EQ(faces.size(), points.size() - 2);
@@ -32,7 +32,7 @@ void expect_cover(const std::vector<Vec3>& points, Vec3 n, double area) {
   EXPECT_NEAR(sum, area, 1e-12 * area);
 }
 
-/// The same polygon, seen from each of its corners and turned into each coordinate plane, both ways round.
+/// The same polygon, starting at each of its corners, in each coordinate plane, in both orientations.
 void expect_cover_everywhere(const std::vector<Vec3>& xy, double area) {
   for (std::size_t start = 0; start < xy.size(); ++start)
     for (int axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ TEST(PolygonTriangulator, CutsACombOf200Teeth) {
   expect_cover(comb, {0, 0, area > 0 ? 1.0 : -1.0}, std::abs(area));
 }
 
-TEST(PolygonTriangulator, GivesNMinusTwoTrianglesForWhatIsNoPolygon) {
+TEST(PolygonTriangulator, GivesNMinusTwoTrianglesForDegeneratePolygons) {
   const unsigned seed = 7;
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are broken, cut off, or claim what they do not have: one Error each.
+// Files that are broken, truncated, or claim data that they do not have: one Error each.
 #include "dismantle/formats/gltf/gltf_import.h"
 #include "tests/formats/gltf_files.h"
 #include "tests/support/parse_expectations.h"
@@ -18,7 +18,7 @@ Result<Assembly> import(std::string_view bytes, const ImportOptions& options = {
   return import_gltf(bytes, "hostile.glb", no_files, options);
 }
 
-/// The Error for a tetrahedron whose JSON has `from` replaced by `to`; empty where it is read all the same.
+/// The Error for a tetrahedron whose JSON has `from` replaced by `to`; empty if it can be read.
 std::string error_with(const std::string& from, const std::string& to, const std::string& nodes = R"({"mesh": 0})",
                        const std::string& more = "") {
   std::string json = tetrahedron_json(nodes, more);
@@ -49,7 +49,7 @@ TEST(ReadGltfHostile, RefusesClaimsBeyondTheBytes) {
                   "has no bytes for what it claims");
 }
 
-TEST(ReadGltfHostile, RefusesIndicesToNowhere) {
+TEST(ReadGltfHostile, RefusesIndicesOutOfRange) {
   expect_contains(error_with("\"POSITION\": 0", "\"POSITION\": 2"), "there is no such one");
   expect_contains(error_with("\"buffer\": 0", "\"buffer\": 7"), "there is no such one");
   expect_contains(error_with("\"mesh\": 0", "\"mesh\": 1"), "there is no such one");
@@ -76,7 +76,7 @@ TEST(ReadGltfHostile, ReadsAChainOfManyNodesWithoutRecursion) {
   EXPECT_EQ(a->tree.size(), depth + 1u);
 }
 
-TEST(ReadGltfHostile, NamesTheExtensionThatItLacks) {
+TEST(ReadGltfHostile, NamesTheUnsupportedExtension) {
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "VENDOR_magic"})
     expect_contains(
         error_with("asset", "asset", R"({"mesh": 0})", ", \"extensionsRequired\": [\"" + std::string(name) + "\"]"),

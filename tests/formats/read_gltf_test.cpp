@@ -38,7 +38,7 @@ Assembly read_primitive(const std::string& accessors, const std::string& views, 
   return a ? *a : Assembly{};
 }
 
-TEST(ReadGltf, GivesAComponentForEachMeshNodeInMillimetres) {
+TEST(ReadGltf, MakesAComponentOfEachMeshNodeInMillimetres) {
   const ScratchFolder folder;
   const std::string glb = glb_of(
       tetrahedron_json(R"({"name": "foot", "mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]}, {"name": "lamp"})"),
@@ -60,7 +60,7 @@ TEST(ReadGltf, GivesAComponentForEachMeshNodeInMillimetres) {
 }
 
 TEST(ReadGltf, ComposesTransformsDownTheTree) {
-  // A quarter turn about z at x = 10, below it a step of 1 along its x.
+  // A quarter turn about z at x = 10, and in it a translation of 1 along x.
   const Result<Assembly> a = read_nodes(R"({"name": "arm", "translation": [10, 0, 0], "children": [1],
       "rotation": [0, 0, 0.70710678118654757, 0.70710678118654757]},
       {"name": "hand", "mesh": 0, "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 1,0,0,1]})");
@@ -93,7 +93,7 @@ TEST(ReadGltf, BakesScalesShearsAndMirroringsIntoTheMesh) {
   EXPECT_EQ(a->components[1].mesh, a->components[5].mesh);
 }
 
-TEST(ReadGltf, LetsTheUserSayTheUnits) {
+TEST(ReadGltf, LetsTheUserOverrideTheUnits) {
   ImportOptions options;
   options.units = "in";
   const Result<Assembly> a = read_nodes(R"({"mesh": 0, "translation": [1, 0, 0]})", "", options);
@@ -161,7 +161,7 @@ TEST(ReadGltf, DrawsStripsFansAndUnindexedTriangles) {
     EXPECT_EQ(normal_unscaled(fan.components[0].mesh->triangle(f)), (Vec3{0, 0, 1e6}));
 
   const Assembly plain = read_primitive(accessor, view, R"({"attributes": {"POSITION": 0}})", square);
-  EXPECT_EQ(triangle_count(plain), 1u);  // the fourth corner begins none
+  EXPECT_EQ(triangle_count(plain), 1u);  // the fourth corner starts no triangle
 }
 
 TEST(ReadGltf, ReadsIndicesOfEverySize) {

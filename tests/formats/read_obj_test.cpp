@@ -38,7 +38,7 @@ TEST(ReadObj, MakesAPartOfEachObject) {
   EXPECT_EQ(model->parts[1].mesh.faces, (std::vector<Face>{{{0, 1, 2}}}));
 }
 
-TEST(ReadObj, MakesAPartOfEachGroupWhereThereIsNoObject) {
+TEST(ReadObj, MakesAPartOfEachGroupIfThereIsNoObject) {
   const auto model = parse(std::string(kSquare) + "f 1 2 3\ng a\nf 2 3 4\ng b c\nf 3 4 1\ng a\nf 4 1 2\n");
   ASSERT_TRUE(model.ok());
   ASSERT_EQ(model->parts.size(), 4u);
@@ -55,7 +55,7 @@ TEST(ReadObj, KeepsTheVerticesInFileOrder) {
   EXPECT_EQ(model->parts[0].mesh.faces, (std::vector<Face>{{{3, 1, 0}}, {{3, 2, 1}}}));
 }
 
-TEST(ReadObj, CutsPolygonsAndAllowsVerticesThatComeLater) {
+TEST(ReadObj, TriangulatesPolygonsAndAllowsForwardReferences) {
   const auto model = parse(std::string("f 1 2 3 4\n") + kSquare);
   ASSERT_TRUE(model.ok());
   EXPECT_EQ(model->parts[0].mesh.faces.size(), 2u);
@@ -70,7 +70,7 @@ TEST(ReadObj, SkipsWhatItDoesNotNeed) {
   EXPECT_EQ(model->material_files, (std::vector<std::string>{"a b.mtl"}));
 }
 
-TEST(ReadObj, KnowsTheMaterialOfAPart) {
+TEST(ReadObj, ReadsTheMaterialOfAPart) {
   const auto model = parse(std::string(kSquare) + "o a\nusemtl red\nf 1 2 3\nusemtl blue\nf 2 3 4\no b\nf 1 2 4\n");
   ASSERT_TRUE(model.ok());
   EXPECT_EQ(model->parts[0].material, "red");

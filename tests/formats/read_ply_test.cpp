@@ -23,7 +23,7 @@ constexpr const char* kPlain =
     "element face 1\nproperty list uchar int vertex_indices\n";
 constexpr const char* kSquareBody = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
-/// Appends a number's bytes, the highest first where `big`.
+/// Appends a number's bytes, big-endian if `big`.
 template <class T>
 void put(std::string& bytes, T value, bool big) {
   auto number = little_endian_bytes(value);
@@ -46,8 +46,8 @@ TEST(ReadPly, ReadsWindowsLineEnds) {
   ASSERT_TRUE(parse(text).ok());
 }
 
-// A table before, between and after those that matter; lists and numbers of every type beside those that matter;
-// coordinates in another order and of other types.
+// Elements before, between and after those needed; lists and numbers of every type beside those needed; coordinates in
+// another order and of other types.
 TEST(ReadPly, SkipsOtherElementsAndPropertiesInBothByteOrders) {
   const std::string elements =
       "element camera 1\nproperty double focal\nproperty list ushort short shift\n"
@@ -85,7 +85,7 @@ TEST(ReadPly, SkipsOtherElementsAndPropertiesInBothByteOrders) {
   }
 }
 
-TEST(ReadPly, AllocatesNothingForRowsThatAreOnlyClaimed) {
+TEST(ReadPly, AllocatesNothingForRowsThatAreMissing) {
   const std::string rows = "property float x\nproperty float y\nproperty float z\n";
   for (const char* format : {"ascii", "binary_little_endian"}) {
     expect_unreadable(parse(header(format, "element vertex 4000000000\n" + rows) + "0 0 0"),

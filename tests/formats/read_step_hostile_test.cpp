@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are broken, cut off, or made to do harm: one Error each, and the process lives.
+// Files that are broken, truncated or malicious: one Error each, and the process survives.
 #include "dismantle/formats/step/read_step.h"
 
 #include "tests/formats/step_writer.h"
@@ -22,7 +22,7 @@ std::string small_step(const ScratchFolder& folder) {
   return bytes_of(folder / "small.step");
 }
 
-/// The Error that reading the bytes gives; empty where they are read.
+/// The Error that reading the bytes gives; empty if they can be read.
 std::string error_of(const ScratchFolder& folder, std::string_view bytes) {
   const Result<Assembly> a = read_step(folder.put("hostile.step", bytes), {});
   return a ? "" : a.error().message;
@@ -34,7 +34,7 @@ std::string step_of(std::string_view data) {
          std::string(data) + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
-TEST(ReadStepHostile, NamesWhatIsWrongWithTheFrame) {
+TEST(ReadStepHostile, ReportsFilesThatAreNotStep) {
   const ScratchFolder folder;
   EXPECT_NE(error_of(folder, "").find("it is empty"), std::string::npos);
   EXPECT_NE(error_of(folder, "solid cube\nendsolid\n").find("does not begin with ISO-10303-21"), std::string::npos);
@@ -43,7 +43,7 @@ TEST(ReadStepHostile, NamesWhatIsWrongWithTheFrame) {
   EXPECT_NE(read_step(folder / "missing.step", {}).error().message.find("No such file"), std::string::npos);
 }
 
-TEST(ReadStepHostile, NamesFilesThatEndTooEarly) {
+TEST(ReadStepHostile, ReportsTruncatedFiles) {
   const ScratchFolder folder;
   const std::string whole = small_step(folder);
   for (const double part : {0.1, 0.5, 0.9, 0.99})
@@ -67,7 +67,7 @@ TEST(ReadStepHostile, RefusesFramesAroundNothingOrNonsense) {
 }
 
 /// A transformation operator with a parameter missing: OpenCASCADE 7.6.3 follows a null pointer.
-TEST(ReadStepHostile, OutlivesTheCadKernel) {
+TEST(ReadStepHostile, SurvivesACrashOfTheCadKernel) {
   const ScratchFolder folder;
   StepWriter writer;
   writer.part("pin", BRepPrimAPI_MakeCylinder(2.0, 9.0).Shape());
@@ -103,7 +103,7 @@ TEST(ReadStepHostile, RefusesATreeThatExplodes) {
   EXPECT_NE(a.error().message.find("more than 1000 components"), std::string::npos) << a.error().message;
 }
 
-TEST(ReadStepHostile, LivesThroughChangedBytesAndLines) {
+TEST(ReadStepHostile, ReadsOrRefusesFilesWithChangedBytesAndLines) {
   const ScratchFolder folder;
   const std::string whole = small_step(folder);
   const unsigned seed = 2024;

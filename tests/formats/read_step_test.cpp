@@ -32,7 +32,7 @@ TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
   return compound;
 }
 
-/// The name and the names of what it is part of, from the leaf up.
+/// The name and those of its parents, from the leaf up.
 std::string tree_path(const Assembly& a, std::uint32_t node) {
   std::string path = a.tree[node].name;
   while (a.tree[node].parent != node) path += " < " + a.tree[node = a.tree[node].parent].name;
@@ -77,7 +77,7 @@ class NestedStep : public ::testing::Test {
   std::filesystem::path file_;
 };
 
-TEST_F(NestedStep, GivesAComponentForEachSolidOccurrence) {
+TEST_F(NestedStep, MakesAComponentOfEachOccurrenceOfASolid) {
   const Result<Assembly> a = read_step(file_, {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_EQ(a->source_file, "nested.step");
@@ -125,7 +125,7 @@ TEST_F(NestedStep, RefusesMoreComponentsOrTrianglesThanTheLimit) {
   EXPECT_NE(read_step(file_, options).error().message.find("more than 40 triangles"), std::string::npos);
 }
 
-TEST_F(NestedStep, TellsItsProgressAndCanBeCancelled) {
+TEST_F(NestedStep, ReportsProgressAndCanBeCancelled) {
   ImportOptions options;
   int calls = 0;
   options.progress = [&](std::string_view, double) { return ++calls < 1; };
@@ -142,7 +142,7 @@ TEST_F(NestedStep, ReadsTheSameBytesEveryTime) {
   for (std::size_t i = 0; i < a->components.size(); ++i) EXPECT_EQ(*a->components[i].mesh, *b->components[i].mesh);
 }
 
-TEST(ReadStep, GivesAProductOfSeveralSolidsAComponentEachAndItsLooseFacesOneMore) {
+TEST(ReadStep, MakesAComponentOfEachSolidOfAProductAndOneOfItsLooseFaces) {
   const ScratchFolder folder;
   const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(50, 0, 0), 5.0).Shape();
   const TopoDS_Shape open = BRepPrimAPI_MakeBox(gp_Pnt(-30, 0, 0), 1.0, 1.0, 1.0).Shell();
@@ -157,7 +157,7 @@ TEST(ReadStep, GivesAProductOfSeveralSolidsAComponentEachAndItsLooseFacesOneMore
   EXPECT_EQ(tree_path(*a, a->components[1].tree_node), "mixed < mixed");
 }
 
-TEST(ReadStep, TakesTheColourOfMostOfTheSurface) {
+TEST(ReadStep, TakesTheColourOfTheLargestArea) {
   const ScratchFolder folder;
   const TopoDS_Shape shape = block();
   StepWriter writer;
@@ -168,7 +168,7 @@ TEST(ReadStep, TakesTheColourOfMostOfTheSurface) {
   ASSERT_TRUE(writer.write(folder / "painted.step"));
   Result<Assembly> a = read_step(folder / "painted.step", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
-  expect_color(a->components[0].color, 0, 0, 1);  // but for 600 mm^2 of 2200
+  expect_color(a->components[0].color, 0, 0, 1);  // 1600 mm^2 of 2200
 
   faces.Next();
   writer.color(part, faces.Current(), 1, 0, 0);
@@ -220,7 +220,7 @@ TEST(ReadStep, MeshesCurvedFacesClosedAndWithinTheDeflection) {
     for (const Component& c : a->components) EXPECT_TRUE(c.faults.closed()) << c.name;
     for (const Component& c : a->components) EXPECT_FALSE(c.faults.inside_out) << c.name;
 
-    double depth = 0;  // of edge midpoints under the cylinder's wall
+    double depth = 0;  // of edge midpoints below the cylinder's wall
     const TriangleMesh& m = *a->components[0].mesh;
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
       const Triangle t = m.triangle(f);
@@ -258,7 +258,7 @@ TEST(ReadStep, RefinesByAngleWhatTheDeflectionLeavesCoarse) {
   options.angular_deflection = 2 * kPi / 60;
   const Result<Assembly> a = read_step(folder / "pin.step", options);
   ASSERT_TRUE(a.ok()) << a.error().message;
-  EXPECT_GE(a->components[0].mesh->vertices.size(), 120u);  // 60 a rim
+  EXPECT_GE(a->components[0].mesh->vertices.size(), 120u);  // 60 per rim
   options.angular_deflection = 0;
   EXPECT_GE(read_step(folder / "pin.step", options)->components[0].mesh->vertices.size(), 36u);
 }

@@ -86,7 +86,7 @@ TEST(ReadStl, SaysWhatIsWrongAndWhere) {
   expect_unreadable(parse(binary("", 2, std::numeric_limits<float>::quiet_NaN())), "triangle 1: a coordinate");
 }
 
-TEST(ReadStl, AllocatesNothingForTrianglesThatAreOnlyClaimed) {
+TEST(ReadStl, AllocatesNothingForTrianglesThatAreMissing) {
   std::string bytes = binary("", 1);
   bytes.replace(80, 4, "\xff\xff\xff\xff");
   expect_unreadable(parse(bytes), "it claims 4294967295 triangles and ends after 1");

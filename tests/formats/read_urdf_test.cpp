@@ -46,7 +46,7 @@ void expect_near(const Aabb& box, Vec3 lower, Vec3 upper) {
 
 }  // namespace
 
-TEST(ReadUrdf, PutsLinksWhereTheJointsAtZeroPutThem) {
+TEST(ReadUrdf, PlacesLinksAtZeroJointPositions) {
   const auto assembly = parse(robot(link("tool", kBox, "<origin xyz=\"0 0 1\"/>") + link("base", kBox) +
                                     joint("elbow", "tool", "<origin xyz=\"10 0 0\" rpy=\"0 0 1.5707963267948966\"/>") +
                                     joint("base", "elbow", "<origin rpy=\"0 0 1.5707963267948966\" xyz=\"0 0 5\"/>") +
@@ -56,7 +56,7 @@ TEST(ReadUrdf, PutsLinksWhereTheJointsAtZeroPutThem) {
   EXPECT_EQ(assembly->components[0].name, "tool");
   EXPECT_EQ(assembly->source_units, "m");
   expect_near(assembled_bounds(assembly->components[1]), {-500, -1000, -1500}, {500, 1000, 1500});
-  // base -> elbow: up 5 and a quarter turn; elbow -> tool: 10 along the turned x, a quarter turn more; up 1.
+  // base -> elbow: up 5 and a quarter turn; elbow -> tool: 10 along the turned x, another quarter turn; up 1.
   expect_near(assembled_bounds(assembly->components[0]), {-500, 9000, 4500}, {500, 11000, 7500});
 }
 
@@ -68,7 +68,7 @@ TEST(ReadUrdf, TurnsAboutFixedAxesInOrder) {
   EXPECT_NEAR(length(y - Vec3{0, 1, 0}), 0, 1e-15);
 }
 
-TEST(ReadUrdf, TakesTheVisualsOfALinkTogether) {
+TEST(ReadUrdf, MergesTheVisualsOfALink) {
   const auto assembly =
       parse(robot("<material name=\"grey\"><color rgba=\"0.5 0.5 0.5 1\"/></material><link name=\"base\">"
                   "<visual><material name=\"grey\"/><geometry><mesh filename=\"a.obj\" scale=\"0.001 0.001 "
@@ -80,11 +80,11 @@ TEST(ReadUrdf, TakesTheVisualsOfALinkTogether) {
   EXPECT_EQ(assembly->components[0].mesh->faces.size(), 24u);
   EXPECT_EQ(assembly->components[0].color, (Color{0.5f, 0.5f, 0.5f, 1}));
   EXPECT_TRUE(assembly->components[0].faults.closed());
-  EXPECT_FALSE(assembly->components[0].faults.inside_out) << "a mirrored mesh is turned right side out";
+  EXPECT_FALSE(assembly->components[0].faults.inside_out) << "a mirrored mesh is reoriented";
   expect_near(assembled_bounds(*assembly), {-0.5, -500, -500}, {3500, 500, 500});
 }
 
-TEST(ReadUrdf, TessellatesRoundShapes) {
+TEST(ReadUrdf, TessellatesCylindersAndSpheres) {
   const auto assembly = parse(robot(link("a", "<cylinder radius=\"0.1\" length=\"0.4\"/>") +
                                     link("b", "<sphere radius=\"0.2\"/>", "<origin xyz=\"1 0 0\"/>")));
   ASSERT_TRUE(assembly.ok()) << message_of(assembly);
@@ -99,7 +99,7 @@ TEST(ReadUrdf, TessellatesRoundShapes) {
   EXPECT_NEAR(signed_volume(*sphere.mesh) / (4.0 / 3 * std::numbers::pi * 8e6), 1, 0.005);
   for (const Vec3& p : sphere.mesh->vertices) EXPECT_NEAR(length(p - Vec3{1000, 0, 0}), 200, 1e-9);
 
-  double deepest = 0;  // middles of the triangles under the sphere
+  double deepest = 0;  // triangle centres below the sphere
   for (std::size_t f = 0; f < sphere.mesh->faces.size(); ++f) {
     const Triangle t = sphere.mesh->triangle(f);
     deepest = std::max(deepest, 200 - length((t[0] + t[1] + t[2]) / 3.0 - Vec3{1000, 0, 0}));
@@ -172,7 +172,7 @@ TEST(ReadUrdf, SaysWhatIsWrongAndWhere) {
   expect_unreadable(parse(robot(link("a", kBox) + link("b", kBox)), options), "more than 20 triangles");
 }
 
-TEST(ReadUrdf, RefusesPlacesBeyondEverything) {
+TEST(ReadUrdf, RefusesCoordinatesOutOfRange) {
   const std::string far = "<origin xyz=\"1e308 1e308 1e308\" rpy=\"1 1 1\"/>";
   const std::string back = "<origin xyz=\"-1e308 -1e308 -1e308\" rpy=\"2 3 1\"/>";
   expect_unreadable(parse(robot(link("a", kBox) + link("b", kBox) + link("c", kBox) + link("d", kBox) +

@@ -22,7 +22,7 @@
 
 namespace dismantle {
 
-/// Builds a product tree and writes it as STEP, so that tests read files whose content they know.
+/// Builds a product tree and writes it as STEP, for tests that read files of known content.
 class StepWriter {
  public:
   StepWriter() : document_(new TDocStd_Document("BinXCAF")) {
@@ -57,7 +57,7 @@ class StepWriter {
     color(shapes_->AddSubShape(product, subshape), r, g, b);
   }
 
-  /// `unit`: "MM", "M", "INCH", ... False where it cannot be written.
+  /// `unit`: "MM", "M", "INCH", ... @return false if it cannot be written
   bool write(const std::filesystem::path& file, const char* unit = "MM") {
     shapes_->UpdateAssemblies();
     Interface_Static::SetCVal("write.step.unit", unit);

@@ -14,7 +14,7 @@ TEST(Units, GiveMillimetres) {
   EXPECT_EQ(*millimetres_per_unit("ft"), 304.8);
 }
 
-TEST(Units, UnknownOnesAreWrongUsage) {
+TEST(Units, RefuseUnknownNames) {
   for (const char* name : {"", "MM", "mile", "mm "}) {
     const auto result = millimetres_per_unit(name);
     ASSERT_FALSE(result.ok());

@@ -61,7 +61,7 @@ TEST(WriteGlb, ReadsBackEqualToFloatPrecision) {
   expect_same(*b, *c);
 }
 
-TEST(WriteGlb, PutsComponentsWhereTheirPosesSay) {
+TEST(WriteGlb, PlacesComponentsAtTheirPoses) {
   const ScratchFolder folder;
   Assembly a = scene();
   GlbOptions options;
@@ -89,7 +89,7 @@ TEST(WriteGlb, IsUnderstoodByAnotherReader) {
   EXPECT_EQ(model.nodes[0].children, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(model.nodes[1].name, "base \"0\" ä");
   EXPECT_EQ(model.nodes[3].extras.Get("component").Get<std::string>(), "tube#2");
-  EXPECT_EQ(model.meshes.size(), 3u);     // two of the tube, for its two colours
+  EXPECT_EQ(model.meshes.size(), 3u);     // two for the tube's two colours
   EXPECT_EQ(model.accessors.size(), 4u);  // which share their positions and indices
   EXPECT_EQ(model.accessors[0].count, 8u);
   EXPECT_FLOAT_EQ(static_cast<float>(model.accessors[0].maxValues[0]), 0.05f);
@@ -97,18 +97,18 @@ TEST(WriteGlb, IsUnderstoodByAnotherReader) {
   EXPECT_EQ(model.materials[2].alphaMode, "BLEND");
 }
 
-TEST(WriteGlb, BreaksNoRuleOfTheFormat) {
+TEST(WriteGlb, IsValid) {
   EXPECT_EQ(CheckedGlb(*glb_from_assembly(scene())).faults(), std::vector<std::string>{});
   EXPECT_EQ(CheckedGlb(*glb_from_assembly(Assembly{})).faults(), std::vector<std::string>{});
 }
 
-TEST(WriteGlb, LeavesOutAnAnimationInWhichNothingLeavesItsPlace) {
+TEST(WriteGlb, OmitsAnAnimationWithoutMotion) {
   GlbOptions options;
   options.animations = {{"rest", {{ComponentId(1), {{0, {}}, {1, {}}}}}}};
   EXPECT_FALSE(CheckedGlb(*glb_from_assembly(scene(), options)).json().contains("animations"));
 }
 
-TEST(WriteGlb, GivesComponentsOfOneTreeNodeANodeEach) {
+TEST(WriteGlb, MakesANodeOfEachComponentOfATreeNode) {
   const ScratchFolder folder;
   Assembly a = scene();
   a.tree = {{"all", 0}};
@@ -129,7 +129,7 @@ TEST(WriteGlb, UsesWideIndicesForLargeMeshes) {
   expect_same(a, *b);
 }
 
-TEST(WriteGlb, FailsWhereTheFolderIsMissing) {
+TEST(WriteGlb, FailsIfTheFolderIsMissing) {
   const ScratchFolder folder;
   const Result<Done> written = write_glb(scene(), folder / "nowhere" / "a.glb");
   ASSERT_FALSE(written.ok());

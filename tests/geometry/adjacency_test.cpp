@@ -33,8 +33,8 @@ TEST(Adjacency, CountsBoundaryNonManifoldAndMisorientedEdges) {
   EXPECT_EQ(edge_faults(mesh).nonmanifold, 1u);
 }
 
-/// A box whose face 0 is cut in two at the middle of its first edge, `aside` off it: its neighbour keeps the edge
-/// whole.
+/// A box whose face 0 is cut in two at the midpoint of its first edge, moved by `aside`: its neighbour keeps the whole
+/// edge.
 TriangleMesh cracked_box(double aside) {
   TriangleMesh mesh = scenes::box({0, 0, 0}, {10, 20, 30});
   const Face f = mesh.faces[0];
@@ -46,7 +46,7 @@ TriangleMesh cracked_box(double aside) {
   return mesh;
 }
 
-TEST(Adjacency, TellsCracksFromOpenings) {
+TEST(Adjacency, DistinguishesCracksFromOpenings) {
   EXPECT_EQ(edge_faults(cracked_box(0)).boundary, 3u);
   EXPECT_EQ(edge_faults(cracked_box(0)).open, 0u);
   EXPECT_EQ(edge_faults(cracked_box(1e-5)).open, 0u);
@@ -61,8 +61,8 @@ TEST(Adjacency, TellsCracksFromOpenings) {
   EXPECT_EQ(edge_faults(flipped).open, 3u);
 }
 
-TEST(Adjacency, TakesARolledSheetForOpenThoughItsSlitIsClosed) {
-  // A tube's outside alone, each strip with vertices of its own: all seams are cracks, only its two ends are open.
+TEST(Adjacency, CallsARolledSheetOpenThoughItsSlitIsClosed) {
+  // Only a tube's outside, each strip with separate vertices: all seams are cracks, only its two ends are open.
   TriangleMesh sheet;
   for (int k = 0; k < 12; ++k) {
     const auto at = [](int i, double z) {
@@ -76,7 +76,7 @@ TEST(Adjacency, TakesARolledSheetForOpenThoughItsSlitIsClosed) {
   EXPECT_EQ(edge_faults(sheet).open, 24u);
 }
 
-TEST(Adjacency, SeesNoOpeningWhereTwoSolidsShareAnEdge) {
+TEST(Adjacency, FindsNoOpeningAtAnEdgeSharedByTwoSolids) {
   TriangleMesh mesh = scenes::box({0, 0, 0}, {1, 1, 1});
   const TriangleMesh other = scenes::box({1, 1, 0}, {2, 2, 1});
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());

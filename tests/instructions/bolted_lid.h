@@ -12,7 +12,7 @@ namespace dismantle::scenes {
 ///     ========== lid ==========
 ///     |        base       |
 ///
-/// Both heads go up, then the lid.
+/// Both heads move up, then the lid.
 inline Assembly bolted_lid() {
   TriangleMesh head = tube(7 / std::sqrt(3), 0, 5, 9, 6);
   Assembly a =

@@ -29,7 +29,7 @@ TEST(InstructionsPdf, HasACoverAndThenThreeShortStepsAPage) {
   EXPECT_EQ(one->substr(0, 5), "%PDF-");
   EXPECT_EQ(pages_of(*one), 2u);
   EXPECT_EQ(pages_of(*seven), 4u);
-  EXPECT_EQ(pages_of(*instructions_pdf(grey_steps(6))), 3u) << "nothing is left for a page by itself";
+  EXPECT_EQ(pages_of(*instructions_pdf(grey_steps(6))), 3u) << "no remainder has a page to itself";
 }
 
 TEST(InstructionsPdf, BreaksLongPartsListsOverPages) {

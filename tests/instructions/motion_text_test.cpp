@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-/// Turns about z by quarter turns while rising 1 mm a turn, then goes on straight.
+/// Quarter turns about z with a rise of 1 mm per turn, then a translation.
 RemovalMove screwed_out(int quarters) {
   RemovalMove removal{{ComponentId(0)}, {{}}};
   for (int i = 1; i <= quarters; ++i) removal.poses.push_back({{0, 0, 0.25 * i}, quat_about({0, 0, 1}, kTurn / 4 * i)});

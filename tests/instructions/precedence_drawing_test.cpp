@@ -10,7 +10,7 @@
 namespace dismantle {
 namespace {
 
-/// A graph of so many steps, each with up to three of the earlier ones before it.
+/// A random graph of `count` steps, each with up to three predecessors.
 PrecedenceGraph random_graph(std::uint32_t count, std::uint32_t seed) {
   std::mt19937 random(seed);
   PrecedenceGraph graph;
@@ -61,7 +61,7 @@ TEST(PrecedenceDrawing, LeadsEdgesFromLeftToRightBetweenTheBoxes) {
 }
 
 TEST(PrecedenceDrawing, KeepsChainsStraightAndUncrossed) {
-  // Three chains side by side, their steps mixed.
+  // Three chains side by side, their steps interleaved.
   PrecedenceGraph graph;
   for (std::uint32_t k = 0; k < 9; ++k) {
     graph.before.push_back(k < 3 ? std::vector<std::uint32_t>{} : std::vector<std::uint32_t>{k < 6 ? 5 - k : k - 3});

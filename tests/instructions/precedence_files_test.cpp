@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The bolts and then the lid, as one body that is taken apart afterwards.
+/// The bolts and then the lid, as one subassembly that is disassembled afterwards.
 Plan lid_with_bolts() {
   const auto step = [](std::vector<ComponentId> components, std::uint32_t part_of) {
     return PlanStep{std::move(components), PlanTier::Straight, part_of, {}, {0, 0, 1}};

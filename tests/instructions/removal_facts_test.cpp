@@ -13,17 +13,17 @@ struct Lid {
       work_steps(assembly, scenes::timeline_of(assembly, scenes::bolted_lid_path()), PathDirection::Forward);
 };
 
-TEST(PathClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
+TEST(PathClearance, EndsContactWhenASetLeavesAndMeasuresTheRest) {
   Lid lid;
   RemovalFacts facts(lid.assembly, lid.pairs, {});
   const PathClearance up = facts.clearance(lid.steps[0], lid.steps[0].removals[0]);
   EXPECT_EQ(up.touching, 0);
   EXPECT_EQ(up.touched, ComponentId(1));
-  EXPECT_FALSE(up.nearest.valid()) << "the lid, which it leaves, does not count";
+  EXPECT_FALSE(up.nearest.valid()) << "the lid that it leaves does not count";
 
   const RemovalMove along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
   const PathClearance slid = facts.clearance(lid.steps[0], along);
-  EXPECT_EQ(slid.touching, 70) << "it is on the lid all the way";
+  EXPECT_EQ(slid.touching, 70) << "it touches the lid all along";
   EXPECT_FALSE(slid.nearest.valid());
 
   const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
@@ -35,7 +35,7 @@ TEST(PathClearance, EndsContactWhereASetLeavesAndMeasuresTheRest) {
 TEST(PathClearance, DoesNotCountWhatWasPutAside) {
   Lid lid;
   WorkStep step = lid.steps[0];
-  step.before[3].position = {25, 0, 20};  // the other head, near the way of this one
+  step.before[3].position = {25, 0, 20};  // the other head, near the path of this one
   RemovalFacts facts(lid.assembly, lid.pairs, {});
   const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{30, 0, 22}, {}}}};
   EXPECT_FALSE(facts.clearance(step, over).nearest.valid());
@@ -54,7 +54,7 @@ TEST(PathClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
 }
 
 TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
-  // A shelf under a cup: the shelf goes sideways. The cup's neighbour, a wall, is no help.
+  // A shelf under a cup: the shelf moves sideways. The cup's neighbour, a wall, does not support it.
   const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-10, -50, -50}, {0, 50, 50})),
                                        scenes::component("shelf", scenes::box({0, -5, -2}, {20, 5, 0})),
                                        scenes::component("cup", scenes::box({5, -3, 0}, {12, 3, 9})),
@@ -65,13 +65,13 @@ TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
   PairStates pairs{0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
   const WorkStep step{{{{ComponentId(1)}, {{}, {{100, 0, 0}, {}}}}}, std::vector<Pose>(4)};
   EXPECT_EQ(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)), std::vector<ComponentId>{ComponentId(2)})
-      << "the lamp could fall before, too";
+      << "the lamp was unsupported before, too";
 
   pairs.pairs.insert(pairs.pairs.begin() + 1, {ComponentId(0), ComponentId(2), PairState::Fit, 0, 0.1, 0.11, 4});
   EXPECT_TRUE(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)).empty()) << "it fits into the wall";
 }
 
-TEST(LeftUnsupported, IsNothingWhereTheRestStandsOnTheGround) {
+TEST(LeftUnsupported, IsNothingIfTheRestStandsOnTheGround) {
   Lid lid;
   RemovalFacts facts(lid.assembly, lid.pairs, {});
   for (const WorkStep& step : lid.steps) EXPECT_TRUE(facts.left_unsupported(step, ComponentId(0)).empty());

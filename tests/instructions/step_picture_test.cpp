@@ -6,7 +6,7 @@
 namespace dismantle {
 namespace {
 
-/// How many pixels of a picture are clearly of the colour of what moves.
+/// The number of pixels of a picture in the colour of the moving components.
 std::size_t orange_pixels(const Image& image) {
   return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), [](const Pixel& p) {
     return p.r > 140 && p.r > p.b + 90 && p.g > p.b + 20 && p.r > p.g + 30;
@@ -18,7 +18,7 @@ WorkStep pull(const Assembly& a, std::uint32_t c, Vec3 way) {
 }
 
 TEST(StepPicture, IsTakenFromTheSideOnWhichTheComponentIsSeen) {
-  // A knob on one side of a wall: which side decides.
+  // A knob on one side of a wall: the view depends on the side.
   for (const double side : {1.0, -1.0}) {
     const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-5, -60, -60}, {5, 60, 60})),
                                          scenes::component("knob", side > 0 ? scenes::box({5, -9, -9}, {15, 9, 9})
@@ -30,14 +30,14 @@ TEST(StepPicture, IsTakenFromTheSideOnWhichTheComponentIsSeen) {
   }
 }
 
-TEST(StepPicture, LooksThroughWhatHidesAComponentFromAllSides) {
+TEST(StepPicture, ShowsAComponentThroughWhatHidesItFromAllSides) {
   const Assembly a = scenes::assembly({scenes::component("shell", scenes::box({-30, -30, -30}, {30, 30, 30})),
                                        scenes::component("core", scenes::box({-12, -12, -12}, {12, 12, 12}))});
   StepPictureTaker taker(a, 160, 120, Executor());
   EXPECT_GT(orange_pixels(taker.take(pull(a, 1, {0, 0, 2}), PathDirection::Forward).close), 300u);
 }
 
-TEST(StepPicture, ShowsSmallThingsNearAndWhereTheyAre) {
+TEST(StepPicture, ShowsSmallComponentsCloseUpAndInContext) {
   const Assembly a = scenes::assembly({scenes::component("plate", scenes::box({-200, -200, -10}, {200, 200, 0})),
                                        scenes::component("pin", scenes::box({90, 90, 0}, {96, 96, 8}))});
   StepPictureTaker taker(a, 160, 120, Executor());
@@ -49,8 +49,8 @@ TEST(StepPicture, ShowsSmallThingsNearAndWhereTheyAre) {
       StepPictureTaker(lid, 160, 120, Executor()).take(pull(lid, 1, {0, 0, 50}), PathDirection::Forward).overview);
 }
 
-TEST(StepPicture, ShowsAWayOnlyAsFarAsItIsToBeSeen) {
-  // However far away the pin is put in the end: the picture is of the same place.
+TEST(StepPicture, ShowsAPathOnlyAsFarAsItIsVisible) {
+  // The picture shows the same region however far the pin is moved.
   const Assembly a = scenes::assembly({scenes::component("plate", scenes::box({-20, -20, -10}, {20, 20, 0})),
                                        scenes::component("pin", scenes::box({-3, -3, -5}, {3, 3, 8}))});
   const auto close = [&](double way) {
@@ -62,7 +62,7 @@ TEST(StepPicture, ShowsAWayOnlyAsFarAsItIsToBeSeen) {
   EXPECT_LT(10 * far, 11 * near);
 }
 
-TEST(StepPicture, KeepsItsViewWhereAnotherIsNoBetter) {
+TEST(StepPicture, KeepsItsViewIfAnotherIsNoBetter) {
   const Assembly a = scenes::bolted_lid();
   StepPictureTaker taker(a, 80, 60, Executor());
   const Vec3 first = taker.take(pull(a, 2, {0, 0, 50}), PathDirection::Forward).view;

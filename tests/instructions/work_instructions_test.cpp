@@ -23,7 +23,7 @@ WorkInstructions written(const Assembly& a, const PairStates& pairs, const Path&
   return std::move(*made);
 }
 
-/// The step's sentences of a kind, one after another.
+/// The step's sentences of a kind, joined.
 std::string said(const Instruction& step, InstructionNote::Kind kind) {
   std::string text;
   for (const InstructionNote& note : step.notes)
@@ -46,7 +46,7 @@ TEST(WorkInstructions, CountEqualComponentsNameToolsAndListTheParts) {
   EXPECT_EQ(part_text(made, made.steps[0].parts[0]), "2 \u00d7 bolt (item 3)");
 }
 
-TEST(WorkInstructions, GoTheOtherWayForTheAssembly) {
+TEST(WorkInstructions, AreReversedForAssembly) {
   const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), scenes::bolted_lid_path(),
                                         small(PathDirection::Reversed));
   ASSERT_EQ(made.steps.size(), 2u);

@@ -10,7 +10,7 @@ std::vector<WorkStep> steps_of(const Assembly& a, const Path& path, PathDirectio
   return work_steps(a, scenes::timeline_of(a, path), direction);
 }
 
-TEST(WorkSteps, TakeEqualComponentsThatGoTheSameWayInOneStep) {
+TEST(WorkSteps, JoinEqualComponentsWithEqualMotionsInOneStep) {
   const std::vector<WorkStep> steps = steps_of(scenes::bolted_lid(), scenes::bolted_lid_path());
   ASSERT_EQ(steps.size(), 2u);
   ASSERT_EQ(steps[0].removals.size(), 2u);
@@ -18,7 +18,7 @@ TEST(WorkSteps, TakeEqualComponentsThatGoTheSameWayInOneStep) {
   EXPECT_EQ(steps[1].before[2].position, (Vec3{0, 0, 60}));
 }
 
-TEST(WorkSteps, KeepEqualComponentsApartThatGoDifferentWays) {
+TEST(WorkSteps, SeparateEqualComponentsWithDifferentMotions) {
   Path path = scenes::bolted_lid_path();
   path.moves[1].frames.back().pose.position = {75, 0, 75};
   EXPECT_EQ(steps_of(scenes::bolted_lid(), path).size(), 3u);
@@ -44,10 +44,10 @@ TEST(WorkSteps, ComeInTheOtherOrderForTheAssemblyButStillLeadAway) {
 TEST(Surroundings, AreWhatStandsToASetAsAssembled) {
   const std::vector<WorkStep> steps = steps_of(scenes::bolted_lid(), scenes::bolted_lid_path());
   EXPECT_EQ(surroundings(steps[1], steps[1].removals[0]), std::vector<ComponentId>{ComponentId(0)})
-      << "the bolts stand elsewhere";
+      << "the bolts are elsewhere";
   WorkStep alone = steps[1];
   alone.removals[0].poses = {{{5, 0, 0}, {}}, {{9, 0, 0}, {}}};
-  EXPECT_EQ(surroundings(alone, alone.removals[0]).size(), 3u) << "it stands to nothing as assembled";
+  EXPECT_EQ(surroundings(alone, alone.removals[0]).size(), 3u) << "it keeps its relative pose to nothing";
 }
 
 TEST(PlacesAlong, BeginAtHomeEndAtTheEndAndHaveAllEndsOfScrews) {
@@ -58,7 +58,7 @@ TEST(PlacesAlong, BeginAtHomeEndAtTheEndAndHaveAllEndsOfScrews) {
   EXPECT_EQ(places[5].pose, removal.poses[1]);
   EXPECT_EQ(places.back().pose, removal.poses[2]);
   EXPECT_NEAR(places.back().distance, 7, 1e-12);
-  EXPECT_LT(places[1].distance, 3.0 / 5) << "places are close at the beginning";
+  EXPECT_LT(places[1].distance, 3.0 / 5) << "positions are dense at the beginning";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace dismantle {
 
 namespace {
 
-/// A block, and a ring that stands turned and moved beside it; the ring's corners need all digits.
+/// A block, and a ring beside it, rotated, so that its coordinates need all digits.
 Assembly two_parts() {
   Component ring = scenes::component("ring 1/3", scenes::tube(1.0 / 3, 0.2, -1, 1, 7));
   ring.assembly_from_mesh = transform_from_pose({{0.1, -20, 3e-7}, normalized(Quat{1, 2, 3, 4})});
@@ -104,7 +104,7 @@ TEST(WriteAssembly, FolderGivesBackTheSameComponents) {
   EXPECT_TRUE(std::filesystem::exists(folder / "clash/ring 1_3#2.obj"));
 }
 
-TEST(WriteAssembly, NeverWritesOverAFolderThatHoldsSomething) {
+TEST(WriteAssembly, NeverWritesIntoAFolderThatIsNotEmpty) {
   const ScratchFolder folder;
   folder.put("parts/mine.txt", "mine");
   const auto refused = write_assembly(folder / "parts", two_parts());

@@ -28,7 +28,7 @@ Rational value_of(const Expansion<kN>& e) {
   return sum;
 }
 
-/// The terms ascend, and none reaches into the bits of the next.
+/// True if the terms ascend and their bits do not overlap.
 template <int kN>
 bool is_nonoverlapping(const Expansion<kN>& e) {
   for (int i = 0; i < e.size; ++i)

@@ -30,7 +30,7 @@ struct Numbers {
   LaneOperands operands() const { return {a.data(), b.data(), c.data(), kCount}; }
 };
 
-/// Random bits, which are numbers of every size, infinities, subnormals and NaN, mixed with equal and special ones.
+/// Random bits (numbers of every size, infinities, subnormals, NaN), mixed with equal and special numbers.
 Numbers numbers() {
   std::printf("seed %u\n", kSeed);
   std::mt19937 random(kSeed);
@@ -53,7 +53,7 @@ Numbers numbers() {
   return n;
 }
 
-/// What a float gives, by itself.
+/// The results of single floats.
 LaneResults expected(float a, float b, float c, float first) {
   return {{a + b, a - b, a * b, a / b, -a, a < b ? a : b, a > b ? a : b, std::fabs(a), std::sqrt(a), a < b ? a : c,
            first, a * b + c},
@@ -83,7 +83,7 @@ void expect_scalar_results(const Numbers& n, const std::vector<LaneResults>& res
   }
 }
 
-TEST(Lanes, GiveTheBitsOfAFloatInEveryOperationAtEveryWidthThatTheMachineHas) {
+TEST(Lanes, GiveTheBitsOfAFloatInEveryOperationAtEveryWidth) {
   const Numbers n = numbers();
   for (const LaneCount count : lane_counts()) {
     std::vector<LaneResults> results(kCount);
@@ -99,7 +99,7 @@ TEST(Lanes, GiveTheBitsOfAFloatOnMachinesThatAreNotX86) {
   expect_scalar_results(n, results, 4);
 }
 
-TEST(LaneDispatch, NamesTheWidthsFromTheLeastToTheGreatest) {
+TEST(LaneDispatch, ListsTheWidthsInAscendingOrder) {
   const Span<const LaneCount> counts = lane_counts();
   ASSERT_GE(counts.size(), 2u);
   EXPECT_EQ(counts[0], LaneCount::One);

@@ -3,7 +3,7 @@
 
 namespace dismantle {
 
-/// What every operation of lanes gives for each of some triples of floats.
+/// The results of every lane operation for triples of floats.
 struct LaneResults {
   static constexpr int kNumbers = 12;
   static constexpr int kTruths = 9;
@@ -22,7 +22,7 @@ struct LaneOperands {
 template <int kLanes>
 void lanes_test_kernel(const LaneOperands& operands, LaneResults* results);
 
-/// The same with the compiler's vectors of four, which other machines than x86 use.
+/// The same with the compiler's vectors of four, as used on machines other than x86.
 void lanes_test_portable(const LaneOperands& operands, LaneResults* results);
 
 }  // namespace dismantle

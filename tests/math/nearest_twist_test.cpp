@@ -46,7 +46,7 @@ HalfSpace half_space(const Vector& normal, double bound) {
   return h;
 }
 
-/// By how much x is outside, as a share of |normal| |wanted|.
+/// The largest violation by x, relative to |normal| |wanted|.
 double violation(const Vector& x, const std::vector<HalfSpace>& rows, double wanted_length) {
   double worst = 0;
   for (const HalfSpace& h : rows) {
@@ -56,7 +56,7 @@ double violation(const Vector& x, const std::vector<HalfSpace>& rows, double wan
   return worst;
 }
 
-/// The nearest point to `wanted` where all rows of the subset are equalities; none where they depend on each other.
+/// The nearest point to `wanted` with all rows of the subset as equalities; none if they are dependent.
 std::optional<Vector> on_borders(const Vector& wanted, const std::vector<HalfSpace>& rows, unsigned subset) {
   Vector x = wanted;
   std::vector<Vector> basis;
@@ -81,7 +81,7 @@ std::optional<Vector> on_borders(const Vector& wanted, const std::vector<HalfSpa
   return x;
 }
 
-/// All feasible points among the nearest ones on the borders of every subset: the solution is the nearest of them.
+/// All feasible points among the nearest points of every subset of active rows: the solution is the nearest of them.
 std::vector<Vector> candidates(const Vector& wanted, const std::vector<HalfSpace>& rows) {
   std::vector<Vector> found;
   for (unsigned subset = 0; subset < 1u << rows.size(); ++subset) {
@@ -144,14 +144,14 @@ void expect_like_brute_force(Dice& dice, int problems, int rows_at_most, double 
     double least = scale;  // 0 is feasible
     for (const Vector& y : candidates(wanted, rows)) {
       least = std::min(least, length(minus(wanted, y)));
-      // The condition of optimality: the way to no feasible point leads nearer.
+      // Optimality: no direction to a feasible point leads nearer.
       ASSERT_LE(dot(minus(wanted, x), minus(y, x)), accuracy * scale * scale) << "problem " << k;
     }
     ASSERT_NEAR(length(minus(wanted, x)), least, accuracy * scale) << "problem " << k;
   }
 }
 
-/// Facets of a hole along z around a peg that fills it: levers along the peg.
+/// Facets of a hole along z around a peg that fills it: contact points along the peg.
 std::vector<HalfSpace> hole(int facets, double radius, double half_length, double gap) {
   std::vector<HalfSpace> rows;
   for (int i = 0; i < facets; ++i) {
@@ -165,7 +165,7 @@ std::vector<HalfSpace> hole(int facets, double radius, double half_length, doubl
   return rows;
 }
 
-TEST(NearestTwist, IsTheWantedOneWhereNothingIsInTheWay) {
+TEST(NearestTwist, IsTheWantedTwistWithoutConstraints) {
   const Vector wanted = {1, -2, 3, 0.1, 0.2, -0.3};
   EXPECT_EQ(of(solve(wanted, {}).x), wanted);
   const NearestTwist got = solve(wanted, {half_space({1, 0, 0, 0, 0, 0}, 0), half_space({0, 0, 0, 0, 0, 0}, 0)});
@@ -183,8 +183,8 @@ TEST(NearestTwist, StopsAtAPlaneAtItsGapAndSlidesAlong) {
   EXPECT_EQ(got.active[0], 0);
 }
 
-TEST(NearestTwist, LetsGoOfABorderThatWouldHaveToPull) {
-  // The second plane alone holds the wanted point back; the first one is violated more to begin with.
+TEST(NearestTwist, ReleasesAConstraintThatWouldHaveToPull) {
+  // Only the second plane blocks the wanted point; the first is violated more at the start.
   const std::vector<HalfSpace> rows = {half_space({0.6, 0.8, 0, 0, 0, 0}, 0), half_space({0, 1, 0, 0, 0, 0}, 0)};
   const NearestTwist got = solve({0.1, -1, 0, 0, 0, 0}, rows);
   EXPECT_NEAR(got.x[0], 0.1, 1e-14);
@@ -193,7 +193,7 @@ TEST(NearestTwist, LetsGoOfABorderThatWouldHaveToPull) {
   EXPECT_EQ(got.active[0], 1);
 }
 
-TEST(NearestTwist, StaysWhereEveryDirectionIsClosed) {
+TEST(NearestTwist, IsZeroIfEveryDirectionIsBlocked) {
   std::vector<HalfSpace> rows;
   for (int i = 0; i < 6; ++i)
     for (const double sign : {-1.0, 1.0}) {
@@ -213,12 +213,12 @@ TEST(NearestTwist, AgreesWithBruteForceOnRandomProblems) {
 
 TEST(NearestTwist, AgreesWithBruteForceOnNearlyDegenerateProblems) {
   Dice dice(20260102);
-  // A border that is off by e moves a corner of planes at the angle a to each other by e / a.
+  // An error e of a plane moves the corner of planes at an angle a by e / a.
   for (const double nearness : {1e-2, 1e-4, 1e-6}) expect_like_brute_force(dice, 500, 7, nearness, 1e-11 / nearness);
   expect_like_brute_force(dice, 60, 12, 1e-5, 1e-6);
 }
 
-TEST(NearestTwist, IsFeasibleAndNoFurtherThanRestForDependenceOfEveryDegree) {
+TEST(NearestTwist, IsFeasibleAndNoFartherThanZeroForAnyDegreeOfDependence) {
   Dice dice(20260103);
   for (int k = 0; k < 20000; ++k) {
     const std::vector<HalfSpace> rows = random_rows(dice, dice.integer(1, 40), dice.log_uniform(1e-16, 1));
@@ -233,7 +233,7 @@ TEST(NearestTwist, IsFeasibleAndNoFurtherThanRestForDependenceOfEveryDegree) {
 
 TEST(NearestTwist, ProjectsOntoTheConeOfAHoleWithHundredsOfFacets) {
   for (const double lever : {1.0, 20.0, 100.0}) {
-    // A pull along the hole with a push aside and a tilt: only the pull and the turn about the axis are left.
+    // A pull along the hole with a push aside and a tilt: only the pull and the rotation about the axis remain.
     const NearestTwist got = solve({0.3, -0.2, 1, 0.06, 0.01, 0.02}, hole(256, 5, lever, 0));
     EXPECT_TRUE(got.nearest);
     EXPECT_LE(length(minus(of(got.x), {0, 0, 1, 0, 0, 0.02})), 1e-9);

@@ -32,7 +32,7 @@ class Points {
   std::uniform_real_distribution<double> mantissa_{-1, 1};
 };
 
-/// The exact sign in two dimensions is that in three with a point above the plane.
+/// The exact sign in two dimensions: that in three with a point above the plane.
 int exact_orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return exact::orient3d_sign({a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0}, {a.x, a.y, 1});
 }
@@ -45,7 +45,7 @@ TEST(Orientation, OfTheUnitCornersIsPositive) {
   EXPECT_EQ(orient3d_sign({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {7, -3, 0}), 0);
 }
 
-TEST(Orientation, IsExactWhereEveryCoordinateHasItsOwnMagnitude) {
+TEST(Orientation, IsExactForCoordinatesOfDifferentMagnitudes) {
   for (const int exponent : {3, 60, 332, 600, 1020}) {  // 332: from 1e-100 to 1e100.
     Points points(exponent);
     for (int i = 0; i < 3000; ++i) {

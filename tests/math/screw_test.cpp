@@ -30,7 +30,7 @@ TEST(Screw, ReachesTheEndPoseFromTheStartPose) {
   }
 }
 
-TEST(Screw, GoesOnByTheSameTwistWhenCutInTwo) {
+TEST(Screw, KeepsItsTwistWhenCutInTwo) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 1000; ++i) {
     const Pose start = random_pose(random, 100), end = random_pose(random, 100);
@@ -49,7 +49,7 @@ TEST(Screw, KeepsItsDigitsWhenTheRotationIsTiny) {
   }
 }
 
-TEST(Screw, TurnsHalfWayRoundWithoutTakingTheLongWay) {
+TEST(Screw, TurnsByAtMostHalfATurn) {
   const Screw screw = screw_between({}, {{}, Quat{-0.9999, 0, 0, -0.014141782}});
   EXPECT_LT(screw.angle, 0.1);
   EXPECT_NEAR(screw_between({}, {{}, Quat{0, 0, 0, 1}}).angle, std::acos(-1.0), 1e-12);

@@ -32,7 +32,7 @@ double any_finite(std::mt19937_64& random) {
   }
 }
 
-TEST(WideInteger, HoldsEveryFiniteDouble) {
+TEST(WideInteger, RepresentsEveryFiniteDouble) {
   using Limits = std::numeric_limits<double>;
   EXPECT_EQ(value_of(wide_integer_of<66>(Limits::denorm_min(), kUnit)), 1);
   EXPECT_EQ(value_of(wide_integer_of<66>(-Limits::min(), kUnit)), -(Integer(1) << 52));

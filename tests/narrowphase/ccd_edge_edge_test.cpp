@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-/// An edge along x that moves against one along y through the origin.
+/// An edge along x that moves towards one along y through the origin.
 EdgeEdgeMotion moving(Vec3 from, Vec3 to) {
   return {{from + Vec3{-1, 0, 0}, from + Vec3{1, 0, 0}},
           {to + Vec3{-1, 0, 0}, to + Vec3{1, 0, 0}},
@@ -27,7 +27,7 @@ TEST(CcdEdgeEdge, StopsJustBeforeTheEdgesMeet) {
   EXPECT_NEAR(r.toi, 0.25, 1e-9);
 }
 
-TEST(CcdEdgeEdge, IsFreeWhereTheEdgesPassBesideEachOtherOrStayApart) {
+TEST(CcdEdgeEdge, IsFreeIfTheEdgesPassBesideEachOtherOrStayApart) {
   EXPECT_FALSE(contact(moving({1.5, 0, 1}, {1.5, 0, -1})));
   EXPECT_FALSE(contact(moving({1 + 1e-12, 0, 1}, {1 + 1e-12, 0, -1})));
   EXPECT_FALSE(contact(moving({0, 0, 1}, {0, 0, 1e-12})));

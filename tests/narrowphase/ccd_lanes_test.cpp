@@ -44,8 +44,8 @@ bool same(const CcdBatchResult& x, const CcdBatchResult& y) {
                     });
 }
 
-/// Contacts that are exact by construction. They are sheared by a matrix of small fractions, which keeps convex
-/// combinations and hence the contact exact, but leaves coordinate differences that no float holds.
+/// Contacts that are exact by construction, sheared by a matrix of small fractions: this keeps convex combinations and
+/// hence the contact exact, but makes coordinate differences that no float represents.
 class ShearedHits {
  public:
   explicit ShearedHits(unsigned seed) : generator_(seed), random_(seed) {}
@@ -190,7 +190,7 @@ TYPED_TEST(CcdLanes, CallNothingFreeThatExactArithmeticSeesMeeting) {
               result.decided_in_double, result.contacts.size());
   EXPECT_GT(meeting, kCount / 3);
   EXPECT_LT(meeting, kCount * 2 / 3);
-  EXPECT_LT(result.decided_in_double, meeting + kCount * 2 / 5) << "float decides what is not nearly a contact";
+  EXPECT_LT(result.decided_in_double, meeting + kCount * 2 / 5) << "float decides all but near contacts";
 }
 
 TYPED_TEST(CcdLanes, ReportTheContactsOfTheTestInDouble) {
@@ -235,7 +235,8 @@ TYPED_TEST(CcdLanes, DecideAlikeAtEveryScaleAndPlace) {
   for (auto& m : motions)
     for (Vec3* p : points_of(m)) *p = {std::round(p->x * 0x1p22), std::round(p->y * 0x1p22), std::round(p->z * 0x1p22)};
   const CcdBatchResult expected = in_lanes(motions);
-  // Powers of two from 1e-3 to 1e5 for coordinates of about 1, and places up to 1000 times as far out: nothing rounds.
+  // Scales by powers of two from 1e-3 to 1e5 for coordinates of about 1, and offsets up to 1000 times that: no
+  // rounding.
   for (const double scale : {0x1p-32, 0x1p-22, 0x1p-12, 0x1p-5})
     for (const Vec3 place : {Vec3{}, Vec3{0x1p30, -0x1p32, 0x1p31}}) {
       auto placed = motions;

@@ -94,7 +94,7 @@ TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheHandcraftedHitsAndReportsFewMisse
   EXPECT_EQ(c.filtered_hits, 0);
   EXPECT_EQ(c.lanes_false_negatives, 0);
   EXPECT_LE(c.lanes_false_positives, c.false_positives);
-  EXPECT_EQ(c.elementary_false_negatives, 0) << "not proven, but so it is on these";
+  EXPECT_EQ(c.elementary_false_negatives, 0) << "not proven, but true of these";
 }
 
 TEST(CcdQuerySets, CertifiedTestMissesNoneOfTheSimulationHits) {

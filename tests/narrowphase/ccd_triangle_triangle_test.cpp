@@ -36,7 +36,7 @@ bool free(const TriangleMotion& a, const TriangleMotion& b, double allowed) {
   return ccd_triangle_triangle(a, b, allowed).status == CcdStatus::Free;
 }
 
-//   upright   \/   falls one unit below the floor: contact half way, at depth 1/4 five eighths of the way
+//   upright   \/   falls to one unit below the floor: contact at time 1/2, depth 1/4 at time 5/8
 //   floor   ------
 TEST(CcdTriangleTriangle, StopsAtTheTimeOfContactOrOfTheAllowedDepth) {
   const TriangleMotion falling = moving(kUpright, {0, 0, 1}, {0, 0, -1});
@@ -56,13 +56,13 @@ TEST(CcdTriangleTriangle, LetsAMissPass) {
   EXPECT_TRUE(free(still(kFloor), moving(kUpright, {-9, 0, 1}, {9, 0, 1}), 0));
 }
 
-TEST(CcdTriangleTriangle, CallsTouchingContactOnlyWhereNothingIsAllowed) {
+TEST(CcdTriangleTriangle, CallsTouchingContactOnlyWithoutAnAllowance) {
   const TriangleMotion landing = moving(kUpright, {0, 0, 1}, {0, 0, 0});
   EXPECT_FALSE(free(still(kFloor), landing, 0));
   EXPECT_TRUE(free(still(kFloor), landing, 1e-6));
 }
 
-TEST(CcdTriangleTriangle, IsContactAtOnceWhereTheTrianglesAreTooDeepAtTheStart) {
+TEST(CcdTriangleTriangle, IsContactAtOnceIfTheTrianglesAreTooDeepAtTheStart) {
   const TriangleMotion leaving = moving(kUpright, {0, 0, -1}, {0, 0, 1});
   const CcdResult r = ccd_triangle_triangle(still(kFloor), leaving, 0.5);
   EXPECT_EQ(r.status, CcdStatus::Contact);
@@ -83,8 +83,8 @@ TEST(CcdTriangleTriangle, LetsTouchingTrianglesMoveApart) {
 }
 
 TEST(CcdTriangleTriangle, RemembersTheSideOfOpenSheetsByTheAxisThatItIsGiven) {
-  // Two parallel triangles have no thickness, so at every instant of passing through each other they are within the
-  // allowance; the axis of the motion before says which side they belong on.
+  // Two parallel triangles have no thickness, so they stay within the allowance while they pass through each other; the
+  // axis of the preceding motion tells their sides.
   const double allowed = 0.01;
   const AxisCcdResult landed =
       ccd_triangle_triangle(still(kFloor), moving(kFloor, {0, 0, 1}, {0, 0, -0.005}), allowed, {});
@@ -96,13 +96,13 @@ TEST(CcdTriangleTriangle, RemembersTheSideOfOpenSheetsByTheAxisThatItIsGiven) {
   EXPECT_LE(pressed.ccd.toi, 0.0051);
   // In one motion the side is that of the start.
   EXPECT_FALSE(free(still(kFloor), moving(kFloor, {0, 0, 1}, {0, 0, -1}), allowed));
-  // Off the edge and back below is a way round, not through.
+  // Off the edge and back below goes around, not through.
   const TriangleMotion aside = moving(kFloor, {0, 0, -0.005}, {-4.5, 0, -0.005});
   const AxisCcdResult left = ccd_triangle_triangle(still(kFloor), aside, allowed, landed.axis);
   ASSERT_EQ(left.ccd.status, CcdStatus::Free);
 }
 
-TEST(CcdTriangleTriangle, DecidesWithTheGivenAxisWhereItStillSeparates) {
+TEST(CcdTriangleTriangle, DecidesWithTheGivenAxisIfItStillSeparates) {
   const TriangleMotion first = moving(kUpright, {0.3, 0.2, 1}, {0, 0, 0.9}),
                        second = moving(kUpright, {0, 0, 0.9}, {0.1, 0, 0.8});
   const AxisCcdResult before = ccd_triangle_triangle(still(kFloor), first, 0, {});
@@ -168,7 +168,7 @@ TEST(CcdTriangleTriangle, NeverPassesMoreThanTheAllowedDepthAgainstDenseSampling
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << " pair " << k << " allowed " << allowed << " toi " << r.toi);
     const oracle::Real stopping_gap = oracle::best_gap(oracle::at(a, r.toi), oracle::at(b, r.toi));
     if (r.status == CcdStatus::Contact && r.toi == 0) {
-      ASSERT_LE(stopping_gap, -allowed + 1e-5L) << "the motion could have begun";
+      ASSERT_LE(stopping_gap, -allowed + 1e-5L) << "the motion could have started";
       continue;
     }
     // Coordinates stay below 20: the samples round by less than 1e-15.
@@ -181,7 +181,7 @@ TEST(CcdTriangleTriangle, NeverPassesMoreThanTheAllowedDepthAgainstDenseSampling
       ++unsettled;
     } else {
       ++stopped;
-      ASSERT_LE(stopping_gap, allowed + 1e-5L) << "a false alarm away from contact";
+      ASSERT_LE(stopping_gap, allowed + 1e-5L) << "a false positive away from contact";
     }
   }
   std::printf("seed %u: %d free, %d stopped, %d not settled\n", kSeed, free_pairs, stopped, unsettled);
@@ -199,7 +199,7 @@ TEST(CcdTriangleTriangle, IsTheSameWithTheTrianglesExchanged) {
     const double allowed = k % 2 == 0 ? 0 : 0.01;
     const CcdResult ab = ccd_triangle_triangle(a, b, allowed), ba = ccd_triangle_triangle(b, a, allowed);
     if (ab.status == ba.status && std::abs(ab.toi - ba.toi) < 1e-4) continue;
-    // Within the allowance which side a thin triangle is held on depends on the axis that is looked at first.
+    // Within the allowance, the side of a thin triangle depends on the axis that is tested first.
     ASSERT_GT(allowed, 0) << "seed " << kSeed << " pair " << k;
     ++other_way;
   }

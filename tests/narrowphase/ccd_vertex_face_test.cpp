@@ -25,7 +25,7 @@ TEST(CcdVertexFace, StopsJustBeforeTheVertexReachesTheFace) {
   EXPECT_NEAR(r.toi, 0.25, 1e-9);
 }
 
-TEST(CcdVertexFace, IsFreeWhereTheVertexPassesBesideTheFaceOrTurnsAway) {
+TEST(CcdVertexFace, IsFreeIfTheVertexPassesBesideTheFaceOrTurnsAway) {
   EXPECT_FALSE(contact(falling({0.75, 0.75, 1}, {0.75, 0.75, -1})));
   EXPECT_FALSE(contact(falling({0.25, 0.25, 1}, {0.25, 0.25, 2})));
   EXPECT_FALSE(contact(falling({0.25, 0.25, 1}, {0.25, 0.25, 1e-12})));

@@ -30,7 +30,7 @@ TEST(CoplanarityCubic, KeepsEveryCoefficientWithinItsBound) {
   const auto vector = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   double worst = 0;
   for (int k = 0; k < 5000; ++k) {
-    // Nearly dependent vectors: the volume is lost in rounding.
+    // Nearly dependent vectors: the volume is below the rounding errors.
     Vec3 p[2] = {vector(), vector()}, q[2] = {vector(), vector()}, r[2];
     for (int end = 0; end < 2; ++end)
       r[end] = unit(random) * p[end] + unit(random) * q[end] + std::pow(10, 10 * unit(random) - 10) * vector();
@@ -43,7 +43,7 @@ TEST(CoplanarityCubic, KeepsEveryCoefficientWithinItsBound) {
     const Exact exact[4] = {start, c1, c2, finish};
     for (int i = 0; i < 4; ++i) {
       const double off = std::abs(static_cast<double>(Exact(cubic.c[i]) - exact[i]));
-      // Here the vectors themselves are exact; differences of positions may round once more, for which is room.
+      // Here the vectors are exact; differences of positions may round once more, which the bound allows.
       ASSERT_LE(off, cubic.error / 1.3) << "seed " << kSeed << " case " << k << " coefficient " << i;
       worst = std::max(worst, off / cubic.error);
     }
@@ -77,14 +77,14 @@ TEST(CoplanarityAdvance, NeverPassesATimeAtWhichThePointsAreExactlyInOnePlane) {
   EXPECT_GT(close, 60000);
 }
 
-TEST(CoplanarityAdvance, ReachesTheEndWhereThereIsNoRootAhead) {
+TEST(CoplanarityAdvance, ReachesTheEndIfThereIsNoRootAhead) {
   const BernsteinCubic behind{{-1, 1, 2, 3}, 1e-15};
   EXPECT_EQ(coplanarity_advance(behind, 0.5), 1);
   const BernsteinCubic dips{{1, -0.1, -0.1, 1}, 1e-15};
-  EXPECT_EQ(coplanarity_advance(dips, 0), 1) << "negative coefficients, but positive all the way";
+  EXPECT_EQ(coplanarity_advance(dips, 0), 1) << "negative coefficients, but positive throughout";
 }
 
-TEST(CoplanarityAdvance, StaysWhereThePointsCannotBeToldFromCoplanar) {
+TEST(CoplanarityAdvance, StaysIfThePointsCannotBeDistinguishedFromCoplanar) {
   EXPECT_EQ(coplanarity_advance({{1e-17, 1, 1, 1}, 1e-15}, 0), 0);
   EXPECT_EQ(coplanarity_advance({{0, 0, 0, 0}, 0}, 0.25), 0.25);
 }

@@ -42,7 +42,7 @@ TEST(CubicRoots, FindsRootsAtBothEnds) {
   EXPECT_EQ(nearest(roots, 1), 0);
 }
 
-TEST(CubicRoots, FindsNoneWhereTheCubicKeepsItsSign) {
+TEST(CubicRoots, FindsNoneIfTheCubicKeepsItsSign) {
   EXPECT_EQ(cubic_roots(cubic_of_roots(3, -1, -2, -0.5)).count, 0);
   EXPECT_EQ(cubic_roots(cubic_of_roots(3, 2, 5, 1.25)).count, 0);
 }
@@ -71,7 +71,7 @@ TEST(CubicRoots, MissesNoRootOfRandomCubicsNearDoubleAndTripleOnesIncluded) {
   std::uniform_real_distribution<double> unit(0, 1), exponent(-16, 0), scale(-12, 12);
   int checked = 0;
   for (int i = 0; i < 200000; ++i) {
-    // A root in [0, 1], another at a log-uniform distance from it, and a third anywhere or close as well.
+    // A root in [0, 1], another at a log-uniform distance from it, and a third anywhere or also close.
     const double r0 = unit(random);
     const double r1 = r0 + (unit(random) < 0.5 ? -1 : 1) * std::pow(10, exponent(random));
     const double r2 = unit(random) < 0.3 ? r0 + std::pow(10, exponent(random)) : 6 * unit(random) - 3;

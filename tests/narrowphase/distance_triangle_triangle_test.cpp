@@ -24,7 +24,7 @@ TEST(DistanceTriangleTriangle, IsThatOfTwoEdgesThatPass) {
   EXPECT_EQ(d.point_b, (Vec3{1, -0.25, 0}));
 }
 
-TEST(DistanceTriangleTriangle, GivesACommonPointWhereTheTrianglesIntersect) {
+TEST(DistanceTriangleTriangle, GivesACommonPointIfTheTrianglesIntersect) {
   const TriangleDistance d = distance_triangle_triangle(kFace, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 1}}});
   EXPECT_EQ(d.distance, 0);
   EXPECT_EQ(d.point_a, d.point_b);
@@ -44,9 +44,9 @@ TEST(DistanceTriangleTriangle, TakesTrianglesWithoutAreaAsSegmentsAndPoints) {
       distance_triangle_triangle({{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {{{1, 3, 4}, {1, 3, 4}, {1, 3, 4}}}).distance, 5);
 }
 
-TEST(DistanceTriangleTriangle, KeepsItsAccuracyWhereEdgesCrossNearlyParallel) {
+TEST(DistanceTriangleTriangle, KeepsItsAccuracyForNearlyParallelEdges) {
   for (int k = 1; k <= 60; ++k) {
-    // Two edges along x that cross over the middle at height 1e-6, opened by `tilt` only.
+    // Two edges along x that cross above each other's midpoint at height 1e-6, at the angle `tilt`.
     const double tilt = std::ldexp(1, -k);
     const TriangleDistance d =
         distance_triangle_triangle({{{-1, -tilt, 0}, {1.5, 1.5 * tilt, 0}, {0.1, 0.3, -4}}},

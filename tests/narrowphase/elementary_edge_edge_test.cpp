@@ -7,7 +7,7 @@
 namespace dismantle {
 namespace {
 
-/// An edge along x that moves against one along y through the origin.
+/// An edge along x that moves towards one along y through the origin.
 EdgeEdgeMotion moving(Vec3 from, Vec3 to) {
   return {{from + Vec3{-1, 0, 0}, from + Vec3{1, 0, 0}},
           {to + Vec3{-1, 0, 0}, to + Vec3{1, 0, 0}},
@@ -21,7 +21,7 @@ TEST(ElementaryEdgeEdge, FindsTheTimeAtWhichCrossingEdgesMeet) {
   EXPECT_NEAR(r.toi, 0.25, 1e-15);
 }
 
-TEST(ElementaryEdgeEdge, MissesWhereTheEdgesPassBesideEachOther) {
+TEST(ElementaryEdgeEdge, MissesIfTheEdgesPassBesideEachOther) {
   EXPECT_EQ(elementary_edge_edge(moving({1.5, 0, 1}, {1.5, 0, -1})).status, CcdStatus::Free);
 }
 

@@ -57,7 +57,7 @@ TEST(ElementaryTriangleTriangle, TestsOnlyTheFeaturesThatTheTrianglesStandFor) {
   EXPECT_EQ(edges.filtered + edges.elementary_tests, 3);
 }
 
-TEST(ElementaryTriangleTriangle, FindsTheEdgesThatCrossWhereNoCornerMeetsAFace) {
+TEST(ElementaryTriangleTriangle, FindsCrossingEdgesIfNoCornerMeetsAFace) {
   const Triangle blade{{{2, -3, -1}, {2, -3, 1}, {2, -1, 0}}};
   const Triangle bar{{{0, -9, -0.5}, {4, -9, 0}, {0, -9, 0.5}}};
   const TriangleMotion still{blade, blade};
@@ -84,9 +84,9 @@ TEST(ElementaryApart, HoldsForAFaceThatSlidesOverAnotherAndNotForOneThatTouchesI
   EXPECT_FALSE(elementary_apart(still, moving(kUpright, {0, 0, 1}, {0, 0, -1})));
 }
 
-// Faces over each other at gaps from far below to far above what the elementary tests take for touching, wherever they
-// are: where the axis says apart, no feature may be reported.
-TEST(ElementaryApart, NeverHoldsWhereAnElementaryTestReportsAContact) {
+// Parallel faces at gaps from far below to far above the touching threshold of the elementary tests, in any pose: if
+// the axis separates them, no feature may be reported.
+TEST(ElementaryApart, NeverHoldsIfAnElementaryTestReportsAContact) {
   const unsigned seed = 11;
   SCOPED_TRACE(seed);
   std::mt19937_64 random(seed);

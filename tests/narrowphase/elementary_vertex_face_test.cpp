@@ -19,7 +19,7 @@ TEST(ElementaryVertexFace, FindsTheTimeAtWhichTheVertexFallsOnTheFace) {
   EXPECT_NEAR(r.toi, 0.25, 1e-15);
 }
 
-TEST(ElementaryVertexFace, MissesWhereTheVertexPassesBesideTheFace) {
+TEST(ElementaryVertexFace, MissesIfTheVertexPassesBesideTheFace) {
   EXPECT_EQ(elementary_vertex_face(falling({0.75, 0.75, 1}, {0.75, 0.75, -1})).status, CcdStatus::Free);
 }
 
@@ -41,7 +41,7 @@ TEST(ElementaryVertexFace, FindsAVertexThatSlidesInTheFacesPlaneIntoTheFace) {
 }
 
 TEST(ElementaryVertexFace, TakesTheFirstRootAtWhichTheVertexIsInside) {
-  // Through the plane outside the face at 1/4, back through it inside at 3/4: the face lifts and sinks linearly.
+  // Through the plane outside the face at 1/4, back through it inside at 3/4: the face rises and sinks linearly.
   const VertexFaceMotion m{{-1.25, 0.25, 0.5},
                            {0.75, 0.25, -0.5},
                            {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-/// Motions whose features certainly meet at a known time: every coordinate, the contact point and the time lie on a
-/// dyadic grid with few enough bits that no operation on the way to the doubles rounds.
+/// Motions whose features meet exactly at a known time: all coordinates, the contact point and the time lie on a dyadic
+/// grid with so few bits that no operation rounds.
 namespace dismantle::exact {
 
 /// A motion with a contact in exact arithmetic at `time` (there may be an earlier one).
@@ -23,8 +23,8 @@ class Generator {
 
   int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
 
-  /// A vertex that meets a point of a face with weights of quarters, at a time of eighths. Faces are slivers at times;
-  /// the whole is scaled by a power of two and pushed out to coordinates of about 1000 at times.
+  /// A vertex that meets a point of a face (weights: multiples of 1/4) at a multiple of 1/8. Some faces are slivers;
+  /// some motions are scaled by a power of two and translated to coordinates of about 1000.
   Hit<VertexFaceMotion> vertex_face() {
     start_scene();
     VertexFaceMotion m;
@@ -45,8 +45,7 @@ class Generator {
     return {m, time};
   }
 
-  /// Two edges that meet in points a quarter, a half or at the end of the way along them, at a time of eighths. Edges
-  /// are nearly parallel at times.
+  /// Two edges that meet at a quarter, half or end point of each, at a multiple of 1/8. Some edges are nearly parallel.
   Hit<EdgeEdgeMotion> edge_edge() {
     start_scene();
     EdgeEdgeMotion m;

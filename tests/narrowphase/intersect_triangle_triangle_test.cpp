@@ -74,7 +74,7 @@ TEST(IntersectTriangleTriangle, DecidesTwoTrianglesWithoutArea) {
   EXPECT_FALSE(intersect_triangle_triangle(point({1, 2, 3}), point({1, 2, 4})));
 }
 
-/// The whole check of `soak_triangle_pairs`, on fewer pairs.
+/// The checks of `soak_triangle_pairs` on fewer pairs.
 TEST(IntersectTriangleTriangle, AgreesWithExactArithmeticOnEveryFamilyOfPairs) {
   constexpr std::uint64_t kSeed = 20240614;
   scenes::TrianglePairs pairs(kSeed);

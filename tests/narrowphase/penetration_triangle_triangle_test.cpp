@@ -21,14 +21,14 @@ TEST(PenetrationTriangleTriangle, IsTheDepthOfACornerUnderTheFace) {
   EXPECT_EQ(back.axis, (Vec3{0, 0, -1}));
 }
 
-TEST(PenetrationTriangleTriangle, LeavesSidewaysOverAnEdgeWhereThatIsShorter) {
+TEST(PenetrationTriangleTriangle, LeavesSidewaysOverAnEdgeIfThatIsShorter) {
   const Triangle wall{{{0.125, 2, -9}, {0.125, 2, 9}, {-9, 2, 9}}};
   const Penetration p = penetration_triangle_triangle(kFace, wall);
   EXPECT_NEAR(p.depth, 0.125, 1e-15);
   EXPECT_NEAR(p.axis.x, -1, 1e-15);
 }
 
-TEST(PenetrationTriangleTriangle, IsZeroWhereApartTouchingOrCoplanar) {
+TEST(PenetrationTriangleTriangle, IsZeroIfApartTouchingOrCoplanar) {
   EXPECT_EQ(penetration_triangle_triangle(kFace, {{{1, 1, 1}, {1, 1, 2}, {2, 1, 1}}}).depth, 0);
   EXPECT_EQ(penetration_triangle_triangle(kFace, {{{1, 1, 0}, {1, 1, 2}, {2, 1, 1}}}).depth, 0);
   EXPECT_EQ(penetration_triangle_triangle(kFace, kFace).depth, 0);
@@ -44,7 +44,7 @@ TEST(PenetrationTriangleTriangle, OfASegmentThroughAFaceIsThatOfItsEnd) {
       penetration_triangle_triangle({{{0, 0, 0}, {2, 2, 2}, {2, 2, 2}}}, {{{2, 0, 1}, {0, 2, 1}, {1, 1, 1}}}).depth, 0);
 }
 
-TEST(PenetrationTriangleTriangle, KeepsItsAccuracyWhereEdgesAreNearlyParallel) {
+TEST(PenetrationTriangleTriangle, KeepsItsAccuracyForNearlyParallelEdges) {
   for (int k = 0; k <= 100; ++k) {
     const double tilt = std::ldexp(1, -k);
     const Triangle a{{{-1, 0, 0.3}, {1, 0, 0.3}, {0.1, -0.7, -9}}};

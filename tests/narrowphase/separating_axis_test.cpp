@@ -21,7 +21,7 @@ Exact exact_dot(Vec3 w, Vec3 p) {
   return Exact(w.x) * Exact(p.x) + Exact(w.y) * Exact(p.y) + Exact(w.z) * Exact(p.z);
 }
 
-/// The exact projected gap at time s, from the positions as they are given.
+/// The exact projected gap at time s of the given positions.
 template <int kA, int kB>
 Exact exact_gap(const Points<kA, kB>& p, Vec3 w, const Exact& s) {
   bool first = true;
@@ -44,8 +44,7 @@ bool exactly_separated(const Exact& gap, Vec3 w, double allowed) {
   return gap > 0 && gap * gap > reach;
 }
 
-/// Hulls whose gap along the axis is near to `-allowed`, by log-uniform amounts down to nothing: where rounding
-/// decides.
+/// Hulls whose gap along the axis differs from `-allowed` by log-uniform amounts down to rounding errors.
 class NearlyTouching {
  public:
   explicit NearlyTouching(unsigned seed) : random_(seed) {}
@@ -114,7 +113,7 @@ void break_the_bound(unsigned seed, int count) {
   std::printf("seed %u: %d proofs of all, %d of a part, %d too close to prove, of %d\n", seed, proofs, part_proofs,
               missed, count);
   EXPECT_GT(part_proofs, count / 10);
-  EXPECT_GT(missed, 0) << "the cases are not near enough to try the bound";
+  EXPECT_GT(missed, 0) << "the cases are not near enough to test the bound";
 }
 
 TEST(SeparatingAxis, ProvesNoSeparationThatExactArithmeticDenies) {

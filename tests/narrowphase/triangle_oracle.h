@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-/// Brute-force truths about moving triangles, in long double and sharing no code with what is tested.
+/// Brute-force results for moving triangles, in long double, sharing no code with the tested functions.
 namespace dismantle::oracle {
 
 using Real = long double;
@@ -28,8 +28,8 @@ inline Corners at(const TriangleMotion& m, Real s) {
   return c;
 }
 
-/// By how much the best of the 17 candidate axes separates two triangles: about their distance where that is reached
-/// on a face or an edge, minus their depth where they intersect.
+/// The gap of two triangles along the best of the 17 candidate axes: about their distance if it is attained on a face
+/// or an edge, minus their depth if they intersect.
 inline Real best_gap(const Corners& a, const Corners& b) {
   std::vector<Vec> axes;
   const Vec na = cross(a.corner[1] - a.corner[0], a.corner[2] - a.corner[0]);
@@ -57,7 +57,7 @@ inline Real best_gap(const Corners& a, const Corners& b) {
   return best;
 }
 
-/// The greatest depth (least best_gap, negated) at `samples + 1` times of [0, end], and when.
+/// The maximum depth (minimum best_gap, negated) at `samples + 1` times of [0, end], and when.
 struct Deepest {
   Real depth = -1e30L, time = 0;
 };

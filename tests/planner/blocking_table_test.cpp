@@ -27,10 +27,10 @@ class BlockingTableTest : public testing::Test {
   ComponentSet all_ = ComponentSet::all(4);
 };
 
-TEST_F(BlockingTableTest, KnowsWhoIsInWhoseWay) {
+TEST_F(BlockingTableTest, KnowsWhatBlocksWhat) {
   EXPECT_TRUE(table_.blocks(kLow, up(), kMiddle));
   EXPECT_TRUE(table_.blocks(kLow, up(), kHigh));
-  EXPECT_FALSE(table_.blocks(kLow, up(), kTube)) << "it slides along the tube's walls";
+  EXPECT_FALSE(table_.blocks(kLow, up(), kTube)) << "it slides along the walls of the tube";
   EXPECT_FALSE(table_.blocks(kHigh, up(), kLow));
   EXPECT_TRUE(table_.blocks(kLow, table_.opposite(aside()), kTube));
 }
@@ -59,10 +59,10 @@ TEST_F(BlockingTableTest, FindsWhatGoesTogether) {
   EXPECT_EQ(table_.moving_together(kMiddle, aside(), all_), (std::vector{kTube, kLow, kMiddle, kHigh}));
   ComponentSet ends(4, {&kHigh, 1});
   EXPECT_TRUE(table_.moving_together(kMiddle, up(), all_, ends, 4).empty());
-  EXPECT_EQ(ends.members(), (std::vector{kMiddle, kHigh})) << "the middle one cannot go without the high one";
+  EXPECT_EQ(ends.members(), (std::vector{kMiddle, kHigh})) << "the middle one cannot leave without the high one";
   ComponentSet large(4);
   EXPECT_TRUE(table_.moving_together(kLow, up(), all_, large, 2).empty());
-  EXPECT_EQ(large.members(), std::vector{kLow}) << "two of the three can go";
+  EXPECT_EQ(large.members(), std::vector{kLow}) << "two of the three can leave";
 }
 
 TEST_F(BlockingTableTest, GivesTheFirstContact) {
@@ -84,22 +84,22 @@ TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
   });
   EXPECT_FALSE(table_.expects_blocker(kLow, aside(), all_));
   EXPECT_TRUE(table_.expects_blocker(kLow, up(), all_));
-  EXPECT_EQ(table_.any_blocker(kLow, up(), all_), kHigh) << "what is expected is asked first";
+  EXPECT_EQ(table_.any_blocker(kLow, up(), all_), kHigh) << "expected blockers are tested first";
   ComponentSet left = all_;
   left.erase(kHigh);
   EXPECT_FALSE(table_.expects_blocker(kLow, up(), left)) << "the tube turned out not to block";
 }
 
-TEST_F(BlockingTableTest, LooksAtNothingOnceItIsToldToStop) {
+TEST_F(BlockingTableTest, EvaluatesNothingOnceStopped) {
   bool keep_going = true;
   BlockingTable table(engine_, features_, [&] { return keep_going; });
   const DirectionId d = table.add_direction({0, 0, 1});
   EXPECT_FALSE(table.blocks(kHigh, d, kLow));
   keep_going = false;
-  EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "it is known";
+  EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "it is already known";
   EXPECT_TRUE(table.blocks(kHigh, d, kMiddle));
   keep_going = true;
-  EXPECT_FALSE(table.blocks(kHigh, d, kMiddle)) << "what counted as blocked was not noted down";
+  EXPECT_FALSE(table.blocks(kHigh, d, kMiddle)) << "an unfinished query must not be stored";
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(DirectionClusters, MergesWhatIsAlmostTheSame) {
   EXPECT_EQ(found[2].direction.z, -1);
 }
 
-TEST(DirectionClusters, TakesBothWaysOfAnAxisForOne) {
+TEST(DirectionClusters, TreatsOppositeDirectionsAsOneAxis) {
   DirectionClusters clusters(Sense::Axis);
   clusters.add({0.6, 0.8, 0}, 1);
   clusters.add({-0.6, -0.8, 0}, 1);

@@ -14,7 +14,7 @@ namespace {
 using scenes::CaseKind;
 using scenes::DisassemblyCase;
 
-/// Whether exactly what is known to come out does, along ways that pass the audit.
+/// Expects that exactly the removable parts are removed, along paths that pass the audit.
 void expect_right(CaseKind kind, const DisassemblyCase& made, double scale) {
   SCOPED_TRACE(testing::Message() << name_of(kind) << " at scale " << scale);
   const scenes::PlanScene scene = scenes::plan_scene(made.assembly, 0.01 * scale);
@@ -25,7 +25,7 @@ void expect_right(CaseKind kind, const DisassemblyCase& made, double scale) {
   const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
   EXPECT_EQ(plan.complete(), scenes::comes_apart(kind));
   EXPECT_EQ(plan.steps.size(), scenes::comes_apart(kind) ? made.assembly.components.size() - made.fixed : 0);
-  // The long ways of these are audited in the tests of their searches.
+  // Their long paths are audited in the tests of their searches.
   if (kind == CaseKind::Screw || kind == CaseKind::Bayonet) return;
   const AuditReport report = audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan), {});
   EXPECT_TRUE(report.holds()) << (report.violations.empty() ? "" : report.violations[0].message);
@@ -57,7 +57,7 @@ TEST_P(DisassemblyCaseOf, ComesApartOrDoesNotInAnyOrientationSizeAndTessellation
 }
 
 TEST(DisassemblyCases, EveryPinComesOutOfItsSlot) {
-  // Where a push ends just beyond a place on its way, the end has to be a place, too.
+  // A push that ends just beyond a configuration on its path must add its end as a configuration, too.
   std::mt19937_64 random(1);
   for (int shape = 0; shape < 60; ++shape) {
     const DisassemblyCase made = scenes::disassembly_case(CaseKind::LSlot, scenes::random_shape(random));

@@ -17,14 +17,14 @@ TEST(Explanation, NamesTheBlockerTheDirectionAndTheContact) {
   const Assembly pot = scenes::covered_pot();
   const Explanation e = why(pot, "block");
   ASSERT_EQ(e.blockers.size(), 1u);
-  // The block is a cube of 10 about (0, 0, 5) that touches all that is around it.
+  // The block is a cube of 10 mm about (0, 0, 5) that touches everything around it.
   EXPECT_NEAR(dot(e.blockers[0].contact.point - Vec3{0, 0, 5}, e.direction), 5, 0.02);
   const std::string text = explanation_text(pot, e), blocker = pot[e.blockers[0].component].name;
   EXPECT_EQ(text.find("block is blocked by " + blocker + " (contact at ("), 0u) << text;
   EXPECT_NE(text.find(") along " + direction_text(e.direction)), std::string::npos) << text;
 }
 
-TEST(Explanation, HoldsTrueWhereTheBlockersAreTakenAway) {
+TEST(Explanation, IsTrueOnceTheBlockersAreRemoved) {
   for (const Assembly& assembly : {scenes::covered_pot(), scenes::stack_in_tube(4), scenes::closed_shell(),
                                    scenes::assembly(scenes::chain_links())})
     for (const Component& c : assembly.components) {
@@ -47,7 +47,7 @@ TEST(Explanation, TellsWhatLocksEachOther) {
   EXPECT_NE(explanation_text(chain, e).find("locked with {next link}"), std::string::npos);
 }
 
-TEST(Explanation, SaysSoWhereNothingBlocks) {
+TEST(Explanation, SaysThatNothingBlocks) {
   const Assembly pot = scenes::covered_pot();
   EXPECT_EQ(explanation_text(pot, why(pot, "lid")), "lid comes out along +Z");
 }

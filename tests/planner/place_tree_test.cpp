@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-TEST(SearchTree, FindsTheNearestPlaceAndTheWayToIt) {
+TEST(SearchTree, FindsTheNearestConfigurationAndItsPath) {
   std::mt19937_64 random(4);
   SearchTree tree({1, 2, 3}, 5);
   std::vector<std::vector<Pose>> ways(1);

@@ -23,7 +23,7 @@ Plan plan_of(const Assembly& assembly, PlanOptions options = {}) {
   return plan_disassembly(scene.assembly, scene.pairs, options);
 }
 
-/// The components that some step takes out by themselves.
+/// The components that a step removes individually.
 std::set<std::uint32_t> taken_out(const Plan& plan) {
   std::set<std::uint32_t> found;
   for (const PlanStep& step : plan.steps)
@@ -113,7 +113,7 @@ TEST(PlanDisassembly, TakesTheFewestOutForATarget) {
   }
 }
 
-TEST(PlanDisassembly, LeavesTheFixedWhereTheyAre) {
+TEST(PlanDisassembly, LeavesFixedComponents) {
   PlanOptions options;
   options.fixed = {ComponentId(1)};
   const Plan plan = plan_of(scenes::peg_in_hole(24, 0.01).assembly, options);
@@ -121,7 +121,7 @@ TEST(PlanDisassembly, LeavesTheFixedWhereTheyAre) {
   EXPECT_EQ(plan.steps[0].components[0], ComponentId(0));
 }
 
-TEST(PlanDisassembly, EndsWithWhatItHasWhereItIsCancelled) {
+TEST(PlanDisassembly, ReturnsThePartialPlanWhenCancelled) {
   PlanOptions options;
   options.progress = [](std::string_view, double done) { return done < 0.4; };
   const Plan plan = plan_of(scenes::stack_in_tube(8), options);

@@ -27,7 +27,7 @@ TEST(PlanPath, PassesTheAudit) {
 }
 
 TEST(PlanPath, PutsBodiesAsideWithRoomForWhatIsTakenOutOfThem) {
-  // The links leave the plate as one body, which stays one: they cannot be parted.
+  // The links leave the plate as one subassembly: they cannot be separated.
   std::vector<Component> components = scenes::chain_links();
   components.push_back(scenes::component("plate", scenes::box({-40, -40, -20}, {40, 40, -8})));
   components.push_back(scenes::component("cube", scenes::box({20, 20, -8}, {24, 24, -4})));

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-/// Small assemblies of which it is known what comes out, and how.
+/// Small assemblies whose disassembly is known.
 namespace dismantle::scenes {
 
-/// What searches for sliding ways may cost in tests: at least twice what those cost that find one.
+/// The effort of slide searches in tests: at least twice that of the searches that succeed.
 inline constexpr std::size_t kSlideEffort = 40'000;
 
 /// An assembly with its pairs.
@@ -30,7 +30,7 @@ inline PlanScene plan_scene(Assembly assembly, double tolerance = 0.01) {
   return scene;
 }
 
-/// The assembly turned and moved as a whole, then in another size.
+/// The assembly rotated and translated as a whole, then scaled.
 inline Assembly placed(Assembly assembly, const Pose& pose, double scale = 1) {
   for (Component& c : assembly.components) {
     TriangleMesh mesh = moved(assembled_mesh(c), pose);
@@ -40,7 +40,7 @@ inline Assembly placed(Assembly assembly, const Pose& pose, double scale = 1) {
   return assembly;
 }
 
-/// The assembly less the named components.
+/// The assembly without the named components.
 inline Assembly without(const Assembly& assembly, const std::vector<ComponentId>& components) {
   std::vector<Component> left;
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
@@ -63,8 +63,8 @@ inline Assembly covered_pot() {
                    component("block", box({-5, -5, 0}, {5, 5, 10})), component("lid", box({-8, -8, 10}, {8, 8, 12}))});
 }
 
-/// A dovetail whose halves slide apart along z, in a frame around it that is open along y: they come out of it
-/// together, and only then apart.
+/// A dovetail whose halves slide apart along z, in a frame around it that is open along y: they leave it together, and
+/// only then come apart.
 inline Assembly framed_dovetail() {
   const Profile outer = {{-25, -10}, {25, -10}, {25, 40}, {-25, 40}}, inner = {{-15, 0}, {15, 0}, {15, 30}, {-15, 30}};
   const Pose upright{{}, quat_about({1, 0, 0}, kTurn / 4)};
@@ -73,9 +73,9 @@ inline Assembly framed_dovetail() {
   return assembly(std::move(components));
 }
 
-/// A product of about `count` components: a base, stations of five parts in rows on it that stand for bolted joints
-/// (sleeve, pin with a head in it, two washers and a cap over all), and a cover on all of them. Equal parts share their
-/// meshes. All comes out.
+/// A product of about `count` components: a base, rows of stations of five parts that resemble bolted joints (sleeve,
+/// pin with a head in it, two washers and a cap over all), and a cover on all of them. Equal parts share their meshes.
+/// All can be removed.
 inline Assembly stations(std::uint32_t count) {
   constexpr double kApart = 20;
   const std::uint32_t all = std::max(1u, (count - 2) / 5);

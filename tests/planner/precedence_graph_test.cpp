@@ -31,7 +31,7 @@ Assembly two_towers() {
                            scenes::component("d", scenes::box({12, -6, 10}, {28, 6, 20}))});
 }
 
-/// A plan that takes each component straight out in this order along its direction.
+/// A plan that removes each component in this order along its direction.
 Plan straight_plan(const std::vector<std::pair<std::uint32_t, Vec3>>& steps) {
   Plan plan;
   for (const auto& [c, exit] : steps)
@@ -43,7 +43,7 @@ PrecedenceGraph graph_of(const PlanScene& scene, const Plan& plan) {
   return precedence_graph(scene.assembly, scene.pairs, plan, {}, kAlways);
 }
 
-/// Calls visit(order) for every order of the steps that the graph allows.
+/// Calls visit(order) for every order of the steps that complies with the graph.
 template <class Visit>
 void for_each_order(const PrecedenceGraph& graph, const Visit& visit) {
   std::vector<std::uint32_t> order(graph.before.size());
@@ -62,7 +62,7 @@ bool is_clean(const PlanScene& scene, const Plan& plan) {
   return audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds();
 }
 
-TEST(PrecedenceGraph, HasAnEdgeForWhatIsInTheWay) {
+TEST(PrecedenceGraph, HasAnEdgeForEachObstacle) {
   const PlanScene scene = plan_scene(two_towers());
   const Vec3 up{0, 0, 1};
   const PrecedenceGraph graph = graph_of(scene, straight_plan({{2, up}, {1, up}, {4, up}, {3, up}}));
@@ -70,13 +70,13 @@ TEST(PrecedenceGraph, HasAnEdgeForWhatIsInTheWay) {
   EXPECT_EQ(graph.ranks, (std::vector<std::uint32_t>{0, 1, 0, 1}));
 }
 
-TEST(PrecedenceGraph, DependsOnTheWayThatAStepGoes) {
+TEST(PrecedenceGraph, DependsOnTheMotionOfAStep) {
   const PlanScene scene = plan_scene(two_towers());
   const Vec3 up{0, 0, 1}, sideways{0, 1, 0}, along{1, 0, 0};
-  // c leaves sideways from under d; a goes along, through where the other tower stood.
+  // c leaves sideways from under d; a moves along, through the place of the other tower.
   const PrecedenceGraph graph = graph_of(scene, straight_plan({{3, sideways}, {2, up}, {4, up}, {1, along}}));
   EXPECT_EQ(graph.before, (std::vector<std::vector<std::uint32_t>>{{}, {}, {}, {0}}))
-      << "neither b on top of a nor d on c is met";
+      << "it meets neither b on a nor d on c";
 }
 
 TEST(PrecedenceGraph, LeavesOutWhatFollowsFromOtherEdges) {
@@ -129,7 +129,7 @@ TEST(PrecedenceGraph, PutsABodyBeforeItsParts) {
   EXPECT_EQ(reordered(plan, {2, 0, 1}).steps[2].part_of, 1u);
 }
 
-TEST(PrecedenceGraph, TakesBoxesForWaysThatBend) {
+TEST(PrecedenceGraph, UsesBoxesForCurvedPaths) {
   const PlanScene scene = plan_scene(two_towers());
   const Vec3 up{0, 0, 1};
   Plan plan = straight_plan({{2, up}, {1, up}, {4, up}, {3, up}});
@@ -138,7 +138,7 @@ TEST(PrecedenceGraph, TakesBoxesForWaysThatBend) {
   EXPECT_EQ(graph_of(scene, plan).before, (std::vector<std::vector<std::uint32_t>>{{}, {0}, {}, {2}}));
 }
 
-TEST(PrecedenceGraph, KeepsThePlansOrderWhereItIsEndedEarly) {
+TEST(PrecedenceGraph, KeepsThePlansOrderIfItEndsEarly) {
   const PlanScene scene = plan_scene(two_towers());
   const Vec3 up{0, 0, 1};
   const PrecedenceGraph graph = precedence_graph(scene.assembly, scene.pairs,

@@ -10,10 +10,10 @@ namespace {
 
 const KeepGoing kAlways = [] { return true; };
 
-/// A product of which only its blocking relations are told: boxes in random order, whose table is filled by hand.
+/// A product given by its blocking relations: boxes in random order, whose table is filled directly.
 class RemovalSearchTest : public testing::Test {
  protected:
-  /// @param blocked who is blocked by whom, a direction
+  /// @param blocked the blocked component and its blockers, one entry per direction
   using Relations = std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
 
   /// The table of `count` boxes far apart, along as many directions as there are relations.
@@ -22,7 +22,7 @@ class RemovalSearchTest : public testing::Test {
     for (std::uint32_t k = 0; k < count; ++k)
       components.push_back(scenes::component("box", scenes::box({0, 0, 0}, {1, 1, 1})));
     scene_ = {scenes::assembly(std::move(components)), {0.01, {}}};
-    // Embedded in each other, none blocks any: all that is known is what is told.
+    // Embedded pairs do not block: only the given relations do.
     for (std::uint32_t a = 0; a < count; ++a)
       for (std::uint32_t b = a + 1; b < count; ++b)
         scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Embedded, 0, 1, 1, 1});
@@ -37,7 +37,7 @@ class RemovalSearchTest : public testing::Test {
     }
   }
 
-  /// The least number of components that must go, by trying all sets.
+  /// The minimum number of components to remove, by trying all sets.
   std::size_t by_brute_force(ComponentId target) {
     const std::size_t count = features_.size();
     std::size_t best = count + 1;
@@ -68,8 +68,8 @@ class RemovalSearchTest : public testing::Test {
   DirectionLists directions_;
 };
 
-TEST_F(RemovalSearchTest, TakesTheShorterWayOut) {
-  // 0 is under 1 and 2 one way, and behind 3 the other; 3 is held by nobody.
+TEST_F(RemovalSearchTest, TakesTheShorterExit) {
+  // 0 is under 1 and 2 in one direction, and behind 3 in the other; nothing blocks 3.
   make(4, {{{0, 1}, {0, 2}}, {{0, 3}}});
   const ComponentId target(0);
   const auto found =
@@ -87,7 +87,7 @@ TEST_F(RemovalSearchTest, LeavesWhatMustStay) {
   EXPECT_EQ(found->size(), 3u);
 }
 
-TEST_F(RemovalSearchTest, FindsNothingWhereTheTargetIsLocked) {
+TEST_F(RemovalSearchTest, FindsNothingIfTheTargetIsLocked) {
   make(2, {{{0, 1}, {1, 0}}});
   const ComponentId target(0);
   EXPECT_FALSE(fewest_removals(*table_, directions_, ComponentSet::all(2), ComponentSet(2), {&target, 1}, kAlways));
@@ -105,7 +105,7 @@ TEST_F(RemovalSearchTest, NeverTakesOutMoreThanTheOptimum) {
   std::mt19937_64 random(7);
   int searched = 0;
   for (int round = 0; round < 60; ++round) {
-    // Each direction is an order in which a random few block those before them, so that all comes out.
+    // In each direction, a random few block those before them in an order, so that all can be removed.
     const std::uint32_t count = 9;
     Relations relations(3);
     for (auto& direction : relations) {
@@ -124,7 +124,7 @@ TEST_F(RemovalSearchTest, NeverTakesOutMoreThanTheOptimum) {
     EXPECT_LE(found->size(), by_brute_force(target)) << round;
     searched += found->size() > 1;
   }
-  EXPECT_GT(searched, 20) << "many of these must be worth a search";
+  EXPECT_GT(searched, 20) << "many of these must need a search";
 }
 
 }  // namespace

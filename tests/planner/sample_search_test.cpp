@@ -33,7 +33,7 @@ TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
   EXPECT_TRUE(report.holds());
 }
 
-TEST(SampleSearch, GivesTheSameWayForTheSameInput) {
+TEST(SampleSearch, GivesTheSamePathForTheSameInput) {
   const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
   const Plan first = plan_by_chance(scene, 100'000), second = plan_by_chance(scene, 100'000);
   ASSERT_EQ(first.steps.size(), 1u);
@@ -42,7 +42,7 @@ TEST(SampleSearch, GivesTheSameWayForTheSameInput) {
   EXPECT_EQ(first.steps[0].poses, second.steps[0].poses);
 }
 
-TEST(SampleSearch, FindsNoWayOutOfAClosedShellAndEnds) {
+TEST(SampleSearch, FindsNoExitFromAClosedShellAndEnds) {
   const scenes::PlanScene scene = scenes::plan_scene(scenes::closed_shell());
   EXPECT_TRUE(plan_by_chance(scene, 20'000).steps.empty());
   const scenes::PlanScene links = scenes::plan_scene(scenes::assembly(scenes::chain_links()));

@@ -29,11 +29,11 @@ TEST(ScrewSearch, KnowsTheThreadFromTheContacts) {
   const scenes::PlanScene scene = bolt_in_nut(48);
   CertificateEngine engine(scene.assembly, scene.pairs);
   const ComponentId bolt(1);
-  engine.hold({&bolt, 1});
+  engine.grab({&bolt, 1});
   const auto threads = touched_threads(scene.assembly, engine, 10, scene.pairs.tolerance);
   ASSERT_EQ(threads.size(), 1u);
   EXPECT_EQ(threads[0].neighbour, ComponentId(0));
-  EXPECT_NEAR(threads[0].thread.lead, 1.25, 0.15);  // the flanks keep it right on its way
+  EXPECT_NEAR(threads[0].thread.lead, 1.25, 0.15);  // the flanks guide it
   EXPECT_NEAR(std::abs(threads[0].thread.direction.z), 1, 1e-3);
 }
 
@@ -41,7 +41,7 @@ TEST(ScrewSearch, SeesNoThreadInAPlainBore) {
   const scenes::SlideScene peg = scenes::peg_in_hole(32, 0.02);
   const scenes::PlanScene scene = scenes::plan_scene(peg.assembly);
   CertificateEngine engine(scene.assembly, scene.pairs);
-  engine.hold({&peg.moving, 1});
+  engine.grab({&peg.moving, 1});
   EXPECT_TRUE(touched_threads(scene.assembly, engine, 15, scene.pairs.tolerance).empty());
 }
 

@@ -31,7 +31,7 @@ Plan plan_for_last(const scenes::PlanScene& scene) {
   return plan_disassembly(scene.assembly, scene.pairs, options);
 }
 
-TEST(SlideSearch, FindsTheWayRoundCornersAndOutOfLocks) {
+TEST(SlideSearch, FindsThePathAroundCornersAndOutOfLocks) {
   for (const Puzzle& puzzle : puzzles()) {
     for (const Component& c : puzzle.components) EXPECT_EQ(edge_faults(*c.mesh).open, 0u) << puzzle.name;
     const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(puzzle.components));
@@ -53,7 +53,7 @@ TEST(SlideSearch, TakesATargetOutThatDoesNotGoStraight) {
   EXPECT_EQ(plan.steps[0].components, std::vector{ComponentId(1)});
 }
 
-TEST(SlideSearch, GivesWaysThatPassTheAudit) {
+TEST(SlideSearch, GivesPathsThatPassTheAudit) {
   for (const Puzzle& puzzle : puzzles()) {
     const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(puzzle.components));
     const Path path = plan_path(scene.assembly, scene.pairs, plan_for_last(scene));
@@ -76,8 +76,8 @@ TEST(SlideSearch, FindsThemInAnyOrientationAndSize) {
     }
 }
 
-TEST(SlideSearch, FindsNoWayOutOfAClosedTunnelOrALockWithoutSlots) {
-  // The same tunnel with its mouth walled up, the same socket with a lid that leaves only the plug's stem.
+TEST(SlideSearch, FindsNoExitFromAClosedTunnelOrALockWithoutSlots) {
+  // The same tunnel with its mouth closed, the same socket with a lid that leaves room only for the plug's stem.
   std::vector<Component> slot = scenes::l_slot(0.1);
   slot.push_back(scenes::component("lid", scenes::box({-10, 20, -5}, {26, 24, 12})));
   std::vector<Component> lock = scenes::bayonet(0.1);

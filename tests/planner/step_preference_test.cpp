@@ -33,7 +33,7 @@ class Cases {
     }
   }
 
-  /// The cubes' numbers in the order in which they come out.
+  /// The cubes' numbers in the order of their removal.
   std::vector<std::uint32_t> order(const Preferences& preferences) const {
     std::vector<Component> all = cubes_;
     all.insert(all.end(), walls_.begin(), walls_.end());

@@ -18,7 +18,7 @@ def box(lower, upper):
 
 
 def at(x, y, z):
-    """A pose that is only moved."""
+    """A pose without rotation."""
     return np.array([x, y, z, 1, 0, 0, 0], dtype=float)
 
 

@@ -32,7 +32,7 @@ def test_gives_meshes_without_a_copy_that_outlive_the_assembly(drawer):
     assert np.array_equal(vertices, before)
 
 
-def test_gives_back_the_meshes_that_it_was_given(drawer):
+def test_returns_the_meshes_that_it_was_given(drawer):
     vertices, faces = box((10, 0, 0), (20, 10, 10))
     assert np.array_equal(drawer["front"].assembled_vertices, vertices)
     assert np.array_equal(drawer["front"].faces, faces)
@@ -42,7 +42,7 @@ def test_gives_back_the_meshes_that_it_was_given(drawer):
     assert lower.tolist() == [-5, -5, -5] and upper.tolist() == [20, 15, 15]
 
 
-def test_takes_meshes_of_any_number_type_and_order():
+def test_accepts_meshes_of_any_number_type_and_order():
     vertices, faces = box((0, 0, 0), (1, 1, 1))
     assembly = dismantle.Assembly.from_meshes(
         {"a": (np.asfortranarray(vertices.astype(np.float32)), faces.astype(np.int64).tolist())}, units="m")
@@ -54,12 +54,12 @@ def test_takes_meshes_of_any_number_type_and_order():
     (np.zeros((3, 3)), [[0, 1, 3]], "names a vertex that it has not"),
     (np.full((3, 3), np.nan), [[0, 1, 2]], "not finite"),
 ])
-def test_refuses_meshes_that_are_none(vertices, faces, why):
+def test_refuses_invalid_meshes(vertices, faces, why):
     with pytest.raises(dismantle.UsageError, match=why):
         dismantle.Assembly.from_meshes({"a": (vertices, faces)})
 
 
-def test_tells_errors_apart_with_the_sentence_of_the_command_line(tmp_path, drawer):
+def test_raises_each_kind_of_error_with_the_sentence_of_the_command_line(tmp_path, drawer):
     with pytest.raises(dismantle.UnreadableError, match="no such file"):
         dismantle.load(tmp_path / "missing.step")
     (tmp_path / "broken.step").write_text("this is no STEP file")
@@ -85,7 +85,7 @@ def test_checks_every_pair(drawer):
         dismantle.check(drawer, tolerance=-1)
 
 
-def test_lets_progress_call_work_off_and_passes_on_what_it_raises():
+def test_lets_progress_cancel_and_passes_on_its_exceptions():
     stages = []
     dismantle.load(MICROSCOPE, progress=lambda stage, fraction: stages.append(stage))
     assert stages

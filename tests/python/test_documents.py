@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is written about the module is true: its stubs, the code in docs/python.md, the examples."""
+"""The documents about the module are correct: its stubs, the code in docs/python.md, the examples."""
 import ast
 import re
 import shutil

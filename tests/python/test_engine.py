@@ -8,7 +8,7 @@ import pytest
 from conftest import HOME, at
 
 
-def test_steps_until_something_is_in_the_way(states):
+def test_steps_until_blocked(states):
     engine = dismantle.Engine(states)
     engine.hold("back")
     assert engine.held == ["back"]
@@ -29,7 +29,7 @@ def test_steps_until_something_is_in_the_way(states):
     assert np.array_equal(engine.poses, np.tile(HOME, (7, 1)))
 
 
-def test_tells_how_far_many_candidates_get(states):
+def test_finds_the_first_contact_of_many_candidates(states):
     engine = dismantle.Engine(states)
     engine.hold("front")
     targets = np.array([at(30, 0, 0), at(0, 30, 0), at(-30, 0, 0)])
@@ -44,7 +44,7 @@ def test_tells_how_far_many_candidates_get(states):
     assert len(engine.first_contacts(np.empty((0, 7)))) == 0
 
 
-def test_asks_the_same_of_a_batch(states):
+def test_gives_the_same_for_a_batch(states):
     batch = dismantle.MotionBatch(states, device="cpu")
     assert batch.device == "cpu"
     batch.set_state("front")
@@ -79,7 +79,7 @@ def test_measures_the_clearance(states):
     assert len(engine.contacts(4.1).gaps) > 0 and len(engine.contacts(3.9).gaps) == 0
 
 
-def test_refuses_what_makes_no_sense(states):
+def test_refuses_invalid_arguments(states):
     engine = dismantle.Engine(states)
     for call, why in [
         (lambda: engine.step(HOME), "nothing is in hand"),
@@ -108,7 +108,7 @@ def test_refuses_what_makes_no_sense(states):
         engine.hold(["front", "back"])
 
 
-def test_lets_go_where_a_jump_moves_what_is_in_hand(states):
+def test_releases_the_moving_set_when_a_jump_moves_it(states):
     engine = dismantle.Engine(states)
     engine.hold("front")
     poses = engine.poses
@@ -119,7 +119,7 @@ def test_lets_go_where_a_jump_moves_what_is_in_hand(states):
         engine.step(HOME)
 
 
-def test_takes_quaternions_that_are_unit_but_for_rounding(states):
+def test_accepts_quaternions_that_are_unit_to_rounding(states):
     engine = dismantle.Engine(states)
     engine.hold("front")
     step = engine.step([30, 0, 0, 1 + 1e-8, 0, 0, 0])

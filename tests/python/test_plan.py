@@ -21,7 +21,7 @@ def test_finds_the_order_and_a_path_that_passes_the_audit(states):
     assert report.holds and report.violations == []
 
 
-def test_says_why_something_stays(states):
+def test_says_what_blocks_a_component(states):
     plan = dismantle.plan(states, targets=["back"], fixed=WALLS + ["front"])
     assert not plan.complete and plan.steps == []
     assert plan.staying[0].component == "back" and "back is blocked by" in str(plan.staying[0])
@@ -37,7 +37,7 @@ def test_takes_an_effort(states):
         dismantle.plan(states, effort=-1)
 
 
-def test_prefers_what_it_is_told_to(states):
+def test_orders_steps_by_preferences(states):
     usual = [s.components for s in dismantle.plan(states, prefer=[]).steps]
     assert usual == [s.components for s in dismantle.plan(states).steps]
     preferred = dismantle.plan(states, prefer=["groups", "support"])
@@ -46,12 +46,12 @@ def test_prefers_what_it_is_told_to(states):
         dismantle.plan(states, prefer=["beauty"])
 
 
-def test_ends_early_where_it_is_told(states):
+def test_ends_early_at_its_time_limit_or_when_cancelled(states):
     assert dismantle.plan(states, time_limit=1e-6).out_of_time
     assert dismantle.plan(states, progress=lambda stage, fraction: False).out_of_time
 
 
-def test_refuses_what_makes_no_sense(states, tmp_path):
+def test_refuses_invalid_arguments(states, tmp_path):
     path = dismantle.plan(states).path()
     for call, why in [
         (lambda: dismantle.plan(states, targets="lid"), "'lid' is unknown"),

@@ -50,7 +50,7 @@ def test_takes_out_and_puts_back(states):
     assert dismantle.audit(states.assembly, session.recording).holds
 
 
-def test_refuses_what_makes_no_sense(states):
+def test_refuses_invalid_arguments(states):
     session = dismantle.Session(states)
     for call, why in [
         (lambda: session.drag(HOME), "nothing is in hand"),

@@ -25,7 +25,7 @@ TEST(MakeScene, KeepsTheComponentsOrderAndSharesTheMeshesOfInstances) {
   EXPECT_TRUE(scene.items[0].closed);
 }
 
-TEST(MakeScene, PutsComponentsWhereTheirPosesSay) {
+TEST(MakeScene, PlacesComponentsAtTheirPoses) {
   AssemblySceneOptions options;
   options.poses = {{}, {{0, 7, 0}, {}}};
   const RenderScene scene = make_scene(two_boxes(), options);
@@ -39,7 +39,7 @@ TEST(MakeScene, ExplodesAwayFromTheMiddle) {
   EXPECT_EQ(scene.items[1].world_from_mesh.translation, (Vec3{1, 0, 0}));
 }
 
-TEST(MakeScene, GivesColorsOnlyWhereTheAssemblyHasNone) {
+TEST(MakeScene, GivesColorsOnlyToComponentsWithoutOne) {
   Assembly assembly = two_boxes();
   EXPECT_NE(make_scene(assembly).items[0].color, make_scene(assembly).items[1].color);
   assembly.components[1].color = {1, 0, 0};

@@ -15,7 +15,7 @@ struct ScreenPoint {
   double x, y;
 };
 
-/// Where a point is in the picture: 0 to 1 from left to right and from top to bottom.
+/// A point's position in the picture: 0 to 1 from left to right and from top to bottom.
 ScreenPoint seen_at(const Camera& camera, double aspect, Vec3 point) {
   const Vec3 p = camera_axes(camera) * (point - camera.eye);
   const bool perspective = camera.projection == Projection::Perspective;
@@ -67,11 +67,11 @@ TEST(FitCamera, SeesAllPointsAndFillsThePicture) {
   }
 }
 
-TEST(FitCamera, LooksAtTheOriginWithoutPoints) {
+TEST(FitCamera, FacesTheOriginWithoutPoints) {
   EXPECT_EQ(fit_camera(Span<const Vec3>{}).target, (Vec3{}));
 }
 
-TEST(CameraAxes, AreOrthonormalEvenWhereUpIsAlongTheLineOfSight) {
+TEST(CameraAxes, AreOrthonormalEvenIfUpIsAlongTheLineOfSight) {
   Camera camera;
   camera.eye = {0, 0, 5};
   camera.target = {0, 0, 1};

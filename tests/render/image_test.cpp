@@ -54,7 +54,7 @@ TEST(WritePng, WritesTheEncodedBytes) {
   std::filesystem::remove(file);
 }
 
-TEST(WritePng, SaysWhatIsWrongWhereTheFolderDoesNotExist) {
+TEST(WritePng, ReportsAMissingFolder) {
   const Result<Done> result = write_png(random_image(2, 2, 1), "/nowhere/at/all/picture.png");
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().kind, ErrorKind::Failed);

@@ -28,7 +28,7 @@ TEST(RenderMesh, ACylinderIsSmoothAroundAndHasTwoRims) {
       const Vec3f n = m.corner_normals[3 * f + k];
       if (std::abs(n.z) > 0.5f) continue;  // a lid
       const Vec3 p = m.mesh.triangle(f)[static_cast<int>(k)];
-      EXPECT_NEAR((n.x * p.x + n.y * p.y) / 5, 1, 5e-3);  // radial, though the facets are not
+      EXPECT_NEAR((n.x * p.x + n.y * p.y) / 5, 1, 5e-3);  // radial, although the facets are flat
     }
   }
 }

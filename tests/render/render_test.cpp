@@ -22,7 +22,7 @@ RenderItem body(const TriangleMesh& mesh, Color color) {
   return item;
 }
 
-/// Looks along +y at the square from (-10, -10) to (10, 10) of the x-z plane: a pixel is 0.2 mm.
+/// Faces along +y the square from (-10, -10) to (10, 10) of the x-z plane: a pixel is 0.2 mm.
 Camera front_camera() {
   Camera camera;
   camera.eye = {0, -100, 0};
@@ -52,7 +52,7 @@ bool is_bluish(const Pixel& p) {
 bool is_background(const Pixel& p) {
   return p.r > 230 && p.g > 230 && p.b > 230;
 }
-TEST(Render, ShowsABoxWhereItIs) {
+TEST(Render, ShowsABoxAtItsPosition) {
   RenderScene scene;
   scene.items.push_back(body(scenes::box({2, 0, 1}, {6, 3, 7}), kRed));
   const Image image = render(scene, front_camera(), small_picture());
@@ -141,7 +141,7 @@ TEST(Render, ASectionTakesAwayTheNearHalfAndCapsTheCut) {
   EXPECT_TRUE(is_background(at(image, 7, 0)));
 }
 
-TEST(Render, TheCapOfAnItemIsSeenWhereAnotherOverlapsIt) {
+TEST(Render, ShowsTheCapOfAnItemThatAnotherOverlaps) {
   RenderScene scene;
   scene.items.push_back(body(scenes::box({-6, -5, -6}, {6, 5, 6}), kRed));
   scene.items.push_back(
@@ -193,7 +193,7 @@ TEST(Render, BodiesThatOnlyTouchHaveNoCommonVolume) {
 }
 
 TEST(Render, LeavesNoGapBetweenTrianglesThatShareAnEdge) {
-  TriangleMesh fan;  // a disc of slivers, seen head on
+  TriangleMesh fan;  // a disc of slivers, seen from the front
   constexpr std::uint32_t kSides = 397;
   fan.vertices.push_back({0.013, 0, 0.007});
   for (std::uint32_t i = 0; i < kSides; ++i)

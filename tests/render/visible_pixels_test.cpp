@@ -9,7 +9,7 @@
 namespace dismantle {
 namespace {
 
-/// Seen from the front: a wall, and behind it a wider one of which a fifth sticks out.
+/// Seen from the front: a wall, and behind it a wider one of which a fifth is visible.
 RenderScene two_walls() {
   return make_scene(scenes::assembly({scenes::component("front", scenes::box({0, 0, 0}, {40, 1, 40})),
                                       scenes::component("back", scenes::box({0, 5, 0}, {50, 6, 40}))}));

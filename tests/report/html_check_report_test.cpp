@@ -114,7 +114,7 @@ TEST(HtmlCheckReport, NamesAreTextWhateverTheyContain) {
   EXPECT_EQ(scripts, 1);
 }
 
-TEST(HtmlCheckReport, PicturesArePngOfTheSizeAskedFor) {
+TEST(HtmlCheckReport, PicturesArePngOfTheRequestedSize) {
   const std::string html = report_of(press_fit(), states_of_press_fit());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(html.c_str()), tinyxml2::XML_SUCCESS);

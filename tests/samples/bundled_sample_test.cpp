@@ -35,7 +35,7 @@ TEST(BundledSample, UnpacksToTheCommittedFiles) {
   }
 }
 
-TEST(BundledSample, NamesTheSamplesThereAreWhenAskedForAnother) {
+TEST(BundledSample, ListsTheSamplesIfTheNameIsUnknown) {
   for (const char* name : {"teapot", "", "lathe.step"}) {
     const Result<std::string> step = bundled_sample_step(name);
     ASSERT_FALSE(step.ok());

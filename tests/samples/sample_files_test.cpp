@@ -10,7 +10,7 @@
 namespace dismantle {
 namespace {
 
-/// What the committed file of a sample must hold.
+/// The expected content of a sample's file.
 struct Expected {
   const char* name;
   std::size_t components, triangles;
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"robot", 76, 43000, {"base housing", "upper arm", "planet gear#6", "ring gear#2", "moving finger"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-/// The pairs of a sample that are meant to overlap.
+/// The pairs of a sample that overlap by design.
 struct MeantOverlaps {
   const char* sample;
   struct Pair {

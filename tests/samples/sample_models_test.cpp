@@ -24,7 +24,7 @@ void expect_near(Vec3 a, Vec3 b, double tolerance, const std::string& name) {
 
 class SampleModels : public testing::TestWithParam<const char*> {};
 
-/// The box of the placed solid itself, not of its triangles.
+/// The box of the solid in its pose, not of its triangles.
 Aabb box_of(const samples::SampleModel& model, const samples::Occurrence& occurrence) {
   Bnd_Box box;
   const TopoDS_Shape shape = model.solid(occurrence.product).shape().Moved(TopLoc_Location(occurrence.placement));

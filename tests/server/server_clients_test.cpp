@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several clients, and clients that are lost and come back.
+// Several clients, and clients that lose their connection and return.
 #include "tests/server/server_scene.h"
 
 namespace dismantle::server {
@@ -34,7 +34,7 @@ TEST_F(ServerClients, LetsOneControlAndTheOthersWatch) {
   EXPECT_FALSE(second.command("hold", {{"components", {0}}})["ok"]);
   EXPECT_TRUE(second.command("check")["ok"]);
   const std::uint32_t grip = hold(first, 0);
-  second.send_binary(target_at(grip, 1, {-9, 0, 0}));  // of no effect
+  second.send_binary(target_at(grip, 1, {-9, 0, 0}));  // has no effect
   const PoseMessage pose = drag(first, grip, {}, {0, 4, 0}, 4);
   PoseMessage seen = second.pose();
   while (!(seen.pose == pose.pose)) seen = second.pose();
@@ -95,7 +95,7 @@ TEST_F(ServerClients, GivesControlOnWhenItsClientStaysAway) {
   EXPECT_GE(std::chrono::steady_clock::now() - lost_at, std::chrono::seconds(10));
   const Json state =
       watcher.event_where("state", [](const Json& s) { return s["hand"].is_null() && !s["moves"].empty(); });
-  EXPECT_EQ(state["undo"], "move block") << "what was in hand was let go of where it was";
+  EXPECT_EQ(state["undo"], "move block") << "the moving set was released in place";
   hold(watcher, 0);
 }
 
@@ -110,7 +110,7 @@ TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
     drag(client, hold(client, 0), {-5, 0, 0}, {-7, 0, 0}, 2);
     client.command("release");
     id = client.give("undo");
-    client.drop();  // its answer is lost
+    client.drop();  // its response is lost
   }
   Client client(door());
   client.state();
@@ -119,7 +119,7 @@ TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
   EXPECT_TRUE(client.answer(id)["ok"]);
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);  // one of the two is left
   client.set_last_id(0);
-  EXPECT_TRUE(client.command("hold", {{"components", {0}}})["ok"]);  // id 1: answered from memory
+  EXPECT_TRUE(client.command("hold", {{"components", {0}}})["ok"]);  // id 1: the stored response
   EXPECT_TRUE(client.state()["hand"].is_null());
 }
 
@@ -133,13 +133,13 @@ TEST_F(ServerClients, ReplacesASocketOfTheSameClient) {
   EXPECT_TRUE(fresh.command("reset")["ok"]);
 }
 
-TEST_F(ServerPatience, PingsWhoSaysNothingAndDropsWhoDoesNotAnswer) {
+TEST_F(ServerPatience, PingsSilentClientsAndDropsThoseThatDoNotAnswer) {
   Client listener(door());
   listener.state();
   Client deaf(door(), kOtherKey);
   deaf.state();
   listener.event_where("control", [](const Json& c) { return c["clients"] == 2; });
-  listener.event_where("control", [](const Json& c) { return c["clients"] == 1; });  // deaf reads nothing meanwhile
+  listener.event_where("control", [](const Json& c) { return c["clients"] == 1; });  // `deaf` reads nothing meanwhile
   listener.idle(2 * kShortPatience);
   EXPECT_TRUE(listener.is_open());
   EXPECT_GE(listener.pings(), 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program as a process of its own: killed in mid-drag, and stopped in order.
+// The program as a separate process: killed during a drag, and stopped by a signal.
 #include "dismantle/session/session_path.h"
 #include "tests/server/server_scene.h"
 
@@ -47,7 +47,7 @@ class ViewerProcess {
   ViewerProcess& operator=(const ViewerProcess&) = delete;
 
   const Door& door() const { return door_; }
-  /// Sends a signal and waits. @return the exit code; 128 and the signal where that ended it
+  /// Sends a signal and waits. @return the exit code; 128 + the signal if that ended it
   int end(int signal) {
     kill(process_, signal);
     int status = 0;
@@ -67,7 +67,7 @@ class ServerCrash : public ServerScene {
   ViewerProcess start_process() const { return ViewerProcess(root() / "block.obj", folder_ / "state"); }
 };
 
-TEST_F(ServerCrash, GoesOnWhereItWasKilledInMidDrag) {
+TEST_F(ServerCrash, ResumesAfterItWasKilledDuringADrag) {
   Json before;
   {
     ViewerProcess viewer = start_process();
@@ -75,7 +75,7 @@ TEST_F(ServerCrash, GoesOnWhereItWasKilledInMidDrag) {
     client.state();
     drag(client, hold(client, 1), {}, {0, 3, 0}, 3);
     client.command("release");
-    drag(client, hold(client, 0), {}, {15, 7, 0}, 40);  // into the wall and along it: in mid-drag
+    drag(client, hold(client, 0), {}, {15, 7, 0}, 40);  // into the wall and along it, without release
     client.send_text(R"({"id": 90, "command": "check"})");
     client.answer(90);
     before = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
@@ -87,7 +87,7 @@ TEST_F(ServerCrash, GoesOnWhereItWasKilledInMidDrag) {
   EXPECT_TRUE(state["resumed"]);
   EXPECT_TRUE(state["hand"].is_null());
   EXPECT_EQ(state["moves"].size(), 2u);
-  // Everything that had been answered is there, bit for bit.
+  // Everything that was acknowledged is restored, bit for bit.
   const Json after = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
   EXPECT_EQ(after, before);
   EXPECT_TRUE(client.command("undo")["ok"]);
@@ -107,7 +107,7 @@ TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
     client.wait_for_end();
     EXPECT_EQ(client.close_code(), 1001u);
   }
-  for (int run = 0; run < 2; ++run) {  // one that does nothing does not lose it
+  for (int run = 0; run < 2; ++run) {  // a run without changes does not lose it
     ViewerProcess viewer = start_process();
     Client client(viewer.door());
     const Json state = client.state();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of docs/wire.md, "Doors".
+// Access rules: docs/wire.md.
 #include "tests/server/server_scene.h"
 
 #include <cstdio>
@@ -28,7 +28,7 @@ TEST_F(ServerDoors, GivesThePageToWhoeverIsOnThisMachine) {
   EXPECT_NE(reply.body.find("<html"), std::string::npos);
 }
 
-TEST_F(ServerDoors, GuardsEveryAnswerWithHeaders) {
+TEST_F(ServerDoors, SendsSecurityHeadersWithEveryResponse) {
   for (const char* target : {"/", "/nothing.js", "/api/model.glb"}) {
     const HttpReply reply = request(door(), "GET", target);
     EXPECT_EQ(reply.headers.at("X-Content-Type-Options"), "nosniff");
@@ -84,7 +84,7 @@ TEST_F(ServerDoors, GivesExportsOfWhatIsOpenToWhoeverHasTheToken) {
   const HttpReply page = get(door(), "/api/export/page.html?reverse=1");
   EXPECT_EQ(page.status, 200u);
   EXPECT_EQ(page.body.find("<!DOCTYPE html>"), 0u);
-  EXPECT_EQ(page.headers.at("Content-Type"), "application/octet-stream") << "it is saved, never shown from here";
+  EXPECT_EQ(page.headers.at("Content-Type"), "application/octet-stream") << "it is downloaded, never displayed";
   EXPECT_NE(get(door(), "/api/export/bom.csv").body.find(",block,"), std::string::npos);
   EXPECT_EQ(Json::parse(get(door(), "/api/export/bom.json").body)["items"].size(), 2u);
 }
@@ -128,7 +128,7 @@ TEST_F(ServerDoors, LeadsNowhereOutsideThePage) {
 }
 
 TEST_F(ServerDoors, ListensOnTheLoopbackOnly) {
-  // Local addresses in LISTEN (state 0A) on our port, as the kernel has them: nothing but 127.0.0.1 and ::1.
+  // The kernel's local addresses in state LISTEN (0A) on our port: only 127.0.0.1 and ::1.
   char port[8];
   std::snprintf(port, sizeof port, ":%04X", door().port);
   std::set<std::string> found;

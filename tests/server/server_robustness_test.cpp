@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server must survive. After each attack it answers as before.
+// Attacks on the server, after each of which it must respond as before.
 #include "dismantle/files/read_file.h"
 #include "samples/bundled/bundled_sample.h"
 #include "tests/server/server_scene.h"
@@ -23,12 +23,12 @@ class ServerRobustness : public ServerScene {
  protected:
   void SetUp() override {
     ServerOptions options;
-    options.idle_time = std::chrono::minutes(10);  // nobody is dropped for silence
+    options.idle_time = std::chrono::minutes(10);  // no client is dropped for silence
     start_with_block_and_wall(std::move(options));
   }
   void TearDown() override { expect_alive(); }
 
-  /// A new client drags, and everything is as it should be.
+  /// Expects that a new client can drag as usual.
   void expect_alive() const {
     Client client(door(), "aaaaaaaaaaaaaaaabbbbbbbbbbbbbbbb");
     ASSERT_EQ(client.status(), 101u);
@@ -41,7 +41,7 @@ class ServerRobustness : public ServerScene {
     EXPECT_TRUE(client.command("release")["ok"]);
   }
 
-  /// Uploads a file as the client in control, and waits for what becomes of it.
+  /// Uploads a file as the client in control, and waits for the result.
   Json upload(Client& client, const std::string& name, const std::string& bytes) const {
     const HttpReply reply = request(door(), "POST", "/api/open?name=" + name,
                                     {{"Authorization", "Bearer " + door().token}, {"X-Client", kClientKey}}, bytes);
@@ -49,7 +49,7 @@ class ServerRobustness : public ServerScene {
     return end_of_job(client, Json::parse(reply.body).value("job", 0));
   }
 
-  /// Opens what the command `open` can name, and waits for what becomes of it.
+  /// Opens a file by the command `open`, and waits for the result.
   static Json open(Client& client, const Json& what) {
     const Json opened = client.command("open", what);
     EXPECT_TRUE(opened["ok"]) << opened;
@@ -67,7 +67,7 @@ TEST_F(ServerRobustness, AnswersAThousandMalformedFramesWithErrors) {
   for (int round = 0; round < 20; ++round) {
     Client client(door(), kClientKey);
     client.state();
-    for (int i = 0; i < 50; ++i) {  // fewer than the server closes a socket for
+    for (int i = 0; i < 50; ++i) {  // fewer than the number at which the server closes a socket
       std::string bytes(random() % 200, '\0');
       for (char& c : bytes) c = static_cast<char>(random() % 128);
       if (i % 3 == 0) bytes = target_at(1, 1, {1e300, 0, 0});
@@ -85,7 +85,7 @@ TEST_F(ServerRobustness, ClosesTheSocketOfWhoSendsNothingElse) {
   client.state();
   for (int i = 0; i < 100 && client.is_open(); ++i) client.send_text("{");
   client.wait_for_end();
-  EXPECT_EQ(client.close_code(), 1008u);  // against the rules
+  EXPECT_EQ(client.close_code(), 1008u);  // policy violation
 }
 
 TEST_F(ServerRobustness, TakesJsonOfAnyKindForNoMoreThanItIs) {
@@ -125,7 +125,7 @@ TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
   try {
     client.send_text(std::string((1 << 20) + 1, ' '));
   } catch (const std::exception&) {
-    // closed while it was sent
+    // closed while sending
   }
   client.wait_for_end();
   EXPECT_FALSE(client.is_open());
@@ -138,7 +138,7 @@ TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
 }
 
 TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {
-  // A folder whose list is 200 kB long.
+  // A folder whose listing is 200 kB long.
   fs::create_directories(root() / "many");
   for (int i = 1000; i < 1800; ++i)
     std::ofstream(root() / "many" / (std::to_string(i) + std::string(200, 'x') + ".obj"));
@@ -146,7 +146,7 @@ TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {
   slow.state();
   Client watcher(door(), "cccccccccccccccccccccccccccccccc");
   watcher.state();
-  // Each is answered; hardly anything of the answers is read, and the server must not keep them all.
+  // Each gets a response; few of them are read, and the server must not keep them all.
   for (int i = 1; i <= 2000 && slow.is_open(); ++i)
     slow.send_text(text_of(Json{{"id", i}, {"command", "files"}, {"root", 0}, {"folder", "many"}}));
   const auto left = [](const Json& c) { return c["clients"] == 1; };
@@ -264,7 +264,7 @@ TEST_F(ServerRobustness, OutlivesHostileFiles) {
   Json job = upload(client, "huge.gltf", claims);
   EXPECT_EQ(job["status"], "failed");
   EXPECT_NE(job["error"], "");
-  // STEP that is cut off, nonsense, and a real one with its references scrambled.
+  // Truncated STEP, nonsense, and a real file with scrambled references.
   std::string step = *bundled_sample_step("tooling");
   EXPECT_EQ(upload(client, "cut.step", step.substr(0, step.size() / 2))["status"], "failed");
   EXPECT_EQ(upload(client, "nonsense.step", std::string(1 << 16, '('))["status"], "failed");
@@ -274,9 +274,9 @@ TEST_F(ServerRobustness, OutlivesHostileFiles) {
     char& c = step[data + random() % (step.size() - data - 100)];
     if (c >= '0' && c <= '9') c = static_cast<char>('0' + random() % 10);
   }
-  upload(client, "scrambled.step", step);  // whatever becomes of it
+  upload(client, "scrambled.step", step);  // any result
   EXPECT_EQ(upload(client, "program.exe", "MZ")["status"], "failed");
-  // Back to the scene that expect_alive() knows.
+  // Back to the scene of expect_alive().
   EXPECT_EQ(open(client, {{"root", 0}, {"file", "block.obj"}})["status"], "done");
 }
 

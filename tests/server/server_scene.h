@@ -14,10 +14,10 @@
 
 #include <memory>
 
-/// A server in this process with a root of its own.
+/// A server in this process with a separate root folder.
 namespace dismantle::server {
 
-/// A target at a position, not turned.
+/// A target at a position, without rotation.
 inline std::string target_at(std::uint32_t grip, std::uint32_t number, const Vec3& position) {
   return encode(TargetMessage{grip, number, {position, {}}});
 }
@@ -47,13 +47,13 @@ class ServerScene : public testing::Test {
                           scenes::component("wall", scenes::box({20.5, -50, -50}, {21, 50, 50}))});
     ASSERT_TRUE(write_assembly(root() / "block.obj", assembly).ok());
   }
-  /// Takes a component in hand. @return the grip
+  /// Grabs a component. @return the grip
   static std::uint32_t hold(testing_client::Client& client, std::uint32_t component) {
     const Json answer = client.command("hold", {{"components", {component}}});
     EXPECT_TRUE(answer["ok"]) << answer;
     return answer.value("grip", 0u);
   }
-  /// Drags along a straight line in steps, each answered before the next is asked for.
+  /// Drags along a straight line in steps, waiting for each pose.
   static PoseMessage drag(testing_client::Client& client, std::uint32_t grip, const Vec3& from, const Vec3& to,
                           std::uint32_t steps) {
     PoseMessage last;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the planner finds for a page, over a real socket.
+// Searches of the planner for a page, over a real socket.
 #include "tests/planner/plan_scenes.h"
 #include "tests/server/server_scene.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using testing_client::Client;
 
-/// Of a stack of three in a tube: the tube is 0.
+/// Components of a stack of three in a tube; the tube is 0.
 constexpr std::uint32_t kTube = 0, kLow = 1, kMiddle = 2, kHigh = 3;
 
 class ServerSearch : public ServerScene {
@@ -19,7 +19,7 @@ class ServerSearch : public ServerScene {
     start();
     ASSERT_TRUE(server_->open_file(root() / "block.obj").ok());
   }
-  /// Gives a command that begins a search and waits for the search's end. @return its last event
+  /// Gives a command that starts a search and waits for its end. @return its last event
   static Json search(Client& client, const std::string& name, const Json& arguments) {
     const Json answer = client.command(name, arguments);
     EXPECT_TRUE(answer["ok"]) << answer;
@@ -29,7 +29,7 @@ class ServerSearch : public ServerScene {
   static Json state_where(Client& client, const char* member) {
     return client.event_where("state", [member](const Json& s) { return !s[member].is_null(); });
   }
-  /// The state when what goes by itself has ended, after it has begun.
+  /// The state after an automatic motion has started and ended.
   static Json after_motion(Client& client) {
     state_where(client, "automatic");
     return client.event_where("state", [](const Json& s) { return s["automatic"].is_null(); });
@@ -47,7 +47,7 @@ TEST_F(ServerSearch, MakesThePlanTheGuide) {
   EXPECT_EQ(state["search"]["steps"], 3);
   EXPECT_EQ(state["guide"]["name"], "plan.path.json");
   EXPECT_EQ(state["guide"]["moves"].size(), 3u);
-  EXPECT_EQ(state["components"][kHigh], Json::object());  // a plan moves nothing
+  EXPECT_EQ(state["components"][kHigh], Json::object());  // planning moves nothing
   ASSERT_TRUE(client.command("play", {{"speed", 20}, {"source", "guide"}})["ok"]);
   const Json played =
       client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; });
@@ -95,7 +95,7 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
     EXPECT_FALSE(client.command("plan", {{"prefer", wrong}})["ok"]) << wrong;
 }
 
-TEST_F(ServerSearch, TakesOutWhatIsInTheWayAndThenWhatIsWanted) {
+TEST_F(ServerSearch, RemovesTheObstaclesAndThenTheTarget) {
   start_with(scenes::stack_in_tube(3));
   Client client(door());
   client.state();
@@ -105,7 +105,7 @@ TEST_F(ServerSearch, TakesOutWhatIsInTheWayAndThenWhatIsWanted) {
   EXPECT_EQ(state["moves"][1]["label"], "take out box 1");
   EXPECT_TRUE(state["components"][kMiddle].contains("removed"));
   EXPECT_EQ(audited_recording().removed.size(), 2u);
-  // The next search is of what is left.
+  // The next search is for the remaining components.
   const std::uint32_t left = state["components"][kLow].contains("removed") ? kHigh : kLow;
   search(client, "find_path", {{"components", {left}}});
   EXPECT_TRUE(after_motion(client)["components"][left].contains("removed"));
@@ -147,7 +147,7 @@ TEST_F(ServerSearch, SaysWhyAComponentStaysUntilItMoves) {
   EXPECT_FALSE(client.command("why", {{"components", {0, 1}}})["ok"]);
 }
 
-TEST_F(ServerSearch, SaysWhyNothingComesOutWhereThatIsSo) {
+TEST_F(ServerSearch, SaysWhatBlocksIfNothingCanBeRemoved) {
   start_with(scenes::closed_shell());
   Client client(door());
   client.state();
@@ -159,7 +159,7 @@ TEST_F(ServerSearch, SaysWhyNothingComesOutWhereThatIsSo) {
   EXPECT_TRUE(state["automatic"].is_null());
 }
 
-TEST_F(ServerSearch, LetsTheHandMoveOnAndBeCancelled) {
+TEST_F(ServerSearch, CanBeCancelledAndAllowsDraggingMeanwhile) {
   start_with(scenes::stack_in_tube(60));
   Client client(door());
   client.state();
@@ -176,7 +176,7 @@ TEST_F(ServerSearch, LetsTheHandMoveOnAndBeCancelled) {
   EXPECT_TRUE(client.state()["guide"].is_null());
 }
 
-TEST_F(ServerSearch, GoesNoWayThatWasFoundBeforeSomethingMoved) {
+TEST_F(ServerSearch, PlaysNoPathFoundBeforeSomethingMoved) {
   start_with(scenes::stack_in_tube(40));
   Client client(door());
   client.state();

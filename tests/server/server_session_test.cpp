@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page does with a session, over a real socket.
+// A page's use of a session, over a real socket.
 #include "tests/server/server_scene.h"
 
 namespace dismantle::server {
@@ -64,7 +64,7 @@ TEST_F(ServerSession, RecordsADragThatPassesTheAudit) {
   EXPECT_EQ(to_json(end), state["components"][0]["pose"]);  // bit for bit
 }
 
-TEST_F(ServerSession, CountsTheLastTargetBeforeTheHandLetsGo) {
+TEST_F(ServerSession, AppliesTheLastTargetBeforeRelease) {
   Client client(door());
   client.state();
   const std::uint32_t grip = hold(client, 0);
@@ -82,7 +82,7 @@ TEST_F(ServerSession, GoesBackToTheStartOfADragInMidDrag) {
   Json state = client.state();
   EXPECT_TRUE(state["hand"].is_null());
   EXPECT_FALSE(state["components"][0].contains("pose"));
-  client.send_binary(target_at(grip, 6, {-9, 0, 0}));  // of a grip that is over
+  client.send_binary(target_at(grip, 6, {-9, 0, 0}));  // of a released grip
   EXPECT_TRUE(client.command("redo")["ok"]);
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
   EXPECT_TRUE(client.command("undo")["ok"]);
@@ -107,7 +107,7 @@ TEST_F(ServerSession, FollowsA3dMouseAndStopsWhenItFallsSilent) {
   EXPECT_GT(x, -20);
 }
 
-TEST_F(ServerSession, RefusesWhatMakesNoSense) {
+TEST_F(ServerSession, RefusesInvalidCommands) {
   Client client(door());
   client.state();
   for (const Json& components : {Json(Json::array()), Json{7}, Json{-1}, Json{"block"}, Json("block"), Json(nullptr)})
@@ -170,7 +170,7 @@ TEST_F(ServerSession, TakesAComponentOutAndPutsItBack) {
   audited_recording();
 }
 
-TEST_F(ServerSession, PlaysTheRecordingBothWaysToTheSameBits) {
+TEST_F(ServerSession, PlaysTheRecordingInBothDirectionsToTheSameBits) {
   Client client(door());
   client.state();
   const std::uint32_t grip = hold(client, 0);
@@ -181,7 +181,7 @@ TEST_F(ServerSession, PlaysTheRecordingBothWaysToTheSameBits) {
   const auto is_over = [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; };
   Json state = client.event_where("state", is_over);
   EXPECT_EQ(state["playback"]["time"], 0.0);
-  EXPECT_EQ(state["components"][0], Json::object());  // assembled: to the last bit
+  EXPECT_EQ(state["components"][0], Json::object());  // assembled, bit for bit
   EXPECT_FALSE(client.command("hold", {{"components", {0}}})["ok"]);
   ASSERT_TRUE(client.command("play", {{"speed", 5}})["ok"]);
   client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && s["playback"]["playing"]; });
@@ -224,7 +224,7 @@ TEST_F(ServerSession, KeepsAMotionByItselfFromCommandsThatWouldTearIt) {
   client.state();
   ASSERT_TRUE(client.command("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}})["ok"]);
   client.pose();
-  ASSERT_TRUE(client.command("undo")["ok"]);  // halts it, and takes back what it has made
+  ASSERT_TRUE(client.command("undo")["ok"]);  // halts it, and undoes its motion
   EXPECT_EQ(client.state()["components"][0], Json::object());
   EXPECT_TRUE(client.state()["automatic"].is_null());
 }

@@ -46,7 +46,7 @@ std::string text_of(beast::string_view view) {
   return {view.data(), view.size()};
 }
 
-/// What the handshake of a Client is answered, as plain HTTP.
+/// The response to a Client's handshake, as plain HTTP.
 HttpReply upgrade(const Door& door, const std::string& key, const Headers& headers) {
   Headers all = {{"Origin", door.origin()},
                  {"Connection", "Upgrade"},
@@ -72,7 +72,7 @@ HttpReply request(const Door& door, const std::string& method, const std::string
   message.body() = body;
   message.prepare_payload();
   ErrorCode error;
-  http::write(stream, message, error);  // may fail: a refusal can come before all of it is sent
+  http::write(stream, message, error);  // may fail: the refusal can arrive before all is sent
   beast::flat_buffer buffer;
   http::response_parser<http::string_body> parser;
   parser.body_limit(std::uint64_t{1} << 30);
@@ -142,7 +142,7 @@ class Client::Body {
     status_ = response.result_int();
     protocol_ = text_of(response[http::field::sec_websocket_protocol]);
     ended_ = static_cast<bool>(error);
-    if (ended_) {  // Beast keeps the refusal to itself: ask again
+    if (ended_) {  // Beast does not expose the refusal: send the request again
       status_ = upgrade(door, key, headers).status;
       return;
     }

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <string>
 
-/// One message of each struct and its bytes: golden/wire.json has them for C++ and TypeScript alike. The numbers are
-/// such that every byte of every field tells which it is.
+/// One message of each struct and its bytes: golden/wire.json has them for C++ and TypeScript. Every byte of every
+/// field is distinct.
 namespace dismantle::server::golden {
 
 inline TargetMessage target() {
@@ -57,7 +57,7 @@ inline nlohmann::ordered_json numbers(const Quat& q) {
   return {q.w, q.x, q.y, q.z};
 }
 
-/// The file: for each struct its fields by the names of docs/wire.md, and its bytes.
+/// The file's content: for each struct its fields by the names of docs/wire.md, and its bytes.
 inline nlohmann::ordered_json document() {
   using Json = nlohmann::ordered_json;
   const TargetMessage t = target();

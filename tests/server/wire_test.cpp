@@ -17,7 +17,7 @@ namespace {
 
 const char* kGoldenFile = DISMANTLE_SOURCE_DIR "/tests/server/golden/wire.json";
 
-// DISMANTLE_REMAKE_GOLDEN=1 writes the file anew: a change of it is a new protocol.
+// DISMANTLE_REMAKE_GOLDEN=1 rewrites the file; a change of it is a new protocol.
 TEST(Wire, HasTheGoldenBytes) {
   const std::string now = golden::document().dump(2) + "\n";
   if (std::getenv("DISMANTLE_REMAKE_GOLDEN") != nullptr) {
@@ -46,7 +46,7 @@ TEST(Wire, GivesBackWhatWasWritten) {
   EXPECT_EQ(*pose, golden::pose());
 }
 
-TEST(Wire, RefusesNumbersThatNoHandCanMean) {
+TEST(Wire, RefusesNumbersOutOfRange) {
   for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity(), 1e9, -1e300}) {
     TargetMessage target = golden::target();
     target.pose.position.y = wrong;

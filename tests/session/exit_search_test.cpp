@@ -10,7 +10,7 @@ using namespace scenes;
 
 constexpr double kReach = 3 * kTableTolerance;
 
-//   The block from above, the wall at its right: the box of both is 21 mm long and 100 mm wide.
+//   The block from above, the wall on its right: the box of both is 21 mm long and 100 mm wide.
 //
 //                     |
 //      +---+          |
@@ -24,7 +24,7 @@ class ExitSearchBesideAWall : public testing::Test {
   const PairStates pairs_ = *classify_pairs(assembly_, {});
   CertificateEngine engine_{assembly_, pairs_};
   ExitSearch out() {
-    engine_.hold(kFirst);
+    engine_.grab(kFirst);
     return {assembly_, engine_, kFirst};
   }
 };
@@ -41,12 +41,12 @@ TEST_F(ExitSearchBesideAWall, HasToGoUntilTheWholeBoxIsBehind) {
   EXPECT_GT(margin, 0);
   EXPECT_LT(margin, 5);
   EXPECT_NEAR(out().exit_distance({0, 1, 0}), 50 + margin, 1e-9);
-  // Along a diagonal it leaves through the side that it comes to first.
+  // Along a diagonal it leaves through the side that it reaches first.
   const double slant = std::sqrt(0.5);
   EXPECT_NEAR(out().exit_distance({-slant, slant, 0}), 10 / slant + margin, 1e-9);
 }
 
-TEST_F(ExitSearchBesideAWall, LooksAlongAWayAsFarAsItIsFree) {
+TEST_F(ExitSearchBesideAWall, FollowsADirectionAsFarAsItIsFree) {
   const std::vector<FreeDirection> ways = out().look(std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
   EXPECT_FALSE(ways[0].free);
   EXPECT_EQ(ways[0].blocked_by, ComponentId(1));
@@ -55,7 +55,7 @@ TEST_F(ExitSearchBesideAWall, LooksAlongAWayAsFarAsItIsFree) {
   EXPECT_TRUE(ways[1].free);
 }
 
-TEST_F(ExitSearchBesideAWall, FindsTheShortestFreeWayFirst) {
+TEST_F(ExitSearchBesideAWall, FindsTheShortestFreePathFirst) {
   const std::vector<FreeDirection> ways = out().find(kReach);
   ASSERT_FALSE(ways.empty());
   EXPECT_TRUE(ways[0].free);
@@ -64,7 +64,7 @@ TEST_F(ExitSearchBesideAWall, FindsTheShortestFreeWayFirst) {
   EXPECT_EQ(ways.back().blocked_by, ComponentId(1));
 }
 
-TEST_F(ExitSearchBesideAWall, LeavesOutWhatEndsBeforeAHundredthOfTheWay) {
+TEST_F(ExitSearchBesideAWall, OmitsPathsThatEndBeforeAHundredthOfTheDistance) {
   const auto leads_to_the_wall_from = [&](double gap) {
     engine_.jump(std::vector<Pose>{{{10.5 - gap, 0, 0}, {}}, {}});
     const std::vector<FreeDirection> ways = out().find(kReach);
@@ -90,7 +90,7 @@ TEST(ExitSearch, FollowsTheNormalsOfWhatTheSetTouches) {
                                               component("wall", turned(box({-1, -50, -50}, {0, 50, 50})))});
   const PairStates pairs = *classify_pairs(assembly, {});
   CertificateEngine engine(assembly, pairs);
-  engine.hold(kFirst);
+  engine.grab(kFirst);
   const std::vector<FreeDirection> ways = ExitSearch(assembly, engine, kFirst).find(kReach);
   const bool has_normal = std::any_of(ways.begin(), ways.end(), [&](const FreeDirection& w) {
     return w.free && length(w.direction - Vec3{slant, slant, 0}) < 1e-6;

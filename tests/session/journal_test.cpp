@@ -28,7 +28,7 @@ void begin_journal(Table& table, const std::filesystem::path& file) {
   table.session().set_journal(std::move(*journal));
 }
 
-/// A bit of everything that is written down.
+/// Performs some of everything that is recorded.
 void work(Table& table) {
   Session& session = table.session();
   ASSERT_TRUE(session.take_out(kFirst, Vec3{0, 0, 1}).ok());
@@ -65,7 +65,7 @@ TEST(Journal, RestoresASessionToTheSameBits) {
   const ScratchFolder folder;
   Table table(pinned_plates()), other(pinned_plates());
   begin_journal(table, folder / "journal");
-  work(table);  // and in mid-drag its process ends
+  work(table);  // and its process ends during a drag
   JournalContents contents = contents_of(folder / "journal");
   EXPECT_TRUE(contents.is_open);
   other.session().restore(contents);
@@ -101,7 +101,7 @@ TEST(Journal, IsGoodUpToItsLastWholeRecordWhereverItsTailIsCut) {
     if (contents->whole_bytes == last_bytes) continue;
     last_bytes = contents->whole_bytes;
     if (states++ % 8 != 0) continue;
-    Table restored(pinned_plates());  // audits what it has at its end
+    Table restored(pinned_plates());  // audits its recording at the end
     restored.session().restore(*contents);
   }
   EXPECT_EQ(last_bytes, whole.size());
@@ -135,7 +135,7 @@ TEST(Journal, GoesOnBehindATornTail) {
   Table table(wall_and_block());
   const JournalContents torn = contents_of(file);
   table.session().restore(torn);
-  EXPECT_EQ(table.pose(0).position.x, -6);  // all frames are there, the end of the drag is not
+  EXPECT_EQ(table.pose(0).position.x, -6);  // all frames are restored, the end of the drag is not
   Result<std::unique_ptr<Journal>> journal = Journal::go_on(file, torn);
   ASSERT_TRUE(journal.ok());
   table.session().set_journal(std::move(*journal));

@@ -96,7 +96,7 @@ TEST(PlayMotion, PullsAPressedPinOutAlongItsAxisAndNotSideways) {
   EXPECT_LT(sideways.path.moves[0].frames.back().pose.position.x, 0.1);
 }
 
-TEST(PlayMotion, FreesAnEmbeddedPairOnceAndThenHoldsItApart) {
+TEST(PlayMotion, ExemptsAnEmbeddedPairOnceAndThenKeepsItApart) {
   const Assembly assembly = scenes::assembly(
       {component("lump", box({0, 0, 0}, {10, 10, 10})), component("body", box({5, -5, -5}, {30, 15, 15}))});
   Motion motion{ResponseKind::Touch, {straight("lump", {-20, 0, 0}, 20)}};

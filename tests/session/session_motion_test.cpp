@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a session does by itself: taking out, putting back, playing.
+// Automatic motions of a session: removing, putting back, playing.
 #include "tests/session/session_table.h"
 
 namespace dismantle {
@@ -31,14 +31,14 @@ TEST(SessionTakeOut, LeadsAPinOutOfItsBoreAndMarksItRemoved) {
   EXPECT_FALSE(table.session().hold(kFirst).ok());
 }
 
-TEST(SessionTakeOut, FindsTheWayByItself) {
+TEST(SessionTakeOut, FindsThePathByItself) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out(kFirst, {}).ok());
   table.let_run();
   EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
 }
 
-TEST(SessionTakeOut, NamesWhatIsInTheWay) {
+TEST(SessionTakeOut, NamesTheObstacle) {
   Table table(pinned_plates());
   const Result<Done> sideways = table.session().take_out(kFirst, Vec3{1, 0, 0});
   ASSERT_FALSE(sideways.ok());
@@ -47,7 +47,7 @@ TEST(SessionTakeOut, NamesWhatIsInTheWay) {
   EXPECT_FALSE(table.session().take_out(kFirst, Vec3{}).ok());
 }
 
-TEST(SessionTakeOut, TakesOneAfterAnotherTheSameWay) {
+TEST(SessionTakeOut, TakesOneAfterAnotherAlongTheSamePath) {
   Table table(pinned_plates());
   for (const std::uint32_t c : {0u, 1u, 2u}) {
     ASSERT_TRUE(table.session().take_out(std::vector<ComponentId>{ComponentId(c)}, kUp).ok()) << c;
@@ -63,10 +63,10 @@ TEST(SessionTakeOut, ParksNoFurtherForWhatGoesBesideIt) {
                                 component("below", box({0, 0, -5}, {10, 10, -1}))}));
   ASSERT_TRUE(table.session().take_out(kSecond, kUp).ok());
   table.let_run();
-  EXPECT_LT(table.pose(1).position.z, 12) << "nothing else goes up there";
+  EXPECT_LT(table.pose(1).position.z, 12) << "nothing else moves up there";
   ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());
   table.let_run();
-  EXPECT_GT(table.pose(0).position.z, 10 + 4) << "there is room for what is below";
+  EXPECT_GT(table.pose(0).position.z, 10 + 4) << "there is room for the next one";
 }
 
 TEST(SessionTakeOut, IsUndoneAsOneEntry) {
@@ -80,7 +80,7 @@ TEST(SessionTakeOut, IsUndoneAsOneEntry) {
   EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
 }
 
-TEST(SessionTakeOut, StopsWhereItIsWhenHalted) {
+TEST(SessionTakeOut, StopsImmediatelyWhenHalted) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());
   for (int i = 0; i < 10; ++i) table.session().advance(0.02);
@@ -91,7 +91,7 @@ TEST(SessionTakeOut, StopsWhereItIsWhenHalted) {
   EXPECT_EQ(table.session().done().size(), 1u);
 }
 
-/// Straight up by `height`, and on from there where `exit` says so.
+/// Straight up by `height`, and then along `exit`.
 Removal up_by(std::vector<ComponentId> set, double height, const Vec3& exit) {
   return {std::move(set), {}, {{0, {}}, {0.5, {{0, 0, height}, {}}}}, exit};
 }
@@ -102,22 +102,22 @@ TEST(SessionTakeOutAlong, TakesSetsOutOneAfterAnother) {
   table.let_run();
   EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
   EXPECT_TRUE(table.session().is_removed(ComponentId(1)));
-  EXPECT_GT(table.pose(0).position.z - 1, table.pose(1).position.z + 20) << "each has a place of its own";
+  EXPECT_GT(table.pose(0).position.z - 1, table.pose(1).position.z + 20) << "they are put aside in different places";
   EXPECT_EQ(table.session().done().size(), 2u);
   EXPECT_TRUE(table.session().undo().ok());
   EXPECT_FALSE(table.session().is_removed(ComponentId(1)));
 }
 
-TEST(SessionTakeOutAlong, TakesABodyOutAndItsPartsFromWhereItHasGone) {
+TEST(SessionTakeOutAlong, TakesASubassemblyOutAndItsPartsFromThere) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out_along({up_by(kBoth, 40, kUp), up_by(kFirst, 30, {})}).ok());
   table.let_run();
   EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
-  EXPECT_FALSE(table.session().is_removed(ComponentId(1))) << "the body was not gone when its part moved";
+  EXPECT_FALSE(table.session().is_removed(ComponentId(1))) << "the subassembly was not out when its part moved";
   EXPECT_NEAR(table.pose(0).position.z, table.pose(1).position.z + 30, 1e-9);
 }
 
-TEST(SessionTakeOutAlong, BeginsNoMoreWhereOneIsBlocked) {
+TEST(SessionTakeOutAlong, StartsNoFurtherRemovalIfOneIsBlocked) {
   Table table(pinned_plates());
   const Removal down{kSecond, {}, {{0, {}}, {0.5, {{0, 0, -40}, {}}}}, {}};
   ASSERT_TRUE(table.session().take_out_along({down, up_by(kFirst, 40, kUp)}).ok());
@@ -142,7 +142,7 @@ TEST(SessionTakeOutAlong, RefusesASetThatWasMovedSince) {
   EXPECT_EQ(table.session().activity(), SessionActivity::Idle);
 }
 
-TEST(SessionPutBack, GoesHomeTheWayItCame) {
+TEST(SessionPutBack, ReturnsAlongItsPath) {
   Table table(pinned_plates());
   ASSERT_TRUE(table.session().take_out(kFirst, kUp).ok());
   table.let_run();
@@ -152,12 +152,12 @@ TEST(SessionPutBack, GoesHomeTheWayItCame) {
   EXPECT_EQ(table.pose(0), Pose{});
   EXPECT_TRUE(table.session().recording().removed.empty());
   EXPECT_EQ(table.session().recording().moves.size(), 2u);
-  EXPECT_FALSE(table.session().put_back(kFirst).ok());  // it is there
+  EXPECT_FALSE(table.session().put_back(kFirst).ok());  // it is not removed
 }
 
 TEST(SessionPutBack, GoesHomeAfterADragAlongContacts) {
   Table table(pinned_plates());
-  table.drag(kFirst, {3, 2, 40}, 80);  // pulled askew: it slides in its bore
+  table.drag(kFirst, {3, 2, 40}, 80);  // pulled at an angle: it slides in its bore
   table.session().release();
   EXPECT_GT(table.pose(0).position.z, 15);
   ASSERT_TRUE(table.session().put_back(kFirst).ok());
@@ -168,14 +168,14 @@ TEST(SessionPutBack, GoesHomeAfterADragAlongContacts) {
 TEST(SessionPutBack, GoesAsFarAsItIsFree) {
   Table table(wall_and_block());
   table.move(kFirst, {-30, 0, 0}, 30);
-  table.move(kSecond, {-25, 0, 0}, 25);  // the wall stands in the block's way home now
+  table.move(kSecond, {-25, 0, 0}, 25);  // the wall blocks the block's return now
   ASSERT_TRUE(table.session().put_back(kFirst).ok());
   table.let_run();
   EXPECT_EQ(table.session().activity(), SessionActivity::Idle);
   EXPECT_NEAR(table.pose(0).position.x, -14.5, 0.05);
 }
 
-TEST(SessionFreeDirections, TellsTheWaysOutAndTheBlockers) {
+TEST(SessionFreeDirections, GivesTheExitDirectionsAndTheBlockers) {
   Table table(pinned_plates());
   const auto found = table.session().free_directions(kFirst);
   ASSERT_TRUE(found.ok());
@@ -221,7 +221,7 @@ TEST(SessionPlayback, GivesTheSameFramesAtAnySpeed) {
   }
 }
 
-TEST(SessionPlayback, ComesToItsEndWhateverTheTimesRoundTo) {
+TEST(SessionPlayback, ReachesItsEndDespiteRoundedTimes) {
   ASSERT_LT((0.2 + 0.5) - 0.2, 0.5);
   Table table(wall_and_block());
   table.move(kFirst, {-10, 0, 0}, 20);

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-/// A session at a small scene, with somebody who drags.
+/// A session of a small scene, with a simulated user.
 namespace dismantle::scenes {
 
 inline constexpr double kTableTolerance = 0.01;
@@ -19,7 +19,7 @@ inline constexpr int kLongestRun = 20000;
 inline const std::vector<ComponentId> kFirst{ComponentId(0)}, kSecond{ComponentId(1)},
     kBoth{ComponentId(0), ComponentId(1)};
 
-/// A session over a scene; at its end its recording is audited.
+/// A session of a scene; its recording is audited at the end.
 class Table {
  public:
   explicit Table(Assembly assembly) : assembly_(std::move(assembly)) {
@@ -37,7 +37,7 @@ class Table {
   Session& session() { return *session_; }
   const Assembly& scene() const { return assembly_; }
   std::vector<Pose> poses() const { return {session_->poses().begin(), session_->poses().end()}; }
-  /// Lets what moves by itself come to its end, 10 ms at a time. @return how many times
+  /// Runs an automatic motion to its end in steps of 10 ms. @return the number of steps
   int let_run() {
     int count = 0;
     const auto runs = [&] {
@@ -45,11 +45,11 @@ class Table {
              (session_->playback() != nullptr && session_->playback()->is_playing());
     };
     for (; runs() && count < kLongestRun; ++count) session_->advance(0.01);
-    EXPECT_LT(count, kLongestRun) << "it does not come to its end";
+    EXPECT_LT(count, kLongestRun) << "it does not end";
     return count;
   }
   const Pose& pose(std::uint32_t component) const { return session_->poses()[component]; }
-  /// Drags a set along a straight line in steps of 10 ms, without letting go.
+  /// Drags a set along a straight line in steps of 10 ms, without release.
   StepResult drag(const std::vector<ComponentId>& set, const Vec3& by, int steps) {
     EXPECT_TRUE(session_->hold(set).ok());
     const Pose start = pose(set[0].value);

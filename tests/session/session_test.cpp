@@ -51,7 +51,7 @@ TEST(Session, TakesADragBackInMidDragAndDoesItAgain) {
   EXPECT_EQ(table.session().recording().moves.size(), 2u);
 }
 
-TEST(Session, UndoesNothingElseWhereTheDragHasNotMovedYet) {
+TEST(Session, UndoesNothingElseIfTheDragHasNotMovedYet) {
   Table table(wall_and_block());
   table.move(kFirst, {0, 4, 0}, 4);
   EXPECT_TRUE(table.session().hold(kFirst).ok());
@@ -99,13 +99,13 @@ TEST(Session, LetsAnEmbeddedPairPartAgainAfterItsPartingWasUndone) {
       {component("lump", box({0, 0, 0}, {10, 10, 10})), component("body", box({5, -5, -5}, {30, 15, 15}))}));
   table.move(kFirst, {-20, 0, 0}, 20);
   EXPECT_EQ(table.pose(0).position.x, -20);
-  table.drag(kFirst, {20, 0, 0}, 20);  // apart for good: it may not go in again
+  table.drag(kFirst, {20, 0, 0}, 20);  // separated for good: it cannot enter again
   EXPECT_NEAR(table.pose(0).position.x, -5, kTolerance);
   EXPECT_TRUE(table.session().undo().ok());
   EXPECT_TRUE(table.session().undo().ok());
   EXPECT_EQ(table.pose(0), Pose{});
   table.move(kFirst, {-3, 0, 0}, 3);
-  EXPECT_EQ(table.pose(0).position.x, -3);  // still in it, and free in it
+  EXPECT_EQ(table.pose(0).position.x, -3);  // still inside, and free to move
 }
 
 TEST(Session, MovesASetAsOneBodyAndRefusesATornOne) {
@@ -119,7 +119,7 @@ TEST(Session, MovesASetAsOneBodyAndRefusesATornOne) {
   EXPECT_NE(torn.error().message.find("'block'"), std::string::npos);
 }
 
-TEST(Session, TakesNothingInHandThatIsHidden) {
+TEST(Session, GrabsNothingThatIsHidden) {
   Table table(wall_and_block());
   table.session().visibility().hide(kFirst);
   EXPECT_FALSE(table.session().hold(kFirst).ok());

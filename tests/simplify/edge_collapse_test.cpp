@@ -46,7 +46,7 @@ TEST(EdgeCollapse, ATubeKeepsItsHole) {
 }
 
 TEST(EdgeCollapse, TakesWhatCostsNothingFirst) {
-  EdgeCollapse collapse(scenes::tube(5, 3, 0, 10, 16, 8));  // seven rings of vertices that change nothing
+  EdgeCollapse collapse(scenes::tube(5, 3, 0, 10, 16, 8));  // seven rings of redundant vertices
   while (collapse.face_count() > 4 * 2 * 16 && collapse.step()) {
   }
   EXPECT_EQ(collapse.face_count(), 4u * 2 * 16);

@@ -12,7 +12,7 @@
 namespace dismantle {
 namespace {
 
-/// The largest distance of samples of `from`, `side` along a triangle's side, to `to`.
+/// The maximum distance from samples of `from` to `to`, with `side` samples along an edge.
 double sampled_distance(const TriangleMesh& from, const TriangleMesh& to, int side) {
   const SurfaceTree tree(to);
   double largest = 0;
@@ -38,7 +38,7 @@ TEST(HausdorffDistance, OfBoxesOneInTheOtherIsTheDistanceOfTheirCorners) {
   const TriangleMesh small = scenes::box({-1, -1, -1}, {1, 1, 1});
   const TriangleMesh large = scenes::box({-1, -1, -1}, {4, 5, 1});
   const DistanceBounds there = one_sided_hausdorff_distance(small, large);
-  EXPECT_NEAR(there.lower, 1, 0.2) << "the middle of a side within the large box, from its lids";
+  EXPECT_NEAR(there.lower, 1, 0.2) << "the middle of a side of the large box, from its lids";
   EXPECT_GE(there.upper, 1);
   const DistanceBounds back = one_sided_hausdorff_distance(large, small);
   EXPECT_NEAR(back.lower, 5, 1e-12);  // (4, 5) to (1, 1)
@@ -47,7 +47,7 @@ TEST(HausdorffDistance, OfBoxesOneInTheOtherIsTheDistanceOfTheirCorners) {
 }
 
 TEST(HausdorffDistance, FindsADistanceThatNoVertexShows) {
-  // The roof's ridge is taken off: only the middle of the flat lid is far from it.
+  // The roof's ridge is removed: only the middle of the flat lid is far from it.
   TriangleMesh roof, flat;
   roof.vertices = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, {0, 0, 3}};
   roof.faces = {{{0, 1, 4}}, {{1, 2, 4}}, {{2, 3, 4}}, {{3, 0, 4}}};
@@ -78,7 +78,7 @@ TEST(HausdorffDistance, BoundsEverySampledDistance) {
   }
 }
 
-TEST(HausdorffDistance, StaysABoundWhereItMayNotRefine) {
+TEST(HausdorffDistance, StaysABoundWithoutRefinement) {
   HausdorffOptions hasty;
   hasty.pieces = 1;
   const TriangleMesh fine = scenes::tube(5, 3, 0, 10, 40, 6), coarse = scenes::tube(5, 3, 0, 10, 6);

@@ -20,7 +20,7 @@ Assembly mechanism() {
   return a;
 }
 
-TEST(SimplifyAssembly, ReachesTheTargetAndKeepsNamesPlacesAndSolids) {
+TEST(SimplifyAssembly, ReachesTheTargetAndKeepsNamesPosesAndSolids) {
   const Assembly original = mechanism();
   const Result<SimplifiedAssembly> result = simplify_assembly(original, 1200);
   ASSERT_TRUE(result.ok());
@@ -76,7 +76,7 @@ TEST(SimplifyAssembly, TheErrorBoundsHowFarTheSurfaceMovedAndIsAddedUp) {
   EXPECT_EQ(result->assembly.simplification_error, 0.125 + largest);
 }
 
-TEST(SimplifyAssembly, ChangesNothingWhereTheAssemblyIsSmallEnough) {
+TEST(SimplifyAssembly, ChangesNothingIfTheAssemblyIsSmallEnough) {
   const Assembly original = mechanism();
   const Result<SimplifiedAssembly> result = simplify_assembly(original, 1'000'000);
   ASSERT_TRUE(result.ok());

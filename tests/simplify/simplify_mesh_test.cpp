@@ -43,7 +43,7 @@ TEST(SimplifyMesh, ReachesTheTargetAndStaysASolid) {
   }
 }
 
-TEST(SimplifyMesh, AClosedMeshStaysClosedHoweverFewTrianglesAreAskedFor) {
+TEST(SimplifyMesh, KeepsAClosedMeshClosedForAnyTriangleCount) {
   for (const TriangleMesh& mesh : {torus(20, 6, 24, 12), scenes::tube(5, 3, 0, 10, 40, 8), scenes::tube(4, 0, 0, 1, 60),
                                    scenes::box({0, 0, 0}, {1, 2, 3})}) {
     for (const std::size_t target : {64u, 24u, 12u, 4u, 1u}) {
@@ -54,7 +54,7 @@ TEST(SimplifyMesh, AClosedMeshStaysClosedHoweverFewTrianglesAreAskedFor) {
   }
 }
 
-TEST(SimplifyMesh, StopsAtTheErrorWhereThatComesFirst) {
+TEST(SimplifyMesh, StopsAtTheErrorIfItIsReachedFirst) {
   const TriangleMesh mesh = torus(20, 6, 64, 32);
   const std::size_t fine = simplify_mesh(mesh, {10, 0.05}).faces.size();
   const std::size_t coarse = simplify_mesh(mesh, {10, 0.5}).faces.size();
@@ -86,7 +86,7 @@ TEST(SimplifyMesh, KeepsVerticesOfTheOriginal) {
     EXPECT_NE(std::find(mesh.vertices.begin(), mesh.vertices.end(), v), mesh.vertices.end());
 }
 
-TEST(SimplifyMesh, DoesNothingWhereTheMeshIsSmallEnough) {
+TEST(SimplifyMesh, DoesNothingIfTheMeshIsSmallEnough) {
   const TriangleMesh box = scenes::box({0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(simplify_mesh(box, {12}), box);
   EXPECT_EQ(simplify_mesh({}, {0}), TriangleMesh{});

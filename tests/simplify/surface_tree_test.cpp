@@ -44,7 +44,7 @@ TEST(ClosestPointOfTriangle, NoSampledPointIsNearer) {
   }
 }
 
-TEST(SurfaceTree, FindsTheSameDistanceAsLookingAtEveryTriangle) {
+TEST(SurfaceTree, FindsTheSameDistanceAsBruteForce) {
   const TriangleMesh mesh = scenes::tube(5, 3, -4, 9, 37, 5);
   const SurfaceTree tree(mesh);
   std::mt19937 random(5);

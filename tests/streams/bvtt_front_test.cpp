@@ -15,7 +15,7 @@ namespace {
 
 using Keys = std::vector<std::uint64_t>;
 
-/// An assembly that is moved about, with its bounds over the current step.
+/// A moving assembly, with its bounds over the current step.
 struct MovingScene {
   AssemblyTriangles streams;
   std::vector<Vec3> start, end;
@@ -27,7 +27,7 @@ struct MovingScene {
     motion_class.assign(streams.component_count(), 0);
   }
 
-  /// Moves each component of a class other than 0 by its class's transform; the others stand still.
+  /// Moves each component of a class other than 0 by its class's transform; the others do not move.
   void step(const std::vector<std::uint32_t>& classes, const std::vector<RigidTransform>& transforms) {
     motion_class = classes;
     start = end;
@@ -60,7 +60,7 @@ Keys sorted(Keys keys) {
   return keys;
 }
 
-/// Fronts on every executor, from different capacities.
+/// Fronts on every executor, with different initial capacities.
 struct FrontUnderTest {
   Executor executor;
   std::unique_ptr<Front> front;
@@ -109,7 +109,7 @@ TEST(Front, FindsTheTrianglePairsOfBruteForceAtEveryStepFromCapacityOneOnEveryEx
   }
 }
 
-TEST(Front, IsACutThatHoldsEveryLeafPairOnce) {
+TEST(Front, IsACutThatContainsEveryLeafPairOnce) {
   std::mt19937_64 random(5);
   MovingScene scene(scenes::random_assembly(random, 6, 3));
   Front front(1);
@@ -117,7 +117,7 @@ TEST(Front, IsACutThatHoldsEveryLeafPairOnce) {
     scene.step(random_classes(random, 6), std::vector<RigidTransform>(3, transform_from_pose({{0.2, 0, 0}, {}})));
     front.update(scene.input(), Executor());
 
-    // Count, for every two leaves, the front's nodes that they lie below.
+    // Counts, for every two leaves, the nodes of the front above them.
     const Bvh& bvh = scene.streams.bvh;
     const NodeIndex n = bvh.leaf_count();
     std::vector<std::vector<NodeIndex>> below(bvh.node_count());
@@ -144,7 +144,7 @@ TEST(Front, LeavesAloneWhatDoesNotMove) {
                                       scenes::component("far", scenes::box({50, 0, 0}, {51, 1, 1}))}));
   Front front(1);
   const std::vector<RigidTransform> shift(3, transform_from_pose({{0.1, 0, 0}, {}}));
-  scene.step({0, 0, 1}, shift);  // a and b touch all over, but both stand still
+  scene.step({0, 0, 1}, shift);  // a and b touch everywhere, but neither moves
   front.update(scene.input(), Executor());
   EXPECT_TRUE(front.triangle_pairs().empty());
   EXPECT_EQ(front.resting().size(), 1u);
@@ -158,7 +158,7 @@ TEST(Front, LeavesAloneWhatDoesNotMove) {
   EXPECT_GT(front.triangle_pairs().size(), 1000u);
 }
 
-TEST(Front, StartsAnewWhenLookingAtWhatItHasGrownByCostsMore) {
+TEST(Front, RestartsWhenItsGrowthCostsMore) {
   MovingScene scene(scenes::assembly({scenes::component("plate", scenes::tube(40, 0, 0, 1, 200, 10)),
                                       scenes::component("pin", scenes::tube(1, 0, 1.2, 4, 40, 20))}));
   Front front(1 << 10);

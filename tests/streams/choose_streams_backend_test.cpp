@@ -13,7 +13,7 @@ Assembly assembly_of(const TriangleMesh& mesh) {
   return scenes::assembly({scenes::component("part", mesh)});
 }
 
-TEST(ChooseStreamsBackend, TakesTheCpuWithoutAWordWhereItIsAskedFor) {
+TEST(ChooseStreamsBackend, TakesTheCpuSilentlyIfRequested) {
   const ChosenStreamsBackend chosen =
       choose_streams_backend(assembly_of(scenes::box({0, 0, 0}, {1, 1, 1})), {}, DeviceChoice::Cpu);
   EXPECT_TRUE(chosen.backend);

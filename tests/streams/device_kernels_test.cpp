@@ -43,7 +43,7 @@ TEST(FitBounds, GivesTheBitsOfTheHostsRefitAndForgetsWhoArrived) {
   }
 }
 
-/// A front of five nodes of which three were sprouted.
+/// A front of five nodes of which three have sprouted.
 struct SproutedFront {
   std::vector<std::uint64_t> front{10, 11, 12, 13, 14, 0, 0, 0};
   std::vector<std::uint64_t> sprouted{4, 0, 2};
@@ -65,24 +65,24 @@ TEST(ReplaceSprouted, PutsNewNodesIntoTheHolesAndBehindThem) {
   EXPECT_EQ(SproutedFront().replaced_by({20, 21, 22, 23}), (std::vector<std::uint64_t>{21, 11, 22, 13, 20, 23}));
 }
 
-TEST(ReplaceSprouted, LeavesDeadNodesWhereFewerCameThanWent) {
+TEST(ReplaceSprouted, LeavesDeadNodesIfFewerNodesSproutThanAreReplaced) {
   EXPECT_EQ(SproutedFront().replaced_by({20}), (std::vector<std::uint64_t>{kDeadNode, 11, kDeadNode, 13, 20}));
 }
 
-TEST(ReplaceSprouted, ChangesNothingWhereTheFrontIsNotComplete) {
+TEST(ReplaceSprouted, ChangesNothingIfTheFrontIsNotComplete) {
   SproutedFront sprouted;
   sprouted.counters.complete = 0;
   EXPECT_EQ(sprouted.replaced_by({20, 21, 22, 23}), (std::vector<std::uint64_t>{10, 11, 12, 13, 14}));
 }
 
-TEST(LookAtFront, PassesDeadNodesBy) {
+TEST(LookAtFront, SkipsDeadNodes) {
   const std::vector<std::uint64_t> front{kDeadNode};
   StepCounters counters;
   counters.front = 1;
   LookAtFront look{};
   look.kernel.items = front;
   look.counters = &counters;
-  look(0);  // would read bounds that are not there
+  look(0);  // would read missing bounds
   EXPECT_EQ(counters.triangle_pairs, 0u);
 }
 

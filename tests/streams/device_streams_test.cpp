@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step over streams that stay on a device against the streams of the host: on devices that executors play, and on
-// the CUDA device where there is one.
+// Steps on streams of a device compared with the streams of the host: on emulated devices, and on a CUDA device if
+// there is one.
 #include "dismantle/streams/streams_backend.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/random_scenes.h"
@@ -20,7 +20,7 @@ constexpr double kTolerance = 0.01;
 
 struct Device {
   const char* name;
-  std::optional<Executor> emulated_by;  ///< None: it is the CUDA device.
+  std::optional<Executor> emulated_by;  ///< None for the CUDA device.
   friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
 };
 
@@ -30,7 +30,7 @@ const Device kDevices[] = {{"Serial", Executor()},
                            {"Threads7", Executor(ExecutorKind::Threads, 7)},
                            {"Cuda", std::nullopt}};
 
-/// Sweeps both to the same candidates; what they say must be the same.
+/// Sweeps both to the same candidates and expects equal results.
 class Comparison {
  public:
   Comparison(const Assembly& assembly, const PairStates& states, const CollisionOptions& options,
@@ -128,9 +128,9 @@ struct PegInTube {
   PairStates states{kTolerance, {}};
 };
 
-// One component in hand for many steps: the front is kept, grows, and is started anew, which takes more rounds of it
-// than are recorded.
-TEST_P(DeviceStreams, KeepTheirFrontFromStepToStepAndStartItAnewWhenItHasGrown) {
+// One moving component for many steps: the front is kept, grows, and restarts, which takes more rounds than are
+// recorded.
+TEST_P(DeviceStreams, KeepTheirFrontFromStepToStepAndRestartItWhenItHasGrown) {
   const PegInTube scene;
   Comparison engines = compared(scene.assembly, scene.states, ElementaryTest::Certified, 64);
   std::size_t largest = 0, last = 0;
@@ -147,7 +147,7 @@ TEST_P(DeviceStreams, KeepTheirFrontFromStepToStepAndStartItAnewWhenItHasGrown) 
   EXPECT_TRUE(shrank);
 }
 
-// More contacts than the report of a step has room for.
+// More contacts than the report of a step can contain.
 TEST_P(DeviceStreams, BringDownAnyNumberOfContactsFromCapacityOne) {
   const PegInTube scene;
   Comparison engines = compared(scene.assembly, scene.states, ElementaryTest::Certified, 1);

@@ -23,16 +23,16 @@ TEST(MatrixStream, KnowsWhichComponentsMoveAsOne) {
   EXPECT_NE(c[2], 0u);
 }
 
-TEST(MatrixStream, NamesTheComponentsWhoseVerticesMustBeMadeAnew) {
+TEST(MatrixStream, ListsTheComponentsWhoseVerticesMustBeUpdated) {
   MatrixStream stream(3);
   EXPECT_EQ(stream.set_next(std::vector<RigidTransform>{{}, kOne, {}}), Ids{ComponentId(1)});
   EXPECT_TRUE(stream.set_next(std::vector<RigidTransform>{{}, kOne, {}}).empty());
-  stream.commit();  // the end's vertices are those of the start before
+  stream.commit();  // the vertices at the end become those at the start
   EXPECT_EQ(stream.set_next(std::vector<RigidTransform>{{}, kOne, {}}), Ids{ComponentId(1)});
   EXPECT_EQ(stream.set_start(std::vector<RigidTransform>{kOther, kOne, {}}), Ids{ComponentId(0)});
 }
 
-TEST(MatrixStream, NamesTheComponentsWhoseBoundsMustBeMadeAnewOnce) {
+TEST(MatrixStream, ListsTheComponentsWhoseBoundsMustBeUpdatedOnce) {
   MatrixStream stream(3);
   EXPECT_TRUE(stream.take_unfitted().empty());
   stream.set_next(std::vector<RigidTransform>{{}, kOne, {}});

@@ -11,7 +11,7 @@
 namespace dismantle {
 namespace {
 
-/// What the streams must hold, computed afresh.
+/// The expected streams, recomputed.
 void expect_fresh(const MovingStreams& streams, const std::vector<RigidTransform>& start,
                   const std::vector<RigidTransform>& end) {
   const AssemblyTriangles& fixed = streams.fixed();
@@ -29,7 +29,7 @@ void expect_fresh(const MovingStreams& streams, const std::vector<RigidTransform
   ASSERT_TRUE(std::equal(bounds.begin(), bounds.end(), streams.bounds().begin()));
 }
 
-TEST(MovingStreams, HoldWhatComputingThemAfreshGivesAfterAnySteps) {
+TEST(MovingStreams, EqualARecomputationAfterAnySteps) {
   for (const Executor& executor : all_executors()) {
     std::mt19937_64 random(8);
     const Assembly assembly = scenes::random_assembly(random, 6, 4);
@@ -49,7 +49,7 @@ TEST(MovingStreams, HoldWhatComputingThemAfreshGivesAfterAnySteps) {
       streams.set_next(next, executor);
       streams.refit(executor);
       expect_fresh(streams, state, next);
-      if (random() % 3 == 0) continue;  // not taken: the state stays
+      if (random() % 3 == 0) continue;  // not committed: the state stays
       streams.commit();
       state = next;
       ASSERT_TRUE(std::equal(state.begin(), state.end(), streams.state().begin()));

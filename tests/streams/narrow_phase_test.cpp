@@ -14,7 +14,7 @@ Kdop16 kdop_of(const TriangleMesh& mesh) {
   return points.rounded_outward(0);
 }
 
-TEST(WithinAllowance, HoldsForWhatOverlapsByLessAlongSomeAxis) {
+TEST(WithinAllowance, HoldsForASmallerOverlapAlongAnyAxis) {
   const Kdop16 a = kdop_of(scenes::box({0, 0, 0}, {1, 1, 1}));
   const Kdop16 b = kdop_of(scenes::box({0.99, 0.2, 0.2}, {2, 0.8, 0.8}));
   EXPECT_TRUE(within_allowance(a, b, 0.011));
@@ -31,7 +31,7 @@ TEST(WithinAllowance, HoldsAlongDiagonalsByTheirTrueLength) {
   EXPECT_FALSE(within_allowance(kdop_of(first), kdop_of(second), 0.0097));
 }
 
-TEST(WithinAllowance, CountsTouchingAsContactWhereNothingIsAllowed) {
+TEST(WithinAllowance, CountsTouchingAsContactWithoutAnAllowance) {
   const Kdop16 a = kdop_of(scenes::box({0, 0, 0}, {1, 1, 1}));
   EXPECT_FALSE(within_allowance(a, kdop_of(scenes::box({1, 0, 0}, {2, 1, 1})), 0));
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTolerance = 0.01;
 
-/// Two closed components of which the second moves in one step.
+/// Two closed components; the second moves in one step.
 class Pair {
  public:
   Pair(TriangleMesh a, TriangleMesh b, const Pose& end)
@@ -42,7 +42,7 @@ class Pair {
   }
   std::optional<double> parted() const { return parted_from(motion()); }
   bool intersects(double s) const { return components_intersect(motion(), s); }
-  /// How far the step goes for the tolerance's share.
+  /// The share of the step that the tolerance is.
   double resolution() const { return kPartingShare * kTolerance / displacement_; }
 
  private:
@@ -60,15 +60,15 @@ TEST(PartedFrom, IsNeverWhileAPegStaysInItsPlate) {
   EXPECT_EQ(pair.parted(), std::nullopt);
 }
 
-// The peg's foot is 0.5 mm deep and goes up by 2 mm: it is out after a quarter of the step.
-TEST(PartedFrom, IsWhereAPegLeavesItsPlate) {
+// The peg's foot is 0.5 mm deep and moves up by 2 mm: it is out after a quarter of the step.
+TEST(PartedFrom, IsTheTimeAtWhichAPegLeavesItsPlate) {
   const Pair pair(scenes::box({-5, -5, -1}, {5, 5, 0}), scenes::box({-1, -1, -0.5}, {1, 1, 3}), shift(0.01, 0.02, 2));
   ASSERT_TRUE(pair.parted().has_value());
   EXPECT_LE(*pair.parted(), 0.25);
   EXPECT_GE(*pair.parted(), 0.25 - 2 * pair.resolution());
 }
 
-// From one wall of a channel through the gap into the other: embedded at both ends, apart between.
+// From one wall of a channel through the gap into the other: embedded at both ends, apart in between.
 TEST(PartedFrom, SeesThatAPegIsApartBetweenTwoWalls) {
   TriangleMesh channel = scenes::box({0, -5, -5}, {1, 5, 5});
   const TriangleMesh wall = scenes::box({6, -5, -5}, {7, 5, 5});
@@ -95,7 +95,7 @@ TEST(PartedFrom, FollowsASolidOutOfAnother) {
   EXPECT_GE(*pair.parted(), 0.5 - 2 * pair.resolution());
 }
 
-TEST(PartedFrom, IsNeverWhileAFineMeshSlidesWhereNoTrianglePairLasts) {
+TEST(PartedFrom, IsNeverWhileAFineMeshSlidesWithChangingTrianglePairs) {
   const Pair pair(scenes::box({-5, -5, -1}, {5, 5, 0}), scenes::tube(2, 1, -6, 6, 48, 60), shift(0.05, 0.03, 4));
   EXPECT_EQ(pair.parted(), std::nullopt);
 }
@@ -112,13 +112,13 @@ TEST(PartedFrom, StartsTheContinuousTestWithinItsAllowanceWhateverTheDeviation) 
   }
 }
 
-TEST(PartedFrom, IsAtOnceWhereTwoBoxesOnlyTouch) {
+TEST(PartedFrom, IsAtOnceIfTwoBoxesOnlyTouch) {
   const Pair pair(scenes::box({0, 0, 0}, {2, 2, 2}), scenes::box({2, 0.5, 0.5}, {3, 1.5, 1.5}), shift(0, 0.3, 0));
   ASSERT_TRUE(pair.parted().has_value());
   EXPECT_EQ(*pair.parted(), 0);
 }
 
-TEST(PartedFrom, NeverClaimsAnIntersectionWhereThereIsNoneAtAnyMoment) {
+TEST(PartedFrom, NeverClaimsAnIntersectionAtATimeWithoutOne) {
   int parted = 0, together = 0;
   for (unsigned seed = 1; seed <= 150; ++seed) {
     SCOPED_TRACE(seed);

@@ -28,7 +28,7 @@ CollisionOptions options(ElementaryTest test = ElementaryTest::Certified) {
 
 constexpr ElementaryTest kBothTests[] = {ElementaryTest::Certified, ElementaryTest::Elementary};
 
-// A plate of a thousandth of a millimetre, and a box that is on its other side after one step.
+// A plate of 1 um, and a box that is on its other side after one step.
 TEST(StreamsEngine, CatchesABoxThatPassesThroughAThinPlateInOneStep) {
   const std::vector<Pose> ways{
       shift(0, 0, -20),
@@ -95,7 +95,7 @@ TEST(StreamsEngine, FreesAnEmbeddedPegUntilItPartsAndBlocksItWhenItComesBack) {
       ASSERT_TRUE(scene.move({{1, shift(0.05 * step, 0, 0.1 * step)}}).free) << step;
       EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u) << step;
     }
-    ASSERT_TRUE(scene.move({{1, shift(1, 0, 1)}}).free);  // back in is free, too, as long as they have not parted
+    ASSERT_TRUE(scene.move({{1, shift(1, 0, 1)}}).free);  // back in is free, too, until they have separated
     ASSERT_TRUE(scene.move({{1, shift(1, 0, 2.5)}}).free);
     EXPECT_TRUE(scene.engine().embedded_pairs().empty());
     const SweepResult blocked = scene.move({{1, shift(1, 0, 1)}});
@@ -104,7 +104,7 @@ TEST(StreamsEngine, FreesAnEmbeddedPegUntilItPartsAndBlocksItWhenItComesBack) {
   }
 }
 
-// Out of one wall and into the next one in one step: between them it was apart, so the second wall blocks.
+// Out of one wall and into the next in one step: it is apart in between, so the second wall blocks.
 TEST(StreamsEngine, NoticesThatAnEmbeddedPairPartsAndMeetsAgainWithinOneStep) {
   TriangleMesh channel = scenes::box({0, -5, -5}, {1, 5, 5});
   const TriangleMesh wall = scenes::box({6, -5, -5}, {7, 5, 5});
@@ -116,7 +116,7 @@ TEST(StreamsEngine, NoticesThatAnEmbeddedPairPartsAndMeetsAgainWithinOneStep) {
     const SweepResult result = scene.sweep({{1, shift(end, 0, 0)}});
     EXPECT_FALSE(result.free);
     EXPECT_NEAR(result.toi, 4 / end, 0.02 / end);
-    EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // only a commit lets it leave
+    EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // only a commit ends its exemption
   }
 }
 
@@ -146,7 +146,7 @@ TEST(StreamsEngine, DropsEmbeddedPairsThatAJumpParts) {
   EXPECT_EQ(scene.engine().state()[1].translation, (Vec3{2, 0, 10}));
   EXPECT_FALSE(scene.move({{1, shift(2, 0, 0)}}).free);
   scene.jump({{1, shift(2, 0, 0)}});
-  EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // it does not come back
+  EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // it is not exempted again
 }
 
 TEST(StreamsEngine, LetsComponentsThatMoveTogetherTouchAndTestsThoseThatDoNot) {
@@ -161,9 +161,9 @@ TEST(StreamsEngine, LetsComponentsThatMoveTogetherTouchAndTestsThoseThatDoNot) {
   EXPECT_NEAR(head_on.toi, 0.5, 0.02);
 }
 
-/// The contacts that testing every triangle pair of components that move against each other gives.
-std::vector<CollisionContact> brute_force_contacts(const EngineScene& scene, const std::vector<RigidTransform>& next) {
-  std::vector<CollisionContact> contacts;
+/// The contacts found by testing every triangle pair of components that move relative to each other.
+std::vector<BlockingPair> brute_force_contacts(const EngineScene& scene, const std::vector<RigidTransform>& next) {
+  std::vector<BlockingPair> contacts;
   const Span<const RigidTransform> state = scene.engine().state();
   const auto moves = [&](std::size_t c) { return !(state[c] == next[c]); };
   const auto motion_of = [&](std::size_t c, std::size_t f) {
@@ -196,23 +196,22 @@ std::vector<CollisionContact> brute_force_contacts(const EngineScene& scene, con
   return contacts;
 }
 
-/// The sweep must report those of all contacts that come first; times of impact are conservative, to within this.
-void expect_first_of(const std::vector<CollisionContact>& all, const SweepResult& result) {
+/// The sweep must report the earliest of all contacts; times of impact are conservative within this.
+void expect_first_of(const std::vector<BlockingPair>& all, const SweepResult& result) {
   constexpr double kSlack = 5e-4;
   ASSERT_EQ(result.free, all.empty());
   double first = 1;
-  for (const CollisionContact& contact : all) first = std::min(first, contact.toi);
+  for (const BlockingPair& contact : all) first = std::min(first, contact.toi);
   EXPECT_NEAR(result.toi, first, kSlack);
-  const auto same = [](const CollisionContact& x) {
-    return [x](const CollisionContact& y) {
-      return x.a == y.a && x.b == y.b && x.face_a == y.face_a && x.face_b == y.face_b;
-    };
+  const auto same = [](const BlockingPair& x) {
+    return
+        [x](const BlockingPair& y) { return x.a == y.a && x.b == y.b && x.face_a == y.face_a && x.face_b == y.face_b; };
   };
-  for (const CollisionContact& contact : all) {
+  for (const BlockingPair& contact : all) {
     if (contact.toi > result.toi + kContactWindow - kSlack) continue;
     EXPECT_EQ(std::count_if(result.contacts.begin(), result.contacts.end(), same(contact)), 1);
   }
-  for (const CollisionContact& contact : result.contacts) {
+  for (const BlockingPair& contact : result.contacts) {
     const auto place = std::find_if(all.begin(), all.end(), same(contact));
     ASSERT_NE(place, all.end());
     EXPECT_NEAR(contact.toi, place->toi, kSlack);
@@ -279,7 +278,7 @@ TEST(StreamsEngine, ReportsWhatAStepCostAndHowLargeTheStreamsAre) {
   EXPECT_GT(result.sizes.front, 100u);
   EXPECT_GT(result.sizes.triangle_pairs, 10u);
   EXPECT_GT(result.sizes.replays, 0u);
-  const StepTimings& t = result.timings;
+  const StageTimings& t = result.timings;
   for (const double stage : {t.vertices, t.refit, t.front, t.intersection}) EXPECT_GT(stage, 0);
   EXPECT_GE(t.overall, t.vertices + t.refit + t.front + t.intersection - 1e-3);
 }

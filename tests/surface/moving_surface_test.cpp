@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-/// One component, standing still.
+/// One component at rest.
 struct Solid {
   AssemblyTriangles triangles;
   std::vector<Kdop16> bounds;

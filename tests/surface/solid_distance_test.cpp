@@ -32,7 +32,7 @@ double brute_distance(const PlacedSolid& a, const PlacedSolid& b) {
   return least;
 }
 
-/// It finds what all pairs of faces have, and nothing at a limit that is not beyond that.
+/// Expects the distance of brute force, and nothing at a limit that is not larger.
 void expect_nearest(const PlacedSolid& a, const PlacedSolid& b) {
   const double least = brute_distance(a, b);
   const SolidDistance found = solid_distance(a, b);
@@ -51,7 +51,7 @@ TEST(SolidDistance, IsThatOfAllPairsOfFacesWhereverTheyAre) {
     const Solid needle(scenes::moved(scenes::tube(0.3, 0, -20, 20, 24), scenes::random_pose(random, offset, 3)));
     const auto middle = [](const Solid& s) { return assembled_bounds(s.component).center(); };
     for (int round = 0; round < 12; ++round) {
-      // From through each other to far apart.
+      // From intersecting to far apart.
       const Pose turn = scenes::random_pose(random, 0, 3);
       const RigidTransform t = transform_from_pose(turn);
       const Vec3 apart = scenes::random_vector(random, round < 4 ? 0.5 : 5.0 * round);

@@ -21,7 +21,7 @@ double brute_distance(const SolidTree& solid, Vec3 p) {
   return best;
 }
 
-/// Squares and slivers, fans and strips, turned.
+/// Squares and slivers, fans and strips, rotated.
 std::vector<TriangleMesh> meshes(std::mt19937_64& random, double offset) {
   std::vector<TriangleMesh> made;
   for (const TriangleMesh& mesh : {scenes::tube(3, 1, -2, 2, 32, 5), scenes::tube(3, 0, -20, 20, 300, 1)})
@@ -36,7 +36,7 @@ TEST(NearestFace, AgreesWithAllFacesWhateverItBeginsWith) {
       const Solid solid(mesh);
       const Vec3 at = assembled_bounds(solid.assembly.components[0]).center();
       for (int i = 0; i < 300; ++i) {
-        // Also as near as nothing to the surface.
+        // Also arbitrarily near to the surface.
         Vec3 p = at + scenes::random_vector(random, 5);
         if (i % 3 == 0) p = mesh.vertices[random() % mesh.vertices.size()] + scenes::random_vector(random, 1e-6);
         const std::uint32_t hint =
