@@ -249,7 +249,7 @@ Image StepPictureTaker::take(const Subject& subject, const Vec3& view, const std
     double way = 0;
     for (std::size_t i = 1; i < line.size(); ++i) way += length(line[i] - line[i - 1]);
     if (way > kShortestWay * radius)
-      scene.items.push_back(make_bent_arrow(line, std::min(radius, way / kSlimmest), kArrowColor));
+      scene.items.push_back(make_curved_arrow(line, std::min(radius, way / kSlimmest), kArrowColor));
   }
   RenderOptions options = options_;
   options.width /= divisor;

@@ -29,21 +29,21 @@ bool all_default_colored(const Assembly& assembly) {
                      [](const Component& c) { return c.color == Color{}; });
 }
 
-/// A round ring of a surface, about a middle and across a direction.
+/// A circle of vertices of a swept surface.
 struct Ring {
-  Vec3 middle;
-  Vec3 first, second;  ///< Unit vectors in its plane.
+  Vec3 center;
+  Vec3 first, second;  ///< Orthonormal vectors in its plane.
   double radius = 0;
 };
 
-/// The closed surface through rings, the first and last of which have no radius.
-TriangleMesh skin(const std::vector<Ring>& rings) {
+/// The closed surface through rings, of which the first and the last have radius 0.
+TriangleMesh lofted(const std::vector<Ring>& rings) {
   TriangleMesh mesh;
   constexpr auto kSides = static_cast<std::uint32_t>(kArrowSides);
   for (const Ring& ring : rings) {
     for (std::uint32_t i = 0; i < kSides; ++i) {
       const double angle = 2 * std::acos(-1.0) * i / kSides;
-      mesh.vertices.push_back(ring.middle +
+      mesh.vertices.push_back(ring.center +
                               ring.radius * (std::cos(angle) * ring.first + std::sin(angle) * ring.second));
     }
   }
@@ -54,18 +54,19 @@ TriangleMesh skin(const std::vector<Ring>& rings) {
       mesh.faces.push_back({{a, b + kSides, a + kSides}});
     }
   }
-  return clean_mesh(mesh).mesh;  // the tips' rings shrink to points
+  return clean_mesh(mesh).mesh;  // the first and the last ring collapse to points
 }
 
-/// An arrow's way in two.
+/// The polyline of an arrow, cut where the head begins.
 struct ShaftAndHead {
-  std::vector<Vec3> shaft;  ///< Up to where the head begins.
+  std::vector<Vec3> shaft;  ///< Up to the base of the head.
   Vec3 tip;
 };
 
-ShaftAndHead cut_head(Span<const Vec3> way, double head) {
-  ShaftAndHead cut{{way.begin(), way.end()}, way[way.size() - 1]};
-  double left = head;
+/// @param head_length [mm]
+ShaftAndHead cut_head(Span<const Vec3> points, double head_length) {
+  ShaftAndHead cut{{points.begin(), points.end()}, points[points.size() - 1]};
+  double left = head_length;
   while (cut.shaft.size() > 2 && length(cut.shaft.back() - cut.shaft[cut.shaft.size() - 2]) <= left) {
     left -= length(cut.shaft.back() - cut.shaft[cut.shaft.size() - 2]);
     cut.shaft.pop_back();
@@ -75,18 +76,18 @@ ShaftAndHead cut_head(Span<const Vec3> way, double head) {
   return cut;
 }
 
-/// The direction of a row of points at one of them: the mean of those before and after it.
+/// Tangent of a polyline at a point: the mean direction of the segments before and after it.
 Vec3 direction_at(const std::vector<Vec3>& points, std::size_t i) {
   const Vec3 before = i > 0 ? normalized(points[i] - points[i - 1]) : Vec3{};
   const Vec3 after = i + 1 < points.size() ? normalized(points[i + 1] - points[i]) : Vec3{};
-  return length(before + after) > 1e-6 ? normalized(before + after) : before;  // it may turn back
+  return length(before + after) > 1e-6 ? normalized(before + after) : before;  // the polyline may reverse
 }
 
 }  // namespace
 
 RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& options) {
   DISMANTLE_EXPECT(options.poses.empty() || options.poses.size() == assembly.components.size());
-  const Vec3 middle = assembled_bounds(assembly).center();
+  const Vec3 center = assembled_bounds(assembly).center();
   const bool use_palette = assembly.components.size() > 1 && all_default_colored(assembly);
   std::unordered_map<const TriangleMesh*, std::shared_ptr<const RenderMesh>> prepared;
   RenderScene scene;
@@ -100,7 +101,7 @@ RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& opt
     if (!options.poses.empty()) item.world_from_mesh = transform_from_pose(options.poses[i]) * item.world_from_mesh;
     const Aabb box = assembled_bounds(c);
     if (options.explode != 0 && !box.empty())
-      item.world_from_mesh.translation += options.explode * (box.center() - middle);
+      item.world_from_mesh.translation += options.explode * (box.center() - center);
     item.color = use_palette ? kPalette[i % kPalette.size()] : c.color;
     item.closed = c.faults.closed() && !c.faults.inside_out;
     scene.items.push_back(std::move(item));
@@ -126,24 +127,24 @@ void make_highlighted(RenderItem& item, const Color& color) {
 }
 
 RenderItem make_arrow(Vec3 from, Vec3 to, double radius, const Color& color) {
-  const std::vector<Vec3> way{from, to};
-  return make_bent_arrow(way, radius, color);
+  const std::vector<Vec3> points{from, to};
+  return make_curved_arrow(points, radius, color);
 }
 
-RenderItem make_bent_arrow(Span<const Vec3> way, double radius, const Color& color) {
-  DISMANTLE_EXPECT(way.size() >= 2 && radius > 0);
-  double way_length = 0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    DISMANTLE_EXPECT(!(way[i] == way[i - 1]));
-    way_length += length(way[i] - way[i - 1]);
+RenderItem make_curved_arrow(Span<const Vec3> points, double radius, const Color& color) {
+  DISMANTLE_EXPECT(points.size() >= 2 && radius > 0);
+  double total_length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    DISMANTLE_EXPECT(!(points[i] == points[i - 1]));
+    total_length += length(points[i] - points[i - 1]);
   }
-  const ShaftAndHead parts = cut_head(way, std::min(6 * radius, 0.5 * way_length));
-  const Vec3 origin = way[0];
+  const ShaftAndHead parts = cut_head(points, std::min(6 * radius, 0.5 * total_length));
+  const Vec3 origin = points[0];
   const Vec3 start = direction_at(parts.shaft, 0);
   Vec3 first = normalized(cross(std::abs(start.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, start));
   std::vector<Ring> rings;
   const auto add = [&](Vec3 point, Vec3 direction, double ring_radius) {
-    first = normalized(first - dot(first, direction) * direction);  // turns no more than the way does
+    first = normalized(first - dot(first, direction) * direction);  // parallel transport: no twist about the tangent
     rings.push_back({point - origin, first, cross(direction, first), ring_radius});
   };
   add(parts.shaft[0], start, 0);
@@ -153,7 +154,7 @@ RenderItem make_bent_arrow(Span<const Vec3> way, double radius, const Color& col
   add(parts.tip, end, 0);
 
   RenderItem item;
-  item.mesh = std::make_shared<const RenderMesh>(make_render_mesh(skin(rings)));
+  item.mesh = std::make_shared<const RenderMesh>(make_render_mesh(lofted(rings)));
   item.world_from_mesh.translation = origin;
   item.color = color;
   item.edge_opacity = 0;

@@ -7,36 +7,36 @@
 
 namespace dismantle {
 
-/// How make_scene shows an assembly.
+/// Options of make_scene().
 struct AssemblySceneOptions {
-  double explode = 0;  ///< Each component is moved away from the middle by this times its distance from it.
-  double crease_angle = kDefaultCreaseAngle;  ///< [rad]
-  std::vector<Pose> poses = {};               ///< Where each component is, shape [component_count]; empty: assembled.
+  double explode = 0;  ///< Displacement of each component from the centre, as a multiple of its distance from it.
+  double crease_angle = kDefaultCreaseAngle;  ///< Passed to make_render_mesh() [rad].
+  std::vector<Pose> poses = {};  ///< Pose of each component, shape [component_count]; empty: assembled state.
 };
 
-/// The assembly's components as items, in their order. Where all components have the one default colour, they get
-/// colours of a palette, so that they can be told apart. Instances share their RenderMesh.
-/// @pre options.poses is empty or has an entry a component
+/// The components of an assembly as render items, in their order. If every component has the default colour, colours of
+/// a palette are used instead. Instances share one RenderMesh.
+/// @pre options.poses is empty or has one entry per component
 RenderScene make_scene(const Assembly& assembly, const AssemblySceneOptions& options = {});
 
-/// The vertices of items where they are in the scene [mm, world frame], for fit_camera.
+/// All vertices of the items, for fit_camera() [mm, world frame].
 std::vector<Vec3> item_points(Span<const RenderItem> items);
 
-/// Makes an item a ghost: grey, nearly clear, its edges faint.
+/// Turns an item into a ghost: grey and nearly transparent, with faint edges.
 void make_ghost(RenderItem& item);
 
-/// Makes an item stand out in a colour, opaque.
+/// Highlights an item: opaque, in the given colour.
 void make_highlighted(RenderItem& item, const Color& color);
 
-/// A solid arrow as an item that is drawn over everything else; its shaft has the given radius [mm].
+/// A straight solid arrow, drawn as an overlay. @param radius of the shaft [mm]
 /// @pre from != to, radius > 0
 RenderItem make_arrow(Vec3 from, Vec3 to, double radius, const Color& color);
 
-/// The same along a bent way, with its head at the end of it.
-/// @pre way has two points or more, neighbours differ, radius > 0
-RenderItem make_bent_arrow(Span<const Vec3> way, double radius, const Color& color);
+/// A curved solid arrow along a polyline, with its head at the last point; otherwise as make_arrow().
+/// @pre at least two points, successive points differ, radius > 0
+RenderItem make_curved_arrow(Span<const Vec3> points, double radius, const Color& color);
 
-/// The plane across the axis `direction` through `point`, taking away what is on the camera's side.
+/// The section plane through `point` with normal `direction`, oriented to remove the camera's side.
 SectionPlane section_facing(const Camera& camera, Vec3 direction, Vec3 point);
 
 }  // namespace dismantle

@@ -10,7 +10,7 @@ namespace dismantle {
 
 namespace {
 
-/// The distance at which a point at (x, y, depth) from the target just fits into the pyramid of sight.
+/// The smallest eye-to-target distance at which a point at (x, y, depth) from the target is inside the viewing frustum.
 double fitting_distance(Vec3 point, double tangent_x, double tangent_y) {
   return std::max(std::abs(point.x) / tangent_x, std::abs(point.y) / tangent_y) - point.z;
 }
@@ -67,7 +67,7 @@ Camera fit_camera(Span<const Vec3> points, const CameraFit& fit) {
   if (points.empty()) return camera;
 
   const Mat3 axes = camera_axes(camera);
-  Aabb extent;  // in the camera's axes
+  Aabb extent;  // in the camera's frame
   for (const Vec3& p : points) extent.extend(axes * p);
   const Vec3 middle = extent.center(), size = extent.size();
   camera.target = transposed(axes) * middle;

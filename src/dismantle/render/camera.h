@@ -10,40 +10,41 @@
 
 namespace dismantle {
 
+/// The projection of a camera.
 enum class Projection { Orthographic, Perspective };
 
-/// Where a picture is taken from. World frame, right-handed; pixels are square.
+/// The viewpoint of a picture. World frame, right-handed; pixels are square.
 struct Camera {
   Vec3 eye{0, -1, 0};  ///< [mm]
-  Vec3 target;         ///< Seen in the middle of the picture [mm].
-  Vec3 up{0, 0, 1};    ///< Points up in the picture; must not be parallel to the line of sight.
-  Projection projection = Projection::Orthographic;
-  double height = 100;         ///< Orthographic: what the picture's height shows [mm].
-  double field_of_view = 0.5;  ///< Perspective: over the picture's height [rad].
+  Vec3 target;         ///< Point at the centre of the picture [mm].
+  Vec3 up{0, 0, 1};    ///< Direction that points up in the picture; must not be parallel to the line of sight.
+  Projection projection = Projection::Orthographic;  ///< Selects which of the two sizes below applies.
+  double height = 100;                               ///< Orthographic: extent over the picture's height [mm].
+  double field_of_view = 0.5;                        ///< Perspective: angle over the picture's height [rad].
 };
 
 /// The standard views of mechanical drawings, z up: Front looks along +y, Right along -x, Top along -z.
 enum class StandardView { Iso, Front, Back, Left, Right, Top, Bottom };
 
-/// "iso", "front", "back", "left", "right", "top", "bottom"; nothing for any other word.
+/// The standard view named "iso", "front", "back", "left", "right", "top" or "bottom"; nothing for any other name.
 std::optional<StandardView> standard_view(std::string_view name);
 
-/// The unit direction in which a standard view looks.
+/// The viewing direction of a standard view; unit length.
 Vec3 view_direction(StandardView view);
 
-/// How fit_camera places the camera.
+/// Options of fit_camera().
 struct CameraFit {
-  Vec3 direction = view_direction(StandardView::Iso);  ///< In which the camera looks; any length but 0.
-  Projection projection = Projection::Orthographic;
-  double aspect = 4.0 / 3.0;  ///< Width of the picture by its height.
-  double margin = 0.05;       ///< Empty border on each side, as a part of the picture.
+  Vec3 direction = view_direction(StandardView::Iso);  ///< Viewing direction; any length but 0.
+  Projection projection = Projection::Orthographic;    ///< Projection of the camera.
+  double aspect = 4.0 / 3.0;                           ///< Width of the picture divided by its height.
+  double margin = 0.05;                                ///< Empty border on each side, as a fraction of the picture.
 };
 
-/// A camera that sees all points, as near as the margin lets it; up is +z, or +y (-y) where it looks straight down
-/// (up). Without any point it looks at the origin. @pre aspect > 0, 0 <= margin < 0.5
+/// The closest camera that shows all points within the margin. Up is +z, or +y (-y) if it looks straight down (up).
+/// Without points it looks at the origin. @pre aspect > 0, 0 <= margin < 0.5
 Camera fit_camera(Span<const Vec3> points, const CameraFit& fit = {});
 
-/// The camera's axes by rows: right, up, forward. World frame, orthonormal.
+/// The camera's axes as rows: right, up, forward. World frame, orthonormal.
 Mat3 camera_axes(const Camera& camera);
 
 }  // namespace dismantle

@@ -15,7 +15,7 @@ struct ClipVertex {
   Vec3f normal;
 };
 
-/// A convex polygon of a triangle cut by at most two planes.
+/// A triangle clipped by at most two planes: a convex polygon.
 struct ClipPolygon {
   std::array<ClipVertex, 5> vertices;
   int count = 0;
@@ -67,7 +67,7 @@ class ItemProjector {
     positions_.reserve(m.mesh.vertices.size());
     for (const Vec3& p : m.mesh.vertices) positions_.push_back(view_.to_view(item_.world_from_mesh * p));
     normal_matrix_ = view_.axes * item_.world_from_mesh.rotation;
-    // Seen from outside, the far side of a closed item hides behind its near side; cut open, it shows.
+    // The near side of a closed item hides its far side, unless a section opens the item.
     skip_back_facing_ = item_.closed && item_.color.a < 1 && !(projected.section && item_.section);
   }
 
@@ -100,7 +100,7 @@ class ItemProjector {
     add_clipped_line(view_, planes_, positions_[edge.vertices[0]], positions_[edge.vertices[1]], line, out);
   }
 
-  /// Clips and projects a segment in the view frame; `line` brings all but the screen coordinates.
+  /// Clips and projects a segment a-b of the view frame. @param line template without screen coordinates
   static void add_clipped_line(const ViewTransform& view, Span<const ViewPlane> planes, Vec3 a, Vec3 b, ScreenLine line,
                                std::vector<ScreenLine>& out) {
     for (const ViewPlane& plane : planes) {
@@ -142,7 +142,7 @@ class ItemProjector {
     const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
     const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
     if (!(right >= 0 && bottom >= 0 && left <= 2 * view_.center_x && top <= 2 * view_.center_y)) return;
-    // y points down on the screen, so that a triangle seen from outside runs clockwise.
+    // Screen y points down, so a front-facing triangle runs clockwise.
     t.back_facing = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]) > 0;
     if (skip_back_facing_ && t.back_facing) return;
     t.item = index_;
@@ -160,7 +160,7 @@ class ItemProjector {
   bool skip_back_facing_ = false;
 };
 
-/// The screen parts of one item; items are projected at the same time and then joined in order.
+/// The projected primitives of one item; items are projected in parallel and then concatenated in order.
 struct ItemParts {
   std::vector<ScreenTriangle> triangles;
   std::vector<ScreenLine> lines;
@@ -191,7 +191,7 @@ void append_lines(const RenderScene& scene, const RenderOptions& options, Projec
   }
 }
 
-/// The triangles of the two marked items, whole.
+/// Appends all triangles of the two items of the overlap mark, without section.
 void append_overlap(const RenderScene& scene, const RenderOptions& options, ProjectedScene& projected) {
   if (!scene.overlap) return;
   RenderScene whole;

@@ -10,62 +10,71 @@
 
 namespace dismantle {
 
-/// From world to picture. The view frame has x to the right, y up and z the depth ahead of the eye [mm]; the screen is
-/// measured in samples, y down. Along the screen a *key* grows with depth and is linear: the depth itself for an
-/// orthographic camera, -1/depth for a perspective one.
+/// The transform from the world to the screen. The view frame has x to the right, y up and z as depth ahead of the eye
+/// [mm]; screen coordinates are in samples, y down. The depth *key* increases with depth and is linear on the screen:
+/// the depth itself for an orthographic camera, -1/depth for a perspective one.
 struct ViewTransform {
-  Mat3 axes;  ///< View from world.
-  Vec3 eye;   ///< [mm]
-  bool perspective = false;
-  double scale = 1;     ///< Samples per mm (orthographic), or per unit of x/depth (perspective).
-  double center_x = 0;  ///< [samples]
-  double center_y = 0;
-  double near_depth = 0;  ///< Perspective: what is nearer than this is cut off [mm].
+  Mat3 axes;                 ///< Rotation, view from world.
+  Vec3 eye;                  ///< [mm], world frame.
+  bool perspective = false;  ///< Perspective instead of orthographic projection.
+  double scale = 1;          ///< Samples per mm (orthographic), or per unit of x/depth (perspective).
+  double center_x = 0;       ///< Screen position of the optical axis [samples].
+  double center_y = 0;       ///< Screen position of the optical axis [samples].
+  double near_depth = 0;     ///< Perspective: depth of the near plane [mm].
 
+  /// A point in the view frame [mm].
   Vec3 to_view(Vec3 world) const { return axes * (world - eye); }
+  /// The depth [mm] of a depth key.
   double depth_of_key(double key) const { return perspective ? -1 / key : key; }
+  /// The depth key of a depth [mm].
   double key_of_depth(double depth) const { return perspective ? -1 / depth : depth; }
 };
 
-/// A plane in the view frame; kept is dot(normal, x) <= offset.
+/// A clipping plane in the view frame; keeps dot(normal, x) <= offset.
 struct ViewPlane {
-  Vec3 normal;
-  double offset = 0;
+  Vec3 normal;        ///< Points to the side that is removed.
+  double offset = 0;  ///< [mm] if the normal has unit length.
 };
 
-/// A triangle on the screen. Normals are in the view frame, not turned towards the eye.
+/// A projected triangle.
 struct ScreenTriangle {
-  float x[3], y[3], key[3];
-  float weight[3];  ///< 1/depth (perspective) or 1: divides linear screen interpolation back to the surface.
-  Vec3f normal[3];
-  std::uint32_t item = 0, face = 0;
-  bool back_facing = false;
+  float x[3];                ///< Of the corners [samples].
+  float y[3];                ///< Of the corners [samples].
+  float key[3];              ///< Depth keys of the corners.
+  float weight[3];           ///< 1/depth (perspective) or 1, for perspective-correct interpolation.
+  Vec3f normal[3];           ///< View frame, not flipped towards the eye.
+  std::uint32_t item = 0;    ///< Index into the scene's items.
+  std::uint32_t face = 0;    ///< Index into the faces of the item's mesh.
+  bool back_facing = false;  ///< Seen from the inside.
 };
 
-/// A line on the screen.
+/// A projected line.
 struct ScreenLine {
-  float x[2], y[2], key[2];
-  float half_width = 1;  ///< [samples]
-  Color color;
-  std::uint32_t item = 0, faces[2] = {0, 0};  ///< The item's triangles that must not hide the line, if it is an edge.
-  bool is_edge = false;
+  float x[2];                       ///< Of the ends [samples].
+  float y[2];                       ///< Of the ends [samples].
+  float key[2];                     ///< Depth keys of the ends.
+  float half_width = 1;             ///< [samples]
+  Color color;                      ///< `a` is the opacity.
+  std::uint32_t item = 0;           ///< Feature edge: index into the scene's items.
+  std::uint32_t faces[2] = {0, 0};  ///< Feature edge: its adjacent faces, which do not hide it.
+  bool is_edge = false;             ///< A feature edge of an item.
 };
 
-/// What a triangle or line takes part in; drawn in this order.
+/// The pass in which a triangle or line is drawn.
 enum class Layer { Opaque, Transparent, Overlay, Overlap };
+/// Number of layers.
 inline constexpr std::size_t kLayerCount = 4;
 
-/// The scene on the screen.
+/// A scene projected onto the screen.
 struct ProjectedScene {
-  ViewTransform view;
-  std::optional<ViewPlane> section;
-  double size = 1;  ///< Diagonal of everything shown [mm].
-  std::array<std::vector<ScreenTriangle>, kLayerCount> triangles;
-  std::array<std::vector<ScreenLine>, kLayerCount> lines;  ///< None in Overlap.
+  ViewTransform view;                                              ///< Maps the world to the screen.
+  std::optional<ViewPlane> section;                                ///< The scene's section plane.
+  double size = 1;                                                 ///< Diagonal of the bounding box of the scene [mm].
+  std::array<std::vector<ScreenTriangle>, kLayerCount> triangles;  ///< By layer, ordered by item and face.
+  std::array<std::vector<ScreenLine>, kLayerCount> lines;          ///< By layer; none in Overlap.
 };
 
-/// Transforms, clips (near plane, section plane, border of the picture) and projects. Keeps the order of items and
-/// faces.
+/// Transforms, clips (near plane, section plane, screen borders) and projects a scene.
 ProjectedScene project_scene(const RenderScene& scene, const Camera& camera, const RenderOptions& options);
 
 }  // namespace dismantle

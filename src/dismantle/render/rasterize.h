@@ -8,18 +8,24 @@
 
 namespace dismantle {
 
-/// A rectangle of samples; the upper bounds are outside.
+/// A half-open rectangle of samples: [x0, x1) by [y0, y1).
 struct SampleRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
+  int x0 = 0;  ///< First column.
+  int y0 = 0;  ///< First row.
+  int x1 = 0;  ///< Column after the last.
+  int y1 = 0;  ///< Row after the last.
+
+  int width() const { return x1 - x0; }   ///< [samples]
+  int height() const { return y1 - y0; }  ///< [samples]
 };
 
-/// The integers n of [low, high) whose sample centre n + 1/2 lies in [from, to).
+/// A half-open range of sample indices.
 struct SampleRange {
-  int first = 0, last = 0;  ///< `last` is outside.
+  int first = 0;  ///< First index.
+  int last = 0;   ///< Index after the last.
 };
 
+/// The samples n in [low, high) whose centre n + 1/2 lies in [from, to).
 inline SampleRange sample_range(double from, double to, int low, int high) {
   const double first = std::ceil(std::clamp(from, low - 1.0, high + 1.0) - 0.5);
   const double last = std::ceil(std::clamp(to, low - 1.0, high + 1.0) - 0.5);
@@ -27,7 +33,7 @@ inline SampleRange sample_range(double from, double to, int low, int high) {
 }
 
 /// Calls visit(x, y, key) for each sample of `rect` whose centre the triangle covers. Triangles that share an edge
-/// leave no gap along it and cover no sample twice: a row's crossing with an edge is computed from the edge alone.
+/// leave no gap and cover no sample twice: the crossing of a row with an edge depends on the edge alone.
 template <class Visit>
 void rasterize_triangle(const ScreenTriangle& t, const SampleRect& rect, const Visit& visit) {
   const double x0 = t.x[0], y0 = t.y[0], k0 = t.key[0];
@@ -67,7 +73,7 @@ void rasterize_triangle(const ScreenTriangle& t, const SampleRect& rect, const V
   }
 }
 
-/// Calls visit(x, y, key) for each sample of `rect` within the line's half width of it.
+/// Calls visit(x, y, key) for each sample of `rect` within half the line's width of the line.
 template <class Visit>
 void rasterize_line(const ScreenLine& line, const SampleRect& rect, const Visit& visit) {
   const float w = line.half_width;
@@ -79,7 +85,7 @@ void rasterize_line(const ScreenLine& line, const SampleRect& rect, const Visit&
   for (int y = rows.first; y < rows.last; ++y) {
     const float py = static_cast<float>(y) + 0.5f - line.y[0];
     double from = left - w, to = right + w;
-    if (std::abs(dy) > 1e-3f * std::abs(dx)) {  // the part of the row that the infinite line's band covers
+    if (std::abs(dy) > 1e-3f * std::abs(dx)) {  // limit the row to the band around the infinite line
       const double middle = line.x[0] + static_cast<double>(py) * dx / dy;
       const double reach = w * std::sqrt(length_squared) / std::abs(dy);
       from = std::max(from, middle - reach);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kTilePixels = 32;
 
-/// The tiles of a picture, row by row, and what touches each.
+/// The tiles of an image in row order, and the primitives that overlap each.
 class TileGrid {
  public:
   TileGrid(const RenderOptions& options, const ProjectedScene& projected)
@@ -38,7 +38,7 @@ class TileGrid {
 
   std::size_t count() const { return contents_.size(); }
   const TileContents& contents(std::size_t tile) const { return contents_[tile]; }
-  /// The tile's samples; tiles at the border may reach beyond the picture.
+  /// The samples of a tile; tiles at the border may extend beyond the image.
   SampleRect samples(std::size_t tile) const {
     const int side = kTilePixels * options_.samples;
     const int x = static_cast<int>(tile) % columns_ * side, y = static_cast<int>(tile) / columns_ * side;
@@ -67,7 +67,7 @@ class TileGrid {
   std::vector<TileContents> contents_;
 };
 
-/// The mean of a pixel's samples.
+/// Downsamples one pixel: the mean of its samples.
 Pixel resolved(const std::vector<LinearColor>& light, int row_width, int x, int y, int samples) {
   LinearColor sum;
   for (int sy = 0; sy < samples; ++sy) {

@@ -7,9 +7,9 @@
 
 namespace dismantle {
 
-/// The picture of a scene: z-buffered, two-sided Phong shading under a light that goes with the camera, feature edges
-/// and outlines as dark lines. Transparent items by depth peeling: the nearest `transparent_layers` surfaces in front
-/// of the first opaque one. Same input, same pixels, for every executor.
+/// Renders a scene: z-buffer, two-sided Phong shading with lights fixed to the camera, feature edges and outlines as
+/// dark lines. Transparency by depth peeling of the nearest `transparent_layers` surfaces in front of the first opaque
+/// one. Deterministic: the same pixels with every executor.
 /// @pre width, height, samples, transparent_layers positive
 Image render(const RenderScene& scene, const Camera& camera, const RenderOptions& options = {});
 

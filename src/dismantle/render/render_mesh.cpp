@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// The triangles around each vertex: those of vertex v are faces[first[v]] to faces[first[v + 1]].
+/// The faces around each vertex v: faces[first[v]] up to, not including, faces[first[v + 1]].
 struct VertexFaces {
   std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> faces;

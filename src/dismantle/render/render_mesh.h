@@ -9,26 +9,25 @@
 
 namespace dismantle {
 
-/// An edge that is drawn as a line: a crease, the border of an open mesh, or one with more than two triangles.
+/// An edge that is drawn as a line: a crease, a boundary edge, or a non-manifold edge.
 struct FeatureEdge {
-  std::uint32_t vertices[2] = {0, 0};
-  std::uint32_t faces[2] = {0, 0};  ///< Two of its triangles; equal at a border.
+  std::uint32_t vertices[2] = {0, 0};  ///< Indices, ascending.
+  std::uint32_t faces[2] = {0, 0};     ///< Two adjacent faces; equal at a boundary.
   friend bool operator==(const FeatureEdge&, const FeatureEdge&) = default;
 };
 
-/// A mesh made ready for pictures: prepared once, shared by all instances and all pictures.
+/// A mesh prepared for rendering, shared by all instances and pictures.
 struct RenderMesh {
   TriangleMesh mesh;                       ///< [mm]
   std::vector<Vec3f> corner_normals;       ///< Unit normals for smooth shading, shape [face_count][3].
-  std::vector<FeatureEdge> feature_edges;  ///< Ordered by their vertices.
+  std::vector<FeatureEdge> feature_edges;  ///< Ordered by vertices.
 };
 
-/// Neighbouring triangles that meet at less than this angle [rad] are shaded as one smooth surface; at more, the edge
-/// is a feature.
+/// Default crease angle [rad]: faces that meet at a smaller angle are shaded smoothly, others have a feature edge.
 inline constexpr double kDefaultCreaseAngle = 0.6;
 
-/// Normals and feature edges of a mesh. A corner's normal is the area-weighted mean of the triangles around its vertex
-/// that are within the crease angle of the corner's own triangle.
+/// Computes corner normals and feature edges. A corner normal is the area-weighted mean over those faces around the
+/// vertex whose normal is within the crease angle [rad] of the corner's own face.
 RenderMesh make_render_mesh(TriangleMesh mesh, double crease_angle = kDefaultCreaseAngle);
 
 }  // namespace dismantle

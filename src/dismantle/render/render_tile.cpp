@@ -11,15 +11,15 @@ namespace {
 
 constexpr std::uint32_t kNothing = 0xffffffffu;
 constexpr float kFarthest = std::numeric_limits<float>::max();
-// Lines lie on the surfaces that they outline: they are lifted by this part of the scene's size.
+// Lines are lifted off the surface that they lie on by this fraction of the scene's size.
 constexpr double kLineLift = 4e-4;
-// A step in depth within one item that counts as an outline, as a part of the scene's size.
+// Depth step within one item that counts as an outline, as a fraction of the scene's size.
 constexpr double kOutlineStep = 0.01;
-// Transparent layers nearer together than this part of the scene's size count as one: touching faces.
+// Transparent layers closer than this fraction of the scene's size (touching faces) count as one.
 constexpr double kLayerGap = 1e-6;
 constexpr float kOutlineOpacity = 0.85f;
 constexpr float kCapDarkness = 0.80f;
-constexpr int kCapStripe = 5;  // width of a stripe of the cap's hatching [pixels]
+constexpr int kCapStripe = 5;  // stripe width of the hatching of caps [pixels]
 
 }  // namespace
 
@@ -95,8 +95,8 @@ void TileRenderer::find_opaque() {
   }
 }
 
-/// Behind the section plane, a sample's ray leaves a closed item once more than it enters it where the plane runs
-/// through the item's material: there the cap is seen, at the plane's depth.
+/// Where the section plane cuts through a closed item, the ray of a sample exits the item once more than it enters it
+/// behind the plane: there the cap is visible, at the depth of the plane.
 void TileRenderer::cap_item(std::uint32_t triangle, std::vector<std::int16_t>& leaving,
                             std::vector<std::uint32_t>& touched) {
   const ViewTransform& view = projected_.view;
@@ -140,7 +140,7 @@ void TileRenderer::shade_opaque() {
   }
 }
 
-/// True where a neighbouring sample shows another item, or lies a step in depth away.
+/// True if a neighbouring sample shows another item or differs by a depth step.
 bool TileRenderer::is_outline(int x, int y) const {
   const std::size_t here = index(x, y);
   const auto shown = [&](std::size_t sample) {
@@ -202,7 +202,8 @@ void TileRenderer::blend_lines() {
   }
 }
 
-/// The nearest transparent surfaces behind `in_front_of` and before the opaque ones; false where there are none.
+/// Finds the nearest transparent surfaces behind `in_front_of` and in front of the opaque ones; false if there are
+/// none.
 bool TileRenderer::find_transparent_layer(const std::vector<float>& in_front_of, Visible& found) const {
   found.key = opaque_.key;
   found.triangle.assign(found.key.size(), kNothing);
@@ -266,7 +267,7 @@ void TileRenderer::blend_overlay() {
   blend_surfaces(Layer::Overlay, nearest);
 }
 
-/// A sample is marked where its ray runs through a stretch that is inside both items.
+/// Marks the samples whose ray passes through the inside of both items at once.
 void TileRenderer::blend_overlap() {
   const auto& contents = contents_.triangles[static_cast<std::size_t>(Layer::Overlap)];
   if (!scene_.overlap || contents.empty()) return;

@@ -10,23 +10,23 @@
 
 namespace dismantle {
 
-/// What of a ProjectedScene touches a tile: indices into its triangles and lines, ascending.
+/// The primitives of a ProjectedScene that overlap a tile.
 struct TileContents {
-  std::array<std::vector<std::uint32_t>, kLayerCount> triangles;
-  std::array<std::vector<std::uint32_t>, kLayerCount> lines;
+  std::array<std::vector<std::uint32_t>, kLayerCount> triangles;  ///< Indices by layer, ascending.
+  std::array<std::vector<std::uint32_t>, kLayerCount> lines;      ///< Indices by layer, ascending.
 };
 
-/// Samples around a tile that its outlines look at.
+/// Width of the border of samples around a tile that outline detection reads.
 inline constexpr int kTileApron = 1;
 
-/// Draws one rectangle of samples, by itself: every tile gives what a picture of one tile would.
+/// Renders one tile independently of all others: the result does not depend on how an image is divided into tiles.
 class TileRenderer {
  public:
-  /// @param tile the samples wanted, a kTileApron more on each side is drawn
+  /// @param tile samples of the tile; a border of kTileApron is rendered in addition
   TileRenderer(const RenderScene& scene, const ProjectedScene& projected, const RenderOptions& options,
                const TileContents& contents, const SampleRect& tile);
 
-  /// Light of each sample of the rectangle with its apron. Shape [tile.height + 2 apron][tile.width + 2 apron].
+  /// Renders the tile. @return light of each sample, shape [tile height + 2 kTileApron][tile width + 2 kTileApron]
   const std::vector<LinearColor>& draw();
 
  private:
@@ -64,7 +64,7 @@ class TileRenderer {
   const ProjectedScene& projected_;
   const RenderOptions& options_;
   const TileContents& contents_;
-  SampleRect rect_;  // with the apron
+  SampleRect rect_;  // with the border
   std::vector<LinearColor> item_colors_;
   LinearColor edge_color_;
   Visible opaque_;

@@ -26,7 +26,7 @@ float srgb_channel(float l) {
   return l <= 0.0031308f ? 12.92f * l : 1.055f * std::pow(l, 1 / 2.4f) - 0.055f;
 }
 
-/// sRGB bytes for linear values in steps fine enough for every byte to have one of its own.
+/// Table from linear values to sRGB bytes, fine enough for every byte to occur.
 const std::array<std::uint8_t, 4096>& srgb_table() {
   static const std::array<std::uint8_t, 4096> kTable = [] {
     std::array<std::uint8_t, 4096> table{};
@@ -70,7 +70,7 @@ SurfacePoint surface_point(const ViewTransform& view, const ScreenTriangle& t, i
   }
   Vec3f n =
       ((1 - u - v) * t.weight[0]) * t.normal[0] + (u * t.weight[1]) * t.normal[1] + (v * t.weight[2]) * t.normal[2];
-  n.z = -n.z;  // the view frame's z runs away from the eye, the lights' towards it
+  n.z = -n.z;  // the view frame's z points away from the eye, that of SurfacePoint towards it
   SurfacePoint point{normalized(n), direction_to_eye(view, x, y)};
   if (dot(point.normal, point.to_eye) < 0) point.normal = -point.normal;
   return point;

@@ -6,10 +6,12 @@
 
 namespace dismantle {
 
-/// Light as it adds up: linear in intensity, unlike sRGB.
+/// A colour that is linear in intensity, unlike sRGB.
 using LinearColor = Vec3f;
 
+/// The linear colour of an sRGB colour; ignores `a`.
 LinearColor linear_from_srgb(const Color& color);
+/// The nearest sRGB pixel; channels are clamped to [0, 1].
 Pixel srgb_from_linear(LinearColor color);
 
 /// `color` over `below` with the given opacity.
@@ -17,23 +19,23 @@ inline LinearColor blended(LinearColor below, LinearColor color, float opacity) 
   return below + opacity * (color - below);
 }
 
-/// A point of a surface that a sample sees.
+/// A surface point seen by a sample; axes: x right, y up, z towards the eye.
 struct SurfacePoint {
-  Vec3f normal;  ///< Unit, turned towards the eye; x right, y up, z towards the eye.
-  Vec3f to_eye;  ///< Unit, same axes.
+  Vec3f normal;  ///< Unit length, on the side of the eye.
+  Vec3f to_eye;  ///< Unit length.
 };
 
-/// The surface that the sample's centre (x + 1/2, y + 1/2) sees on the triangle.
+/// The surface point of a triangle seen by the sample at (x + 1/2, y + 1/2).
 SurfacePoint surface_point(const ViewTransform& view, const ScreenTriangle& triangle, int x, int y);
 
-/// Unit direction from what the sample sees to the eye; x right, y up, z towards the eye.
+/// Unit direction from the surface seen by a sample to the eye; axes as in SurfacePoint.
 Vec3f direction_to_eye(const ViewTransform& view, int x, int y);
 
-/// Light that comes off a surface of that colour: ambient, a key light from over the viewer's left shoulder, a fill
-/// light from the right, and a highlight.
+/// Reflected light of a surface colour: ambient light, a key light over the viewer's left shoulder, a fill light from
+/// the right, and a specular highlight of the key light.
 LinearColor shaded(LinearColor surface, const SurfacePoint& point);
 
-/// How opaque a transparent surface looks: more so where it is seen at a flat angle, which shows its shape.
+/// Opacity of a transparent surface, increased at grazing angles to show its shape.
 float apparent_opacity(float opacity, const SurfacePoint& point);
 
 }  // namespace dismantle

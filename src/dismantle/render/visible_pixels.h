@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// How much of each item a picture of that size shows: the pixels at whose middle it is in front of all other opaque
-/// items. Nothing is drawn. Transparent and overlay items count nothing and hide nothing. Shape [item_count].
+/// The number of pixels of each item in an image of the given size [pixels]: those at whose centre the item is the
+/// nearest opaque one. Transparent and overlay items are ignored. Shape [item_count].
 /// @pre width, height > 0
 std::vector<std::size_t> visible_pixels(RenderScene scene, const Camera& camera, int width, int height);
 
