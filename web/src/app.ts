@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Box3, Vector3 } from "three";
-import { element, saveAs } from "./dom.ts";
+import { type Axis, kAxes, kAxisNames } from "./axes.ts";
+import { makeStage, saveAs } from "./dom.ts";
 import { Devices } from "./input/devices.ts";
 import { Drag } from "./input/drag.ts";
 import { listenForKeys } from "./input/keys.ts";
 import { PointerInput } from "./input/pointer.ts";
-import { RateHand } from "./input/rate_hand.ts";
+import { RateControl } from "./input/rate_control.ts";
 import { Banner, Toasts } from "./panels/banner.ts";
 import { ExplodePanel } from "./panels/explode_panel.ts";
 import { ExportDialog } from "./panels/export_dialog.ts";
@@ -20,20 +21,21 @@ import { StatusLine } from "./panels/status.ts";
 import { TimelinePanel } from "./panels/timeline.ts";
 import { Toolbar } from "./panels/toolbar.ts";
 import { TreePanel } from "./panels/tree.ts";
+import type { Arrow } from "./scene/arrow_field.ts";
 import { Gizmo } from "./scene/gizmo.ts";
-import type { Arrow } from "./scene/marks.ts";
 import { kStereoModes } from "./scene/stereo.ts";
 import { Viewport, type ViewportOptions } from "./scene/viewport.ts";
-import { Session } from "./session.ts";
+import { freeOf, Session } from "./session.ts";
 import { text } from "./strings.ts";
 import { ThemeSwitch } from "./theme.ts";
 import type { Triple } from "./wire/messages.ts";
 import { Headset } from "./xr/headset.ts";
 
-/// [px]
+/// Lengths of the arrows at blockers and along free directions [px].
 const kReasonArrow = 64;
+const kFreeArrow = 80;
 
-/// The page: its parts, and what its buttons and keys do.
+/// The viewer page: builds its parts and connects them to buttons and keys.
 export class App {
   readonly viewport: Viewport;
   readonly session: Session;
@@ -42,7 +44,7 @@ export class App {
   readonly actions = this.makeActions();
 
   private readonly pointer: PointerInput;
-  private readonly rateHand: RateHand;
+  private readonly rateControl: RateControl;
   private readonly devices: Devices;
   private readonly inspector: Inspector;
   private readonly tree: TreePanel;
@@ -59,20 +61,13 @@ export class App {
   readonly headset: Headset;
 
   constructor(options: ViewportOptions) {
-    const canvas = element("canvas", {
-      id: "view",
-      tabIndex: 0,
-      role: "application",
-      "aria-label": text("view.label"),
-    });
-    const stage = element("main", { id: "stage" }, canvas);
-    document.body.append(stage);
+    const { stage, canvas } = makeStage(text("view.label"));
     this.viewport = new Viewport(canvas, options);
     this.session = new Session(this.viewport);
     this.drag = new Drag(this.session);
     this.pointer = new PointerInput(this.session, this.drag, this.gizmo);
-    this.rateHand = new RateHand(this.session, this.drag);
-    this.devices = new Devices(this.rateHand, (sentence) => this.toasts.show("note", sentence));
+    this.rateControl = new RateControl(this.session, this.drag);
+    this.devices = new Devices(this.rateControl, (message) => this.toasts.show("note", message));
     this.inspector = new Inspector(this.session, this.drag);
     this.tree = new TreePanel(this.session);
     this.timeline = new TimelinePanel(this.session);
@@ -104,22 +99,21 @@ export class App {
     this.session.connection.connect();
   }
 
-  /// Keeps a drag to a world axis, or lets go of it.
-  lockAxis(axis: 0 | 1 | 2): void {
+  /// Locks dragging to a world axis; unlocks it where it is locked to that axis already.
+  lockAxis(axis: Axis): void {
     this.pointer.axisLock = this.pointer.axisLock === axis ? null : axis;
     const lock = this.pointer.axisLock;
     this.session.change(() => {
-      this.session.store.dragHint = lock === null ? "" : text("drag.locked", { axis: "XYZ"[lock] });
+      this.session.store.dragHint = lock === null ? "" : text("drag.locked", { axis: kAxisNames[lock] });
     });
   }
 
   private connectParts(): void {
     const { session, viewport } = this;
-    session.onNote = (level, sentence) => this.toasts.show(level, sentence);
-    session.onModel = () => viewport.rig.fit(viewport.model!.bounds(), new Vector3(1, -1.6, 0.9));
+    session.onNote = (level, message) => this.toasts.show(level, message);
     this.pointer.onClick = (pick) => this.measure.click(pick);
     viewport.scene.add(this.gizmo.object);
-    viewport.beforePicture.push(() => this.placeMarks());
+    viewport.beforeRender.push(() => this.updateMarkers());
     session.notifier.subscribe(() => {
       if (this.drag.active && (session.store.link === "lost" || session.store.state?.hand === null) && this.drag.held)
         this.drag.drop();
@@ -127,8 +121,8 @@ export class App {
     listenForKeys(this);
   }
 
-  /// Puts the gizmo and the arrows of free directions where the selection is.
-  private placeMarks(): boolean {
+  /// Places the gizmo, the arrows of the free directions and those of the blockers.
+  private updateMarkers(): boolean {
     const { store } = this.session;
     const { model } = this.viewport;
     const shown = store.selection.filter((c) => model?.components[c]?.visible);
@@ -136,21 +130,20 @@ export class App {
     const center = box?.getCenter(new Vector3()) ?? null;
     this.gizmo.place(store.gizmo && store.control ? center : null);
     this.gizmo.update(this.viewport.rig);
-    const mine = center && store.directions?.components.join() === store.selection.join();
-    const free = mine ? store.directions!.directions.filter((way) => way.free) : [];
+    const free = box ? freeOf(this.session.directionsOf(store.selection)) : [];
     const idle = store.state?.automatic == null && store.state?.playback == null;
     this.viewport.directions.arrows = idle && box ? free.map(({ direction }) => arrowOutOf(box, direction)) : [];
     this.viewport.blocked.arrows = this.arrowsOfReason();
     return false;
   }
 
-  /// Into what is in the way, where it is met.
+  /// Arrows that point at each blocker where it would be touched.
   private arrowsOfReason(): Arrow[] {
     const { reason } = this.session;
     if (!reason) return [];
     const direction = new Vector3(...reason.direction);
-    return reason.blockers.map(({ point: met }) => {
-      const point = new Vector3(...met);
+    return reason.blockers.map(({ point: contact }) => {
+      const point = new Vector3(...contact);
       const back = -kReasonArrow * this.viewport.rig.pixelSize(point);
       return { point: point.addScaledVector(direction, back), direction, length: kReasonArrow };
     });
@@ -164,15 +157,15 @@ export class App {
   private makeActions() {
     const selected = () => ({ components: this.session.store.selection });
     const withSelection = (name: "take_out" | "put_back") => () => {
-      if (selected().components.length > 0) void this.session.ask(name, selected());
+      if (selected().components.length > 0) void this.session.send(name, selected());
     };
     return {
       open: () => this.openDialog.open(),
       save: () => void this.save(),
       export: () => this.exports.open(),
-      undo: () => void (this.drag.active ? this.drag.undo() : this.session.ask("undo", {})),
-      redo: () => void this.session.ask("redo", {}),
-      reset: () => void this.session.ask("reset", {}),
+      undo: () => void (this.drag.active ? this.drag.undo() : this.session.send("undo", {})),
+      redo: () => void this.session.send("redo", {}),
+      reset: () => void this.session.send("reset", {}),
       gizmo: () =>
         this.session.change(() => {
           this.session.store.gizmo = !this.session.store.gizmo;
@@ -182,7 +175,7 @@ export class App {
       explode: () => this.explode.toggle(),
       plan: () => this.plan.toggle(),
       findPath: () => void this.findPath(),
-      why: () => void this.session.askWhy(),
+      why: () => void this.session.requestReason(),
       projection: () =>
         this.session.change(() => {
           this.viewport.rig.orthographic = !this.viewport.rig.orthographic;
@@ -192,12 +185,13 @@ export class App {
           const next = (kStereoModes.indexOf(this.viewport.stereo) + 1) % kStereoModes.length;
           this.viewport.stereo = kStereoModes[next];
         }),
-      wholeScreen: () =>
+      fullScreen: () =>
         void (document.fullscreenElement
           ? document.exitFullscreen()
           : this.viewport.canvas.parentElement!.requestFullscreen()),
-      fit: () => this.fit(),
-      screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.fileStem()}.png`)),
+      fit: () => this.session.fitView(),
+      screenshot: () =>
+        void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.session.fileStem}.png`)),
       theme: () => this.theme.toggle(),
       help: () => this.help.showModal(),
       play: () => this.timeline.toggle(),
@@ -218,8 +212,8 @@ export class App {
   private escape(): void {
     const { store } = this.session;
     if (this.drag.active) void this.drag.cancel();
-    else if (this.rateHand.holds) void this.rateHand.cancel();
-    else if (store.state?.automatic != null) void this.session.ask("halt", {});
+    else if (this.rateControl.active) void this.rateControl.cancel();
+    else if (store.state?.automatic != null) void this.session.send("halt", {});
     else if (store.measuring) this.measure.toggle();
     else if (store.directions)
       this.session.change(() => {
@@ -228,31 +222,21 @@ export class App {
     else this.session.select([]);
   }
 
-  private fit(): void {
-    const { selection } = this.session.store;
-    const { model, rig } = this.viewport;
-    if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
-  }
-
   private async save(): Promise<void> {
     try {
-      const answer = await this.session.connection.request("/api/path.json");
-      saveAs(await answer.blob(), `${this.fileStem()}.path.json`);
+      const response = await this.session.connection.request("/api/path.json");
+      saveAs(await response.blob(), `${this.session.fileStem}.path.json`);
       this.toasts.show("note", text("saved"));
     } catch (error) {
       this.toasts.show("warning", (error as Error).message);
     }
   }
-
-  private fileStem(): string {
-    return (this.session.store.model?.name ?? "dismantle").replace(/\.\w+$/, "");
-  }
 }
 
-/// An arrow from the side of a box that lies in a direction.
+/// An arrow that starts where a ray from the box's centre leaves the box.
 function arrowOutOf(box: Box3, direction: Triple): Arrow {
-  const way = new Vector3(...direction);
+  const unit = new Vector3(...direction);
   const half = box.getSize(new Vector3()).multiplyScalar(0.5);
-  const reach = Math.min(...[0, 1, 2].map((k) => half.getComponent(k) / Math.max(1e-9, Math.abs(direction[k]))));
-  return { point: box.getCenter(new Vector3()).addScaledVector(way, reach), direction: way, length: 80 };
+  const exit = Math.min(...kAxes.map((k) => half.getComponent(k) / Math.max(1e-9, Math.abs(direction[k]))));
+  return { point: box.getCenter(new Vector3()).addScaledVector(unit, exit), direction: unit, length: kFreeArrow };
 }

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+import { text } from "./strings.ts";
 
 type Child = Node | string | null;
 type Properties = Record<string, unknown>;
 
-/// Makes an element. `class`, `data-*`, `aria-*`, `role` and `for` become attributes, `on*` and the rest properties.
+/// Makes an element. `class`, `data-*`, `aria-*`, `role` and `for` become attributes; `on*` and all others, properties.
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   properties: Properties = {},
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
+  const node = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
     if (value === undefined) continue;
-    if (/^(class|role|for|data-|aria-|list)/.test(name)) made.setAttribute(name, String(value));
-    else (made as unknown as Properties)[name] = value;
+    if (/^(class|role|for|data-|aria-|list)/.test(name)) node.setAttribute(name, String(value));
+    else (node as unknown as Properties)[name] = value;
   }
-  made.append(...children.filter((child): child is Node | string => child !== null));
-  return made;
+  node.append(...children.filter((child): child is Node | string => child !== null));
+  return node;
 }
 
-/// 16x16 line icons, one path each.
+/// 16x16 line icons, one SVG path each.
 const kIcons = {
   open: "M2 13V3h4l1.5 2H14v8zM2 7h12",
   undo: "M6 3 2.5 6.5 6 10M2.5 6.5H10a3.5 3.5 0 0 1 0 7H6",
@@ -60,8 +61,10 @@ const kIcons = {
   guide: "M3 2.5h10v11H3zM5.5 5.5h5M5.5 8h5M5.5 10.5h3",
 } as const;
 
+/// Name of an icon.
 export type IconName = keyof typeof kIcons;
 
+/// Makes an icon, hidden from screen readers.
 export function icon(name: IconName): SVGSVGElement {
   const space = "http://www.w3.org/2000/svg";
   const svg = document.createElementNS(space, "svg");
@@ -74,18 +77,20 @@ export function icon(name: IconName): SVGSVGElement {
   return svg;
 }
 
+/// Options of a button.
 export interface ButtonOptions {
   icon?: IconName;
   label: string;
-  /// Shows the label, not only the icon.
+  /// Shows the label beside the icon.
   wide?: boolean;
-  /// The key that does the same.
+  /// The key with the same effect, shown in the tooltip.
   key?: string;
   id?: string;
   class?: string;
   press: () => void;
 }
 
+/// Makes a button. Its label is its accessible name and, with the key, its tooltip.
 export function button(options: ButtonOptions): HTMLButtonElement {
   const { label, wide, key } = options;
   const title = key ? `${label} (${key})` : label;
@@ -104,18 +109,37 @@ export function button(options: ButtonOptions): HTMLButtonElement {
   );
 }
 
-/// Another label for a button that shows its label and has no key.
-export function relabel(made: HTMLButtonElement, label: string): void {
-  setText(made.lastElementChild!, label);
-  made.title = label;
-  made.setAttribute("aria-label", label);
+/// A button that looks like a link.
+export function linkButton(label: string, press: () => void): HTMLButtonElement {
+  return element("button", { type: "button", class: "link-button", onclick: press }, label);
 }
 
-/// Sets a text only where it changed, so that a screen reader does not repeat itself.
-export function setText(node: Node, text: string): void {
-  if (node.textContent !== text) node.textContent = text;
+/// The header of a dialog: its title and a button that closes it.
+export function dialogHeader(title: string, close: () => void): HTMLElement {
+  return element("header", {}, element("h1", {}, title), button({ icon: "close", label: text("close"), press: close }));
 }
 
+/// Adds the canvas of the 3D view to the page, in the area over which panels float.
+export function makeStage(label: string): { stage: HTMLElement; canvas: HTMLCanvasElement } {
+  const canvas = element("canvas", { id: "view", tabIndex: 0, role: "application", "aria-label": label });
+  const stage = element("main", { id: "stage" }, canvas);
+  document.body.append(stage);
+  return { stage, canvas };
+}
+
+/// Changes the label of a button that shows its label and has no key.
+export function relabel(node: HTMLButtonElement, label: string): void {
+  setText(node.lastElementChild!, label);
+  node.title = label;
+  node.setAttribute("aria-label", label);
+}
+
+/// Sets a text only if it changed, so that screen readers do not repeat it.
+export function setText(node: Node, content: string): void {
+  if (node.textContent !== content) node.textContent = content;
+}
+
+/// Has the browser save a file.
 export function saveAs(content: Blob, file: string): void {
   const address = URL.createObjectURL(content);
   element("a", { href: address, download: file }).click();

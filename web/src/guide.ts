@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Quaternion, Vector3 } from "three";
+import { Vector3 } from "three";
+import { kIdentityPose, rotationOf } from "./pose.ts";
 import { poseBetween } from "./screw.ts";
 import type { Triple } from "./wire/messages.ts";
 import type { WirePose } from "./wire/structs.ts";
 
-/// A path file, as far as a guide needs it (docs/formats.md).
+/// The members of a path file that a guide needs (docs/formats.md).
 export interface PathFile {
   moves: {
     label?: string;
@@ -13,7 +14,7 @@ export interface PathFile {
   }[];
 }
 
-/// One step of a guide: which components go where.
+/// One step of a guide: the components to move and their motion.
 export interface GuideStep {
   label: string;
   components: number[];
@@ -21,25 +22,28 @@ export interface GuideStep {
   duration: number;
 }
 
-export interface ComponentNow {
+/// Current pose of a component (null: assembled), and whether it was removed.
+export interface ComponentStatus {
   pose: WirePose | null;
   removed: boolean;
 }
 
-/// What practice costs.
+/// Mistakes made and hints used in practice mode.
 export interface Score {
   wrong: number;
   hints: number;
   contacts: number;
 }
 
-/// So much of a step's way counts as having done it: nobody moves a component to the micrometre where another one did.
-const kEnough = 0.7;
-/// Ways shorter than this are done when their end is this near [mm].
-const kNear = 2;
-const kPoints = { wrong: 10, hints: 5, contacts: 1 };
+/// A step counts as done after this fraction of its displacement: nobody reaches the recorded end to the micrometre.
+const kDoneFraction = 0.7;
+/// A step also counts as done this close to its end [mm]; shorter displacements are not measured as a fraction.
+const kDoneDistance = 2;
+/// Steps that turn by less count as translations [rad].
+const kMinRotation = 0.05;
+const kPenalties = { wrong: 10, hints: 5, contacts: 1 };
 
-/// The steps of a path; moves of components that the assembly has not are passed over.
+/// The steps of a path. Moves with components that the assembly does not have are skipped.
 export function stepsOfPath(path: PathFile, names: string[]): GuideStep[] {
   const index = new Map(names.map((name, i) => [name, i]));
   return path.moves.flatMap(({ label, components, frames }) => {
@@ -50,7 +54,7 @@ export function stepsOfPath(path: PathFile, names: string[]): GuideStep[] {
   });
 }
 
-/// Where a step's components are at a time of it.
+/// The pose of a step's components at a time of the step [s].
 export function poseAt(step: GuideStep, time: number): WirePose {
   const { frames } = step;
   const after = frames.findIndex(({ t }) => t >= time);
@@ -60,36 +64,33 @@ export function poseAt(step: GuideStep, time: number): WirePose {
   return poseBetween(a.pose, b.pose, b.t > a.t ? (time - a.t) / (b.t - a.t) : 1);
 }
 
-/// Whether a component is where a step leads, or far enough on the way, or gone altogether.
-export function isDone(step: GuideStep, now: ComponentNow): boolean {
+/// True if a component has reached the step's end, most of its displacement, or has been removed.
+export function isDone(step: GuideStep, now: ComponentStatus): boolean {
   if (now.removed) return true;
   const start = new Vector3(...step.frames[0].pose.position);
-  const way = new Vector3(...step.frames[step.frames.length - 1].pose.position).sub(start);
-  const gone = new Vector3(...(now.pose?.position ?? [0, 0, 0])).sub(start);
-  if (way.length() < kNear) return gone.distanceTo(way) < kNear && !sameTurn(step, now.pose);
-  return gone.dot(way) / way.lengthSq() >= kEnough || gone.distanceTo(way) < kNear;
+  const whole = new Vector3(...step.frames[step.frames.length - 1].pose.position).sub(start);
+  const moved = new Vector3(...(now.pose ?? kIdentityPose).position).sub(start);
+  const atEnd = moved.distanceTo(whole) < kDoneDistance;
+  if (whole.length() < kDoneDistance) return atEnd && !rotationPending(step, now.pose);
+  return atEnd || moved.dot(whole) / whole.lengthSq() >= kDoneFraction;
 }
 
-/// The first step that is not done yet, not before `from`; the number of steps where all are.
-export function nextStep(steps: GuideStep[], from: number, nowOf: (component: number) => ComponentNow): number {
+/// Index of the first unfinished step, starting at `from`; the number of steps if all are done.
+export function nextStep(steps: GuideStep[], from: number, statusOf: (component: number) => ComponentStatus): number {
   for (let i = from; i < steps.length; ++i)
-    if (!steps[i].components.every((component) => isDone(steps[i], nowOf(component)))) return i;
+    if (!steps[i].components.every((component) => isDone(steps[i], statusOf(component)))) return i;
   return steps.length;
 }
 
-/// From 100 down.
-export function pointsOf({ wrong, hints, contacts }: Score): number {
-  return Math.max(0, 100 - wrong * kPoints.wrong - hints * kPoints.hints - contacts * kPoints.contacts);
+/// Points in practice mode, 0 to 100.
+export function scoreOf({ wrong, hints, contacts }: Score): number {
+  return Math.max(0, 100 - wrong * kPenalties.wrong - hints * kPenalties.hints - contacts * kPenalties.contacts);
 }
 
-/// A step that only turns is not done before the component has turned.
-function sameTurn(step: GuideStep, pose: WirePose | null): boolean {
+/// True if the step rotates the component and most of that rotation is still missing.
+function rotationPending(step: GuideStep, pose: WirePose | null): boolean {
   const [start, end] = [step.frames[0].pose, step.frames[step.frames.length - 1].pose];
-  const whole = quaternion(start).angleTo(quaternion(end));
-  const made = quaternion(start).angleTo(pose ? quaternion(pose) : new Quaternion());
-  return whole > 0.05 && made < kEnough * whole;
-}
-
-function quaternion({ rotation: [w, x, y, z] }: WirePose): Quaternion {
-  return new Quaternion(x, y, z, w);
+  const whole = rotationOf(start).angleTo(rotationOf(end));
+  const turned = rotationOf(start).angleTo(rotationOf(pose ?? kIdentityPose));
+  return whole > kMinRotation && turned < kDoneFraction * whole;
 }

@@ -2,32 +2,32 @@
 import { App } from "./app.ts";
 import { element } from "./dom.ts";
 import { OfflineApp } from "./offline/offline_app.ts";
-import { isOffline, readFilm } from "./offline/read_film.ts";
+import { isOffline, readOfflineContent } from "./offline/offline_content.ts";
 import { text } from "./strings.ts";
-import { type TestDoor, testDoor } from "./test_door.ts";
+import { type TestApi, testApi } from "./test_api.ts";
 
 declare global {
   interface Window {
-    dismantle?: TestDoor;
-    /// Of a page that was exported.
-    dismantleOffline?: TestDoor<OfflineApp>;
+    dismantle?: TestApi;
+    /// Present on an exported page.
+    dismantleOffline?: TestApi<OfflineApp>;
   }
 }
 
-/// "" for tests; "pictures" with smooth edges, for those in the user's guide.
+/// "" for tests; "pictures" for the guide's pictures, with antialiasing.
 const test = new URLSearchParams(location.search).get("test");
 const testing = test !== null;
 
-/// After the first paint: a context for drawing can take the browser a second.
+/// Runs after the first paint: creating a WebGL context can take a second.
 async function start(): Promise<void> {
   try {
     const options = { testing, smooth: !testing || test === "pictures" };
     if (isOffline()) {
-      const app = new OfflineApp(options, await readFilm());
-      if (testing) window.dismantleOffline = testDoor(app);
+      const app = new OfflineApp(options, await readOfflineContent());
+      if (testing) window.dismantleOffline = testApi(app);
     } else {
       const app = new App(options);
-      if (testing) window.dismantle = testDoor(app);
+      if (testing) window.dismantle = testApi(app);
     }
     document.getElementById("boot")?.remove();
   } catch (error) {

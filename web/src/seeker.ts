@@ -2,26 +2,27 @@
 import type { Session } from "./session.ts";
 import type { Source } from "./wire/messages.ts";
 
-/// Follows a scrubber: one seek at a time, the newest next.
+/// Sends seeks of a scrubber one at a time. While one is pending, only the newest is kept.
 export class Seeker {
   private seeking = false;
-  private wanted: { time: number; source: Source } | null = null;
+  private newest: { time: number; source: Source } | null = null;
 
   constructor(private readonly session: Session) {}
 
-  /// Whether the server is not yet where it was asked to be.
+  /// True if a seek is pending.
   get busy(): boolean {
     return this.seeking;
   }
 
+  /// Requests a seek. Resolves when no seek is pending.
   async seek(time: number, source: Source): Promise<void> {
-    this.wanted = { time, source };
+    this.newest = { time, source };
     if (this.seeking) return;
     this.seeking = true;
-    while (this.wanted) {
-      const next: { time: number; source: Source } = this.wanted;
-      this.wanted = null;
-      await this.session.ask("seek", next);
+    while (this.newest) {
+      const next: { time: number; source: Source } = this.newest;
+      this.newest = null;
+      await this.session.send("seek", next);
     }
     this.seeking = false;
   }

@@ -1,55 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
+import { Box3, Vector3 } from "three";
+import { type GuideStep, type PathFile, stepsOfPath } from "./guide.ts";
 import { readGlb } from "./scene/glb.ts";
 import { ModelView } from "./scene/model_view.ts";
 import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
-import { Connection, type Wire } from "./wire/connection.ts";
-import type { Commands, JobEvent, ModelEvent, Move, Reason, Source, StateEvent } from "./wire/messages.ts";
+import { Connection, type Transport } from "./wire/connection.ts";
+import type {
+  Commands,
+  FreeDirection,
+  JobEvent,
+  ModelEvent,
+  Move,
+  Reason,
+  Source,
+  StateEvent,
+} from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
 
-/// The server's session as this page knows it, and the model that shows it: components are only ever drawn where the
-/// server says that they are.
+/// Lists of names are cut off after this many.
+export const kMaxNames = 3;
+
+/// The client side of the server's session, and the model view that shows it. Components are drawn only at poses that
+/// the server sent.
 export class Session {
   readonly store: Store = emptyStore();
   readonly notifier: Notifier;
-  /// Shows the user a sentence.
-  onNote: (level: "note" | "warning", sentence: string) => void = () => {};
-  onModel: () => void = () => {};
+  /// Shows a message to the user.
+  onNote: (level: "note" | "warning", message: string) => void = () => {};
+  /// Listeners of pose frames of the current state.
   onFrame: ((frame: PoseFrame) => void)[] = [];
 
   private loading: Promise<void> | null = null;
 
   constructor(
     readonly viewport: Viewport,
-    readonly connection: Wire = new Connection(),
+    readonly connection: Transport = new Connection(),
   ) {
     const { store } = this;
     this.notifier = new Notifier(() => viewport.invalidate());
-    viewport.beforePicture.push(() => {
-      this.notifier.tell();
+    viewport.beforeRender.push(() => {
+      this.notifier.flush();
       return false;
     });
     connection.onLink = (link) =>
       this.change(() => {
         store.link = link;
       });
-    connection.onFrame = (frame) => this.takeFrame(frame);
+    connection.onFrame = (frame) => this.applyFrame(frame);
     connection.on("hello", ({ roots }) =>
       this.change(() => {
         store.roots = roots;
       }),
     );
     connection.on("control", ({ control, clients }) => this.change(() => Object.assign(store, { control, clients })));
-    connection.on("job", (job) => this.change(() => this.takeJob(job)));
-    connection.on("log", ({ level, text: sentence }) => this.onNote(level, sentence));
+    connection.on("job", (job) => this.change(() => this.applyJob(job)));
+    connection.on("log", ({ level, text: message }) => this.onNote(level, message));
     connection.on("error", ({ error }) => this.onNote("warning", error));
-    connection.on("model", (model) => this.takeModel(model));
-    connection.on("state", (state) => this.takeState(state));
+    connection.on("model", (model) => this.applyModel(model));
+    connection.on("state", (state) => this.applyState(state));
   }
 
-  /// Sends a command; a refusal is shown to the user and gives null.
-  async ask<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1] | null> {
+  /// Sends a command. If it is refused, shows the reason and returns null.
+  async send<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1] | null> {
     try {
       return await this.connection.command(name, members);
     } catch (error) {
@@ -60,64 +74,99 @@ export class Session {
     }
   }
 
-  /// Has the planner find a way out for what is selected, and take it out.
+  /// Has the planner find a removal path for the selection, and follows it.
   async findPath(): Promise<void> {
     const { selection } = this.store;
-    if (selection.length > 0) await this.ask("find_path", { components: selection });
+    if (selection.length > 0) await this.send("find_path", { components: selection });
   }
 
-  /// Has the planner say why what is selected stays.
-  async askWhy(): Promise<void> {
+  /// Has the planner find what blocks the selected component.
+  async requestReason(): Promise<void> {
     const { selection } = this.store;
-    if (selection.length === 1) await this.ask("why", { components: selection });
+    if (selection.length === 1) await this.send("why", { components: selection });
   }
 
-  /// Why the selection stays, where the planner has said so.
+  /// What blocks the selection, if the planner has been asked; null: not determined.
   get reason(): Reason | null {
     const { state, selection } = this.store;
     return state?.search?.reasons.find(({ component }) => selection.includes(component)) ?? null;
   }
 
-  /// Shows only what is selected, or everything again.
-  toggleIsolated(): void {
-    const { state, selection } = this.store;
-    if (state?.isolated) void this.ask("restore", {});
-    else if (selection.length > 0) void this.ask("isolate", { components: selection });
+  /// True if nothing moves: no grab, no automatic motion, no playback.
+  get idle(): boolean {
+    const { state } = this.store;
+    return state?.hand == null && state?.automatic == null && state?.playback == null;
   }
 
-  /// Hides what is selected; where some of it is hidden, shows that again.
+  /// The straight directions found for exactly these components; null: not determined.
+  directionsOf(components: number[]): FreeDirection[] | null {
+    const { directions } = this.store;
+    return directions?.components.join() === components.join() ? directions.directions : null;
+  }
+
+  /// File name of the model without its extension.
+  get fileStem(): string {
+    return (this.store.model?.name ?? "dismantle").replace(/\.\w+$/, "");
+  }
+
+  /// Bounding box of the assembled model [mm]; a point if there is no model.
+  get modelBox(): Box3 {
+    const [low, high] = this.store.model?.bounds ?? [
+      [0, 0, 0],
+      [0, 0, 0],
+    ];
+    return new Box3(new Vector3(...low), new Vector3(...high));
+  }
+
+  /// Fits the view to the selection, or to all visible components.
+  fitView(): void {
+    const { selection } = this.store;
+    const { model, rig } = this.viewport;
+    if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
+  }
+
+  /// Shows only the selection, or everything again.
+  toggleIsolated(): void {
+    const { state, selection } = this.store;
+    if (state?.isolated) void this.send("restore", {});
+    else if (selection.length > 0) void this.send("isolate", { components: selection });
+  }
+
+  /// Hides the selection; shows it again if a part of it is hidden.
   toggleHidden(): void {
     const { state, selection } = this.store;
     if (selection.length === 0) return;
     const hidden = selection.filter((c) => state?.components[c]?.hidden);
-    if (hidden.length > 0) void this.ask("show", { components: hidden });
-    else void this.ask("hide", { components: selection });
+    if (hidden.length > 0) void this.send("show", { components: hidden });
+    else void this.send("hide", { components: selection });
   }
 
+  /// Changes the store and notifies the panels.
   change(apply: () => void): void {
     apply();
     this.notifier.notify();
   }
 
+  /// Name of a component; empty for null.
   nameOf(component: number | null): string {
     return component === null ? "" : (this.store.model?.components[component]?.name ?? "");
   }
 
-  /// The first few names, and how many more there are.
-  namesOf(components: number[], most = 3): string {
+  /// The first `max` names, and the number of the others.
+  namesOf(components: number[], max = kMaxNames): string {
     const names = components
-      .slice(0, most)
+      .slice(0, max)
       .map((c) => this.nameOf(c))
       .join(", ");
-    return components.length > most ? text("names.more", { names, count: components.length - most }) : names;
+    return components.length > max ? text("names.more", { names, count: components.length - max }) : names;
   }
 
-  /// Whether everything received is shown and everything asked is answered.
+  /// True if all commands are answered and everything received is shown.
   get settled(): boolean {
     return this.loading === null && this.connection.settled && ![...this.store.jobs.values()].some(isRunning);
   }
 
-  /// Where a component is now; null: assembled.
+  /// The current pose of a component; null: assembled.
   poseOf(component: number): WirePose | null {
     const { state, frame } = this.store;
     if (frame && state?.moving.includes(component) && frame.state === state.number) return frame;
@@ -132,43 +181,53 @@ export class Session {
       this.store.directions = null;
       this.store.stuck = null;
     });
-    this.showLooks();
+    this.updateAppearances();
   }
 
+  /// Highlights the component under the cursor.
   hover(component: number | null): void {
     if (component === this.store.hovered) return;
     this.change(() => {
       this.store.hovered = component;
     });
-    this.showLooks();
+    this.updateAppearances();
   }
 
+  /// Highlights the components that block the moving set.
   block(components: Set<number>): void {
     const before = this.store.blocking;
     if (components.size === before.size && [...components].every((c) => before.has(c))) return;
     this.change(() => {
       this.store.blocking = components;
     });
-    this.showLooks();
+    this.updateAppearances();
   }
 
+  /// The moves of the recording or of the guide.
   movesOf(source: Source): Move[] {
     const { state } = this.store;
     return (source === "guide" ? state?.guide?.moves : state?.moves) ?? [];
   }
 
-  /// Where the playback is [s]; null where none is open.
-  get playedTime(): number | null {
+  /// Time of the playback [s]; null: no playback.
+  get playbackTime(): number | null {
     const { state, frame } = this.store;
     if (!state?.playback) return null;
     return frame?.playback ? frame.time : state.playback.time;
   }
 
-  /// Begins anew with the recording as the guide.
+  /// Loads the steps of the recording or of the guide from the server.
+  async loadSteps(source: Source): Promise<GuideStep[]> {
+    const response = await this.connection.request(source === "guide" ? "/api/guide.json" : "/api/path.json");
+    const names = this.store.model!.components.map(({ name }) => name);
+    return stepsOfPath((await response.json()) as PathFile, names);
+  }
+
+  /// Assembles everything and makes the recording the guide.
   async followRecording(): Promise<void> {
     try {
       const path = await (await this.connection.request("/api/path.json")).blob();
-      const name = `${(this.store.model?.name ?? "").replace(/\.\w+$/, "")}.path.json`;
+      const name = `${this.fileStem}.path.json`;
       await this.connection.command("reset", {});
       await this.connection.request(`/api/guide?name=${encodeURIComponent(name)}`, { method: "POST", body: path });
     } catch (error) {
@@ -176,36 +235,38 @@ export class Session {
     }
   }
 
+  /// Makes components translucent, or opaque if all of them are translucent.
   toggleXray(components: number[]): void {
     const { xray } = this.store;
     const on = !components.every((c) => xray.has(c));
     this.change(() => {
       for (const component of components) on ? xray.add(component) : xray.delete(component);
     });
-    this.showLooks();
+    this.updateAppearances();
   }
 
-  showLooks(): void {
+  /// Updates how components are drawn after a change of the store.
+  updateAppearances(): void {
     const { selection, hovered, xray, blocking } = this.store;
-    const explained = this.reason?.blockers ?? [];
+    const blockers = this.reason?.blockers ?? [];
     for (const view of this.viewport.model?.components ?? [])
-      view.setLook({
+      view.setAppearance({
         selected: selection.includes(view.index),
         hovered: hovered === view.index,
         xray: xray.has(view.index),
-        blocking: blocking.has(view.index) || explained.some(({ component }) => component === view.index),
+        blocking: blocking.has(view.index) || blockers.some(({ component }) => component === view.index),
       });
     this.viewport.invalidate();
   }
 
-  private takeJob(job: JobEvent): void {
+  private applyJob(job: JobEvent): void {
     this.store.jobs.set(job.job, job);
     if (job.status === "running") return;
     this.store.jobs.delete(job.job);
     if (job.status === "failed") this.onNote("warning", text("job.failed", { name: job.name, error: job.error ?? "" }));
   }
 
-  private takeModel(model: ModelEvent): void {
+  private applyModel(model: ModelEvent): void {
     const known = this.store.model?.number === model.number && this.store.model.sha256 === model.sha256;
     this.change(() => {
       this.store.model = model;
@@ -228,8 +289,8 @@ export class Session {
 
   private async load(model: ModelEvent): Promise<void> {
     try {
-      const answer = await this.connection.request(`/api/model.glb?model=${model.number}`);
-      const bytes = await answer.arrayBuffer();
+      const response = await this.connection.request(`/api/model.glb?model=${model.number}`);
+      const bytes = await response.arrayBuffer();
       if (this.store.model?.number !== model.number) return;
       this.viewport.setModel(new ModelView(readGlb(bytes), this.viewport.palette));
     } catch (error) {
@@ -237,19 +298,19 @@ export class Session {
       return;
     }
     if (this.store.state) this.showState(this.store.state);
-    this.onModel();
+    this.viewport.showWhole();
     this.notifier.notify();
   }
 
-  private takeState(state: StateEvent): void {
-    const explains = state.search !== null || this.store.state?.search != null;
+  private applyState(state: StateEvent): void {
+    const reasonsChange = state.search !== null || this.store.state?.search != null;
     this.change(() => {
       this.store.state = state;
-      // A state says where everything is; the frames of an earlier one are old.
+      // Frames before a state are outdated: the state has all poses.
       this.store.frame = null;
     });
     this.showState(state);
-    if (explains) this.showLooks();
+    if (reasonsChange) this.updateAppearances();
   }
 
   private showState(state: StateEvent): void {
@@ -257,16 +318,16 @@ export class Session {
     for (const view of this.viewport.model?.components ?? []) {
       const { hidden, removed } = state.components[view.index] ?? {};
       const moves = state.moving.includes(view.index);
-      // Exploded, what was taken out is shown where the path has put it.
-      const gone = removed && !(this.store.exploding && state.playback);
-      view.visible = moves || (!hidden && !gone);
+      // The exploded view shows removed components, too, where the path has put them.
+      const away = removed && !(this.store.exploding && state.playback);
+      view.visible = moves || (!hidden && !away);
       view.setPose(poseFromState(state, view.index));
     }
     this.viewport.updateBounds();
     this.viewport.invalidate();
   }
 
-  private takeFrame(frame: PoseFrame): void {
+  private applyFrame(frame: PoseFrame): void {
     const { state } = this.store;
     if (!state || frame.state !== state.number) return;
     this.change(() => {
@@ -287,4 +348,9 @@ function poseFromState(state: StateEvent | null, component: number): WirePose | 
   if (!pose) return null;
   const [x, y, z, w, qx, qy, qz] = pose;
   return { position: [x, y, z], rotation: [w, qx, qy, qz] };
+}
+
+/// The directions in which the components can be removed without contact.
+export function freeOf(directions: FreeDirection[] | null | undefined): FreeDirection[] {
+  return directions?.filter(({ free }) => free) ?? [];
 }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 
+import type { Axis } from "./axes.ts";
 import type { Link } from "./wire/connection.ts";
 import type { CheckedPair, FreeDirection, JobEvent, Metrics, ModelEvent, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame } from "./wire/structs.ts";
 
+/// A section plane normal to a world axis.
 export interface SectionPlane {
-  axis: 0 | 1 | 2;
-  /// Keeps what is beyond the plane, not what is before it.
+  axis: Axis;
+  /// True to keep the side of lower coordinates.
   flipped: boolean;
-  /// Where it is between the model's bounds, from 0 to 1.
-  part: number;
+  /// Position between the model's bounds, from 0 to 1.
+  fraction: number;
 }
 
-/// All that the panels show. What only this page knows is here; everything else is the server's.
+/// Everything that the panels show. State that only this page has is listed here; all other state is the server's.
 export interface Store {
   link: Link;
   roots: string[];
@@ -21,9 +23,9 @@ export interface Store {
   jobs: Map<number, JobEvent>;
   model: ModelEvent | null;
   state: StateEvent | null;
-  /// The last pose of what moves now.
+  /// Last pose of the moving set.
   frame: PoseFrame | null;
-  leastClearance: number;
+  minClearance: number;
   metrics: Metrics | null;
   pairs: { tolerance: number; pairs: CheckedPair[] } | null;
   selection: number[];
@@ -31,7 +33,7 @@ export interface Store {
   xray: Set<number>;
   blocking: Set<number>;
   directions: { components: number[]; directions: FreeDirection[] } | null;
-  /// What was let go of while it was blocked, and by what.
+  /// A set that was released while blocked, and the components that blocked it.
   stuck: { components: number[]; blocking: number[] } | null;
   planes: SectionPlane[];
   exploding: boolean;
@@ -40,6 +42,7 @@ export interface Store {
   dragHint: string;
 }
 
+/// A store without model and connection.
 export function emptyStore(): Store {
   return {
     link: "connecting",
@@ -50,7 +53,7 @@ export function emptyStore(): Store {
     model: null,
     state: null,
     frame: null,
-    leastClearance: Number.NaN,
+    minClearance: Number.NaN,
     metrics: null,
     pairs: null,
     selection: [],
@@ -67,24 +70,26 @@ export function emptyStore(): Store {
   };
 }
 
-/// Calls panels once after any number of changes, before the next picture: poses come faster than pictures.
+/// Notifies panels once before the next render after any number of changes: frames arrive faster than renders.
 export class Notifier {
   private readonly listeners: (() => void)[] = [];
   private changed = false;
 
-  /// @param ask asks for a picture, before which `tell` is to be called
-  constructor(private readonly ask: () => void) {}
+  /// @param requestRender schedules a render, before which `flush` must be called
+  constructor(private readonly requestRender: () => void) {}
 
   subscribe(listener: () => void): void {
     this.listeners.push(listener);
   }
 
+  /// Reports a change.
   notify(): void {
     this.changed = true;
-    this.ask();
+    this.requestRender();
   }
 
-  tell(): void {
+  /// Calls the listeners if anything changed.
+  flush(): void {
     if (!this.changed) return;
     this.changed = false;
     for (const listener of this.listeners) listener();

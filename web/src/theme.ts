@@ -6,7 +6,7 @@ type Theme = "light" | "dark";
 
 const kKey = "dismantle.theme";
 
-/// Dark or light: as the user chose, else as the system has it.
+/// Dark or light theme: the user's choice, otherwise the system's setting.
 export class ThemeSwitch {
   private theme: Theme = "light";
 
@@ -17,7 +17,7 @@ export class ThemeSwitch {
 
   toggle(): void {
     this.show(this.theme === "light" ? "dark" : "light");
-    keep(this.theme);
+    storeTheme(this.theme);
   }
 
   private show(theme: Theme): void {
@@ -28,13 +28,13 @@ export class ThemeSwitch {
 }
 
 function startTheme(): Theme {
-  const kept = keptTheme();
-  if (kept === "light" || kept === "dark") return kept;
+  const stored = storedTheme();
+  if (stored === "light" || stored === "dark") return stored;
   return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 }
 
-/// A page that was opened as a file may have no storage.
-function keptTheme(): string | null {
+/// The stored choice. Pages opened as files may have no storage.
+function storedTheme(): string | null {
   try {
     return localStorage.getItem(kKey);
   } catch {
@@ -42,10 +42,10 @@ function keptTheme(): string | null {
   }
 }
 
-function keep(theme: Theme): void {
+function storeTheme(theme: Theme): void {
   try {
     localStorage.setItem(kKey, theme);
   } catch {
-    // The choice is for this visit only.
+    // Without storage the choice lasts until the page is closed.
   }
 }

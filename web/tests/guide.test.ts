@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { type GuideStep, isDone, nextStep, pointsOf, poseAt, stepsOfPath } from "../src/guide.ts";
+import { type GuideStep, isDone, nextStep, poseAt, scoreOf, stepsOfPath } from "../src/guide.ts";
 import type { WirePose } from "../src/wire/structs.ts";
 
 const pose = (x: number, half = 0): WirePose => ({
@@ -18,7 +18,7 @@ const step = (from: WirePose, to: WirePose): GuideStep => ({
   duration: 2,
 });
 
-test("a path becomes steps; moves of unknown components are passed over", () => {
+test("a path becomes steps; moves of unknown components are skipped", () => {
   const frames = [
     { t: 0, position: [0, 0, 0] as [number, number, number], rotation: [1, 0, 0, 0] as WirePose["rotation"] },
   ];
@@ -35,30 +35,30 @@ test("a path becomes steps; moves of unknown components are passed over", () => 
   );
 });
 
-test("between two frames a pose is between them, and before and after the ends", () => {
-  const way = step(pose(0), pose(10, 0.4));
-  assert.deepEqual(poseAt(way, -1), pose(0));
-  assert.deepEqual(poseAt(way, 9), pose(10, 0.4));
-  const half = poseAt(way, 1);
+test("poses are interpolated between frames and clamped at the ends", () => {
+  const motion = step(pose(0), pose(10, 0.4));
+  assert.deepEqual(poseAt(motion, -1), pose(0));
+  assert.deepEqual(poseAt(motion, 9), pose(10, 0.4));
+  const half = poseAt(motion, 1);
   assert.ok(Math.abs(half.position[0] - 5) < 1e-12);
   assert.ok(Math.abs(half.rotation[3] - Math.sin(0.2)) < 1e-12);
 });
 
-test("a step is done at its end, most of the way, beyond it, and where the component is gone", () => {
-  const way = step(pose(0), pose(100));
-  const at = (x: number) => isDone(way, { pose: pose(x), removed: false });
+test("a step is done after most of its displacement, beyond its end, and when the component is removed", () => {
+  const motion = step(pose(0), pose(100));
+  const at = (x: number) => isDone(motion, { pose: pose(x), removed: false });
   assert.deepEqual([at(0), at(50), at(75), at(100), at(300)], [false, false, true, true, true]);
-  assert.equal(isDone(way, { pose: null, removed: true }), true);
-  assert.equal(isDone(way, { pose: null, removed: false }), false);
+  assert.equal(isDone(motion, { pose: null, removed: true }), true);
+  assert.equal(isDone(motion, { pose: null, removed: false }), false);
 });
 
-test("a step that only turns is done when it has turned", () => {
-  const way = step(pose(0), pose(0, 0.5));
-  assert.equal(isDone(way, { pose: pose(0, 0.1), removed: false }), false);
-  assert.equal(isDone(way, { pose: pose(0, 0.45), removed: false }), true);
+test("a pure rotation is done when the component has rotated", () => {
+  const motion = step(pose(0), pose(0, 0.5));
+  assert.equal(isDone(motion, { pose: pose(0, 0.1), removed: false }), false);
+  assert.equal(isDone(motion, { pose: pose(0, 0.45), removed: false }), true);
 });
 
-test("the next step is the first that is not done, and never an earlier one", () => {
+test("the next step is the first unfinished one, never an earlier one", () => {
   const steps = [step(pose(0), pose(100)), step(pose(100), pose(0)), step(pose(0), pose(50))];
   const now = (x: number) => () => ({ pose: pose(x), removed: false });
   assert.equal(nextStep(steps, 0, now(0)), 0);
@@ -67,8 +67,8 @@ test("the next step is the first that is not done, and never an earlier one", ()
   assert.equal(nextStep(steps, 2, now(60)), 3);
 });
 
-test("practice begins at a hundred points and never goes below none", () => {
-  assert.equal(pointsOf({ wrong: 0, hints: 0, contacts: 0 }), 100);
-  assert.equal(pointsOf({ wrong: 1, hints: 2, contacts: 3 }), 77);
-  assert.equal(pointsOf({ wrong: 99, hints: 0, contacts: 0 }), 0);
+test("practice starts at 100 points and never goes below 0", () => {
+  assert.equal(scoreOf({ wrong: 0, hints: 0, contacts: 0 }), 100);
+  assert.equal(scoreOf({ wrong: 1, hints: 2, contacts: 3 }), 77);
+  assert.equal(scoreOf({ wrong: 99, hints: 0, contacts: 0 }), 0);
 });

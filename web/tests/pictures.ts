@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the pictures of the user's guide from the running program; web/make_pictures runs it.
+// Makes the pictures of the user's guide from the running program; run by web/make_pictures.
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { sourceFolder } from "./support/environment.ts";
 import { closeBrowser, Server, Viewer } from "./support/page.ts";
-import { sourceFolder } from "./support/tree.ts";
 
 const kFolder = join(sourceFolder(), "docs/pictures");
 const kSize = { width: 1280, height: 780 };
@@ -20,7 +20,7 @@ async function shoot(viewer: Viewer, name: string): Promise<void> {
   await viewer.page.screenshot({ path: join(kFolder, `${name}.png`) });
 }
 
-/// Looks at a component from the front right, from not too near.
+/// Looks at a component from the front right, with a margin.
 async function lookAt(viewer: Viewer, name: string, room: number): Promise<void> {
   await viewer.press("1");
   await viewer.page.evaluate(
@@ -39,7 +39,7 @@ async function lookAt(viewer: Viewer, name: string, room: number): Promise<void>
   await viewer.idle();
 }
 
-/// A server for some pictures; it ends with them, however they end.
+/// Runs a server while some pictures are made; stops it in any case.
 async function withServer(start: Promise<Server>, makePictures: (viewer: Viewer) => Promise<void>): Promise<void> {
   const server = await start;
   try {
@@ -63,7 +63,7 @@ async function contact(viewer: Viewer): Promise<void> {
   await viewer.page.locator("#pairs .badge").first().waitFor();
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.directions !== null);
   await shoot(viewer, "contact");
-  await viewer.letGo();
+  await viewer.release();
 }
 
 async function tools(viewer: Viewer): Promise<void> {
@@ -82,17 +82,17 @@ async function tools(viewer: Viewer): Promise<void> {
   await viewer.press("s", "t");
 }
 
-/// The plan of the whole, and why one component stays.
+/// The plan of the whole, and what blocks one component.
 async function plan(viewer: Viewer): Promise<void> {
-  const searched = (kind: string) =>
+  const waitForSearch = (kind: string) =>
     viewer.page.waitForFunction((k) => window.dismantle!.app.session.store.state!.search?.kind === k, kind);
   await lookAt(viewer, "stage plate", 60);
   await viewer.press("l");
   await viewer.page.click("#plan-find");
-  await searched("plan");
+  await waitForSearch("plan");
   await viewer.select("stage plate");
   await viewer.press("q");
-  await searched("why");
+  await waitForSearch("why");
   await shoot(viewer, "plan");
   await viewer.press("l", "Escape");
   await viewer.click("#guide-close");
@@ -107,7 +107,7 @@ async function guide(viewer: Viewer): Promise<void> {
   await viewer.page.screenshot({ path: join(kFolder, "guide.png") });
 }
 
-/// Saves what was done as a page. Gives its file.
+/// Exports the page. Returns its file.
 async function exportPage(viewer: Viewer): Promise<string> {
   await viewer.click("#export");
   await shoot(viewer, "first-export");
@@ -118,14 +118,14 @@ async function exportPage(viewer: Viewer): Promise<string> {
   return file;
 }
 
-/// Plays the page in the middle of its second step.
+/// The exported page in the middle of its second step.
 async function offlinePage(file: string): Promise<void> {
   const viewer = await Viewer.visit(`${pathToFileURL(file)}?test=pictures`, undefined, kSize);
   await viewer.page.waitForFunction(() => window.dismantleOffline?.app.viewport.model != null);
   await viewer.page.evaluate(async () => {
     const { app, idle } = window.dismantleOffline!;
     const [, second] = app.session.movesOf("recording");
-    await app.session.ask("seek", { time: second.start + 0.6 * second.duration, source: "recording" });
+    await app.session.send("seek", { time: second.start + 0.6 * second.duration, source: "recording" });
     await idle();
   });
   await viewer.page.screenshot({ path: join(kFolder, "offline.png") });
@@ -133,8 +133,7 @@ async function offlinePage(file: string): Promise<void> {
   rmSync(join(file, ".."), { recursive: true });
 }
 
-/// What somebody who has never seen it does with the page of ./run: three components are taken out, and the page is exported, by
-/// clicks alone.
+/// The first steps of a new user with ./run: takes out three components and exports the page, by clicks alone.
 async function firstMinutes(viewer: Viewer): Promise<void> {
   const begin = performance.now();
   await viewer.model();

@@ -6,7 +6,7 @@ import type { WirePose } from "../src/wire/structs.ts";
 
 const kSome: WirePose = { position: [3, -4, 5], rotation: [Math.cos(0.3), 0, Math.sin(0.3), 0] };
 
-/// A turn about the axis through (100, 0, 0) along z, with a rise.
+/// A rotation about the axis through (100, 0, 0) along z, with a rise.
 function helix(angle: number, rise: number): WirePose {
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   return { position: [100 - 100 * cos, -100 * sin, rise], rotation: [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)] };
@@ -18,18 +18,18 @@ function assertNear(a: WirePose, b: WirePose): void {
   assert.ok(Math.abs(Math.abs(dot) - 1) < 1e-12);
 }
 
-test("at its ends a motion is where its poses are, to the bit", () => {
+test("the ends of a motion are exact", () => {
   assert.equal(poseBetween(kSome, helix(1, 2), 0), kSome);
   const end = helix(1, 2);
   assert.equal(poseBetween(kSome, end, 1), end);
 });
 
-test("without a turn it goes straight", () => {
+test("without a rotation the motion is straight", () => {
   const end: WirePose = { position: [13, -4, 25], rotation: kSome.rotation };
   assertNear(poseBetween(kSome, end, 0.25), { position: [5.5, -4, 10], rotation: kSome.rotation });
 });
 
-test("a turn about a distant axis goes along the arc, not its chord", () => {
+test("a rotation about a distant axis follows the arc, not its chord", () => {
   for (const share of [0.1, 0.37, 0.5, 0.9])
     assertNear(poseBetween(helix(0, 0), helix(2.5, 40), share), helix(2.5 * share, 40 * share));
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
 import { axisFields, type HidAxes, type HidCollection, type HidField, readAxes } from "./hid_axes.ts";
-import type { RateHand } from "./rate_hand.ts";
+import type { RateControl } from "./rate_control.ts";
 
 interface HidDevice extends EventTarget {
   opened: boolean;
@@ -20,25 +20,25 @@ interface Hid extends EventTarget {
   requestDevice(options: { filters: object[] }): Promise<HidDevice[]>;
 }
 
-/// Multi-axis controllers: the generic desktop page's usage of 3D mice.
+/// HID usage of multi-axis controllers (3D mice) on the generic desktop page.
 const kMultiAxis = { usagePage: 1, usage: 8 };
 const kRest: HidAxes = [0, 0, 0, 0, 0, 0];
-/// Sticks that are let go of stay off their middle by less than this.
-const kPadRest = 0.08;
+/// Released sticks rest within this distance of their centre.
+const kPadDeadZone = 0.08;
 
-/// Whether this browser can reach 3D mice at all.
+/// True if this browser supports WebHID.
 export function hasHid(): boolean {
   return "hid" in navigator;
 }
 
-/// 3D mice by WebHID, and gamepads, as the rate hand's deflection.
+/// 3D mice (WebHID) and gamepads, which drive the rate control.
 export class Devices {
   private polling = false;
   private padDeflected = false;
 
   constructor(
-    private readonly hand: RateHand,
-    private readonly onNote: (sentence: string) => void,
+    private readonly control: RateControl,
+    private readonly onNote: (message: string) => void,
   ) {
     if (hasHid()) {
       void hid()
@@ -51,7 +51,7 @@ export class Devices {
     });
   }
 
-  /// Lets the user choose a 3D mouse; only by a press of a button.
+  /// Lets the user choose a 3D mouse. Browsers allow this only in response to a click.
   async choose(): Promise<void> {
     const chosen = await hid().requestDevice({ filters: [kMultiAxis] });
     for (const device of chosen) await this.listen(device);
@@ -75,25 +75,25 @@ export class Devices {
     device.addEventListener("inputreport", (event) => {
       const { reportId, data } = event as HidReportEvent;
       axes = readAxes(fields, reportId, data, axes);
-      // The device's axes: right, towards the user, down.
+      // Device axes: right, towards the user, down.
       const [x, y, z, rx, ry, rz] = axes;
-      this.hand.deflect({ linear: new Vector3(x, -z, y), angular: new Vector3(rx, -rz, ry) });
+      this.control.deflect({ linear: new Vector3(x, -z, y), angular: new Vector3(rx, -rz, ry) });
     });
   }
 
-  /// Asks the gamepads once a frame while there is one. Left stick: right and up; triggers: away and near; right stick:
-  /// turn; shoulder buttons: roll; the second button: back to where the motion began.
+  /// Polls the gamepad once a frame while one is connected. Left stick: right and up; triggers: away and near; right
+  /// stick: rotate; shoulder buttons: roll; second button: cancel the motion.
   private pollGamepads(): void {
     const pad = navigator.getGamepads().find((candidate) => candidate?.mapping === "standard");
     this.polling = pad !== undefined;
     if (!pad) return;
     const pressed = (i: number) => pad.buttons[i]?.value ?? 0;
-    if (pressed(1) > 0.5 && this.hand.holds) void this.hand.cancel();
+    if (pressed(1) > 0.5 && this.control.active) void this.control.cancel();
     const linear = new Vector3(pad.axes[0], -pad.axes[1], pressed(6) - pressed(7));
     const angular = new Vector3(pad.axes[3], pad.axes[2], pressed(4) - pressed(5));
-    // A gamepad that lies there must not bring another device to rest.
-    const deflected = Math.max(linear.length(), angular.length()) > kPadRest;
-    if (deflected || this.padDeflected) this.hand.deflect({ linear, angular });
+    // An idle gamepad must not stop another device.
+    const deflected = Math.max(linear.length(), angular.length()) > kPadDeadZone;
+    if (deflected || this.padDeflected) this.control.deflect({ linear, angular });
     this.padDeflected = deflected;
     requestAnimationFrame(() => this.pollGamepads());
   }

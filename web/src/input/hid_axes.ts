@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axes of a 3D mouse, found in its report descriptor. (The browser reads the descriptor's items; where a field lies in
-// a report, and what its numbers mean, follows from them.)
+// The six axes of a 3D mouse, located by its HID report descriptor. The browser parses the descriptor; the position of
+// each field in a report, and its range, follow from the items.
 
-/// The part of WebHID's description of a device that matters here.
+/// The members of WebHID's report items that are needed here.
 export interface HidItem {
   usages?: number[];
   usageMinimum?: number;
@@ -15,6 +15,7 @@ export interface HidItem {
   logicalMaximum?: number;
 }
 
+/// A collection of a HID report descriptor.
 export interface HidCollection {
   usagePage?: number;
   usage?: number;
@@ -22,23 +23,24 @@ export interface HidCollection {
   inputReports?: { reportId?: number; items?: HidItem[] }[];
 }
 
-/// X, Y, Z, Rx, Ry, Rz of the device, each from -1 to 1.
+/// X, Y, Z, Rx, Ry, Rz of the device, each in [-1, 1].
 export type HidAxes = [number, number, number, number, number, number];
 
+/// The field of an axis in a report.
 export interface HidField {
   report: number;
   axis: number;
-  /// Where it begins in the report's bytes, which do not count the report's id [bit].
+  /// First bit in the report's bytes, which exclude the report id.
   begin: number;
   size: number;
   minimum: number;
   maximum: number;
 }
 
-/// Generic desktop page, X; Y to Rz follow it.
+/// Generic desktop page, usage X; Y to Rz follow.
 const kUsageX = 0x00010030;
 
-/// Where a device's reports hold its six axes; other fields are passed over.
+/// The fields of a device's six axes; other fields are ignored.
 export function axisFields(collections: HidCollection[]): HidField[] {
   const fields: HidField[] = [];
   for (const collection of collections) {
@@ -62,13 +64,13 @@ function fieldsOf(report: number, items: HidItem[]): HidField[] {
   return fields;
 }
 
-/// The usage of an item's field: the last one stands for all that follow it.
+/// The usage of an item's i-th field. The last usage covers all further fields.
 function usageAt({ isRange, usages = [], usageMinimum = 0, usageMaximum = 0 }: HidItem, index: number): number {
   if (isRange) return Math.min(usageMinimum + index, usageMaximum);
   return usages[Math.min(index, usages.length - 1)] ?? 0;
 }
 
-/// The axes after a report; those that it does not hold stay.
+/// The axes after a report. Axes that the report does not contain keep their values.
 export function readAxes(fields: HidField[], report: number, bytes: DataView, before: HidAxes): HidAxes {
   const axes: HidAxes = [...before];
   for (const field of fields) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Axis } from "../axes.ts";
 import { kStandardViews } from "../scene/view_cube.ts";
 import type { Viewport } from "../scene/viewport.ts";
 
-const kTurn = 40;
-const kPan = 40;
-const kZoom = 1.2;
+const kOrbitStep = 40;
+const kPanStep = 40;
+const kZoomFactor = 1.2;
 
 type Act = () => void;
 type Action =
@@ -13,7 +14,7 @@ type Action =
   | "fit"
   | "projection"
   | "stereo"
-  | "wholeScreen"
+  | "fullScreen"
   | "gizmo"
   | "section"
   | "measure"
@@ -34,19 +35,19 @@ type Action =
   | "nextStep"
   | "previousStep";
 
-/// A page with keys; those of actions that it has not do nothing.
-export interface Keyed {
+/// A page with keyboard actions. Keys of actions that it lacks have no effect.
+export interface KeyTarget {
   readonly viewport: Viewport;
   readonly drag: { readonly active: boolean };
   readonly actions: { readonly [Name in Action]?: Act };
-  lockAxis?(axis: 0 | 1 | 2): void;
+  lockAxis?(axis: Axis): void;
 }
 
-/// The keyboard's way to everything. Keys typed into a field are the field's.
-export function listenForKeys(app: Keyed): void {
+/// Connects the keyboard to the page's actions. Keys typed into a field are left to the field.
+export function listenForKeys(app: KeyTarget): void {
   window.addEventListener("keydown", (event) => {
     if (isTyping(event) || document.querySelector("dialog[open]")) return;
-    const act = event.ctrlKey || event.metaKey ? withControl(app, event) : plain(app, event);
+    const act = event.ctrlKey || event.metaKey ? controlKey(app, event) : plainKey(app, event);
     if (!act) return;
     event.preventDefault();
     act();
@@ -54,7 +55,7 @@ export function listenForKeys(app: Keyed): void {
   const byKeyboard = (yes: boolean) => document.documentElement.toggleAttribute("data-keyboard", yes);
   window.addEventListener("keydown", ({ key }) => key === "Tab" && byKeyboard(true));
   window.addEventListener("pointerdown", () => byKeyboard(false), true);
-  // Alt alone would open the browser's menu in the middle of turning a component.
+  // Alt alone would open the browser's menu while a component is rotated.
   window.addEventListener("keyup", (event) => {
     if (event.key === "Alt" && app.drag.active) event.preventDefault();
   });
@@ -69,14 +70,14 @@ function isTyping(event: KeyboardEvent): boolean {
   return target instanceof HTMLSelectElement;
 }
 
-function withControl(app: Keyed, event: KeyboardEvent): Act | undefined {
+function controlKey(app: KeyTarget, event: KeyboardEvent): Act | undefined {
   const key = event.key.toLowerCase();
   if (key === "z") return event.shiftKey ? app.actions.redo : app.actions.undo;
   if (key === "y") return app.actions.redo;
   return undefined;
 }
 
-function plain(app: Keyed, event: KeyboardEvent): Act | undefined {
+function plainKey(app: KeyTarget, event: KeyboardEvent): Act | undefined {
   const { actions } = app;
   const view = kStandardViews.find(({ key }) => key === event.key);
   if (view) return () => app.viewport.rig.lookFrom(view.direction);
@@ -84,7 +85,7 @@ function plain(app: Keyed, event: KeyboardEvent): Act | undefined {
     f: actions.fit,
     o: actions.projection,
     v: actions.stereo,
-    w: actions.wholeScreen,
+    w: actions.fullScreen,
     g: actions.gizmo,
     s: actions.section,
     m: actions.measure,
@@ -108,16 +109,16 @@ function plain(app: Keyed, event: KeyboardEvent): Act | undefined {
     y: () => app.lockAxis?.(1),
     z: () => app.lockAxis?.(2),
   };
-  return keys[event.key.toLowerCase()] ?? aboutView(app, event);
+  return keys[event.key.toLowerCase()] ?? viewKey(app, event);
 }
 
-function aboutView(app: Keyed, event: KeyboardEvent): Act | undefined {
+function viewKey(app: KeyTarget, event: KeyboardEvent): Act | undefined {
   const { rig, canvas } = app.viewport;
-  if (event.key === "+" || event.key === "=") return () => rig.zoom(1 / kZoom, rig.current.focus);
-  if (event.key === "-") return () => rig.zoom(kZoom, rig.current.focus);
-  const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-  if (!way || document.activeElement !== canvas) return undefined;
+  if (event.key === "+" || event.key === "=") return () => rig.zoom(1 / kZoomFactor, rig.current.focus);
+  if (event.key === "-") return () => rig.zoom(kZoomFactor, rig.current.focus);
+  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  if (!step || document.activeElement !== canvas) return undefined;
   const { focus } = rig.current;
-  if (event.shiftKey) return () => rig.pan(-way[0] * kPan, -way[1] * kPan, focus);
-  return () => rig.orbit(way[0] * kTurn, way[1] * kTurn, focus);
+  if (event.shiftKey) return () => rig.pan(-step[0] * kPanStep, -step[1] * kPanStep, focus);
+  return () => rig.orbit(step[0] * kOrbitStep, step[1] * kOrbitStep, focus);
 }

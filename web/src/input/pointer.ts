@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
+import type { Axis } from "../axes.ts";
 import type { Gizmo } from "../scene/gizmo.ts";
 import type { Pick } from "../scene/model_view.ts";
-import type { Session } from "../session.ts";
+import { freeOf, type Session } from "../session.ts";
 import type { Drag } from "./drag.ts";
 import type { DragMode, PointerStep } from "./drag_motion.ts";
 
-const kClickReach = 4;
+const kClickTolerance = 4;
 const kZoomStep = 0.0012;
 
 type Gesture =
   | { kind: "orbit"; pivot: Vector3 }
   | { kind: "pan"; grabbed: Vector3 }
   | { kind: "press"; pick: Pick; adds: boolean }
-  | { kind: "arrow"; arrow: number; below: Gesture }
+  | { kind: "arrow"; arrow: number; fallback: Gesture }
   | { kind: "drag"; mode: DragMode | null; ready: Promise<boolean> };
 
-/// What the pointer does in the picture. Left: orbit on empty space, select and drag on a component; right always orbits;
-/// middle pans; the wheel zooms to the cursor; a double click focuses. Two fingers pan and zoom.
+/// Pointer gestures in the 3D view. Left button: orbit on empty space, select and drag on a component; right: always
+/// orbit; middle: pan; wheel: zoom to the cursor; double click: focus. Two fingers pan and zoom.
 export class PointerInput {
-  /// A click that some tool wants (measuring) instead of a selection; returns whether it took it.
+  /// Offers a click to a tool (measure) before it selects; returns true if the tool took it.
   onClick: (pick: Pick | null) => boolean = () => false;
-  /// An axis that the keyboard locked.
-  axisLock: 0 | 1 | 2 | null = null;
+  /// World axis locked by the keyboard.
+  axisLock: Axis | null = null;
 
   private gesture: Gesture | null = null;
   private moved = false;
@@ -45,18 +46,18 @@ export class PointerInput {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    session.viewport.beforePicture.push(() => this.showHover());
+    session.viewport.beforeRender.push(() => this.showHover());
   }
 
-  private place(event: MouseEvent): { x: number; y: number } {
+  private positionOf(event: MouseEvent): { x: number; y: number } {
     const box = this.session.viewport.canvas.getBoundingClientRect();
-    return this.session.viewport.placeInView(event.clientX - box.left, event.clientY - box.top);
+    return this.session.viewport.positionInView(event.clientX - box.left, event.clientY - box.top);
   }
 
   private press(event: PointerEvent): void {
     const { viewport } = this.session;
     const { canvas } = viewport;
-    const at = this.place(event);
+    const at = this.positionOf(event);
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
     if (event.pointerType === "touch") this.touches.set(event.pointerId, at);
@@ -79,7 +80,7 @@ export class PointerInput {
     if (view) return rig.lookFrom(view);
     const arrow = this.arrowAt(at);
     this.gesture = this.gestureFor(event, at);
-    if (arrow >= 0 && this.gesture.kind !== "drag") this.gesture = { kind: "arrow", arrow, below: this.gesture };
+    if (arrow >= 0 && this.gesture.kind !== "drag") this.gesture = { kind: "arrow", arrow, fallback: this.gesture };
   }
 
   private gestureFor(event: PointerEvent, at: { x: number; y: number }): Gesture {
@@ -93,23 +94,23 @@ export class PointerInput {
   }
 
   private move(event: PointerEvent): void {
-    const at = this.place(event);
+    const at = this.positionOf(event);
     if (event.pointerType === "touch" && this.touches.size === 2) return this.pinch(event.pointerId, at);
     if (!this.gesture) {
       this.hoverAt = at;
       this.session.viewport.invalidate();
       return;
     }
-    if (!this.moved && Math.hypot(at.x - this.down.x, at.y - this.down.y) < kClickReach) return;
+    if (!this.moved && Math.hypot(at.x - this.down.x, at.y - this.down.y) < kClickTolerance) return;
     const first = !this.moved;
     this.moved = true;
-    this.carryOn(event, at, first);
+    this.continueGesture(event, at, first);
     this.last = at;
   }
 
-  private carryOn(event: PointerEvent, at: { x: number; y: number }, first: boolean): void {
+  private continueGesture(event: PointerEvent, at: { x: number; y: number }, first: boolean): void {
     const { rig } = this.session.viewport;
-    if (this.gesture?.kind === "arrow") this.gesture = this.gesture.below;
+    if (this.gesture?.kind === "arrow") this.gesture = this.gesture.fallback;
     if (first && this.gesture?.kind === "press") this.gesture = this.startDrag(this.gesture);
     const [dx, dy] = [at.x - this.last.x, at.y - this.last.y];
     if (this.gesture?.kind === "orbit") rig.orbit(dx, dy, this.gesture.pivot);
@@ -150,7 +151,7 @@ export class PointerInput {
     if (gesture.kind === "drag") void gesture.ready.then(() => this.drag.end());
     else if (!this.moved && event.type === "pointerup" && event.button === 0) this.click(gesture);
     this.gesture = null;
-    this.hoverAt = this.place(event);
+    this.hoverAt = this.positionOf(event);
   }
 
   private click(gesture: Gesture): void {
@@ -164,10 +165,10 @@ export class PointerInput {
     this.session.select(has ? selection.filter((c) => c !== pick.component) : [...selection, pick.component]);
   }
 
-  /// Looks closely at what was clicked twice, or at everything.
+  /// Fits the view to the component under the cursor, or to everything.
   private focus(event: MouseEvent): void {
     const { viewport, store } = this.session;
-    const at = this.place(event);
+    const at = this.positionOf(event);
     if (this.moved || store.measuring || !viewport.model) return;
     if (viewport.pickCube(at.x, at.y) || this.isOnHandle(at)) return;
     const pick = viewport.pick(at.x, at.y);
@@ -176,7 +177,7 @@ export class PointerInput {
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
-    const at = this.place(event);
+    const at = this.positionOf(event);
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1;
     const amount = Math.max(-400, Math.min(400, event.deltaY * lines));
     this.session.viewport.rig.zoom(Math.exp(amount * kZoomStep), this.pivot(at));
@@ -195,7 +196,7 @@ export class PointerInput {
     this.moved = true;
   }
 
-  /// What a place on screen is about: the surface there, or the depth of what is looked at.
+  /// The point that a gesture refers to: on the surface under the cursor, or at the depth of the view's focus.
   private pivot(at: { x: number; y: number }): Vector3 {
     const { viewport } = this.session;
     const pick = viewport.pick(at.x, at.y);
@@ -218,9 +219,9 @@ export class PointerInput {
 
   private takeOutAlong(arrow: number): void {
     const { directions } = this.session.store;
-    const free = directions?.directions.filter((way) => way.free) ?? [];
-    if (!directions || !free[arrow]) return;
-    void this.session.ask("take_out", { components: directions.components, direction: free[arrow].direction });
+    const direction = freeOf(directions?.directions)[arrow]?.direction;
+    if (!directions || !direction) return;
+    void this.session.send("take_out", { components: directions.components, direction });
   }
 
   private leave(): void {
@@ -229,13 +230,13 @@ export class PointerInput {
     if (!this.gesture) this.session.hover(null);
   }
 
-  /// Of the arrows of free directions, or -1. Where one measures, a click takes a point, whatever is drawn over it.
+  /// Index of the free direction's arrow under the cursor, or -1. While measuring, arrows do not take clicks.
   private arrowAt({ x, y }: { x: number; y: number }): number {
     const { viewport, store } = this.session;
     return store.measuring ? -1 : viewport.directions.pick(viewport.rig, x, y);
   }
 
-  /// What a drag from a handle of the gizmo would do.
+  /// The drag that the gizmo's handle under the cursor starts; null: no handle.
   private handleAt({ x, y }: { x: number; y: number }): DragMode | null {
     const { viewport, store } = this.session;
     return store.measuring ? null : this.gizmo.pick(viewport.rig, x, y);

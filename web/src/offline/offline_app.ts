@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Vector3 } from "three";
-import { button, element, saveAs, setText } from "../dom.ts";
+import { element, makeStage, saveAs } from "../dom.ts";
 import { Drag } from "../input/drag.ts";
-import { type Keyed, listenForKeys } from "../input/keys.ts";
+import { type KeyTarget, listenForKeys } from "../input/keys.ts";
 import { PointerInput } from "../input/pointer.ts";
 import { Toasts } from "../panels/banner.ts";
 import { helpDialog } from "../panels/help.ts";
 import { Measure } from "../panels/measure.ts";
 import { SectionPanel } from "../panels/section_panel.ts";
 import { TimelinePanel } from "../panels/timeline.ts";
+import { type ToolName, toolButton, toolbarNode, toolGroup } from "../panels/tool_button.ts";
 import { TreePanel } from "../panels/tree.ts";
 import { Gizmo } from "../scene/gizmo.ts";
 import { Viewport, type ViewportOptions } from "../scene/viewport.ts";
@@ -16,11 +16,11 @@ import { Session } from "../session.ts";
 import { kOfflineHelp, text } from "../strings.ts";
 import { ThemeSwitch } from "../theme.ts";
 import { OfflineBanner } from "./offline_banner.ts";
-import { type Film, PathPlayer } from "./path_player.ts";
+import { type OfflineContent, PathPlayer } from "./path_player.ts";
 import { StepsPanel } from "./steps_panel.ts";
 
-/// The page that needs no server: the viewer's parts, with a path that is played in the engine's place.
-export class OfflineApp implements Keyed {
+/// The exported page, which needs no server: the viewer's parts, with a path player in place of the engine.
+export class OfflineApp implements KeyTarget {
   readonly viewport: Viewport;
   readonly session: Session;
   readonly drag: Drag;
@@ -38,15 +38,12 @@ export class OfflineApp implements Keyed {
 
   constructor(
     options: ViewportOptions,
-    private readonly film: Film,
+    private readonly content: OfflineContent,
   ) {
     document.documentElement.toggleAttribute("data-offline", true);
-    const label = text("offline.view");
-    const canvas = element("canvas", { id: "view", tabIndex: 0, role: "application", "aria-label": label });
-    const stage = element("main", { id: "stage" }, canvas);
-    document.body.append(stage);
+    const { stage, canvas } = makeStage(text("offline.view"));
     this.viewport = new Viewport(canvas, options);
-    this.player = new PathPlayer(film);
+    this.player = new PathPlayer(content);
     this.session = new Session(this.viewport, this.player);
     this.drag = new Drag(this.session);
     const pointer = new PointerInput(this.session, this.drag, new Gizmo());
@@ -61,21 +58,20 @@ export class OfflineApp implements Keyed {
     stage.append(new OfflineBanner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
     document.body.prepend(this.toolbar(), this.tree.node);
     document.body.append(this.steps.node, this.timeline.node, this.help);
-    document.title = `${film.model.name} – ${text("title")}`;
+    document.title = `${content.model.name} – ${text("title")}`;
     pointer.onClick = (pick) => this.measure.click(pick);
-    this.session.onNote = (level, sentence) => this.toasts.show(level, sentence);
-    this.session.onModel = () => this.viewport.rig.fit(this.viewport.model!.bounds(), new Vector3(1, -1.6, 0.9));
+    this.session.onNote = (level, message) => this.toasts.show(level, message);
     listenForKeys(this);
     this.player.connect();
   }
 
   private makeActions() {
     return {
-      fit: () => this.fit(),
+      fit: () => this.session.fitView(),
       projection: () => {
         this.viewport.rig.orthographic = !this.viewport.rig.orthographic;
       },
-      wholeScreen: () =>
+      fullScreen: () =>
         void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()),
       section: () => this.sections.toggle(),
       measure: () => this.measure.toggle(),
@@ -88,49 +84,19 @@ export class OfflineApp implements Keyed {
       toggleHidden: () => this.session.toggleHidden(),
       search: () => this.tree.focusSearch(),
       escape: () => (this.session.store.measuring ? this.measure.toggle() : this.session.select([])),
-      screenshot: () => void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.stem()}.png`)),
+      screenshot: () =>
+        void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.session.fileStem}.png`)),
     };
   }
 
   private toolbar(): HTMLElement {
-    const { actions } = this;
-    const group = (...children: Node[]) => element("div", { class: "group" }, ...children);
-    const name = element("span", { class: "model-name" });
-    setText(name, this.film.model.name);
-    return element(
-      "header",
-      { id: "toolbar", role: "toolbar", "aria-label": text("toolbar.label") },
-      element("span", { class: "brand" }, text("title")),
-      group(
-        button({ icon: "section", label: text("section"), key: "S", id: "section", press: actions.section }),
-        button({ icon: "measure", label: text("measure"), key: "M", id: "measure", press: actions.measure }),
-      ),
-      group(
-        button({ icon: "fit", label: text("fit"), key: "F", id: "fit", press: actions.fit }),
-        button({
-          icon: "parallel",
-          label: text("projection"),
-          key: "O",
-          id: "projection",
-          press: actions.projection,
-        }),
-      ),
-      name,
-      group(
-        button({ icon: "camera", label: text("screenshot"), id: "screenshot", press: actions.screenshot }),
-        button({ icon: "theme", label: text("theme"), key: "T", id: "theme", press: actions.theme }),
-        button({ icon: "help", label: text("help"), key: "H", id: "help", press: actions.help }),
-      ),
+    const group = (...tools: (ToolName & keyof typeof this.actions)[]) =>
+      toolGroup(...tools.map((tool) => toolButton(tool, this.actions[tool])));
+    return toolbarNode(
+      group("section", "measure"),
+      group("fit", "projection"),
+      element("span", { class: "model-name" }, this.content.model.name),
+      group("screenshot", "theme", "help"),
     );
-  }
-
-  private fit(): void {
-    const { selection } = this.session.store;
-    const { model, rig } = this.viewport;
-    if (model) rig.fit(selection.length > 0 ? model.boundsOf(selection) : model.bounds());
-  }
-
-  private stem(): string {
-    return this.film.model.name.replace(/\.\w+$/, "");
   }
 }

@@ -1,46 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type GuideStep, poseAt } from "../guide.ts";
+import { kIdentityPose } from "../pose.ts";
 import { text } from "../strings.ts";
-import type { Link, Wire } from "../wire/connection.ts";
+import type { Link, Transport } from "../wire/connection.ts";
+import { EventListeners } from "../wire/event_listeners.ts";
 import type { Commands, ComponentState, Events, ModelEvent, StateEvent } from "../wire/messages.ts";
 import type { PoseFrame, WirePose } from "../wire/structs.ts";
 
 type Listener<T> = (value: T) => void;
 type Handlers = { [Name in keyof Commands]?: (members: Commands[Name][0]) => void };
 
-const kAssembled = [0, 0, 0, 1, 0, 0, 0];
-
-/// What an offline page holds.
-export interface Film {
+/// The content of an exported page.
+export interface OfflineContent {
   model: ModelEvent;
   glb: ArrayBuffer;
   steps: GuideStep[];
 }
 
-/// Plays a path in the server's place: it answers what a viewer without an engine can be asked, and tells states and
-/// poses as the server does. Nothing is checked for contact: the path was, when it was made.
-export class PathPlayer implements Wire {
+/// Plays a path in place of the server: executes the commands that need no engine and emits states and poses as the
+/// server does. Contact is not checked: it was when the path was made.
+export class PathPlayer implements Transport {
   onFrame: Listener<PoseFrame> = () => {};
   onLink: Listener<Link> = () => {};
   readonly settled = true;
 
-  private readonly listeners: { [Name in keyof Events]?: Listener<Events[Name]>[] } = {};
-  private readonly starts: number[] = [];
+  private readonly listeners = new EventListeners();
+  private readonly startTimes: number[] = [];
   private readonly duration: number;
   private readonly hidden = new Set<number>();
-  private shownBefore: Set<number> | null = null;
+  private hiddenBefore: Set<number> | null = null;
   private time = 0;
   private speed = 1;
   private playing = false;
-  /// Where a playback stops that is of one step only.
-  private until: number | null = null;
+  /// End of a playback of a single step [s]; null: plays to the end of the path.
+  private endTime: number | null = null;
   private states = 0;
-  private ticked = 0;
+  private lastTick = 0;
 
-  constructor(private readonly film: Film) {
+  constructor(private readonly content: OfflineContent) {
     let start = 0;
-    for (const { duration } of film.steps) {
-      this.starts.push(start);
+    for (const { duration } of content.steps) {
+      this.startTimes.push(start);
       start += duration;
     }
     this.duration = start;
@@ -48,52 +48,50 @@ export class PathPlayer implements Wire {
 
   connect(): void {
     this.onLink("open");
-    this.tell("control", { control: true, clients: 1 });
-    this.tell("model", this.film.model);
-    this.tellState();
+    this.listeners.emit("control", { control: true, clients: 1 });
+    this.listeners.emit("model", this.content.model);
+    this.emitState();
   }
 
   reconnect(): void {}
   sendStruct(): void {}
 
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void {
-    const listeners = (this.listeners[name] ?? []) as Listener<Events[Name]>[];
-    listeners.push(listener);
-    (this.listeners as Record<string, unknown>)[name] = listeners;
+    this.listeners.on(name, listener);
   }
 
   async command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]> {
     const handler = this.handlers[name] as ((members: Commands[Name][0]) => void) | undefined;
     if (!handler) throw new Error(text("offline.cannot"));
     handler(members);
-    this.tellState();
+    this.emitState();
     return {} as Commands[Name][1];
   }
 
   async request(address: string): Promise<globalThis.Response> {
     if (!address.startsWith("/api/model.glb")) throw new Error(text("offline.cannot"));
-    return new Response(this.film.glb);
+    return new Response(this.content.glb);
   }
 
-  /// Plays one step from its beginning to its end.
+  /// Plays one step from its start to its end.
   playStep(step: number): void {
-    this.time = this.starts[step];
-    this.until = this.starts[step] + this.film.steps[step].duration;
+    this.time = this.startTimes[step];
+    this.endTime = this.startTimes[step] + this.content.steps[step].duration;
     this.start(1);
-    this.tellState();
+    this.emitState();
   }
 
-  /// The step that is played now, or was last.
+  /// Index of the step that is played now, or was last.
   get step(): number {
-    const after = this.starts.findIndex((start) => start > this.time);
-    const step = (after < 0 ? this.starts.length : after) - 1;
-    // At the end of the one and the beginning of the next: the one that one came from.
-    return step > 0 && this.until === this.time ? step - 1 : step;
+    const after = this.startTimes.findIndex((start) => start > this.time);
+    const step = (after < 0 ? this.startTimes.length : after) - 1;
+    // Exactly between two steps, the one that was played counts.
+    return step > 0 && this.endTime === this.time ? step - 1 : step;
   }
 
   private readonly handlers: Handlers = {
     play: ({ speed }) => {
-      this.until = null;
+      this.endTime = null;
       if (speed < 0 && this.time <= 0) this.time = this.duration;
       this.start(speed);
     },
@@ -101,7 +99,7 @@ export class PathPlayer implements Wire {
       this.playing = false;
     },
     seek: ({ time }) => {
-      this.until = null;
+      this.endTime = null;
       this.time = Math.max(0, Math.min(this.duration, time));
     },
     hide: ({ components }) => {
@@ -111,16 +109,16 @@ export class PathPlayer implements Wire {
       for (const component of components) this.hidden.delete(component);
     },
     isolate: ({ components }) => {
-      this.shownBefore ??= new Set(this.hidden);
-      this.film.model.components.forEach((_, i) => {
+      this.hiddenBefore ??= new Set(this.hidden);
+      this.content.model.components.forEach((_, i) => {
         if (!components.includes(i)) this.hidden.add(i);
       });
     },
     restore: () => {
-      if (!this.shownBefore) return;
+      if (!this.hiddenBefore) return;
       this.hidden.clear();
-      for (const component of this.shownBefore) this.hidden.add(component);
-      this.shownBefore = null;
+      for (const component of this.hiddenBefore) this.hidden.add(component);
+      this.hiddenBefore = null;
     },
   };
 
@@ -128,7 +126,7 @@ export class PathPlayer implements Wire {
     this.speed = speed;
     if (this.playing) return;
     this.playing = true;
-    this.ticked = performance.now();
+    this.lastTick = performance.now();
     const tick = (): void => {
       if (!this.playing) return;
       this.advance(performance.now());
@@ -139,40 +137,40 @@ export class PathPlayer implements Wire {
 
   private advance(now: number): void {
     const step = this.step;
-    const last = this.until ?? this.duration;
-    const wanted = this.time + (this.speed * (now - this.ticked)) / 1000;
-    this.ticked = now;
-    this.time = Math.max(0, Math.min(last, wanted));
+    const last = this.endTime ?? this.duration;
+    const target = this.time + (this.speed * (now - this.lastTick)) / 1000;
+    this.lastTick = now;
+    this.time = Math.max(0, Math.min(last, target));
     if (this.time === (this.speed < 0 ? 0 : last)) this.playing = false;
-    if (!this.playing || this.step !== step) this.tellState();
-    this.tellPose();
+    if (!this.playing || this.step !== step) this.emitState();
+    this.emitPose();
   }
 
-  /// Where every component is; null: assembled.
+  /// The pose of each component; null: assembled.
   private poses(): (WirePose | null)[] {
-    const poses: (WirePose | null)[] = this.film.model.components.map(() => null);
-    const { steps } = this.film;
-    // What a step moves stands at its beginning before: of a path together, that is not where it is assembled.
+    const poses: (WirePose | null)[] = this.content.model.components.map(() => null);
+    const { steps } = this.content;
+    // Before its step begins, a component is at the step's start: of an assembly path, that is not its assembled
+    // position.
     for (let i = steps.length - 1; i >= 0; --i) for (const c of steps[i].components) poses[c] = steps[i].frames[0].pose;
     for (let i = 0; i <= this.step; ++i)
-      for (const c of steps[i].components) poses[c] = poseAt(steps[i], this.time - this.starts[i]);
+      for (const c of steps[i].components) poses[c] = poseAt(steps[i], this.time - this.startTimes[i]);
     return poses;
   }
 
-  private tellState(): void {
-    const { steps } = this.film;
+  private emitState(): void {
+    const { steps } = this.content;
     const step = this.step;
     const components = this.poses().map((pose, i): ComponentState => {
-      const moved = pose && [...pose.position, ...pose.rotation].some((value, k) => value !== kAssembled[k]);
-      const state: ComponentState = moved ? { pose: [...pose.position, ...pose.rotation] } : {};
+      const state: ComponentState = pose && isMoved(pose) ? { pose: numbersOf(pose) } : {};
       if (this.hidden.has(i)) state.hidden = true;
       return state;
     });
     const state: StateEvent = {
       number: ++this.states,
-      model: this.film.model.number,
+      model: this.content.model.number,
       components,
-      isolated: this.shownBefore !== null,
+      isolated: this.hiddenBefore !== null,
       hand: null,
       moving: steps[step]?.components ?? [],
       automatic: null,
@@ -182,7 +180,7 @@ export class PathPlayer implements Wire {
       moves: steps.map(({ label, components: moved, duration }, i) => ({
         label,
         components: moved,
-        start: this.starts[i],
+        start: this.startTimes[i],
         duration,
       })),
       playback: {
@@ -199,14 +197,14 @@ export class PathPlayer implements Wire {
       resumed: false,
       resumable: false,
     };
-    this.tell("state", state);
+    this.listeners.emit("state", state);
   }
 
-  private tellPose(): void {
-    const step = this.film.steps[this.step];
+  private emitPose(): void {
+    const step = this.content.steps[this.step];
     if (!step) return;
     this.onFrame({
-      ...poseAt(step, this.time - this.starts[this.step]),
+      ...poseAt(step, this.time - this.startTimes[this.step]),
       reached: true,
       blocked: false,
       playback: true,
@@ -221,8 +219,13 @@ export class PathPlayer implements Wire {
       contacts: [],
     });
   }
+}
 
-  private tell<Name extends keyof Events>(name: Name, event: Events[Name]): void {
-    for (const listener of this.listeners[name] ?? []) (listener as Listener<Events[Name]>)(event);
-  }
+function numbersOf({ position, rotation }: WirePose): NonNullable<ComponentState["pose"]> {
+  return [...position, ...rotation];
+}
+
+function isMoved(pose: WirePose): boolean {
+  const assembled = numbersOf(kIdentityPose);
+  return numbersOf(pose).some((value, k) => value !== assembled[k]);
 }

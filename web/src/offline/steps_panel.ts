@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, setText } from "../dom.ts";
+import { kSameTime } from "../moves.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { PathPlayer } from "./path_player.ts";
 
-/// The steps of the path as a list; a press plays one.
+/// The list of the path's steps. Clicking one plays it.
 export class StepsPanel {
   readonly node: HTMLElement;
   private readonly list = element("ol", { class: "steps" });
@@ -24,13 +25,12 @@ export class StepsPanel {
     session.notifier.subscribe(() => this.update());
   }
 
-  /// Plays the step before or after the present one.
+  /// Plays the next or the previous step.
   go(by: 1 | -1): void {
-    const at = this.session.store.state!.playback!.time;
-    const moves = this.session.store.state!.moves;
-    const step = this.player.step;
-    const fresh = by > 0 && at <= moves[step].start + 1e-9;
-    const next = Math.max(0, Math.min(moves.length - 1, fresh ? step : step + by));
+    const { playback, moves } = this.session.store.state!;
+    const { step } = this.player;
+    const notBegun = by > 0 && playback!.time <= moves[step].start + kSameTime;
+    const next = Math.max(0, Math.min(moves.length - 1, notBegun ? step : step + by));
     this.player.playStep(next);
   }
 

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Matrix4, Vector3 } from "three";
+import { Box3, Vector3 } from "three";
 import { button, element, setText } from "../dom.ts";
-import { type GuideStep, type PathFile, stepsOfPath } from "../guide.ts";
+import type { GuideStep } from "../guide.ts";
+import { endOf, kSameTime } from "../moves.ts";
+import { matrixOf } from "../pose.ts";
 import type { View } from "../scene/camera_rig.ts";
-import { setMatrixFromPose } from "../scene/model_view.ts";
 import { Trails, trailsUntil } from "../scene/trails.ts";
 import { Seeker } from "../seeker.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { ModelEvent, Move, Source } from "../wire/messages.ts";
 
-/// What is shown at most, in diagonals of the assembly.
-const kMostRoom = 2.5;
-/// Positions nearer to each other than this part of a step are the same.
-const kSame = 1e-6;
+/// Maximum side of the region that is fitted, in diagonals of the assembly.
+const kMaxExtent = 2.5;
+/// Positions that differ by less are the same [steps].
+const kSamePosition = 1e-6;
 
-/// The steps of a path, one after another: how far each has taken its components, and the trails that they drew. The
-/// server's playback puts them there, so that nothing is shown that is not on the path.
+/// The exploded view: the steps of a path, scrubbed in order, with trails. The server's playback moves the components,
+/// so only poses on the path are shown.
 export class ExplodePanel {
   readonly node = element("section", {
     id: "explode-panel",
@@ -24,7 +25,7 @@ export class ExplodePanel {
     "aria-label": text("explode"),
     hidden: true,
   });
-  private readonly words = element("p", { id: "explode-step", role: "status" });
+  private readonly status = element("p", { id: "explode-step", role: "status" });
   private readonly slider = element("input", {
     type: "range",
     min: "0",
@@ -38,11 +39,11 @@ export class ExplodePanel {
   private readonly trails = new Trails();
   private readonly seeker: Seeker;
   private steps: GuideStep[] = [];
-  private viewBefore: View | null = null;
-  /// The playback is the panel's own.
+  private savedView: View | null = null;
+  /// True if this panel has started the playback.
   private opened = false;
   private shownModel: ModelEvent | null = null;
-  /// Until when the trails go; null: none are shown.
+  /// End of the shown trails [s]; null: no trails.
   private shownTime: number | null = null;
 
   constructor(private readonly session: Session) {
@@ -51,17 +52,17 @@ export class ExplodePanel {
       icon: "start",
       label: text("explode.before"),
       id: "explode-before",
-      press: () => this.scrubTo(Math.ceil(this.position() - kSame) - 1),
+      press: () => this.scrubTo(Math.ceil(this.position() - kSamePosition) - 1),
     });
     this.after = button({
       icon: "end",
       label: text("explode.after"),
       id: "explode-after",
-      press: () => this.scrubTo(Math.floor(this.position() + kSame) + 1),
+      press: () => this.scrubTo(Math.floor(this.position() + kSamePosition) + 1),
     });
     this.slider.oninput = () => this.scrubTo(Number(this.slider.value));
     this.tools = element("div", { class: "explode-tools" }, this.before, this.slider, this.after);
-    this.node.append(this.words, this.tools);
+    this.node.append(this.status, this.tools);
     session.viewport.scene.add(this.trails.object);
     session.notifier.subscribe(() => this.update());
   }
@@ -90,58 +91,55 @@ export class ExplodePanel {
     if (this.moves().length === 0) return;
     const source = this.source();
     try {
-      const answer = await session.connection.request(source === "guide" ? "/api/guide.json" : "/api/path.json");
-      const names = model.components.map(({ name }) => name);
-      this.steps = stepsOfPath((await answer.json()) as PathFile, names);
+      this.steps = await session.loadSteps(source);
     } catch (error) {
       session.onNote("warning", (error as Error).message);
     }
     const { rig } = session.viewport;
-    this.viewBefore = rig.current;
+    this.savedView = rig.current;
     rig.fit(this.extent());
     await this.seeker.seek(this.timeAt(this.moves().length), source);
-    if (!session.store.exploding) return void session.ask("stop", {});
+    if (!session.store.exploding) return void session.send("stop", {});
     this.opened = true;
     session.notifier.notify();
   }
 
   private async close(): Promise<void> {
-    this.leave();
-    if (this.session.store.state?.playback) await this.session.ask("stop", {});
+    this.reset();
+    if (this.session.store.state?.playback) await this.session.send("stop", {});
   }
 
-  private leave(): void {
+  private reset(): void {
     const { session } = this;
     this.opened = false;
     this.steps = [];
-    if (this.viewBefore) session.viewport.rig.fly(this.viewBefore);
-    this.viewBefore = null;
+    if (this.savedView) session.viewport.rig.fly(this.savedView);
+    this.savedView = null;
     session.change(() => {
       session.store.exploding = false;
     });
   }
 
-  /// Of the assembly and of where the path takes it, as far as the assembly stays large enough to be looked at: a recording
-  /// takes its components out one after another, each to a place further away.
+  /// Bounds of the assembly and of its parts after the path, limited so that the assembly remains large enough:
+  /// recordings can move components far away.
   private extent(): Box3 {
     const { components } = this.session.store.model!;
     const boxes = components.map(({ bounds: [low, high] }) => new Box3(new Vector3(...low), new Vector3(...high)));
     const all = boxes.reduce((sum, box) => sum.union(box), new Box3());
     for (const { components: set, frames } of this.steps)
-      for (const c of set)
-        all.union(boxes[c].clone().applyMatrix4(setMatrixFromPose(new Matrix4(), frames[frames.length - 1].pose)));
-    const whole = new Box3().setFromArray(this.session.store.model!.bounds.flat());
-    const room = kMostRoom * whole.getSize(new Vector3()).length();
+      for (const c of set) all.union(boxes[c].clone().applyMatrix4(matrixOf(frames[frames.length - 1].pose)));
+    const { modelBox } = this.session;
+    const side = kMaxExtent * diagonalOf(modelBox);
     return all.intersect(
-      new Box3().setFromCenterAndSize(whole.getCenter(new Vector3()), new Vector3(room, room, room)),
+      new Box3().setFromCenterAndSize(modelBox.getCenter(new Vector3()), new Vector3(side, side, side)),
     );
   }
 
-  /// How many steps have been taken; the last one in part.
+  /// Number of completed steps, with the fraction of the current one.
   private position(): number {
     const moves = this.moves();
-    const time = this.session.playedTime ?? 0;
-    const next = moves.findIndex(({ start, duration }) => time < start + duration - 1e-9);
+    const time = this.session.playbackTime ?? 0;
+    const next = moves.findIndex((move) => time < endOf(move) - kSameTime);
     if (next < 0) return moves.length;
     return next + Math.max(0, time - moves[next].start) / moves[next].duration;
   }
@@ -159,42 +157,42 @@ export class ExplodePanel {
 
   private update(): void {
     const { exploding, state, control, model } = this.session.store;
-    if (model !== this.shownModel) this.viewBefore = null;
+    if (model !== this.shownModel) this.savedView = null;
     this.shownModel = model;
-    if (this.opened && !(exploding && state?.playback)) return this.leave();
+    if (this.opened && !(exploding && state?.playback)) return this.reset();
     this.node.hidden = !exploding;
     this.showTrails();
     if (!exploding) return;
     const moves = this.moves();
     this.tools.hidden = moves.length === 0;
-    if (moves.length === 0) return setText(this.words, text("explode.none"));
+    if (moves.length === 0) return setText(this.status, text("explode.none"));
     const position = this.position();
     this.slider.max = String(moves.length);
     if (!this.seeker.busy) this.slider.value = String(position);
     this.slider.disabled = this.before.disabled = this.after.disabled = !control;
-    const shown = Math.ceil(position - kSame);
+    const shown = Math.ceil(position - kSamePosition);
     const step = { step: shown, count: moves.length, label: moves[shown - 1]?.label ?? "" };
-    const words = text(shown === 0 ? "explode.assembled" : "explode.step", step);
-    setText(this.words, words);
-    this.slider.setAttribute("aria-valuetext", words);
+    const status = text(shown === 0 ? "explode.assembled" : "explode.step", step);
+    setText(this.status, status);
+    this.slider.setAttribute("aria-valuetext", status);
   }
 
   private showTrails(): void {
     const { exploding, model } = this.session.store;
-    const { playedTime } = this.session;
-    const time = exploding && this.steps.length > 0 ? playedTime : null;
+    const { playbackTime } = this.session;
+    const time = exploding && this.steps.length > 0 ? playbackTime : null;
     if (time === this.shownTime) return;
     this.shownTime = time;
     const center = (c: number): Vector3 => {
       const [low, high] = model!.components[c].bounds;
       return new Vector3(...low).add(new Vector3(...high)).multiplyScalar(0.5);
     };
-    const [low, high] = model?.bounds ?? [
-      [0, 0, 0],
-      [0, 0, 0],
-    ];
-    const size = new Vector3(...high).distanceTo(new Vector3(...low));
-    const ways = time === null ? [] : trailsUntil(this.steps, time, center, size);
-    this.trails.show(ways, this.session.viewport.palette.ghost);
+    const size = diagonalOf(this.session.modelBox);
+    const segments = time === null ? [] : trailsUntil(this.steps, time, center, size);
+    this.trails.show(segments, this.session.viewport.palette.ghost);
   }
+}
+
+function diagonalOf(box: Box3): number {
+  return box.getSize(new Vector3()).length();
 }

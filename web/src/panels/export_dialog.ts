@@ -1,72 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element, saveAs, setText } from "../dom.ts";
-import { FilmRecorder, videoFormat } from "../scene/film_recorder.ts";
+import { button, dialogHeader, element, saveAs, setText } from "../dom.ts";
+import { endOf } from "../moves.ts";
+import { VideoRecorder, videoFormat } from "../scene/video_recorder.ts";
 import type { Session } from "../session.ts";
 import { type TextKey, text } from "../strings.ts";
 import type { Source } from "../wire/messages.ts";
 
-/// A file that the server makes (docs/wire.md), and what its name ends in here.
+/// A file that the server exports (docs/wire.md), and the ending of its name.
 interface Format {
   file: string;
   ending: string;
   label: TextKey;
-  /// Of moves: there is none without them. Of components: the same in both directions.
-  of: "moves" | "both" | "components";
+  /// True if the file cannot be made without moves.
+  needsMoves: boolean;
+  /// True if the file can describe the assembly instead of the disassembly.
+  reversible: boolean;
 }
 
 const kFormats: Format[] = [
-  { file: "page.html", ending: ".html", label: "export.html", of: "both" },
-  { file: "animation.glb", ending: ".glb", label: "export.glb", of: "both" },
-  { file: "path.json", ending: ".path.json", label: "export.path", of: "moves" },
-  { file: "moves.csv", ending: "-moves.csv", label: "export.moves", of: "moves" },
-  { file: "bom.csv", ending: "-bom.csv", label: "export.billCsv", of: "components" },
-  { file: "bom.json", ending: "-bom.json", label: "export.billJson", of: "components" },
+  { file: "page.html", ending: ".html", label: "export.html", needsMoves: false, reversible: true },
+  { file: "animation.glb", ending: ".glb", label: "export.glb", needsMoves: false, reversible: true },
+  { file: "path.json", ending: ".path.json", label: "export.path", needsMoves: true, reversible: true },
+  { file: "moves.csv", ending: "-moves.csv", label: "export.moves", needsMoves: true, reversible: true },
+  { file: "bom.csv", ending: "-bom.csv", label: "export.bomCsv", needsMoves: false, reversible: false },
+  { file: "bom.json", ending: "-bom.json", label: "export.bomJson", needsMoves: false, reversible: false },
 ];
 
-/// How often a film asks whether the playback is over [ms], and how often before it has begun.
-const kLookEvery = 50;
-const kMostLooks = 200;
+/// Interval at which the end of a recorded playback is polled [ms], and the number of polls until it counts as not
+/// started.
+const kPollInterval = 50;
+const kMaxPolls = 200;
 
-/// What is open and what was done with it, as files for others; and a film of the playback.
+/// The dialog that exports the assembly and its moves as files, or the playback as a video.
 export class ExportDialog {
   readonly node = element("dialog", { id: "export-dialog", "aria-label": text("export") });
   private readonly reverse = element("input", { type: "checkbox", id: "export-reverse" });
-  private readonly words = element("p", { role: "status", id: "export-status", class: "muted" });
+  private readonly status = element("p", { role: "status", id: "export-status", class: "muted" });
   private readonly buttons = kFormats.map((format) => ({ format, button: this.formatButton(format) }));
-  private readonly film: HTMLButtonElement;
-  private filming = false;
+  private readonly videoButton: HTMLButtonElement;
+  private recording = false;
 
   constructor(private readonly session: Session) {
-    const picture = button({
+    const imageButton = button({
       icon: "camera",
       label: text("export.png"),
       wide: true,
       id: "export-png",
       press: () => void session.viewport.screenshot().then((blob) => this.save(blob, ".png")),
     });
-    this.film = button({
+    this.videoButton = button({
       icon: "play",
       label: text("export.video"),
       wide: true,
       id: "export-video",
-      press: () => void this.makeFilm(),
+      press: () => void this.recordVideo(),
     });
     this.node.append(
-      element(
-        "header",
-        {},
-        element("h1", {}, text("export")),
-        button({ icon: "close", label: text("help.close"), press: () => this.node.close() }),
-      ),
+      dialogHeader(text("export"), () => this.node.close()),
       element("label", { class: "check" }, this.reverse, element("span", {}, text("export.reverse"))),
-      element("div", { class: "exports" }, ...this.buttons.map(({ button: made }) => made), picture, this.film),
-      this.words,
+      element(
+        "div",
+        { class: "exports" },
+        ...this.buttons.map(({ button: node }) => node),
+        imageButton,
+        this.videoButton,
+      ),
+      this.status,
     );
     session.notifier.subscribe(() => this.update());
   }
 
   open(): void {
-    setText(this.words, "");
+    setText(this.status, "");
     this.update();
     this.node.showModal();
   }
@@ -86,73 +91,74 @@ export class ExportDialog {
     return state?.playback?.source ?? (state?.moves.length === 0 && state.guide ? "guide" : "recording");
   }
 
-  private async fetch({ file, ending, of }: Format): Promise<void> {
+  private async fetch({ file, ending, reversible }: Format): Promise<void> {
     const query = new URLSearchParams({ source: this.source });
-    if (this.reverse.checked && !this.reverse.disabled && of !== "components") query.set("reverse", "1");
-    setText(this.words, text("export.making"));
+    if (this.reverse.checked && !this.reverse.disabled && reversible) query.set("reverse", "1");
+    setText(this.status, text("export.making"));
     try {
-      const answer = await this.session.connection.request(`/api/export/${file}?${query}`);
-      this.save(await answer.blob(), ending);
+      const response = await this.session.connection.request(`/api/export/${file}?${query}`);
+      this.save(await response.blob(), ending);
     } catch (error) {
-      setText(this.words, (error as Error).message);
+      setText(this.status, (error as Error).message);
     }
   }
 
-  /// Plays everything once and keeps what is drawn.
-  private async makeFilm(): Promise<void> {
+  /// Plays all moves once and records the view as a video.
+  private async recordVideo(): Promise<void> {
     const { session } = this;
     const source = this.source;
     const moves = session.movesOf(source);
     const last = moves.at(-1);
-    if (!last || this.filming) return;
+    if (!last || this.recording) return;
     const back = this.reverse.checked;
-    const end = last.start + last.duration;
-    this.filming = true;
+    const end = endOf(last);
+    this.recording = true;
     this.node.close();
     try {
       await session.connection.command("seek", { time: back ? end : 0, source });
-      const recorder = new FilmRecorder(session.viewport);
+      const recorder = new VideoRecorder(session.viewport);
       await session.connection.command("play", { speed: back ? -1 : 1, source });
       await this.playbackEnds(back ? 0 : end);
       this.save(await recorder.stop(), videoFormat()!.startsWith("video/mp4") ? ".mp4" : ".webm");
     } catch (error) {
       session.onNote("warning", (error as Error).message);
     } finally {
-      this.filming = false;
+      this.recording = false;
     }
   }
 
-  /// The answer to "play" may come before the state that says so: it ends once it has been seen to play, or is at `end`.
+  /// Resolves when the playback has ended. The reply to "play" may arrive before the state that says so: playback has
+  /// ended once it was seen playing, or is at `end`.
   private playbackEnds(end: number): Promise<void> {
     const { store } = this.session;
     let begun = false;
-    let patience = kMostLooks;
+    let polls = 0;
     return new Promise((resolve) => {
-      const look = (): void => {
+      const poll = (): void => {
         const playback = store.state?.playback;
         begun ||= playback?.playing === true;
-        const over = begun ? !playback?.playing : playback?.time === end || --patience === 0;
+        const over = begun ? !playback?.playing : playback?.time === end || ++polls === kMaxPolls;
         if (over) resolve();
-        else setTimeout(look, kLookEvery);
+        else setTimeout(poll, kPollInterval);
       };
-      look();
+      poll();
     });
   }
 
   private save(content: Blob, ending: string): void {
-    const name = `${(this.session.store.model?.name ?? "assembly").replace(/\.\w+$/, "")}${ending}`;
+    const name = `${this.session.fileStem}${ending}`;
     saveAs(content, name);
-    const words = text("export.saved", { name });
-    if (this.node.open) setText(this.words, words);
-    else this.session.onNote("note", words);
+    const message = text("export.saved", { name });
+    if (this.node.open) setText(this.status, message);
+    else this.session.onNote("note", message);
   }
 
   private update(): void {
     const { state, control } = this.session.store;
     const none = this.session.movesOf(this.source).length === 0;
-    for (const { format, button: made } of this.buttons) made.disabled = !state || (format.of === "moves" && none);
+    for (const { format, button: node } of this.buttons) node.disabled = !state || (format.needsMoves && none);
     this.reverse.disabled = none;
     const busy = state?.hand != null || state?.automatic != null;
-    this.film.disabled = none || !control || busy || this.filming || videoFormat() === undefined;
+    this.videoButton.disabled = none || !control || busy || this.recording || videoFormat() === undefined;
   }
 }

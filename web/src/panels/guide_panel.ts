@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Matrix4 } from "three";
 import { button, element, relabel, setText } from "../dom.ts";
-import {
-  type ComponentNow,
-  type GuideStep,
-  nextStep,
-  type PathFile,
-  pointsOf,
-  poseAt,
-  type Score,
-  stepsOfPath,
-} from "../guide.ts";
-import { Ghost } from "../scene/marks.ts";
-import { setMatrixFromPose } from "../scene/model_view.ts";
+import { type ComponentStatus, type GuideStep, nextStep, poseAt, type Score, scoreOf } from "../guide.ts";
+import { matrixOf } from "../pose.ts";
+import { Ghost } from "../scene/ghost.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 
-/// A ghost goes its way in this time, and waits a moment at the end [ms].
-const kShow = 2200;
-const kPause = 500;
-const kUnspoilt: Score = { wrong: 0, hints: 0, contacts: 0 };
+/// Duration of the ghost's motion, and its pause at the end [ms].
+const kGhostTime = 2200;
+const kGhostHold = 500;
+const kNoFaults: Score = { wrong: 0, hints: 0, contacts: 0 };
 
-/// Leads through a path: what to take next glows, a ghost shows where it goes; or, as practice, counts what goes wrong.
+/// Guides through the steps of a path: the next components are highlighted and a ghost shows their motion. In practice
+/// mode it counts mistakes instead.
 export class GuidePanel {
   readonly node = element("section", {
     id: "guide-panel",
@@ -30,31 +21,31 @@ export class GuidePanel {
   });
   private readonly title = element("strong");
   private readonly progress = element("progress", { max: 1, value: 0, "aria-label": text("guide") });
-  private readonly words = element("p", { id: "guide-step", role: "status" });
+  private readonly instruction = element("p", { id: "guide-step", role: "status" });
   private readonly score = element("span", { class: "muted", id: "guide-score" });
   private readonly practice = element("input", { type: "checkbox", id: "guide-practice" });
-  private readonly show: HTMLButtonElement;
-  private readonly skip: HTMLButtonElement;
+  private readonly showButton: HTMLButtonElement;
+  private readonly skipButton: HTMLButtonElement;
   private readonly ghost: Ghost;
 
   private steps: GuideStep[] = [];
   private step = 0;
   private shownGuide: string | null = null;
   private ghostStart: number | null = null;
-  private points: Score = { ...kUnspoilt };
-  private judgedGrip: number | null = null;
+  private faults: Score = { ...kNoFaults };
+  private scoredGrip: number | null = null;
   private wasBlocked = false;
-  private movesBefore = 0;
+  private lastMoveCount = 0;
 
   constructor(private readonly session: Session) {
-    this.show = button({
+    this.showButton = button({
       icon: "play",
       label: text("guide.show"),
       wide: true,
       id: "guide-show",
-      press: () => this.showWay(),
+      press: () => this.showPath(),
     });
-    this.skip = button({
+    this.skipButton = button({
       icon: "end",
       label: text("guide.skip"),
       wide: true,
@@ -66,7 +57,7 @@ export class GuidePanel {
       label: text("guide.close"),
       class: "tiny",
       id: "guide-close",
-      press: () => void session.ask("close_guide", {}),
+      press: () => void session.send("close_guide", {}),
     });
     const play = button({
       icon: "guide",
@@ -79,12 +70,12 @@ export class GuidePanel {
     this.node.append(
       element("header", {}, this.title, close),
       this.progress,
-      this.words,
+      this.instruction,
       element(
         "div",
         { class: "guide-tools" },
-        this.show,
-        this.skip,
+        this.showButton,
+        this.skipButton,
         play,
         element("label", {}, this.practice, element("span", {}, text("guide.practice"))),
         this.score,
@@ -92,7 +83,7 @@ export class GuidePanel {
     );
     this.ghost = new Ghost(session.viewport.palette.next);
     session.viewport.scene.add(this.ghost.object);
-    session.viewport.beforePicture.push((now) => this.animate(now));
+    session.viewport.beforeRender.push((now) => this.animate(now));
     session.notifier.subscribe(() => this.update());
   }
 
@@ -106,10 +97,10 @@ export class GuidePanel {
     this.node.hidden = state?.guide == null;
     if (!state?.guide || this.steps.length === 0) return;
     const moves = state.moves.length;
-    if (moves === 0 && this.movesBefore > 0) this.restart();
-    this.movesBefore = moves;
-    this.judge();
-    const next = state.playback ? this.step : nextStep(this.steps, this.step, (c) => this.nowOf(c));
+    if (moves === 0 && this.lastMoveCount > 0) this.restart();
+    this.lastMoveCount = moves;
+    this.updateScore();
+    const next = state.playback ? this.step : nextStep(this.steps, this.step, (c) => this.statusOf(c));
     if (next !== this.step && !state.hand) this.goTo(next);
     this.showStep();
   }
@@ -120,11 +111,7 @@ export class GuidePanel {
     const { store } = this.session;
     if (!store.state?.guide || !store.model) return;
     try {
-      const path = (await (await this.session.connection.request("/api/guide.json")).json()) as PathFile;
-      this.steps = stepsOfPath(
-        path,
-        store.model.components.map(({ name }) => name),
-      );
+      this.steps = await this.session.loadSteps("guide");
     } catch (error) {
       this.session.onNote("warning", (error as Error).message);
     }
@@ -133,7 +120,7 @@ export class GuidePanel {
   }
 
   private restart(): void {
-    this.points = { ...kUnspoilt };
+    this.faults = { ...kNoFaults };
     this.goTo(0);
   }
 
@@ -141,9 +128,9 @@ export class GuidePanel {
     this.step = Math.min(step, this.steps.length);
     this.ghostStart = null;
     this.ghost.clear();
-    const glows = this.practice.checked ? [] : (this.steps[this.step]?.components ?? []);
+    const highlighted = this.practice.checked ? [] : (this.steps[this.step]?.components ?? []);
     for (const view of this.session.viewport.model?.components ?? [])
-      view.setLook({ next: glows.includes(view.index) });
+      view.setAppearance({ next: highlighted.includes(view.index) });
     this.showStep();
     this.session.viewport.invalidate();
   }
@@ -158,20 +145,20 @@ export class GuidePanel {
     const known = this.practice.checked
       ? text("guide.practice.step", { step: this.step + 1, count })
       : text("guide.step", { step: this.step + 1, count, names });
-    setText(this.words, step ? known : text("guide.done"));
+    setText(this.instruction, step ? known : text("guide.done"));
     setText(
       this.score,
-      this.practice.checked ? text("guide.score", { points: pointsOf(this.points), ...this.points }) : "",
+      this.practice.checked ? text("guide.score", { points: scoreOf(this.faults), ...this.faults }) : "",
     );
-    relabel(this.show, text(this.practice.checked ? "guide.hint" : "guide.show"));
-    this.show.disabled = this.skip.disabled = !step;
+    relabel(this.showButton, text(this.practice.checked ? "guide.hint" : "guide.show"));
+    this.showButton.disabled = this.skipButton.disabled = !step;
   }
 
-  /// The ghost goes the step's way once.
-  private showWay(): void {
+  /// Plays the step's motion once, with the ghost.
+  private showPath(): void {
     const step = this.steps[this.step];
     if (!step) return;
-    if (this.practice.checked) ++this.points.hints;
+    if (this.practice.checked) ++this.faults.hints;
     const { model } = this.session.viewport;
     this.ghost.color = this.session.viewport.palette.next;
     this.ghost.show(step.components.map((c) => model!.components[c]));
@@ -184,36 +171,36 @@ export class GuidePanel {
     const step = this.steps[this.step];
     if (this.ghostStart === null || !step) return false;
     const elapsed = now - this.ghostStart;
-    if (elapsed > kShow + kPause) {
+    if (elapsed > kGhostTime + kGhostHold) {
       this.ghostStart = null;
       this.ghost.clear();
       return false;
     }
-    const pose = poseAt(step, Math.max(0, Math.min(1, elapsed / kShow)) * step.duration);
-    this.ghost.place(setMatrixFromPose(new Matrix4(), pose), null, 1);
+    const pose = poseAt(step, Math.max(0, Math.min(1, elapsed / kGhostTime)) * step.duration);
+    this.ghost.place(matrixOf(pose), null, 1);
     return true;
   }
 
-  /// Practice: what is taken out of turn, and what is run into.
-  private judge(): void {
+  /// Counts mistakes in practice mode: components out of order, and contacts.
+  private updateScore(): void {
     const { state, frame } = this.session.store;
     if (!this.practice.checked || !this.steps[this.step]) return;
     const hand = state?.hand;
-    if (hand && hand.grip !== this.judgedGrip) {
-      this.judgedGrip = hand.grip;
-      if (!hand.components.every((c) => this.steps[this.step].components.includes(c))) ++this.points.wrong;
+    if (hand && hand.grip !== this.scoredGrip) {
+      this.scoredGrip = hand.grip;
+      if (!hand.components.every((c) => this.steps[this.step].components.includes(c))) ++this.faults.wrong;
     }
     const blocked = hand != null && frame?.blocked === true;
-    if (blocked && !this.wasBlocked) ++this.points.contacts;
+    if (blocked && !this.wasBlocked) ++this.faults.contacts;
     this.wasBlocked = blocked;
   }
 
   private async playAll(): Promise<void> {
-    await this.session.ask("seek", { time: 0, source: "guide" });
-    await this.session.ask("play", { speed: 1, source: "guide" });
+    await this.session.send("seek", { time: 0, source: "guide" });
+    await this.session.send("play", { speed: 1, source: "guide" });
   }
 
-  private nowOf(component: number): ComponentNow {
+  private statusOf(component: number): ComponentStatus {
     const removed = this.session.store.state?.components[component]?.removed === true;
     return { pose: this.session.poseOf(component), removed };
   }

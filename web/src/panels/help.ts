@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element } from "../dom.ts";
+import { dialogHeader, element } from "../dom.ts";
 import { type Help, kHelp, text } from "../strings.ts";
 
+/// Makes the dialog that lists keys and gestures.
 export function helpDialog(help: Help = kHelp): HTMLDialogElement {
   const groups = help.map(([title, rows]) =>
     element(
@@ -11,18 +12,13 @@ export function helpDialog(help: Help = kHelp): HTMLDialogElement {
       element(
         "dl",
         { class: "keys" },
-        ...rows.flatMap(([keys, does]) => [element("dt", {}, keys), element("dd", {}, does)]),
+        ...rows.flatMap(([keys, effect]) => [element("dt", {}, keys), element("dd", {}, effect)]),
       ),
     ),
   );
-  const dialog = element("dialog", { id: "help-dialog", "aria-label": text("help.title") });
+  const dialog = element("dialog", { id: "help-dialog", "aria-label": text("help") });
   dialog.append(
-    element(
-      "header",
-      {},
-      element("h1", {}, text("help.title")),
-      button({ icon: "close", label: text("help.close"), press: () => dialog.close() }),
-    ),
+    dialogHeader(text("help"), () => dialog.close()),
     element("div", { class: "columns" }, ...groups),
   );
   return dialog;

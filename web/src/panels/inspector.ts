@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
+import { kAxisNames } from "../axes.ts";
 import { button, element, setText } from "../dom.ts";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
 import { directionText, lengthText, text } from "../strings.ts";
+import { componentRow } from "./component_row.ts";
+import { RemovalPart } from "./removal_part.ts";
 import { clearanceText } from "./status.ts";
-import { WayOutPart } from "./way_out_part.ts";
 
-/// The right side: what is selected, what can be done with it, what it touches and where it can go.
+/// Blocked directions with less free travel are not listed [mm].
+const kMinDistance = 0.1;
+
+/// The panel on the right: facts, actions, contacts and free directions of the selection.
 export class Inspector {
   readonly node: HTMLElement;
   private readonly title = element("h2", { id: "selection-name" });
@@ -17,12 +22,12 @@ export class Inspector {
   private readonly clearance = element("dl", { class: "facts", id: "clearance" });
   private readonly touches = element("ul", { class: "rows", id: "touches" });
   private readonly pairs = element("ul", { class: "rows", id: "pairs" });
-  private readonly ways = element("ul", { class: "rows", id: "directions" });
-  private readonly findWays: HTMLButtonElement;
-  private readonly wayOut: WayOutPart;
+  private readonly directions = element("ul", { class: "rows", id: "directions" });
+  private readonly findDirections: HTMLButtonElement;
+  private readonly removalPart: RemovalPart;
   private readonly numbers: HTMLInputElement[];
   private readonly body: HTMLElement;
-  private asked = false;
+  private pairsRequested = false;
   private signature = "";
 
   constructor(
@@ -30,7 +35,7 @@ export class Inspector {
     private readonly drag: Drag,
   ) {
     const act = (name: "take_out" | "put_back" | "isolate" | "hide") => () =>
-      void session.ask(name, { components: session.store.selection });
+      void session.send(name, { components: session.store.selection });
     this.actions = {
       takeOut: button({
         icon: "out",
@@ -71,10 +76,10 @@ export class Inspector {
         wide: true,
         id: "halt",
         class: "primary",
-        press: () => void session.ask("halt", {}),
+        press: () => void session.send("halt", {}),
       }),
     };
-    this.findWays = button({
+    this.findDirections = button({
       icon: "arrow",
       label: text("directions.find"),
       key: "D",
@@ -82,7 +87,7 @@ export class Inspector {
       id: "find-directions",
       press: () => void this.find(),
     });
-    this.wayOut = new WayOutPart(session);
+    this.removalPart = new RemovalPart(session);
     this.numbers = [0, 1, 2, 3, 4, 5].map((i) => numberField(i));
     this.body = this.makeBody();
     this.node = element(
@@ -95,14 +100,14 @@ export class Inspector {
     session.notifier.subscribe(() => this.update());
   }
 
-  /// Asks the engine how far the selection can go straight.
+  /// Queries how far the selection can move straight.
   async find(): Promise<void> {
     const components = [...this.session.store.selection];
     if (components.length === 0) return;
-    const answer = await this.session.ask("free_directions", { components });
-    if (answer)
+    const found = await this.session.send("free_directions", { components });
+    if (found)
       this.session.change(() => {
-        this.session.store.directions = { components, directions: answer.directions };
+        this.session.store.directions = { components, directions: found.directions };
       });
   }
 
@@ -112,7 +117,7 @@ export class Inspector {
       "form",
       { class: "numbers", id: "numeric" },
       ...this.numbers.map((field, i) => {
-        const axis = "XYZ"[i % 3];
+        const axis = kAxisNames[i % 3];
         const label = text(i < 3 ? "numeric.axis" : "numeric.turn", { axis });
         return element("label", {}, element("span", {}, label), field);
       }),
@@ -127,10 +132,10 @@ export class Inspector {
       { class: "body" },
       this.facts,
       element("div", { class: "actions" }, takeOut, putBack, isolate, hide, xray, halt),
-      this.wayOut.node,
+      this.removalPart.node,
       part(text("clearance"), this.clearance),
       part(text("contacts"), this.touches),
-      part(text("directions"), this.ways, this.findWays),
+      part(text("directions"), this.directions, this.findDirections),
       part(text("numeric"), fields),
       part(text("pairs"), this.pairs),
     );
@@ -162,7 +167,7 @@ export class Inspector {
     );
     this.showActions();
     if (selection.length === 0) return;
-    this.askPairs();
+    this.requestPairs();
     this.showFacts();
     this.showClearance();
     this.showLists();
@@ -171,15 +176,15 @@ export class Inspector {
   private showActions(): void {
     const { state, selection, control, xray } = this.session.store;
     const states = selection.map((c) => state?.components[c]);
-    const busy = !control || state?.hand != null || state?.automatic != null || state?.playback != null;
+    const busy = !control || !this.session.idle;
     this.actions.takeOut.disabled = busy || states.every((s) => s?.removed);
     this.actions.putBack.disabled = busy || states.every((s) => !s?.pose && !s?.removed);
     this.actions.isolate.disabled = !control;
     this.actions.hide.disabled = !control || states.every((s) => s?.hidden || s?.removed);
     this.actions.xray.setAttribute("aria-pressed", String(selection.length > 0 && selection.every((c) => xray.has(c))));
     this.actions.halt.hidden = state?.automatic == null;
-    this.wayOut.update(busy);
-    this.findWays.disabled = state?.hand != null || state?.automatic != null || state?.playback != null;
+    this.removalPart.update(busy);
+    this.findDirections.disabled = !this.session.idle;
   }
 
   private showFacts(): void {
@@ -192,23 +197,23 @@ export class Inspector {
       facts.push([text("selection.size"), low.map((value, k) => (high[k] - value).toFixed(1)).join(" × ")]);
       const now = state?.components[selection[0]];
       const pose = this.session.poseOf(selection[0]);
-      const place = now?.removed
-        ? text("place.removed")
+      const position = now?.removed
+        ? text("component.removed")
         : pose
-          ? text("place.moved", { distance: lengthText(Math.hypot(...pose.position)) })
-          : text("place.assembled");
-      facts.push([text("selection.place"), place]);
+          ? text("position.moved", { distance: lengthText(Math.hypot(...pose.position)) })
+          : text("position.assembled");
+      facts.push([text("selection.position"), position]);
     }
     fill(this.facts, facts);
   }
 
   private showClearance(): void {
-    const { frame, leastClearance } = this.session.store;
+    const { frame, minClearance } = this.session.store;
     const shown = (value: number | undefined) =>
       value === undefined || Number.isNaN(value) ? text("clearance.unknown") : clearanceText(value);
     fill(this.clearance, [
       [text("clearance.now"), shown(frame?.clearance)],
-      [text("clearance.least"), shown(leastClearance)],
+      [text("clearance.min"), shown(minClearance)],
     ]);
   }
 
@@ -220,60 +225,51 @@ export class Inspector {
     if (signature === this.signature) return;
     this.signature = signature;
     const touching = [...touched].map(([component, gap]) =>
-      this.row(component, lengthText(gap), blocking.has(component) ? "blocks" : "touches"),
+      componentRow(this.session, component, gapText(gap), blocking.has(component) ? "blocks" : "touches"),
     );
     this.touches.replaceChildren(...orNone(touching, text(frame ? "contacts.none" : "contacts.idle")));
     const mine = pairs?.pairs.filter(({ a, b }) => selection.includes(a) !== selection.includes(b)) ?? [];
     const neighbours = mine.map((pair) =>
-      this.row(selection.includes(pair.a) ? pair.b : pair.a, text(`pair.${pair.state}`), pair.state),
+      componentRow(
+        this.session,
+        selection.includes(pair.a) ? pair.b : pair.a,
+        text(pair.state === "contact" ? "contact" : `pair.${pair.state}`),
+        pair.state,
+      ),
     );
     this.pairs.replaceChildren(...orNone(neighbours, text(pairs ? "pairs.none" : "pairs.wait")));
-    this.showWays();
+    this.showDirections();
   }
 
-  private showWays(): void {
-    const { directions, selection } = this.session.store;
-    if (!directions || directions.components.join() !== selection.join()) return this.ways.replaceChildren();
-    const ordered = [...directions.directions].sort(
-      (a, b) => Number(b.free) - Number(a.free) || b.distance - a.distance,
-    );
+  private showDirections(): void {
+    const { selection } = this.session.store;
+    const directions = this.session.directionsOf(selection);
+    if (!directions) return this.directions.replaceChildren();
+    const ordered = [...directions].sort((a, b) => Number(b.free) - Number(a.free) || b.distance - a.distance);
     const rows = ordered
-      .filter(({ free, distance }) => free || distance > 0.1)
-      .map((way) => {
-        const words = way.free
+      .filter(({ free, distance }) => free || distance > kMinDistance)
+      .map(({ direction, free, distance, blocked_by }) => {
+        const result = free
           ? text("directions.free")
-          : text("directions.blocked", {
-              distance: lengthText(way.distance),
-              name: this.session.nameOf(way.blocked_by),
-            });
-        const take = button({
+          : text("directions.blocked", { distance: lengthText(distance), name: this.session.nameOf(blocked_by) });
+        const remove = button({
           icon: "arrow",
-          label: `${directionText(way.direction)}: ${words}`,
+          label: `${directionText(direction)}: ${result}`,
           wide: true,
-          class: way.free ? "way free" : "way",
-          press: () => void this.session.ask("take_out", { components: selection, direction: way.direction }),
+          class: free ? "direction free" : "direction",
+          press: () => void this.session.send("take_out", { components: selection, direction }),
         });
-        take.disabled = !way.free || !this.session.store.control;
-        return element("li", {}, take);
+        remove.disabled = !free || !this.session.store.control;
+        return element("li", {}, remove);
       });
-    this.ways.replaceChildren(...orNone(rows, text("directions.none")));
+    this.directions.replaceChildren(...orNone(rows, text("directions.none")));
   }
 
-  private row(component: number, words: string, kind: string): HTMLElement {
-    const press = () => this.session.select([component]);
-    const name = element(
-      "button",
-      { type: "button", class: "link-button", onclick: press },
-      this.session.nameOf(component),
-    );
-    return element("li", {}, name, element("span", { class: `badge ${kind}` }, words));
-  }
-
-  /// Once an assembly, when something is selected for the first time.
-  private askPairs(): void {
+  /// Requests the pair states once an assembly, at the first selection.
+  private requestPairs(): void {
     const { store } = this.session;
-    if (store.pairs || this.asked || store.state?.hand) return;
-    this.asked = true;
+    if (store.pairs || this.pairsRequested || store.state?.hand) return;
+    this.pairsRequested = true;
     const { number } = store.model!;
     this.session.connection
       .command("check", {})
@@ -286,7 +282,7 @@ export class Inspector {
         () => {},
       )
       .finally(() => {
-        this.asked = false;
+        this.pairsRequested = false;
       });
   }
 }
@@ -308,6 +304,11 @@ function fill(list: HTMLElement, facts: [string, string][]): void {
   });
 }
 
-function orNone(rows: HTMLElement[], words: string): HTMLElement[] {
-  return rows.length > 0 ? rows : [element("li", { class: "muted" }, words)];
+function orNone(rows: HTMLElement[], message: string): HTMLElement[] {
+  return rows.length > 0 ? rows : [element("li", { class: "muted" }, message)];
+}
+
+/// The gap of a contact as text; a negative gap is an overlap.
+function gapText(gap: number): string {
+  return gap < 0 ? text("contacts.overlap", { distance: lengthText(-gap) }) : lengthText(gap);
 }

@@ -8,10 +8,10 @@ import type { Pick } from "../scene/model_view.ts";
 import type { Session } from "../session.ts";
 import { lengthText, text } from "../strings.ts";
 
-/// The distance between two points that are clicked, or taken by the keyboard: Enter takes what is in the middle of the view.
+/// Measures the distance between two picked points. Enter picks at the centre of the view.
 export class Measure {
   private readonly label = element("div", { id: "measure-label", class: "floating label", role: "status" });
-  readonly node = element("div", { hidden: true }, this.label, element("div", { id: "measure-middle" }));
+  readonly node = element("div", { hidden: true }, this.label, element("div", { id: "measure-center" }));
   private points: Vector3[] = [];
   private readonly line = new LineSegments2(
     new LineSegmentsGeometry(),
@@ -23,7 +23,7 @@ export class Measure {
     this.line.frustumCulled = false;
     this.line.renderOrder = 8;
     session.viewport.scene.add(this.line);
-    session.viewport.beforePicture.push(() => this.place());
+    session.viewport.beforeRender.push(() => this.update());
     session.viewport.canvas.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" || !session.store.measuring) return;
       event.preventDefault();
@@ -42,7 +42,7 @@ export class Measure {
     this.session.viewport.invalidate();
   }
 
-  /// Takes a click where measuring is on.
+  /// Picks a point; returns false if measuring is off.
   click(pick: Pick | null): boolean {
     if (!this.session.store.measuring) return false;
     if (pick) {
@@ -53,13 +53,13 @@ export class Measure {
     return true;
   }
 
-  private place(): boolean {
+  private update(): boolean {
     const { store, viewport } = this.session;
     this.node.hidden = !store.measuring;
     this.line.visible = store.measuring && this.points.length === 2;
     if (!store.measuring) return false;
     const [a, b] = this.points;
-    setText(this.label, this.words(a, b));
+    setText(this.label, this.message(a, b));
     if (a && b) {
       this.line.geometry.setPositions([...a.toArray(), ...b.toArray()]);
       this.line.material.color.set(viewport.palette.measure);
@@ -71,11 +71,16 @@ export class Measure {
     return false;
   }
 
-  private words(a: Vector3 | undefined, b: Vector3 | undefined): string {
+  private message(a: Vector3 | undefined, b: Vector3 | undefined): string {
     if (!a) return text("measure.first");
     if (!b) return text("measure.second");
     const by = b.clone().sub(a);
-    const part = (value: number) => value.toFixed(2);
-    return text("measure.result", { distance: lengthText(by.length()), x: part(by.x), y: part(by.y), z: part(by.z) });
+    const format = (value: number) => value.toFixed(2);
+    return text("measure.result", {
+      distance: lengthText(by.length()),
+      x: format(by.x),
+      y: format(by.y),
+      z: format(by.z),
+    });
   }
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element } from "../dom.ts";
+import { button, dialogHeader, element, linkButton } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { Commands } from "../wire/messages.ts";
 
-/// What the server has open follows its greeting within this time [ms].
-const kGreeting = 250;
-const kKinds = ".step,.stp,.glb,.gltf,.obj,.stl,.ply,.urdf";
+/// Time given to the server to announce an open assembly before the start page is shown [ms].
+const kStartPageDelay = 250;
+/// Extensions offered by the file picker.
+const kFileTypes = ".step,.stp,.glb,.gltf,.obj,.stl,.ply,.urdf";
 
-/// The start page and the dialog of Open: samples, recent files, files below the roots, a file of one's own. A file
-/// dropped anywhere on the page is opened, too.
+/// The dialog that opens assemblies, also shown as the start page: samples, recent files, files under the roots, an
+/// upload. A file dropped anywhere on the page is opened, too.
 export class OpenDialog {
   readonly node: HTMLDialogElement;
   private readonly samples = element("div", { class: "cards", id: "samples" });
@@ -17,15 +18,15 @@ export class OpenDialog {
   private readonly roots = element("div", { class: "roots" });
   private readonly picker = element("input", {
     type: "file",
-    accept: kKinds,
+    accept: kFileTypes,
     class: "visually-hidden",
     id: "file-picker",
     "aria-label": text("open.choose"),
   });
   private dismissed = false;
   private waiting = false;
-  /// Shown of itself, because there was no assembly.
-  private greets = false;
+  /// True if the dialog opened because there was no assembly.
+  private isStartPage = false;
 
   constructor(private readonly session: Session) {
     this.picker.onchange = () => {
@@ -36,12 +37,7 @@ export class OpenDialog {
     this.node = element(
       "dialog",
       { id: "open-dialog", "aria-label": text("open.title") },
-      element(
-        "header",
-        {},
-        element("h1", {}, text("open.title")),
-        button({ icon: "close", label: text("open.close"), press: () => this.close() }),
-      ),
+      dialogHeader(text("open.title"), () => this.close()),
       element("p", { class: "lead" }, text("open.lead")),
       element("h2", {}, text("open.samples")),
       this.samples,
@@ -67,7 +63,7 @@ export class OpenDialog {
   }
 
   open(): void {
-    this.greets = false;
+    this.isStartPage = false;
     if (!this.node.open) this.node.showModal();
     void this.refresh();
   }
@@ -77,23 +73,23 @@ export class OpenDialog {
     this.node.close();
   }
 
-  /// Without an assembly this is the start page; when one has come it goes.
+  /// Shows the start page while there is no assembly, and closes it when one is loaded.
   private update(): void {
     const { model, link, jobs } = this.session.store;
     const idle = () => link === "open" && !this.session.store.model && jobs.size === 0 && !this.dismissed;
-    if (this.node.open && (jobs.size > 0 || (model && this.greets))) this.node.close();
+    if (this.node.open && (jobs.size > 0 || (model && this.isStartPage))) this.node.close();
     if (model || !idle() || this.node.open || this.waiting) return;
     this.waiting = true;
     setTimeout(() => {
       this.waiting = false;
       if (!idle()) return;
       this.open();
-      this.greets = true;
-    }, kGreeting);
+      this.isStartPage = true;
+    }, kStartPageDelay);
   }
 
   private async refresh(): Promise<void> {
-    const [samples, recent] = await Promise.all([this.session.ask("samples", {}), this.session.ask("recent", {})]);
+    const [samples, recent] = await Promise.all([this.session.send("samples", {}), this.session.send("recent", {})]);
     this.samples.replaceChildren(
       ...(samples?.samples ?? []).map(({ name, description }) =>
         element(
@@ -108,11 +104,7 @@ export class OpenDialog {
       element(
         "li",
         {},
-        element(
-          "button",
-          { type: "button", class: "link-button", onclick: () => void this.load({ recent: index }) },
-          name,
-        ),
+        linkButton(name, () => void this.load({ recent: index })),
         element("span", { class: "muted" }, folder),
       ),
     );
@@ -127,8 +119,8 @@ export class OpenDialog {
   private rootList(name: string, root: number): HTMLElement {
     const list = element("ul", { class: "rows files" });
     const show = async (folder: string): Promise<void> => {
-      const answer = await this.session.ask("files", { root, folder });
-      const rows = (answer?.entries ?? []).map((entry) => {
+      const found = await this.session.send("files", { root, folder });
+      const rows = (found?.entries ?? []).map((entry) => {
         const file = folder === "" ? entry.name : `${folder}/${entry.name}`;
         const press = () =>
           void (entry.kind === "folder"
@@ -136,24 +128,13 @@ export class OpenDialog {
             : entry.kind === "path"
               ? this.openPath(root, file)
               : this.load({ root, file }));
-        return element(
-          "li",
-          {},
-          element(
-            "button",
-            { type: "button", class: "link-button", onclick: press },
-            entry.kind === "folder" ? `${entry.name}/` : entry.name,
-          ),
-        );
+        return element("li", {}, linkButton(entry.kind === "folder" ? `${entry.name}/` : entry.name, press));
       });
+      const parent = folder.split("/").slice(0, -1).join("/");
       const up = element(
         "li",
         {},
-        element(
-          "button",
-          { type: "button", class: "link-button", onclick: () => void show(folder.split("/").slice(0, -1).join("/")) },
-          text("open.up"),
-        ),
+        linkButton(text("open.up"), () => void show(parent)),
       );
       list.replaceChildren(...(folder === "" ? rows : [up, ...rows]));
     };
@@ -161,19 +142,19 @@ export class OpenDialog {
     return element("div", {}, element("h3", {}, name), list);
   }
 
-  private async load(what: Commands["open"][0]): Promise<void> {
-    if (await this.session.ask("open", what)) this.close();
+  private async load(assembly: Commands["open"][0]): Promise<void> {
+    if (await this.session.send("open", assembly)) this.close();
   }
 
   private async openPath(root: number, file: string): Promise<void> {
-    if (await this.session.ask("open_path", { root, file })) this.close();
+    if (await this.session.send("open_path", { root, file })) this.close();
   }
 
-  /// Opens a file of the user's own machine.
+  /// Uploads and opens a file of the user's machine.
   async upload(file: File): Promise<void> {
-    const door = file.name.endsWith(".path.json") ? "guide" : "open";
+    const endpoint = file.name.endsWith(".path.json") ? "guide" : "open";
     try {
-      await this.session.connection.request(`/api/${door}?name=${encodeURIComponent(file.name)}`, {
+      await this.session.connection.request(`/api/${endpoint}?name=${encodeURIComponent(file.name)}`, {
         method: "POST",
         body: file,
       });
@@ -184,14 +165,14 @@ export class OpenDialog {
   }
 
   private listenForDrops(): void {
-    const over = (event: DragEvent): void => {
+    const updateOutline = (event: DragEvent): void => {
       event.preventDefault();
       document.body.classList.toggle("dropping", event.type === "dragover");
     };
-    document.addEventListener("dragover", over);
-    document.addEventListener("dragleave", over);
+    document.addEventListener("dragover", updateOutline);
+    document.addEventListener("dragleave", updateOutline);
     document.addEventListener("drop", (event) => {
-      over(event);
+      updateOutline(event);
       const file = event.dataTransfer?.files[0];
       if (file) void this.upload(file);
     });

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
+import { type Axis, kAxes, kAxisNames } from "../axes.ts";
 import { button, element } from "../dom.ts";
 import type { Session } from "../session.ts";
 import type { SectionPlane } from "../store.ts";
 import { text } from "../strings.ts";
 
-/// Up to three planes, one across each axis, that cut the model open.
+/// Up to three section planes, one normal to each axis.
 export class SectionPanel {
   readonly node = element("section", {
     id: "section-panel",
@@ -13,7 +14,7 @@ export class SectionPanel {
     "aria-label": text("section"),
     hidden: true,
   });
-  private readonly rows = ([0, 1, 2] as const).map((axis) => this.makeRow(axis));
+  private readonly rows = kAxes.map((axis) => this.makeRow(axis));
   private open = false;
 
   constructor(private readonly session: Session) {
@@ -24,12 +25,12 @@ export class SectionPanel {
   toggle(): void {
     this.open = !this.open;
     const { model } = this.session.store;
-    this.set(this.open && model ? [{ axis: 1, flipped: false, part: 0.5 }] : []);
+    this.set(this.open && model ? [{ axis: 1, flipped: false, fraction: 0.5 }] : []);
     if (this.open) this.rows[1].slider.focus();
   }
 
-  private makeRow(axis: 0 | 1 | 2) {
-    const name = "XYZ"[axis];
+  private makeRow(axis: Axis) {
+    const name = kAxisNames[axis];
     const on = element("input", {
       type: "checkbox",
       id: `section-${axis}`,
@@ -53,11 +54,11 @@ export class SectionPanel {
     });
     on.onchange = () => {
       const others = this.session.store.planes.filter((plane) => plane.axis !== axis);
-      this.set(on.checked ? [...others, { axis, flipped: false, part: Number(slider.value) }] : others);
+      this.set(on.checked ? [...others, { axis, flipped: false, fraction: Number(slider.value) }] : others);
     };
     slider.oninput = () =>
       this.edit(axis, (plane) => {
-        plane.part = Number(slider.value);
+        plane.fraction = Number(slider.value);
       });
     const row = element(
       "div",
@@ -76,17 +77,14 @@ export class SectionPanel {
   }
 
   private set(planes: SectionPlane[]): void {
-    const { model } = this.session.store;
     this.session.change(() => {
       this.session.store.planes = planes;
     });
-    const [low, high] = model?.bounds ?? [
-      [0, 0, 0],
-      [0, 0, 0],
-    ];
+    const { min, max } = this.session.modelBox;
     this.session.viewport.setPlanes(
-      planes.map(({ axis, flipped, part }) => {
-        const at = low[axis] + part * (high[axis] - low[axis]);
+      planes.map(({ axis, flipped, fraction }) => {
+        const [low, high] = [min.getComponent(axis), max.getComponent(axis)];
+        const at = low + fraction * (high - low);
         const normal = new Vector3().setComponent(axis, flipped ? -1 : 1);
         return { normal, constant: flipped ? at : -at };
       }),
@@ -101,7 +99,7 @@ export class SectionPanel {
       const plane = planes.find((candidate) => candidate.axis === axis);
       on.checked = plane !== undefined;
       slider.disabled = flip.disabled = plane === undefined;
-      if (plane) slider.value = String(plane.part);
+      if (plane) slider.value = String(plane.fraction);
     });
   }
 }

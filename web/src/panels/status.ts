@@ -3,9 +3,9 @@ import { element, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { lengthText, text } from "../strings.ts";
 
-const kMetricsEvery = 1000;
+const kMetricsInterval = 1000;
 
-/// The line at the bottom: what the pointer is on, how near things are, what a step costs, and on what.
+/// The status line: component under the cursor, clearance, cost of a step and of a render, device, tolerance.
 export class StatusLine {
   readonly node: HTMLElement;
   private readonly parts = {
@@ -14,47 +14,47 @@ export class StatusLine {
     clearance: element("span", { id: "status-clearance" }),
     step: element("span", { id: "status-step" }),
     rate: element("span"),
-    picture: element("span", { id: "status-picture" }),
+    render: element("span", { id: "status-render" }),
     device: element("span", { id: "status-device" }),
     tolerance: element("span", { id: "status-tolerance" }),
     triangles: element("span"),
     clients: element("span"),
     link: element("span", { class: "link", id: "status-link" }),
   };
-  private asked = false;
+  private requested = false;
 
   constructor(private readonly session: Session) {
     this.node = element("footer", { id: "status", "aria-label": text("status.label") }, ...Object.values(this.parts));
     session.notifier.subscribe(() => this.update());
     setInterval(() => {
-      this.askMetrics();
-      this.showPicture();
-    }, kMetricsEvery);
+      this.requestMetrics();
+      this.showRenderCost();
+    }, kMetricsInterval);
   }
 
-  /// Only while something is going on: an idle page asks for nothing.
-  private askMetrics(): void {
+  /// Requests metrics only while something moves, so an idle page sends nothing.
+  private requestMetrics(): void {
     const { link, state, metrics } = this.session.store;
-    if (this.asked || link !== "open" || !state || (metrics && state.moving.length === 0)) return;
-    this.asked = true;
+    if (this.requested || link !== "open" || !state || (metrics && state.moving.length === 0)) return;
+    this.requested = true;
     this.session.connection
       .command("metrics", {})
       .then(
-        (answer) =>
+        (metrics) =>
           this.session.change(() => {
-            this.session.store.metrics = answer;
+            this.session.store.metrics = metrics;
           }),
         () => {},
       )
       .finally(() => {
-        this.asked = false;
+        this.requested = false;
       });
   }
 
-  private showPicture(): void {
+  private showRenderCost(): void {
     const { calls, milliseconds } = this.session.viewport.cost;
     const time = milliseconds.toFixed(1);
-    setText(this.parts.picture, this.session.store.model ? text("status.picture", { calls, time }) : "");
+    setText(this.parts.render, this.session.store.model ? text("status.render", { calls, time }) : "");
   }
 
   private update(): void {
@@ -74,14 +74,15 @@ export class StatusLine {
       this.parts.triangles,
       model ? text("status.triangles", { count: model.triangles.toLocaleString("en") }) : "",
     );
-    setText(this.parts.clients, store.clients > 1 ? text("status.watchers", { count: store.clients }) : "");
+    setText(this.parts.clients, store.clients > 1 ? text("status.clients", { count: store.clients }) : "");
     setText(this.parts.link, text(`status.${link}`));
     this.parts.link.dataset.link = link;
   }
 }
 
+/// A clearance [mm] as text.
 export function clearanceText(clearance: number): string {
-  return clearance === 0 ? text("clearance.contact") : lengthText(clearance);
+  return clearance === 0 ? text("contact") : lengthText(clearance);
 }
 
 function stepText(microseconds: number): string {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, setText } from "../dom.ts";
+import { endOf, kSameTime } from "../moves.ts";
 import { Seeker } from "../seeker.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
@@ -7,10 +8,8 @@ import type { Move, Source } from "../wire/messages.ts";
 
 const kSpeeds = [0.25, 0.5, 1, 2, 4];
 const kTicks = 1000;
-/// Times nearer to each other are the same [s].
-const kSame = 1e-6;
 
-/// The recorded moves as blocks on a line of time, with a scrubber, and the buttons that play them.
+/// The timeline: recorded moves as blocks, with a scrubber and playback buttons.
 export class TimelinePanel {
   readonly node: HTMLElement;
   private readonly blocks = element("div", { class: "blocks", "aria-hidden": "true" });
@@ -57,7 +56,7 @@ export class TimelinePanel {
         icon: "pause",
         label: text("timeline.pause"),
         id: "play-pause",
-        press: () => void session.ask("pause", {}),
+        press: () => void session.send("pause", {}),
       }),
       play: button({ icon: "play", label: text("timeline.play"), key: "P", id: "play", press: () => this.play(1) }),
       next: button({ icon: "stepOn", label: text("timeline.next"), id: "play-next", press: () => this.step(1) }),
@@ -78,7 +77,7 @@ export class TimelinePanel {
         label: text("timeline.stop"),
         wide: true,
         id: "play-stop",
-        press: () => void session.ask("stop", {}),
+        press: () => void session.send("stop", {}),
       }),
     };
     for (const value of kSpeeds)
@@ -101,18 +100,19 @@ export class TimelinePanel {
     session.notifier.subscribe(() => this.update());
   }
 
-  /// Plays, or pauses what plays.
+  /// Toggles between playing and pausing.
   toggle(): void {
-    if (this.session.store.state?.playback?.playing) void this.session.ask("pause", {});
+    if (this.session.store.state?.playback?.playing) void this.session.send("pause", {});
     else this.play(1);
   }
 
-  /// To where the present move ends (1), or to where it began (-1).
+  /// Seeks to the end of the current move (1), or to its start (-1).
   step(by: 1 | -1): void {
     const time = this.time();
-    const ends = [0, ...this.moves().map(({ start, duration }) => start + duration)];
-    const there = by > 0 ? ends.find((end) => end > time + kSame) : ends.filter((end) => end < time - kSame).at(-1);
-    if (there !== undefined) this.seek(there);
+    const ends = [0, ...this.moves().map(endOf)];
+    const target =
+      by > 0 ? ends.find((end) => end > time + kSameTime) : ends.filter((end) => end < time - kSameTime).at(-1);
+    if (target !== undefined) this.seek(target);
   }
 
   private source(): Source {
@@ -125,40 +125,40 @@ export class TimelinePanel {
 
   private duration(): number {
     const last = this.moves().at(-1);
-    return last ? last.start + last.duration : 0;
+    return last ? endOf(last) : 0;
   }
 
   private time(): number {
-    return this.session.playedTime ?? this.duration();
+    return this.session.playbackTime ?? this.duration();
   }
 
   private async play(sign: 1 | -1): Promise<void> {
     const { state } = this.session.store;
     if (this.duration() === 0) return;
     const speed = sign * Number(this.speed.value);
-    // What is recorded is where one is: playing it forward begins at its start.
+    // Without a playback the time is the recording's end: playing forward starts at its beginning.
     if (!state?.playback)
-      await this.session.ask("seek", { time: sign > 0 ? 0 : this.duration(), source: this.source() });
-    else if (sign > 0 && this.time() >= this.duration() - 1e-9) await this.session.ask("seek", { time: 0 });
-    await this.session.ask("play", { speed, source: this.source() });
+      await this.session.send("seek", { time: sign > 0 ? 0 : this.duration(), source: this.source() });
+    else if (sign > 0 && this.time() >= this.duration() - kSameTime) await this.session.send("seek", { time: 0 });
+    await this.session.send("play", { speed, source: this.source() });
   }
 
   private changeSpeed(): void {
     const playback = this.session.store.state?.playback;
     if (playback?.playing)
-      void this.session.ask("play", {
+      void this.session.send("play", {
         speed: Math.sign(playback.speed) * Number(this.speed.value),
         source: playback.source,
       });
   }
 
   private seek(time: number): void {
-    if (this.duration() > 0) void this.session.ask("seek", { time, source: this.source() });
+    if (this.duration() > 0) void this.session.send("seek", { time, source: this.source() });
   }
 
-  private scrubTo(part: number): void {
+  private scrubTo(fraction: number): void {
     this.scrubbing = true;
-    void this.seeker.seek(part * this.duration(), this.source());
+    void this.seeker.seek(fraction * this.duration(), this.source());
   }
 
   private update(): void {
@@ -181,7 +181,7 @@ export class TimelinePanel {
     setText(this.clock, label);
     this.scrub.setAttribute("aria-valuetext", label);
     for (const [i, block] of [...this.blocks.children].entries()) {
-      block.classList.toggle("done", moves[i].start + moves[i].duration <= time + 1e-9);
+      block.classList.toggle("done", endOf(moves[i]) <= time + kSameTime);
       block.classList.toggle("blocked", playback?.blocked != null && playback.move === i);
     }
   }

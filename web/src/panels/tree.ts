@@ -7,7 +7,7 @@ import type { ModelEvent } from "../wire/messages.ts";
 interface Row {
   item: HTMLElement;
   name: string;
-  /// Of the rows above it in the tree, nearest first.
+  /// The groups that contain it, innermost first.
   parents: Row[];
   components: number[];
   component: number | null;
@@ -17,7 +17,7 @@ interface Row {
   open: boolean;
 }
 
-/// The product tree: search, select, hide, see through; what is touched or taken out has a badge.
+/// The component tree: search, select, hide and X-ray. Badges mark components that are in contact, moved or removed.
 export class TreePanel {
   readonly node: HTMLElement;
   private readonly list = element("div", {
@@ -41,8 +41,8 @@ export class TreePanel {
 
   constructor(private readonly session: Session) {
     this.search.oninput = () => this.filter();
-    this.search.onkeydown = (event) => this.goToFound(event);
-    this.list.onkeydown = (event) => this.key(event);
+    this.search.onkeydown = (event) => this.focusFirstFound(event);
+    this.list.onkeydown = (event) => this.onKey(event);
     this.node = element(
       "section",
       { class: "panel", id: "tree-panel", "aria-label": text("tree") },
@@ -81,24 +81,24 @@ export class TreePanel {
         row.eye.setAttribute("aria-label", text(gone ? "tree.show" : "tree.hide", { name: row.name }));
       }
       if (row.component !== null)
-        this.mark(row, row.component, touched.has(row.component), blocking.has(row.component));
+        this.updateBadge(row, row.component, touched.has(row.component), blocking.has(row.component));
     }
     if (selection !== this.shownSelection) this.reveal(selection);
   }
 
-  private mark(row: Row, component: number, touched: boolean, blocks: boolean): void {
+  private updateBadge(row: Row, component: number, touched: boolean, blocks: boolean): void {
     const state = this.session.store.state?.components[component];
-    const words =
+    const label =
       blocks || touched
-        ? text("pair.contact")
+        ? text("contact")
         : state?.removed
-          ? text("tree.removed")
+          ? text("component.removed")
           : state?.pose
-            ? text("tree.moved")
+            ? text("component.moved")
             : "";
-    setText(row.badge, words);
+    setText(row.badge, label);
     row.badge.className = `badge ${blocks ? "blocks" : touched ? "touches" : ""}`;
-    row.badge.hidden = words === "";
+    row.badge.hidden = label === "";
   }
 
   private rebuild(model: ModelEvent | null): void {
@@ -139,18 +139,18 @@ export class TreePanel {
   private addRow(name: string, parents: Row[], component: number | null): Row {
     const row = {} as Row;
     const tool = (label: string, press: () => void) => {
-      const made = button({ label, press, class: "tiny" });
-      made.tabIndex = -1;
-      return made;
+      const node = button({ label, press, class: "tiny" });
+      node.tabIndex = -1;
+      return node;
     };
     const eye = tool(text("tree.hide", { name }), () => this.toggleShown(row));
     const xray = tool(text("tree.xray", { name }), () => this.session.toggleXray(row.components));
     xray.replaceChildren(icon("xray"));
     const badge = element("span", { class: "badge" });
-    const twist = element("span", { class: "twist" });
+    const expander = element("span", { class: "expander" });
     if (component === null) {
-      twist.append(icon("chevron"));
-      twist.onclick = (event) => {
+      expander.append(icon("chevron"));
+      expander.onclick = (event) => {
         event.stopPropagation();
         this.toggleOpen(row);
       };
@@ -164,7 +164,7 @@ export class TreePanel {
         tabIndex: -1,
         title: name,
       },
-      twist,
+      expander,
       element("span", { class: "name" }, name),
       badge,
       xray,
@@ -196,12 +196,12 @@ export class TreePanel {
     const removed = row.components.filter((c) => state?.components[c]?.removed);
     const hidden = row.components.filter((c) => state?.components[c]?.hidden);
     if (row.components.length === removed.length && hidden.length === 0) {
-      void this.session.ask("put_back", { components: row.components });
+      void this.session.send("put_back", { components: row.components });
       return;
     }
     const gone = row.components.length === hidden.length + removed.length;
-    if (gone) void this.session.ask("show", { components: hidden });
-    else void this.session.ask("hide", { components: row.components.filter((c) => !removed.includes(c)) });
+    if (gone) void this.session.send("show", { components: hidden });
+    else void this.session.send("hide", { components: row.components.filter((c) => !removed.includes(c)) });
   }
 
   private toggleOpen(row: Row, open = !row.open): void {
@@ -211,25 +211,25 @@ export class TreePanel {
   }
 
   private filter(): void {
-    const wanted = this.search.value.trim().toLowerCase();
-    const found = this.rows.filter((row) => wanted === "" || row.name.toLowerCase().includes(wanted));
+    const query = this.search.value.trim().toLowerCase();
+    const found = this.rows.filter((row) => query === "" || row.name.toLowerCase().includes(query));
     const shown = new Set(found.flatMap((row) => [row, ...row.parents]));
     for (const row of this.rows)
-      row.item.hidden = !shown.has(row) || (wanted === "" && row.parents.some((parent) => !parent.open));
+      row.item.hidden = !shown.has(row) || (query === "" && row.parents.some((parent) => !parent.open));
     const leaves = this.rows.filter((row) => row.component !== null);
     const seen = leaves.filter((row) => shown.has(row)).length;
     setText(
       this.count,
-      wanted === "" ? String(leaves.length || "") : text("tree.count", { shown: seen, all: leaves.length }),
+      query === "" ? String(leaves.length || "") : text("tree.count", { shown: seen, all: leaves.length }),
     );
     this.none.hidden = this.rows.length === 0 || shown.size > 0;
-    // Tab must find a row that is there.
+    // Tab needs a visible row to stop at.
     const stop = this.rows.find(({ item }) => item.tabIndex === 0);
-    if (stop?.item.hidden !== false) this.makeStop(this.rows.find(({ item }) => !item.hidden));
+    if (stop?.item.hidden !== false) this.setTabStop(this.rows.find(({ item }) => !item.hidden));
   }
 
-  /// From the search to the first component that it found.
-  private goToFound(event: KeyboardEvent): void {
+  /// Moves the focus from the search field to the first component found.
+  private focusFirstFound(event: KeyboardEvent): void {
     if (event.key !== "ArrowDown" && event.key !== "Enter") return;
     event.preventDefault();
     const found = this.rows.find((row) => row.component !== null && !row.item.hidden);
@@ -244,7 +244,7 @@ export class TreePanel {
     row.item.scrollIntoView({ block: "nearest" });
   }
 
-  private key(event: KeyboardEvent): void {
+  private onKey(event: KeyboardEvent): void {
     const shown = this.rows.filter((row) => !row.item.hidden);
     const at = shown.findIndex((row) => row.item === document.activeElement);
     const row = shown[at];
@@ -267,11 +267,11 @@ export class TreePanel {
   }
 
   private setFocus(row: Row): void {
-    this.makeStop(row);
+    this.setTabStop(row);
     row.item.focus();
   }
 
-  private makeStop(row: Row | undefined): void {
+  private setTabStop(row: Row | undefined): void {
     for (const other of this.rows) other.item.tabIndex = other === row ? 0 : -1;
   }
 }

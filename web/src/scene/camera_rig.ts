@@ -11,32 +11,35 @@ import {
   Vector3,
 } from "three";
 
-/// Where one looks from.
+/// A camera position.
 export interface View {
   focus: Vector3;
   orientation: Quaternion;
-  /// From the focus to the eye [mm].
+  /// Distance from the focus to the eye [mm].
   distance: number;
 }
 
 const kFieldOfView = MathUtils.degToRad(30);
 const kOrbitSpeed = 0.0075;
-const kFlight = 220;
-/// What counts as a pixel in a headset [rad].
+const kFlightTime = 220;
+/// Angle that counts as a pixel in a headset [rad].
 const kEyePixel = 0.0012;
 const kUp = new Vector3(0, 0, 1);
+/// Direction (towards the eye) from which a model is shown first.
+export const kHomeDirection = new Vector3(1, -1.6, 0.9);
 
-/// The camera and its turntable, z up. All places on screen are in CSS pixels from the canvas's upper left corner.
+/// The camera and its turntable controls, z up. Positions on screen are CSS pixels from the canvas's upper left corner.
 export class CameraRig {
-  /// Called whenever the picture is not what the camera sees any more.
+  /// Called when the view has changed.
   onChange: () => void = () => {};
-  /// Flights between views are skipped.
+  /// True to jump between views without animation.
   instant = false;
+  /// Size of the view [px].
   readonly size = new Vector2(1, 1);
-  /// The eye of a headset in the world, instead of the camera's; null: none.
+  /// Eye position of a headset in the world frame, in place of the camera's; null: none.
   eye: Vector3 | null = null;
 
-  private view: View = { focus: new Vector3(), orientation: orientationFrom(new Vector3(1, -1.6, 0.9)), distance: 500 };
+  private view: View = { focus: new Vector3(), orientation: orientationFrom(kHomeDirection), distance: 500 };
   readonly perspective = new PerspectiveCamera(MathUtils.radToDeg(kFieldOfView));
   private readonly parallel = new OrthographicCamera();
   private isParallel = false;
@@ -56,10 +59,12 @@ export class CameraRig {
     this.update();
   }
 
+  /// True during an animation between views.
   get flying(): boolean {
     return this.flight !== null;
   }
 
+  /// The current view.
   get current(): View {
     return {
       focus: this.view.focus.clone(),
@@ -68,7 +73,7 @@ export class CameraRig {
     };
   }
 
-  /// Unit vectors of the screen in the world.
+  /// A unit axis of the screen, world frame.
   axis(which: "right" | "up" | "back"): Vector3 {
     const local = { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), back: new Vector3(0, 0, 1) }[which];
     return local.applyQuaternion(this.view.orientation);
@@ -79,14 +84,14 @@ export class CameraRig {
     this.update();
   }
 
-  /// What must not be cut off by the near and far planes.
+  /// Sets the box that the near and far planes must enclose.
   setSceneBounds(box: Box3): void {
     box.getCenter(this.scene.center);
     this.scene.radius = Math.max(1e-3, box.getSize(new Vector3()).length() / 2);
     this.update();
   }
 
-  /// Turns about `pivot` by a motion of the pointer.
+  /// Orbits about `pivot` by a pointer motion [px].
   orbit(dx: number, dy: number, pivot: Vector3): void {
     const back = this.axis("back");
     const pitch = Math.asin(MathUtils.clamp(back.z, -1, 1));
@@ -97,17 +102,17 @@ export class CameraRig {
       .multiply(new Quaternion().setFromAxisAngle(this.axis("right"), -tilt));
     this.view.orientation.premultiply(turn).normalize();
     this.view.focus.sub(pivot).applyQuaternion(turn).add(pivot);
-    this.stay();
+    this.endFlight();
   }
 
-  /// Moves so that `grabbed` follows the pointer.
+  /// Pans so that `grabbed` follows the pointer.
   pan(dx: number, dy: number, grabbed: Vector3): void {
     const scale = this.pixelSize(grabbed);
     this.view.focus.addScaledVector(this.axis("right"), -dx * scale).addScaledVector(this.axis("up"), dy * scale);
-    this.stay();
+    this.endFlight();
   }
 
-  /// Zooms so that `fixed` keeps its place on screen.
+  /// Zooms so that `fixed` keeps its position on screen.
   zoom(factor: number, fixed: Vector3): void {
     const distance = MathUtils.clamp(this.view.distance * factor, this.scene.radius * 1e-4, this.scene.radius * 40);
     this.view.focus
@@ -115,10 +120,10 @@ export class CameraRig {
       .multiplyScalar(distance / this.view.distance)
       .add(fixed);
     this.view.distance = distance;
-    this.stay();
+    this.endFlight();
   }
 
-  /// Shows all of a box, from where one looks or from `direction` (towards the eye).
+  /// Shows a whole box, from the current direction or from `direction` (towards the eye).
   fit(box: Box3, direction?: Vector3): void {
     if (box.isEmpty()) return;
     const radius = Math.max(1e-3, box.getSize(new Vector3()).length() / 2);
@@ -130,22 +135,23 @@ export class CameraRig {
     });
   }
 
-  /// Looks from `direction` (towards the eye) at what is looked at now.
+  /// Looks from `direction` (towards the eye) at the current focus.
   lookFrom(direction: Vector3): void {
     this.fly({ ...this.current, orientation: orientationFrom(direction) });
   }
 
+  /// Animates to another view.
   fly(to: View): void {
     this.flight = this.instant ? null : { from: this.current, to, start: performance.now() };
     if (this.instant) this.view = to;
     this.update();
   }
 
-  /// Moves a flight on; call once a frame.
+  /// Advances the animation between views. Call once a frame.
   advance(now: number): void {
     if (!this.flight) return;
     const { from, to, start } = this.flight;
-    const part = MathUtils.clamp((now - start) / kFlight, 0, 1);
+    const part = MathUtils.clamp((now - start) / kFlightTime, 0, 1);
     const eased = part * part * (3 - 2 * part);
     this.view.focus.lerpVectors(from.focus, to.focus, eased);
     this.view.orientation.slerpQuaternions(from.orientation, to.orientation, eased);
@@ -154,32 +160,33 @@ export class CameraRig {
     this.update();
   }
 
-  /// The ray under a place on screen.
+  /// The ray through a position on screen, world frame.
   ray(x: number, y: number): Ray {
-    const device = this.deviceFromScreen(x, y);
-    const near = new Vector3(device.x, device.y, -1).unproject(this.camera);
-    const far = new Vector3(device.x, device.y, 1).unproject(this.camera);
+    const ndc = this.ndcFromScreen(x, y);
+    const near = new Vector3(ndc.x, ndc.y, -1).unproject(this.camera);
+    const far = new Vector3(ndc.x, ndc.y, 1).unproject(this.camera);
     return new Ray(near, far.sub(near).normalize());
   }
 
-  /// Where a point is on screen; z below 1 in front of the far plane.
+  /// Position of a point on screen; z is below 1 in front of the far plane.
   project(point: Vector3): Vector3 {
-    const device = point.clone().project(this.camera);
-    return new Vector3((0.5 + 0.5 * device.x) * this.size.x, (0.5 - 0.5 * device.y) * this.size.y, device.z);
+    const ndc = point.clone().project(this.camera);
+    return new Vector3((0.5 + 0.5 * ndc.x) * this.size.x, (0.5 - 0.5 * ndc.y) * this.size.y, ndc.z);
   }
 
-  /// How long a pixel is at a point [mm].
+  /// Size of a pixel at a point [mm].
   pixelSize(point: Vector3): number {
     if (this.eye) return Math.max(1e-6, this.eye.distanceTo(point)) * kEyePixel;
     const depth = this.isParallel ? this.view.distance : this.axis("back").dot(this.camera.position.clone().sub(point));
     return (2 * Math.max(depth, 1e-6) * Math.tan(kFieldOfView / 2)) / this.size.y;
   }
 
-  deviceFromScreen(x: number, y: number): Vector2 {
+  /// Normalized device coordinates of a position on screen.
+  ndcFromScreen(x: number, y: number): Vector2 {
     return new Vector2((2 * x) / this.size.x - 1, 1 - (2 * y) / this.size.y);
   }
 
-  private stay(): void {
+  private endFlight(): void {
     this.flight = null;
     this.update();
   }
@@ -211,7 +218,7 @@ export class CameraRig {
   }
 }
 
-/// The orientation of a camera that looks from `direction`; z is up on screen, or y where it looks along z.
+/// Orientation of a camera that looks from `direction`. z is up on screen; y, if it looks along z.
 export function orientationFrom(direction: Vector3): Quaternion {
   const back = direction.clone().normalize();
   const up = Math.abs(back.z) > 0.999 ? new Vector3(0, Math.sign(back.z), 0) : kUp;

@@ -3,26 +3,26 @@ import { Group, Quaternion, Sprite, SpriteMaterial, Vector2, Vector3 } from "thr
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { kAxes, kAxisNames, kAxisVectors } from "../axes.ts";
 import type { DragMode } from "../input/drag_motion.ts";
+import { ArrowField, distanceToSegment } from "./arrow_field.ts";
 import type { CameraRig } from "./camera_rig.ts";
-import { ArrowField, distanceToSegment } from "./marks.ts";
-import { wordTexture } from "./word_texture.ts";
+import { labelTexture } from "./label_texture.ts";
 
-const kArrow = 84;
-const kRing = 58;
-const kReach = 9;
+const kArrowLength = 84;
+const kRingRadius = 58;
+const kPickDistance = 9;
 const kSides = 48;
-/// Told apart by the letters at their tips, too.
+/// The axes are also told apart by the letters at their tips.
 const kColors = ["#d55e00", "#009e73", "#0072b2"];
-const kAxes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
 
-/// Handles at the centre of what is selected: an arrow and a ring for each world axis. It is a place to grab, no more:
-/// a drag of a handle is an ordinary drag that keeps to the handle's axis.
+/// Handles at the centre of the selection: an arrow and a ring for each world axis. Dragging a handle is an ordinary
+/// drag that is locked to the handle's axis.
 export class Gizmo {
   readonly object = new Group();
   private readonly arrows = kColors.map((color) => new ArrowField(color, 1));
-  private readonly rings = kAxes.map((axis, i) => ring(axis, kColors[i]));
-  private readonly letters = kColors.map((color, i) => letter("XYZ"[i], color));
+  private readonly rings = kAxes.map((axis) => ring(kAxisVectors[axis], kColors[axis]));
+  private readonly letters = kAxes.map((axis) => letter(kAxisNames[axis], kColors[axis]));
   private center: Vector3 | null = null;
 
   constructor() {
@@ -30,44 +30,45 @@ export class Gizmo {
     this.object.visible = false;
   }
 
-  /// @param center null: none
+  /// @param center world frame; null: hides the gizmo
   place(center: Vector3 | null): void {
     this.center = center?.clone() ?? null;
     this.object.visible = center !== null;
   }
 
-  /// Sizes the handles for the camera; call before each picture.
+  /// Scales the handles for the camera. Call before each render.
   update(rig: CameraRig): void {
     const { center } = this;
     if (!center) return;
     const pixel = rig.pixelSize(center);
-    kAxes.forEach((axis, i) => {
-      this.arrows[i].arrows = [{ point: center, direction: axis, length: kArrow }];
+    kAxisVectors.forEach((axis, i) => {
+      this.arrows[i].arrows = [{ point: center, direction: axis, length: kArrowLength }];
       this.arrows[i].update(rig);
       this.rings[i].position.copy(center);
-      this.rings[i].scale.setScalar(kRing * pixel);
-      this.letters[i].position.copy(center).addScaledVector(axis, (kArrow + 14) * pixel);
+      this.rings[i].scale.setScalar(kRingRadius * pixel);
+      this.letters[i].position.copy(center).addScaledVector(axis, (kArrowLength + 14) * pixel);
       this.letters[i].scale.setScalar(20 * pixel);
     });
   }
 
-  /// What a drag from a place on screen would do, or null beside the handles.
+  /// The drag that a position on screen starts; null: no handle there.
   pick(rig: CameraRig, x: number, y: number): DragMode | null {
     const { center } = this;
     if (!center) return null;
-    const place = new Vector2(x, y);
+    const position = new Vector2(x, y);
     const pixel = rig.pixelSize(center);
-    let [best, least]: [DragMode | null, number] = [null, kReach];
+    let [best, minDistance]: [DragMode | null, number] = [null, kPickDistance];
     const offer = (mode: DragMode, distance: number) => {
-      if (distance < least) [best, least] = [mode, distance];
+      if (distance < minDistance) [best, minDistance] = [mode, distance];
     };
-    kAxes.forEach((axis, i) => {
-      const along = (part: number) => rig.project(center.clone().addScaledVector(axis, part * kArrow * pixel));
-      offer({ kind: "plane", axis: i as 0 | 1 | 2 }, distanceToSegment(place, along(0.25), along(1)));
-      const points = circle(axis).map((point) => rig.project(point.multiplyScalar(kRing * pixel).add(center)));
+    for (const axis of kAxes) {
+      const vector = kAxisVectors[axis];
+      const along = (part: number) => rig.project(center.clone().addScaledVector(vector, part * kArrowLength * pixel));
+      offer({ kind: "plane", axis }, distanceToSegment(position, along(0.25), along(1)));
+      const points = circle(vector).map((point) => rig.project(point.multiplyScalar(kRingRadius * pixel).add(center)));
       for (let k = 0; k < kSides; ++k)
-        offer({ kind: "turn", axis: i as 0 | 1 | 2 }, distanceToSegment(place, points[k], points[k + 1]));
-    });
+        offer({ kind: "turn", axis }, distanceToSegment(position, points[k], points[k + 1]));
+    }
     return best;
   }
 }
@@ -90,13 +91,13 @@ function ring(axis: Vector3, color: string): LineSegments2 {
 }
 
 function letter(name: string, color: string): Sprite {
-  const disc = (brush: CanvasRenderingContext2D) => {
-    brush.fillStyle = color;
-    brush.beginPath();
-    brush.arc(0, 0, 26, 0, 2 * Math.PI);
-    brush.fill();
+  const disc = (context: CanvasRenderingContext2D) => {
+    context.fillStyle = color;
+    context.beginPath();
+    context.arc(0, 0, 26, 0, 2 * Math.PI);
+    context.fill();
   };
-  const map = wordTexture(name, { size: 64, color: "#ffffff", font: "700 36px", ground: disc });
+  const map = labelTexture(name, { size: 64, color: "#ffffff", font: "700 36px", background: disc });
   const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false, transparent: true }));
   sprite.renderOrder = 11;
   return sprite;

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Matrix4, Quaternion, Vector3 } from "three";
 
-/// A mesh as the file has it: positions [mm] in the component's own frame, shape [vertex_count, 3].
+/// A mesh of the file: positions [mm] in the component's own frame, shape [vertex_count, 3].
 export interface RawSurface {
   positions: Float32Array;
   indices: Uint32Array;
 }
 
-/// A component as the file has it; several may share a surface.
+/// A component of the file. Several may share a surface.
 export interface RawComponent {
-  /// Its index on the wire.
+  /// Index of the component in messages.
   index: number;
   name: string;
   surface: number;
   assembledFromMesh: Matrix4;
-  /// Linear red, green, blue, alpha.
+  /// Linear RGBA.
   color: [number, number, number, number];
 }
 
+/// The content of a binary glTF file.
 export interface RawAssembly {
   surfaces: RawSurface[];
-  /// In the order of their indices.
+  /// Sorted by index.
   components: RawComponent[];
 }
 
@@ -49,8 +50,8 @@ const kMillimetresPerMetre = 1000;
 const kGlbMagic = 0x46546c67;
 const kUnsignedShort = 5123;
 
-/// Reads the binary glTF that the engine writes (one primitive a mesh, indexed triangles, no normals).
-/// Errors: throws where the bytes are no such file.
+/// Reads the binary glTF that the engine writes (one primitive a mesh, indexed triangles, no normals). Throws if the
+/// bytes are not such a file.
 export function readGlb(bytes: ArrayBuffer): RawAssembly {
   const header = new DataView(bytes);
   if (bytes.byteLength < 20 || header.getUint32(0, true) !== kGlbMagic) throw new Error("not a binary glTF file");
@@ -108,7 +109,7 @@ class GlbReader {
     return this.surfaces.length - 1;
   }
 
-  /// A copy of an accessor's bytes, at `stride` bytes an element.
+  /// A copy of an accessor's data, with `stride` bytes an element.
   private slice(index: number, stride: number): ArrayBuffer {
     const accessor = this.gltf.accessors![index];
     const view = this.gltf.bufferViews![accessor.bufferView];

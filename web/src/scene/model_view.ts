@@ -10,7 +10,6 @@ import {
   LineSegments,
   Matrix4,
   Mesh,
-  Quaternion,
   type Ray,
   type ShaderMaterial,
   Vector3,
@@ -18,16 +17,17 @@ import {
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { matrixOf } from "../pose.ts";
 import type { WirePose } from "../wire/structs.ts";
 import { ComponentBatch } from "./component_batch.ts";
 import type { RawAssembly, RawComponent } from "./glb.ts";
+import { bodyMaterial, cutMaterial, edgeMaterial } from "./materials.ts";
 import type { Palette } from "./palette.ts";
 import { RayTree } from "./ray_tree.ts";
-import { bodyMaterial, cutMaterial, edgeMaterial } from "./shade.ts";
 import { type Surface, surfaceFromMesh } from "./surface.ts";
 
-/// How a component stands out.
-export interface Look {
+/// The states that change how a component is drawn.
+export interface Appearance {
   hovered: boolean;
   selected: boolean;
   blocking: boolean;
@@ -35,18 +35,18 @@ export interface Look {
   next: boolean;
 }
 
-const kPlain: Look = { hovered: false, selected: false, blocking: false, xray: false, next: false };
-const kLooks = Object.keys(kPlain) as (keyof Look)[];
+const kPlainAppearance: Appearance = { hovered: false, selected: false, blocking: false, xray: false, next: false };
+const kAppearanceKeys = Object.keys(kPlainAppearance) as (keyof Appearance)[];
 const kXrayOpacity = 0.16;
 
-/// Something that the pointer is on.
+/// A point on a component under the pointer or along a ray.
 export interface Pick {
   component: number;
   point: Vector3;
   distance: number;
 }
 
-/// What components of one shape share.
+/// Geometry shared by components of the same shape.
 class SurfaceView {
   readonly body = new BufferGeometry();
   readonly edges = new BufferGeometry();
@@ -79,12 +79,13 @@ class SurfaceView {
   }
 }
 
-/// One component as it is drawn: only ever where the engine says that it is.
+/// The view of one component, always drawn at the engine's pose.
 export class ComponentView {
   readonly object = new Group();
+  /// The pose at which it is drawn.
   readonly worldFromAssembled = new Matrix4();
-  /// How it stands out: see setLook.
-  look: Readonly<Look> = kPlain;
+  /// How it is drawn; see setAppearance.
+  appearance: Readonly<Appearance> = kPlainAppearance;
   private readonly body: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly edges: LineSegments<BufferGeometry, ShaderMaterial>;
   private outline: LineSegments2 | null = null;
@@ -102,14 +103,15 @@ export class ComponentView {
     this.opacity = a;
     this.body = new Mesh(shape.body, bodyMaterial(new Color(r, g, b), a));
     this.edges = new LineSegments(shape.edges, edgeMaterial(new Color(palette.edge), 1));
-    // After all faces: the stencil then says which pixels are cuts.
+    // Drawn after all faces: then the stencil tells which pixels are section caps.
     this.edges.renderOrder = 1;
     this.object.add(this.body, this.edges);
     this.object.matrixAutoUpdate = false;
     this.setPose(null);
-    this.applyLook();
+    this.applyAppearance();
   }
 
+  /// Index of the component in messages.
   get index(): number {
     return this.raw.index;
   }
@@ -120,32 +122,34 @@ export class ComponentView {
 
   set visible(value: boolean) {
     this.object.visible = value;
-    this.choose();
+    this.chooseRenderPath();
   }
 
+  /// Sets the pose; null: assembled.
   setPose(pose: WirePose | null): void {
-    setMatrixFromPose(this.worldFromAssembled, pose);
+    this.worldFromAssembled.copy(matrixOf(pose));
     this.object.matrix.multiplyMatrices(this.worldFromAssembled, this.raw.assembledFromMesh);
     this.object.matrixWorldNeedsUpdate = true;
-    this.batch.place(this.index, this.object.matrix);
+    this.batch.setMatrix(this.index, this.object.matrix);
   }
 
   bounds(): Box3 {
     return this.shape.body.boundingBox!.clone().applyMatrix4(this.object.matrix);
   }
 
-  setLook(look: Partial<Look>): void {
-    const before = this.look;
-    this.look = { ...before, ...look };
-    if (kLooks.some((key) => this.look[key] !== before[key])) this.applyLook();
+  /// Changes some states of the appearance.
+  setAppearance(appearance: Partial<Appearance>): void {
+    const before = this.appearance;
+    this.appearance = { ...before, ...appearance };
+    if (kAppearanceKeys.some((key) => this.appearance[key] !== before[key])) this.applyAppearance();
   }
 
   setPalette(palette: Palette): void {
     this.palette = palette;
-    this.applyLook();
+    this.applyAppearance();
   }
 
-  /// Cuts the component by that many planes; what is closed is filled there.
+  /// Sets the number of section planes that cut the component; closed solids are capped.
   setPlaneCount(count: number): void {
     if (count > 0 && !this.cut && this.shape.surface.closed) {
       this.cut = new Mesh(this.shape.body, cutMaterial(this.body.material, this.index % 2 === 0 ? 1 : -1));
@@ -154,7 +158,7 @@ export class ComponentView {
     }
     if (this.cut) this.cut.visible = count > 0;
     this.planeCount = count;
-    this.choose();
+    this.chooseRenderPath();
     this.body.material.side = count > 0 && this.cut ? FrontSide : DoubleSide;
     this.body.material.stencilWrite = this.edges.material.stencilWrite = count > 0;
     for (const material of [this.body.material, this.edges.material, this.cut?.material]) {
@@ -164,7 +168,7 @@ export class ComponentView {
     }
   }
 
-  /// Another picture of the same component, to be shown elsewhere.
+  /// A second view of the component's faces, for the ghost.
   copyOfBody(material: ShaderMaterial): Group {
     const copy = new Group();
     copy.matrixAutoUpdate = false;
@@ -172,6 +176,7 @@ export class ComponentView {
     return copy;
   }
 
+  /// The first point of the component along a ray, world frame.
   cast(worldRay: Ray): Pick | null {
     const meshFromWorld = this.object.matrix.clone().invert();
     const ray = worldRay.clone().applyMatrix4(meshFromWorld);
@@ -188,38 +193,40 @@ export class ComponentView {
     this.outline?.material.dispose();
   }
 
-  private applyLook(): void {
-    const { look, palette } = this;
+  private applyAppearance(): void {
+    const { appearance, palette } = this;
     const material = this.body.material;
-    const opacity = look.xray ? Math.min(kXrayOpacity, this.opacity) : this.opacity;
+    const opacity = appearance.xray ? Math.min(kXrayOpacity, this.opacity) : this.opacity;
     material.uniforms.uOpacity.value = opacity;
     material.transparent = opacity < 1;
     material.depthWrite = opacity === 1;
-    const standout = this.standout();
-    const tint = new Color(standout?.color ?? palette.edge);
-    material.uniforms.uTint.value.set(tint.r, tint.g, tint.b, standout?.tint ?? 0);
-    const edge: Color = this.edges.material.uniforms.uColor.value.set(look.hovered ? palette.accent : palette.edge);
-    this.batch.paint(this.index, material.uniforms.uColor.value.clone().lerp(tint, standout?.tint ?? 0), edge);
-    this.choose();
-    this.edges.material.uniforms.uOpacity.value = look.xray ? 0.35 : 1;
-    this.edges.material.transparent = look.xray;
+    const emphasis = this.emphasis();
+    const tint = new Color(emphasis?.color ?? palette.edge);
+    material.uniforms.uTint.value.set(tint.r, tint.g, tint.b, emphasis?.tint ?? 0);
+    const edge: Color = this.edges.material.uniforms.uColor.value.set(
+      appearance.hovered ? palette.accent : palette.edge,
+    );
+    this.batch.setColors(this.index, material.uniforms.uColor.value.clone().lerp(tint, emphasis?.tint ?? 0), edge);
+    this.chooseRenderPath();
+    this.edges.material.uniforms.uOpacity.value = appearance.xray ? 0.35 : 1;
+    this.edges.material.transparent = appearance.xray;
     if (this.cut) this.cut.material.transparent = material.transparent;
-    this.setOutline(standout ? { color: standout.color, width: standout.width } : null);
+    this.setOutline(emphasis ? { color: emphasis.color, width: emphasis.width } : null);
   }
 
-  /// Drawn by itself where it is seen through or cut, else with the batch.
-  private choose(): void {
-    const alone = this.body.material.transparent || this.planeCount > 0;
-    this.body.visible = this.edges.visible = alone;
-    this.batch.show(this.index, this.object.visible && !alone);
+  /// Draws the component separately if it is translucent or cut, otherwise in the batch.
+  private chooseRenderPath(): void {
+    const separate = this.body.material.transparent || this.planeCount > 0;
+    this.body.visible = this.edges.visible = separate;
+    this.batch.setVisible(this.index, this.object.visible && !separate);
   }
 
-  private standout(): { color: string; tint: number; width: number } | null {
-    const { look, palette } = this;
-    if (look.blocking) return { color: palette.blocking, tint: 0.28, width: 3.2 };
-    if (look.selected) return { color: palette.selection, tint: 0.45, width: 2.2 };
-    if (look.next) return { color: palette.next, tint: 0.4, width: 3 };
-    if (look.hovered) return { color: palette.accent, tint: 0.07, width: 1.8 };
+  private emphasis(): { color: string; tint: number; width: number } | null {
+    const { appearance, palette } = this;
+    if (appearance.blocking) return { color: palette.blocking, tint: 0.28, width: 3.2 };
+    if (appearance.selected) return { color: palette.selection, tint: 0.45, width: 2.2 };
+    if (appearance.next) return { color: palette.next, tint: 0.4, width: 3 };
+    if (appearance.hovered) return { color: palette.accent, tint: 0.07, width: 1.8 };
     return null;
   }
 
@@ -239,7 +246,7 @@ export class ComponentView {
   }
 }
 
-/// All components of an assembly.
+/// The views of all components of an assembly.
 export class ModelView {
   readonly root = new Group();
   readonly components: ComponentView[] = [];
@@ -260,7 +267,7 @@ export class ModelView {
     }
   }
 
-  /// The first component that is shown along a ray and `accepts` it.
+  /// The first visible component along a ray that `accepts` accepts.
   cast(ray: Ray, accepts: (pick: Pick) => boolean = () => true): Pick | null {
     let best: Pick | null = null;
     const entry = new Vector3();
@@ -273,12 +280,12 @@ export class ModelView {
     return best;
   }
 
-  /// Around some of them, where they are.
+  /// Bounding box of some components at their poses, world frame.
   boundsOf(components: number[]): Box3 {
     return components.reduce((box, c) => box.union(this.components[c].bounds()), new Box3());
   }
 
-  /// Around what is shown.
+  /// Bounding box of all visible components, world frame.
   bounds(): Box3 {
     const box = new Box3();
     for (const component of this.components) if (component.visible) box.union(component.bounds());
@@ -298,11 +305,4 @@ export class ModelView {
     for (const component of this.components) component.dispose();
     for (const shape of this.shapes) shape.dispose();
   }
-}
-
-/// @param pose null: assembled
-export function setMatrixFromPose(matrix: Matrix4, pose: WirePose | null): Matrix4 {
-  if (!pose) return matrix.identity();
-  const [w, x, y, z] = pose.rotation;
-  return matrix.compose(new Vector3(...pose.position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/// The colours of a theme in the scene. Blue, orange and purple of Okabe and Ito's set: told apart by the colour-blind,
-/// and never alone: what blocks has wider edges, contacts have arrows, ghosts are see-through.
+/// The scene's colours in a theme. Blue, orange and purple of Okabe and Ito's palette, safe for colour-blind users, and
+/// never the only cue: blocking components have wider edges, contacts have arrows, ghosts are translucent.
 export interface Palette {
   background: [string, string];
   sky: string;
@@ -17,6 +17,7 @@ export interface Palette {
   measure: string;
 }
 
+/// The palettes of the two themes.
 export const kPalettes: Record<"light" | "dark", Palette> = {
   light: {
     background: ["#f7f8fa", "#dfe4ea"],

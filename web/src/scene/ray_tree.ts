@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Ray, Vector3 } from "three";
 
-/// Where a ray meets a surface first.
+/// The first intersection of a ray with a surface.
 export interface RayHit {
   distance: number;
   face: number;
@@ -9,11 +9,12 @@ export interface RayHit {
 
 const kLeafFaces = 6;
 
-/// A bounding-volume hierarchy over the faces of one surface, for rays in the surface's own frame.
+/// A bounding volume hierarchy over the faces of a surface, for ray queries in the surface's own frame.
 export class RayTree {
   private readonly order: Uint32Array;
   private readonly boxes: number[] = [];
-  /// A leaf: first index in `order`, and its count; an inner node: the right child, and 0 (the left one follows it).
+  /// Leaf: first index in `order`, and the face count. Inner node: the right child, and 0; the left child follows the
+  /// node.
   private readonly links: number[] = [];
 
   /// @param corners shape [face_count, 3, 3]
@@ -34,14 +35,14 @@ export class RayTree {
     const stack = [0];
     while (stack.length > 0) {
       const node = stack.pop()!;
-      if (this.enter(node, ray) >= (best?.distance ?? Number.POSITIVE_INFINITY)) continue;
+      if (this.entryDistance(node, ray) >= (best?.distance ?? Number.POSITIVE_INFINITY)) continue;
       const [link, count] = [this.links[2 * node], this.links[2 * node + 1]];
       if (count === 0) {
         stack.push(link, node + 1);
         continue;
       }
       for (let i = link; i < link + count; ++i) {
-        const distance = this.meet(this.order[i], ray.origin, ray.direction);
+        const distance = this.intersectFace(this.order[i], ray.origin, ray.direction);
         if (distance < (best?.distance ?? Number.POSITIVE_INFINITY)) best = { distance, face: this.order[i] };
       }
     }
@@ -76,8 +77,8 @@ export class RayTree {
     return box;
   }
 
-  /// The distance at which the ray enters a node's box; infinite where it passes by.
-  private enter(node: number, ray: Ray): number {
+  /// Distance at which the ray enters a node's box; infinite if it misses.
+  private entryDistance(node: number, ray: Ray): number {
     const origin = [ray.origin.x, ray.origin.y, ray.origin.z];
     const direction = [ray.direction.x, ray.direction.y, ray.direction.z];
     let [near, far] = [0, Number.POSITIVE_INFINITY];
@@ -95,8 +96,8 @@ export class RayTree {
     return near <= far ? near : Number.POSITIVE_INFINITY;
   }
 
-  /// Möller and Trumbore's test; infinite where the ray misses the face.
-  private meet(face: number, origin: Vector3, direction: Vector3): number {
+  /// Möller-Trumbore test: distance to the face; infinite if the ray misses.
+  private intersectFace(face: number, origin: Vector3, direction: Vector3): number {
     const c = this.corners.subarray(9 * face, 9 * face + 9);
     const [ux, uy, uz, vx, vy, vz] = [c[3] - c[0], c[4] - c[1], c[5] - c[2], c[6] - c[0], c[7] - c[1], c[8] - c[2]];
     const px = direction.y * vz - direction.z * vy;

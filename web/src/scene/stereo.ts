@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type PerspectiveCamera, type Scene, StereoCamera, type Vector2, type WebGLRenderer } from "three";
 
-/// Off; both eyes side by side, each squeezed to half the width, as 3D projectors take them; or red and cyan glasses.
+/// Off; side by side, each eye squeezed to half the width for 3D projectors; or anaglyph for red/cyan glasses.
 export type StereoMode = "off" | "sideBySide" | "anaglyph";
 
+/// All modes, in the order in which they are switched through.
 export const kStereoModes: StereoMode[] = ["off", "sideBySide", "anaglyph"];
 
-/// The eyes are apart by this part of the distance to what is looked at: deep, and still easy on them.
+/// Eye separation as a fraction of the distance to the focus: clear depth without eye strain.
 const kEyeSeparation = 1 / 30;
 
-/// Draws a scene for two eyes that both look at what is at `distance`.
-export class StereoPicture {
+/// Draws a scene for two eyes that converge at `distance`.
+export class StereoRenderer {
   private readonly eyes = new StereoCamera();
 
+  /// @param distance of the focus [mm]; @param size of the view [px]
   draw(
     renderer: WebGLRenderer,
     scene: Scene,
@@ -40,7 +42,7 @@ export class StereoPicture {
     renderer.setViewport(0, 0, size.x, size.y);
   }
 
-  /// The left eye's picture in red, the right one's in green and blue.
+  /// Draws the left eye in red, the right eye in green and blue.
   private drawAnaglyph(renderer: WebGLRenderer, scene: Scene): void {
     const gl = renderer.getContext();
     gl.colorMask(true, false, false, true);

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { RawSurface } from "./glb.ts";
 
-/// A surface ready to be drawn, in the component's own frame.
+/// A surface prepared for drawing, in the component's own frame.
 export interface Surface {
-  /// Three corners a face [mm], shape [face_count, 3, 3].
+  /// Three corners for each face [mm], shape [face_count, 3, 3].
   positions: Float32Array;
-  /// Unit normals of the corners, smooth across edges flatter than kCreaseAngle.
+  /// Unit normals of the corners, smooth across edges that bend by less than kCreaseAngle.
   normals: Float32Array;
   /// Both ends of each feature edge [mm], shape [edge_count, 2, 3].
   edges: Float32Array;
-  /// Every edge has two faces: the surface bounds a solid, and cuts through it can be filled.
+  /// True if every edge has an even number of faces: the surface bounds a solid, and sections of it can be capped.
   closed: boolean;
 }
 
-/// Above the angle between two chords of a round face at the importer's angular deflection (0.5 rad), below a chamfer.
+/// Larger than the angle between two facets of a curved face at the importer's angular deflection (0.5 rad), smaller
+/// than that of a chamfer [rad].
 export const kCreaseAngle = 0.62;
 const kSmooth = Math.cos(kCreaseAngle);
 
-/// Splits a mesh at its creases.
+/// Computes what is drawn of a mesh: normals, feature edges, and whether it is closed.
 export function surfaceFromMesh(raw: RawSurface): Surface {
   const mesh = weld(raw);
-  const faces = facesOf(mesh);
-  const fans = facesAroundVertices(mesh);
+  const faces = computeFaces(mesh);
+  const fans = computeFans(mesh);
   const { edges, closed } = featureEdges(mesh, faces, fans);
   const positions = new Float32Array(3 * mesh.corners.length);
   for (let i = 0; i < mesh.corners.length; ++i)
@@ -40,13 +41,13 @@ interface Fans {
   face: Uint32Array;
 }
 
-/// Unit normals (zero where there is no area), shape [face_count, 3], and doubled areas.
+/// Unit normals (zero for degenerate faces), shape [face_count, 3], and doubled areas.
 interface Faces {
   normals: Float32Array;
   areas: Float32Array;
 }
 
-/// Vertices at the same place become one; faces that lose a corner by this go.
+/// Merges vertices at equal positions and drops faces that degenerate.
 function weld(raw: RawSurface): WeldedMesh {
   const bits = new Uint32Array(raw.positions.buffer, raw.positions.byteOffset, raw.positions.length);
   const count = raw.positions.length / 3;
@@ -75,7 +76,7 @@ function weld(raw: RawSurface): WeldedMesh {
   return { vertices: raw.positions, vertexCount: count, corners: corners.subarray(0, end) };
 }
 
-function facesOf({ vertices, corners }: WeldedMesh): Faces {
+function computeFaces({ vertices, corners }: WeldedMesh): Faces {
   const normals = new Float32Array(corners.length);
   const areas = new Float32Array(corners.length / 3);
   for (let i = 0; i < corners.length; i += 3) {
@@ -97,7 +98,7 @@ function facesOf({ vertices, corners }: WeldedMesh): Faces {
   return { normals, areas };
 }
 
-function facesAroundVertices(mesh: WeldedMesh): Fans {
+function computeFans(mesh: WeldedMesh): Fans {
   const begin = new Uint32Array(mesh.vertexCount + 1);
   for (const vertex of mesh.corners) ++begin[vertex + 1];
   for (let v = 0; v < mesh.vertexCount; ++v) begin[v + 1] += begin[v];
@@ -107,7 +108,7 @@ function facesAroundVertices(mesh: WeldedMesh): Fans {
   return { begin, face };
 }
 
-/// Whether two faces' normals differ by less than the crease angle; faces without an area bend with any other.
+/// True if the normals of two faces differ by less than the crease angle. Degenerate faces are smooth with any other.
 function isSmooth({ normals, areas }: Faces, f: number, g: number): boolean {
   if (areas[f] === 0 || areas[g] === 0) return true;
   const [a, b] = [3 * f, 3 * g];
@@ -136,7 +137,7 @@ function creaseNormals(mesh: WeldedMesh, faces: Faces, fans: Fans): Float32Array
   return normals;
 }
 
-/// The edges that bend or bound, found around each vertex towards those of higher number.
+/// Sharp and boundary edges, found at their vertex of lower index.
 function featureEdges(mesh: WeldedMesh, faces: Faces, fans: Fans): { edges: Float32Array; closed: boolean } {
   const ends: number[] = [];
   const seenFrom = new Int32Array(mesh.vertexCount).fill(-1);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Matrix4, type Vector3 } from "three";
+import type { Vector3 } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { type GuideStep, poseAt } from "../guide.ts";
-import { setMatrixFromPose } from "./model_view.ts";
+import { matrixOf } from "../pose.ts";
 
-/// Pieces of a trail shorter than this part of the assembly are left out.
-const kFine = 0.002;
+/// Shorter pieces of a trail are merged, as a fraction of the assembly's size.
+const kMinPieceFraction = 0.002;
 
-/// Lines along which components have come.
+/// Lines along the paths that components have taken.
 export class Trails {
   readonly object = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 1.6 }));
 
@@ -18,19 +18,19 @@ export class Trails {
     this.object.visible = false;
   }
 
-  /// @param segments both ends of each piece, world [mm]
+  /// @param segments both ends of each piece, world frame [mm]
   show(segments: Vector3[], color: string): void {
     this.object.visible = segments.length > 0;
     if (segments.length === 0) return;
-    // A geometry's buffers keep the size that they had first.
+    // The buffers of a LineSegmentsGeometry cannot grow.
     this.object.geometry.dispose();
     this.object.geometry = new LineSegmentsGeometry().setPositions(segments.flatMap((point) => point.toArray()));
     this.object.material.color.set(color);
   }
 }
 
-/// The ways of the components' centres until a time [s] of a path: both ends of each piece.
-/// @param center of a component, assembled; @param size of the assembly [mm]
+/// Trails of the components' centres up to a time [s] of a path: both ends of each piece. @param center of a component
+/// when assembled; @param size of the assembly [mm]
 export function trailsUntil(
   steps: GuideStep[],
   time: number,
@@ -44,21 +44,21 @@ export function trailsUntil(
     start += step.duration;
     if (local <= 0) break;
     const poses = [...step.frames.filter(({ t }) => t < local).map(({ pose }) => pose), poseAt(step, local)];
-    const matrices = poses.map((pose) => setMatrixFromPose(new Matrix4(), pose));
+    const matrices = poses.map((pose) => matrixOf(pose));
     for (const component of step.components) {
-      const way = matrices.map((matrix) => center(component).applyMatrix4(matrix));
-      segments.push(...piecesOf(way, kFine * size));
+      const points = matrices.map((matrix) => center(component).applyMatrix4(matrix));
+      segments.push(...piecesOf(points, kMinPieceFraction * size));
     }
   }
   return segments;
 }
 
-function piecesOf(way: Vector3[], least: number): Vector3[] {
+function piecesOf(points: Vector3[], minLength: number): Vector3[] {
   const pieces: Vector3[] = [];
-  let from = way[0];
-  way.forEach((point, i) => {
-    const long = point.distanceTo(from);
-    if (long === 0 || (long < least && i + 1 < way.length)) return;
+  let from = points[0];
+  points.forEach((point, i) => {
+    const length = point.distanceTo(from);
+    if (length === 0 || (length < minLength && i + 1 < points.length)) return;
     pieces.push(from, point);
     from = point;
   });

@@ -18,14 +18,14 @@ import {
 } from "three";
 import { type TextKey, text } from "../strings.ts";
 import type { CameraRig } from "./camera_rig.ts";
-import { wordTexture } from "./word_texture.ts";
+import { labelTexture } from "./label_texture.ts";
 
 const kSize = 104;
 const kMargin = 8;
-/// Beyond this part of half an edge, a click means the edge or the corner.
-const kRimBegin = 0.62;
+/// Clicks beyond this fraction of half an edge mean the edge or the corner.
+const kEdgeZone = 0.62;
 
-/// The six standard views: where one looks from.
+/// The six standard views and their keys; `direction` points towards the eye.
 export const kStandardViews: { name: TextKey; key: string; direction: Vector3 }[] = [
   { name: "standard.front", key: "1", direction: new Vector3(0, -1, 0) },
   { name: "standard.right", key: "2", direction: new Vector3(1, 0, 0) },
@@ -35,13 +35,13 @@ export const kStandardViews: { name: TextKey; key: string; direction: Vector3 }[
   { name: "standard.bottom", key: "6", direction: new Vector3(0, 0, -1) },
 ];
 
-/// A cube in the upper right corner that shows how the view is turned, and turns it.
+/// A cube in the upper right corner that shows the orientation of the view and changes it when clicked.
 export class ViewCube {
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1.05, 1.05, 1.05, -1.05, 0.1, 10);
   private readonly cube: Mesh<BoxGeometry, MeshBasicMaterial[]>;
   private readonly rim: LineSegments<EdgesGeometry, LineBasicMaterial>;
-  private readonly spot: Mesh<BoxGeometry, MeshBasicMaterial>;
+  private readonly highlight: Mesh<BoxGeometry, MeshBasicMaterial>;
   private colors = { face: "#ffffff", ink: "#20262e", rim: "#8a929c" };
 
   constructor() {
@@ -51,20 +51,21 @@ export class ViewCube {
       Array.from({ length: 6 }, () => new MeshBasicMaterial()),
     );
     this.rim = new LineSegments(new EdgesGeometry(box), new LineBasicMaterial());
-    this.spot = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ transparent: true, opacity: 0.45 }));
-    this.spot.visible = false;
+    this.highlight = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ transparent: true, opacity: 0.45 }));
+    this.highlight.visible = false;
     const group = new Group();
-    group.add(this.cube, this.rim, this.spot);
+    group.add(this.cube, this.rim, this.highlight);
     this.scene.add(group);
     this.paint();
   }
 
   setColors(face: string, ink: string, rim: string, accent: string): void {
     this.colors = { face, ink, rim };
-    this.spot.material.color.set(new Color(accent));
+    this.highlight.material.color.set(new Color(accent));
     this.paint();
   }
 
+  /// Draws the cube over the view.
   render(renderer: WebGLRenderer, rig: CameraRig): void {
     this.camera.position.copy(rig.axis("back").multiplyScalar(4));
     this.camera.quaternion.copy(rig.camera.quaternion);
@@ -79,7 +80,7 @@ export class ViewCube {
     renderer.setViewport(0, 0, rig.size.x, rig.size.y);
   }
 
-  /// The direction (towards the eye) that a place on screen stands for, or null beside the cube.
+  /// The view direction (towards the eye) of a position on screen; null if it is not on the cube.
   pick(rig: CameraRig, x: number, y: number): Vector3 | null {
     const corner = this.corner(rig);
     const device = new Vector2(((x - corner.x) / kSize) * 2 - 1, 1 - ((y - corner.y) / kSize) * 2);
@@ -88,22 +89,22 @@ export class ViewCube {
     caster.setFromCamera(device, this.camera);
     const hit = caster.intersectObject(this.cube)[0];
     if (!hit) return null;
-    const half = 0.55 * kRimBegin;
+    const half = 0.55 * kEdgeZone;
     const sign = (value: number) => (Math.abs(value) > half ? Math.sign(value) : 0);
     return new Vector3(sign(hit.point.x), sign(hit.point.y), sign(hit.point.z));
   }
 
-  /// Marks the face, edge or corner that stands for a direction. Returns whether the mark changed.
+  /// Highlights the face, edge or corner of a view direction. Returns true if the highlight changed.
   hover(direction: Vector3 | null): boolean {
-    const before = this.spot.visible ? this.spot.position.clone() : null;
-    this.spot.visible = direction !== null;
+    const before = this.highlight.visible ? this.highlight.position.clone() : null;
+    this.highlight.visible = direction !== null;
     if (direction) {
-      const extent = (value: number) => (value === 0 ? 1.1 * kRimBegin : 0.22);
-      const place = (value: number) => Math.sign(value) * 0.46;
-      this.spot.scale.set(extent(direction.x), extent(direction.y), extent(direction.z));
-      this.spot.position.set(place(direction.x), place(direction.y), place(direction.z));
+      const extent = (value: number) => (value === 0 ? 1.1 * kEdgeZone : 0.22);
+      const offset = (value: number) => Math.sign(value) * 0.46;
+      this.highlight.scale.set(extent(direction.x), extent(direction.y), extent(direction.z));
+      this.highlight.position.set(offset(direction.x), offset(direction.y), offset(direction.z));
     }
-    return direction === null ? before !== null : !before?.equals(this.spot.position);
+    return direction === null ? before !== null : !before?.equals(this.highlight.position);
   }
 
   private corner(rig: CameraRig): { x: number; y: number } {
@@ -129,11 +130,11 @@ export class ViewCube {
   }
 
   private label(name: string, turn: number): CanvasTexture {
-    const ground = (brush: CanvasRenderingContext2D) => {
-      brush.fillStyle = this.colors.face;
-      brush.fillRect(-64, -64, 128, 128);
+    const background = (context: CanvasRenderingContext2D) => {
+      context.fillStyle = this.colors.face;
+      context.fillRect(-64, -64, 128, 128);
     };
-    const texture = wordTexture(name, { size: 128, color: this.colors.ink, font: "600 27px", ground, turn });
+    const texture = labelTexture(name, { size: 128, color: this.colors.ink, font: "600 27px", background, turn });
     texture.anisotropy = 4;
     return texture;
   }

@@ -11,25 +11,28 @@ import {
   WebGLRenderer,
   type WebXRManager,
 } from "three";
-import { CameraRig } from "./camera_rig.ts";
-import { ArrowField, Ghost } from "./marks.ts";
+import { ArrowField } from "./arrow_field.ts";
+import { CameraRig, kHomeDirection } from "./camera_rig.ts";
+import { Ghost } from "./ghost.ts";
+import { sharedUniforms } from "./materials.ts";
 import type { ModelView, Pick } from "./model_view.ts";
 import { kPalettes, type Palette } from "./palette.ts";
-import { shared } from "./shade.ts";
-import { type StereoMode, StereoPicture } from "./stereo.ts";
+import { type StereoMode, StereoRenderer } from "./stereo.ts";
 import { ViewCube } from "./view_cube.ts";
 
+/// Options of the viewport.
 export interface ViewportOptions {
-  /// Views change at once, a pixel of the picture is one of the page, and pictures can be read back.
+  /// No animation, one image pixel a CSS pixel, and the image can be read back.
   testing: boolean;
-  /// Smooth edges.
+  /// Antialiasing.
   smooth: boolean;
 }
 
-/// The picture: the model, what is drawn over it, and when it is drawn (only where something changed).
+/// The 3D view: the model and its overlays. Renders on demand, only after changes.
 export class Viewport {
   readonly rig = new CameraRig();
   readonly cube = new ViewCube();
+  /// Arrows of contacts, of free directions, and at blocking components.
   readonly contacts: ArrowField;
   readonly directions: ArrowField;
   readonly blocked: ArrowField;
@@ -37,19 +40,20 @@ export class Viewport {
   readonly scene = new Scene();
   palette: Palette = kPalettes.light;
   model: ModelView | null = null;
-  /// Called before each picture; returns whether another one is to follow.
-  readonly beforePicture: ((now: number) => boolean)[] = [];
-  readonly afterPicture = new Set<() => void>();
-  /// What the last picture cost: how many calls drew how many triangles, and how long that kept the page [ms].
+  /// Called before each render; returns true to request another one.
+  readonly beforeRender: ((now: number) => boolean)[] = [];
+  /// Called after each render.
+  readonly afterRender = new Set<() => void>();
+  /// Cost of the last render: draw calls, triangles, and time of the page's thread [ms].
   readonly cost = { calls: 0, triangles: 0, milliseconds: 0 };
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
   private planes: Plane[] = [];
   private readonly roomFromWorld = new Matrix4();
-  private immersion: { room: Scene; camera: Camera; everyFrame: () => void } | null = null;
+  private immersive: { room: Scene; camera: Camera; updateFrame: () => void } | null = null;
   private stereoMode: StereoMode = "off";
-  private readonly stereoPicture = new StereoPicture();
+  private readonly stereoRenderer = new StereoRenderer();
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -85,16 +89,16 @@ export class Viewport {
     this.invalidate();
   }
 
-  /// The place in the whole view that a place on the canvas shows: side by side, each half is all of it.
-  placeInView(x: number, y: number): { x: number; y: number } {
+  /// Maps a position on the canvas to one in the view: in side-by-side stereo, each half shows the whole view.
+  positionInView(x: number, y: number): { x: number; y: number } {
     if (this.stereoMode !== "sideBySide") return { x, y };
     const half = this.rig.size.x / 2;
     return { x: 2 * (x % half), y };
   }
 
-  /// Asks for a picture at the next frame of the screen.
+  /// Requests a render in the next animation frame.
   invalidate(): void {
-    if (this.scheduled || this.immersion) return;
+    if (this.scheduled || this.immersive) return;
     this.scheduled = true;
     requestAnimationFrame((now) => {
       this.scheduled = false;
@@ -102,7 +106,7 @@ export class Viewport {
     });
   }
 
-  /// Whether the picture shows everything asked for.
+  /// True if no render is pending.
   get settled(): boolean {
     return !this.scheduled;
   }
@@ -119,7 +123,12 @@ export class Viewport {
     this.invalidate();
   }
 
-  /// Call where components were moved or shown.
+  /// Shows the whole model from the default direction.
+  showWhole(): void {
+    if (this.model) this.rig.fit(this.model.bounds(), kHomeDirection);
+  }
+
+  /// Updates the camera's clipping range. Call after components moved or changed visibility.
   updateBounds(): void {
     const bounds = this.model?.bounds() ?? new Box3();
     if (!bounds.isEmpty()) this.rig.setSceneBounds(bounds);
@@ -127,8 +136,8 @@ export class Viewport {
 
   setPalette(palette: Palette): void {
     this.palette = palette;
-    shared.uSky.value.set(palette.sky);
-    shared.uGround.value.set(palette.ground);
+    sharedUniforms.uSky.value.set(palette.sky);
+    sharedUniforms.uGround.value.set(palette.ground);
     this.contacts.color = palette.contact;
     this.directions.color = palette.free;
     this.blocked.color = palette.blocking;
@@ -140,35 +149,41 @@ export class Viewport {
     this.invalidate();
   }
 
-  /// The view that a place on the cube stands for; two eyes have no cube.
+  /// The view direction of the cube under the cursor. In stereo there is no cube.
   pickCube(x: number, y: number): Vector3 | null {
     return this.stereoMode === "off" ? this.cube.pick(this.rig, x, y) : null;
   }
 
+  /// The first visible, uncut surface point under a position on screen.
   pick(x: number, y: number): Pick | null {
     return this.castWorld(this.rig.ray(x, y));
   }
 
-  /// What is first along a ray of the world.
+  /// The first visible, uncut surface point along a ray in the world frame.
   castWorld(ray: Ray): Pick | null {
     return this.model?.cast(ray, (pick) => this.isKept(pick.point)) ?? null;
   }
 
-  /// Draws a room that holds the scene into a headset, every frame of that, until surface() is called.
-  async immerse(session: XRSession, room: Scene, camera: Camera, everyFrame: () => void): Promise<WebXRManager> {
+  /// Renders `room`, which contains the scene, to a headset in every frame until leaveImmersive().
+  async enterImmersive(
+    session: XRSession,
+    room: Scene,
+    camera: Camera,
+    updateFrame: () => void,
+  ): Promise<WebXRManager> {
     const { xr } = this.renderer;
     xr.enabled = true;
     xr.setReferenceSpaceType("local-floor");
     await xr.setSession(session);
     this.renderer.setClearColor(this.palette.background[1], 1);
-    this.immersion = { room, camera, everyFrame };
+    this.immersive = { room, camera, updateFrame };
     this.renderer.setAnimationLoop((now) => this.draw(now));
     return xr;
   }
 
-  /// Back from the headset to the page.
-  surface(): void {
-    this.immersion = null;
+  /// Returns from the headset to the page.
+  leaveImmersive(): void {
+    this.immersive = null;
     this.renderer.setAnimationLoop(null);
     this.renderer.xr.enabled = false;
     this.renderer.setClearColor(0, 0);
@@ -177,51 +192,51 @@ export class Viewport {
     this.invalidate();
   }
 
-  /// @param eye of a headset in the world; null: none. @param roomFromWorld where the scene stands
+  /// @param eye of a headset, world frame; null: none. @param roomFromWorld placement of the scene in the room
   setEye(eye: Vector3 | null, roomFromWorld: Matrix4): void {
     this.rig.eye = eye;
     this.scene.updateWorldMatrix(true, false);
     this.roomFromWorld.copy(roomFromWorld);
-    this.placePlanes();
+    this.updatePlanes();
   }
 
-  /// The picture as a PNG, with the background of the theme.
+  /// The current image as a PNG, with the theme's background.
   screenshot(): Promise<Blob> {
     this.draw(performance.now());
     const copy = document.createElement("canvas");
-    this.copyPicture(copy);
+    this.copyImage(copy);
     return new Promise((resolve) => {
       copy.toBlob((blob) => resolve(blob!), "image/png");
     });
   }
 
-  /// Puts what was just drawn onto another canvas, with the background of the theme. Only right after it was drawn.
-  copyPicture(copy: HTMLCanvasElement): void {
+  /// Copies the image to another canvas, with the theme's background. Call directly after rendering.
+  copyImage(copy: HTMLCanvasElement): void {
     if (copy.width !== this.canvas.width) copy.width = this.canvas.width;
     if (copy.height !== this.canvas.height) copy.height = this.canvas.height;
-    const brush = copy.getContext("2d")!;
-    const shade = brush.createLinearGradient(0, 0, 0, copy.height);
+    const context = copy.getContext("2d")!;
+    const gradient = context.createLinearGradient(0, 0, 0, copy.height);
     this.palette.background.forEach((color, i) => {
-      shade.addColorStop(i, color);
+      gradient.addColorStop(i, color);
     });
-    brush.fillStyle = shade;
-    brush.fillRect(0, 0, copy.width, copy.height);
-    brush.drawImage(this.canvas, 0, 0);
+    context.fillStyle = gradient;
+    context.fillRect(0, 0, copy.width, copy.height);
+    context.drawImage(this.canvas, 0, 0);
   }
 
   /// Cuts away what is behind the planes (n.x + d < 0).
   setPlanes(planes: { normal: Vector3; constant: number }[]): void {
     if (planes.length !== this.planes.length) this.model?.setPlaneCount(planes.length);
     this.planes = planes.map(({ normal, constant }) => new Plane(normal, constant));
-    this.placePlanes();
+    this.updatePlanes();
     this.invalidate();
   }
 
-  /// The materials want them where the scene is drawn.
-  private placePlanes(): void {
+  /// Materials need the planes in the frame in which the scene is rendered.
+  private updatePlanes(): void {
     this.planes.forEach((plane, i) => {
       const { normal, constant } = plane.clone().applyMatrix4(this.roomFromWorld);
-      shared.uPlanes.value[i].set(normal.x, normal.y, normal.z, constant);
+      sharedUniforms.uPlanes.value[i].set(normal.x, normal.y, normal.z, constant);
     });
   }
 
@@ -230,7 +245,7 @@ export class Viewport {
   }
 
   private resize(): void {
-    if (this.immersion) return;
+    if (this.immersive) return;
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     this.renderer.setSize(clientWidth, clientHeight);
     this.rig.resize(clientWidth, clientHeight);
@@ -240,26 +255,33 @@ export class Viewport {
   private draw(now: number): void {
     this.rig.advance(now);
     let more = this.rig.flying;
-    for (const step of this.beforePicture) more = step(now) || more;
+    for (const step of this.beforeRender) more = step(now) || more;
     this.contacts.update(this.rig);
     this.directions.update(this.rig);
     this.blocked.update(this.rig);
-    this.immersion?.everyFrame();
+    this.immersive?.updateFrame();
     const start = performance.now();
     this.renderer.info.reset();
     this.renderer.clear();
-    if (this.immersion) {
-      this.renderer.render(this.immersion.room, this.immersion.camera);
+    if (this.immersive) {
+      this.renderer.render(this.immersive.room, this.immersive.camera);
     } else if (this.stereoMode === "off") {
       this.renderer.render(this.scene, this.rig.camera);
       if (this.model) this.cube.render(this.renderer, this.rig);
     } else {
       const { perspective, size } = this.rig;
-      this.stereoPicture.draw(this.renderer, this.scene, perspective, this.rig.current.distance, this.stereoMode, size);
+      this.stereoRenderer.draw(
+        this.renderer,
+        this.scene,
+        perspective,
+        this.rig.current.distance,
+        this.stereoMode,
+        size,
+      );
     }
     const { calls, triangles } = this.renderer.info.render;
     Object.assign(this.cost, { calls, triangles, milliseconds: performance.now() - start });
-    for (const step of this.afterPicture) step();
+    for (const step of this.afterRender) step();
     if (more) this.invalidate();
   }
 }

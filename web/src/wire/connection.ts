@@ -1,55 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
+import { EventListeners } from "./event_listeners.ts";
 import type { Commands, Events } from "./messages.ts";
 import { type PoseFrame, readPoseFrame } from "./structs.ts";
 
+/// State of the connection to the server.
 export type Link = "connecting" | "open" | "lost";
 
-interface Waiting {
+interface PendingCommand {
   text: string;
-  resolve: (answer: never) => void;
+  resolve: (reply: never) => void;
   reject: (error: Error) => void;
 }
 
 type Listener<T> = (value: T) => void;
 
-const kFirstRetry = 200;
-const kLongestRetry = 2000;
+const kMinRetryDelay = 200;
+const kMaxRetryDelay = 2000;
 
-/// What a session talks to: the server, or what stands in its place.
-export interface Wire {
+/// The connection of a session to the server, or to its substitute in an exported page.
+export interface Transport {
   onFrame: Listener<PoseFrame>;
   onLink: Listener<Link>;
-  /// Whether every command and request has its answer.
+  /// True if every command and request has been answered.
   readonly settled: boolean;
   connect(): void;
-  /// Drops the connection; it comes back as after any loss.
+  /// Drops the connection. It is restored as after any loss.
   reconnect(): void;
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void;
-  /// Sends a command. Rejects with a sentence where it is refused.
+  /// Sends a command. Rejects with the server's message if it is refused.
   command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]>;
-  /// Sends a struct, or drops it where the connection is lost or behind: the next one is newer.
+  /// Sends a struct. Dropped if the connection is lost or congested: a newer one follows.
   sendStruct(bytes: ArrayBuffer): void;
-  /// Asks one of the doors under /api/. The answer is there as a whole.
+  /// Requests an address under /api/. Resolves with the complete response.
   request(address: string, options?: { method?: string; body?: Blob }): Promise<globalThis.Response>;
 }
 
-/// The socket to the server, which comes back by itself: commands that were not answered are sent again.
-export class Connection implements Wire {
+/// A WebSocket connection that reconnects automatically and sends unanswered commands again.
+export class Connection implements Transport {
   onFrame: Listener<PoseFrame> = () => {};
   onLink: Listener<Link> = () => {};
   link: Link = "connecting";
 
   private socket: WebSocket | null = null;
-  private retry = kFirstRetry;
+  private retry = kMinRetryDelay;
   private readonly token: string;
   private readonly client: string;
-  private readonly waiting = new Map<number, Waiting>();
+  private readonly pending = new Map<number, PendingCommand>();
   private requests = 0;
-  private readonly listeners: { [Name in keyof Events]?: Listener<Events[Name]>[] } = {};
+  private readonly listeners = new EventListeners();
 
   constructor() {
     this.token = /[#&]token=([0-9a-f]+)/i.exec(location.hash)?.[1] ?? "";
-    this.client = kept("dismantle.client", randomHex);
+    this.client = stored("dismantle.client", randomHex);
   }
 
   connect(): void {
@@ -58,14 +60,14 @@ export class Connection implements Wire {
     this.socket = new WebSocket(address, ["dismantle.1", `token.${this.token}`]);
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
-      this.retry = kFirstRetry;
+      this.retry = kMinRetryDelay;
       this.setLink("open");
-      for (const { text } of this.waiting.values()) this.socket?.send(text);
+      for (const { text } of this.pending.values()) this.socket?.send(text);
     };
     this.socket.onclose = () => {
       this.setLink("lost");
       setTimeout(() => this.connect(), this.retry);
-      this.retry = Math.min(2 * this.retry, kLongestRetry);
+      this.retry = Math.min(2 * this.retry, kMaxRetryDelay);
     };
     this.socket.onmessage = ({ data }) => {
       if (typeof data === "string") this.receive(JSON.parse(data));
@@ -79,18 +81,16 @@ export class Connection implements Wire {
   }
 
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void {
-    const listeners = (this.listeners[name] ?? []) as Listener<Events[Name]>[];
-    listeners.push(listener);
-    (this.listeners as Record<string, unknown>)[name] = listeners;
+    this.listeners.on(name, listener);
   }
 
   command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]> {
-    const id = Number(kept("dismantle.command", () => "0")) + 1;
+    const id = Number(stored("dismantle.command", () => "0")) + 1;
     sessionStorage.setItem("dismantle.command", String(id));
     const text = JSON.stringify({ id, command: name, ...members });
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(text);
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { text, resolve: resolve as (answer: never) => void, reject });
+      this.pending.set(id, { text, resolve: resolve as (reply: never) => void, reject });
     });
   }
 
@@ -102,17 +102,17 @@ export class Connection implements Wire {
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": this.client };
     ++this.requests;
     try {
-      const answer = await fetch(address, { ...options, headers });
-      if (answer.ok) return new Response(await answer.arrayBuffer(), { headers: answer.headers });
-      const body = (await answer.json().catch(() => ({}))) as { error?: string };
-      throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
+      const response = await fetch(address, { ...options, headers });
+      if (response.ok) return new Response(await response.arrayBuffer(), { headers: response.headers });
+      const body = (await response.json().catch(() => ({}))) as { error?: string };
+      throw new Error(body.error ?? `${response.status} ${response.statusText}`);
     } finally {
       --this.requests;
     }
   }
 
   get settled(): boolean {
-    return this.waiting.size === 0 && this.requests === 0;
+    return this.pending.size === 0 && this.requests === 0;
   }
 
   private setLink(link: Link): void {
@@ -126,20 +126,17 @@ export class Connection implements Wire {
   }
 
   private receive(message: { reply?: number; ok?: boolean; error?: string; event?: keyof Events }): void {
-    if (message.event) {
-      for (const listener of this.listeners[message.event] ?? []) (listener as Listener<unknown>)(message);
-      return;
-    }
-    const waiting = this.waiting.get(message.reply ?? 0);
-    if (!waiting) return;
-    this.waiting.delete(message.reply ?? 0);
-    if (message.ok) waiting.resolve(message as never);
-    else waiting.reject(new Error(message.error));
+    if (message.event) return this.listeners.emit(message.event, message as never);
+    const pending = this.pending.get(message.reply ?? 0);
+    if (!pending) return;
+    this.pending.delete(message.reply ?? 0);
+    if (message.ok) pending.resolve(message as never);
+    else pending.reject(new Error(message.error));
   }
 }
 
-/// A value that this tab keeps when it is loaded again.
-function kept(key: string, make: () => string): string {
+/// A value that survives a reload of this tab.
+function stored(key: string, make: () => string): string {
   const value = sessionStorage.getItem(key) ?? make();
   sessionStorage.setItem(key, value);
   return value;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The JSON of docs/wire.md as types. Lengths are millimetres, angles radians, times seconds.
+// The JSON messages of docs/wire.md as types. Lengths in mm, angles in rad, times in s.
 
+/// x, y, z
 export type Triple = [number, number, number];
+/// Response of the moving set to contact.
 export type Response = "slide" | "touch" | "stop";
+/// The moves that are played back.
 export type Source = "recording" | "guide";
 
+/// A component: its node in the tree, and its bounds when assembled.
 export interface ModelComponent {
   name: string;
   node: number;
@@ -12,6 +16,7 @@ export interface ModelComponent {
   bounds: [Triple, Triple];
 }
 
+/// The open assembly. Node 0 is the root of the tree.
 export interface ModelEvent {
   number: number;
   name: string;
@@ -25,13 +30,15 @@ export interface ModelEvent {
   components: ModelComponent[];
 }
 
+/// Pose and visibility of a component.
 export interface ComponentState {
-  /// Position, then the quaternion w, x, y, z; absent where the component is assembled.
+  /// Position and quaternion w, x, y, z; absent if the component is assembled.
   pose?: [number, number, number, number, number, number, number];
   hidden?: boolean;
   removed?: boolean;
 }
 
+/// A recorded move: its components, and its start and duration on the timeline.
 export interface Move {
   label: string;
   components: number[];
@@ -39,6 +46,7 @@ export interface Move {
   duration: number;
 }
 
+/// The open playback. `blocked`: where the engine stopped it, and the component in contact.
 export interface Playback {
   source: Source;
   time: number;
@@ -49,7 +57,7 @@ export interface Playback {
   blocked: { time: number; by: number | null } | null;
 }
 
-/// Why a component does not come straight out.
+/// What blocks the straight removal of a component.
 export interface Reason {
   component: number;
   direction: Triple;
@@ -58,11 +66,12 @@ export interface Reason {
   locked: number[];
 }
 
-/// What can be preferred of several steps that can come next.
+/// Preferences between possible next steps of a plan.
 export const kPreferences = ["direction", "upright", "groups", "support"] as const;
+/// One of kPreferences.
 export type Preference = (typeof kPreferences)[number];
 
-/// What the planner found last.
+/// The planner's last result.
 export interface Search {
   kind: "plan" | "find_path" | "why";
   complete: boolean;
@@ -72,6 +81,7 @@ export interface Search {
   reasons: Reason[];
 }
 
+/// The complete state of the session.
 export interface StateEvent {
   number: number;
   model: number;
@@ -91,6 +101,7 @@ export interface StateEvent {
   resumable: boolean;
 }
 
+/// Progress of an import or a search; `fraction` is negative if unknown.
 export interface JobEvent {
   job: number;
   name: string;
@@ -100,6 +111,7 @@ export interface JobEvent {
   error?: string;
 }
 
+/// The events of the server, by name.
 export interface Events {
   hello: { version: string; roots: string[] };
   control: { control: boolean; clients: number };
@@ -110,6 +122,7 @@ export interface Events {
   error: { error: string };
 }
 
+/// Straight travel along a direction until the set is outside (`free`) or blocked.
 export interface FreeDirection {
   direction: Triple;
   free: boolean;
@@ -117,6 +130,7 @@ export interface FreeDirection {
   blocked_by: number | null;
 }
 
+/// The state of a pair of components when assembled.
 export interface CheckedPair {
   a: number;
   b: number;
@@ -126,6 +140,7 @@ export interface CheckedPair {
   triangle_pairs: number;
 }
 
+/// Exact clearance of the moving set; `distance` is null if there is no other component.
 export interface Clearance {
   distance: number | null;
   moving: number;
@@ -134,6 +149,7 @@ export interface Clearance {
   point_fixed: Triple;
 }
 
+/// Performance of the server.
 export interface Metrics {
   steps_per_second: number;
   step_us: { median: number; p99: number; max: number };
@@ -147,7 +163,7 @@ export interface Metrics {
 
 type Components = { components: number[] };
 
-/// What each command takes and what its answer holds.
+/// Members and reply of each command.
 export interface Commands {
   hold: [Components, { grip: number }];
   release: [object, object];

@@ -3,24 +3,25 @@
 
 import type { Triple } from "./messages.ts";
 
-/// From a component's assembled position to another; the rotation is w, x, y, z.
+/// A rigid motion from the assembled position; the rotation is the quaternion w, x, y, z.
 export interface WirePose {
   position: Triple;
   rotation: [number, number, number, number];
 }
 
+/// A contact between the moving set and a fixed component.
 export interface WireContact {
   moving: number;
   fixed: number;
   faceMoving: number;
   faceFixed: number;
-  /// Along the normal [mm]; below 0 where the faces are in each other.
+  /// Gap along the normal [mm]; negative if the faces overlap.
   gap: number;
   point: Triple;
   normal: Triple;
 }
 
-/// Where the moving set is now.
+/// Pose of the moving set.
 export interface PoseFrame extends WirePose {
   reached: boolean;
   blocked: boolean;
@@ -30,9 +31,9 @@ export interface PoseFrame extends WirePose {
   grip: number;
   number: number;
   time: number;
-  /// A lower bound of the distance to everything else [mm], or NaN.
+  /// Lower bound of the distance to all other components [mm], or NaN.
   clearance: number;
-  /// [us]
+  /// Duration of the engine's step [us].
   stepTime: number;
   stepsPerSecond: number;
   contacts: WireContact[];
@@ -44,11 +45,13 @@ const kPose = 16;
 const kPoseBytes = 96;
 const kContactBytes = 48;
 
+/// Encodes a target pose; `number` counts the messages of a grip.
 export function targetMessage(grip: number, number: number, pose: WirePose): ArrayBuffer {
   return numbersMessage(kTarget, grip, number, [...pose.position, ...pose.rotation]);
 }
 
-/// @param linear velocity of the set's centre [mm/s]; @param angular [rad/s]; both in world axes
+/// Encodes a target velocity.
+/// @param linear velocity of the set's centre [mm/s]; @param angular velocity [rad/s]; both along world axes
 export function rateMessage(grip: number, number: number, linear: Triple, angular: Triple): ArrayBuffer {
   return numbersMessage(kRate, grip, number, [...linear, ...angular]);
 }
@@ -65,7 +68,7 @@ function numbersMessage(kind: number, grip: number, number: number, values: numb
   return bytes;
 }
 
-/// The frame in a binary message, or null where it is none.
+/// Decodes a pose frame; null if the message is none.
 export function readPoseFrame(bytes: ArrayBuffer): PoseFrame | null {
   const view = new DataView(bytes);
   if (bytes.byteLength < kPoseBytes || view.getUint8(0) !== kPose) return null;

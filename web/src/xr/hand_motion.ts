@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Matrix4, Quaternion, Vector3 } from "three";
 
-/// Where a hand is: in metres, y up, as the headset tells it.
+/// Pose of a hand in the room: metres, y up.
 export interface HandPose {
   position: Vector3;
   orientation: Quaternion;
 }
 
-/// The rigid motion that takes one hand from where it was to where it is.
-export function motionOfHand(then: HandPose, now: HandPose): Matrix4 {
-  const turn = now.orientation.clone().multiply(then.orientation.clone().invert());
-  return rigidMotion(turn, then.position, now.position);
+/// The rigid motion of one hand between two poses.
+export function motionOfHand(before: HandPose, after: HandPose): Matrix4 {
+  const turn = after.orientation.clone().multiply(before.orientation.clone().invert());
+  return rigidMotion(turn, before.position, after.position);
 }
 
-/// The rigid motion that takes what both hands hold along: its middle goes with the middle of the hands, and the line between
-/// them with their line.
-export function motionOfHands(then: [HandPose, HandPose], now: [HandPose, HandPose]): Matrix4 {
-  const turn = new Quaternion().setFromUnitVectors(lineOf(then).normalize(), lineOf(now).normalize());
-  return rigidMotion(turn, middleOf(then), middleOf(now));
+/// The rigid motion of an object held by both hands: its centre follows the midpoint of the hands, its direction the
+/// line between them.
+export function motionOfHands(before: [HandPose, HandPose], after: [HandPose, HandPose]): Matrix4 {
+  const turn = new Quaternion().setFromUnitVectors(lineOf(before).normalize(), lineOf(after).normalize());
+  return rigidMotion(turn, middleOf(before), middleOf(after));
 }
 
-/// What both hands do to the room that they pull at: its middle goes with theirs, it grows as they part, and turns about the
-/// vertical only, so that nobody falls over.
-export function roomMotionOfHands(then: [HandPose, HandPose], now: [HandPose, HandPose]): Matrix4 {
-  const [a, b] = [lineOf(then), lineOf(now)];
-  const growth = b.length() / Math.max(1e-6, a.length());
+/// The motion of a room pulled by both hands: its centre follows theirs and its scale their distance. It rotates about
+/// the vertical only, to prevent motion sickness.
+export function roomMotionOfHands(before: [HandPose, HandPose], after: [HandPose, HandPose]): Matrix4 {
+  const [a, b] = [lineOf(before), lineOf(after)];
+  const scale = b.length() / Math.max(1e-6, a.length());
   const angle = Math.atan2(-b.z, b.x) - Math.atan2(-a.z, a.x);
   const turn = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), angle);
-  const about = middleOf(then).multiplyScalar(-growth).applyQuaternion(turn).add(middleOf(now));
-  return new Matrix4().compose(about, turn, new Vector3(growth, growth, growth));
+  const about = middleOf(before).multiplyScalar(-scale).applyQuaternion(turn).add(middleOf(after));
+  return new Matrix4().compose(about, turn, new Vector3(scale, scale, scale));
 }
 
 function rigidMotion(turn: Quaternion, from: Vector3, to: Vector3): Matrix4 {

@@ -9,7 +9,7 @@ const kAssembled = {
   rotation: [1, 0, 0, 0] as [number, number, number, number],
 };
 
-/// A parallel view along -y: x is right, z is up, a pixel is half a millimetre.
+/// A pointer step in a parallel view along -y: x is right, z is up, a pixel is 0.5 mm.
 function step(dx: number, dy: number): PointerStep {
   const ray = (x: number, z: number) => new Ray(new Vector3(x, -100, z), new Vector3(0, 1, 0));
   return {
@@ -36,19 +36,19 @@ test("in the plane of the screen the grabbed point follows the pointer", () => {
   assert.deepEqual(rounded(dragged({ kind: "plane", axis: null }, 40, -20).target().position), [20, 0, 10]);
 });
 
-test("with an axis locked it only moves along it", () => {
+test("with a locked axis the target moves along it only", () => {
   assert.deepEqual(rounded(dragged({ kind: "plane", axis: 2 }, 40, -20).target().position), [0, 0, 10]);
 });
 
-test("along an axis that points at the eye, up on screen is away", () => {
+test("along an axis that points at the eye, upwards on screen is away", () => {
   assert.deepEqual(rounded(dragged({ kind: "plane", axis: 1 }, 0, -20).target().position), [0, 10, 0]);
 });
 
-test("in depth, up on screen is away from the eye", () => {
+test("in depth, upwards on screen is away from the eye", () => {
   assert.deepEqual(rounded(dragged({ kind: "depth", axis: null }, 0, -20).target().position), [0, 10, 0]);
 });
 
-test("turning keeps the centre where it is", () => {
+test("rotation keeps the centre fixed", () => {
   const center = new Vector3(7, 8, 9);
   const motion = dragged({ kind: "turn", axis: 2 }, 30, 0, center);
   const { position, rotation } = motion.target();
@@ -62,7 +62,7 @@ test("turning keeps the centre where it is", () => {
   assert.ok(moved.distanceTo(center) < 1e-9);
 });
 
-test("about an axis that one looks along, the turn follows the pointer around it", () => {
+test("about an axis along the line of sight, the rotation follows the pointer", () => {
   const center = new Vector3(7, 8, 9);
   const motion = new DragMotion(kAssembled, center, center);
   const ray = (x: number, z: number) => new Ray(new Vector3(7 + x, -100, 9 + z), new Vector3(0, 1, 0));
@@ -73,7 +73,7 @@ test("about an axis that one looks along, the turn follows the pointer around it
   assert.ok(Math.abs(motion.turn.w) > 1 - 1e-9);
 });
 
-test("the way there does not matter: pieces of a motion add up", () => {
+test("steps of a motion add up", () => {
   const motion = new DragMotion(kAssembled, new Vector3(), new Vector3());
   for (let i = 0; i < 10; ++i) motion.move(step(4, -2), { kind: "plane", axis: null });
   assert.deepEqual(rounded(motion.target().position), [20, 0, 10]);

@@ -7,7 +7,7 @@ import { kSpaceMouse } from "../support/space_mouse.ts";
 const kRest: HidAxes = [0, 0, 0, 0, 0, 0];
 const usages = (from: number, count: number) => Array.from({ length: count }, (_, i) => 0x00010030 + from + i);
 
-/// The SpaceNavigator's descriptor: three 16-bit axes each in reports 1 and 2, buttons in report 3.
+/// Descriptor of the SpaceNavigator: three 16-bit axes each in reports 1 and 2, buttons in report 3.
 const kTwoReports: HidCollection[] = [
   {
     usagePage: 1,
@@ -61,7 +61,7 @@ function report(...values: number[]): DataView {
   return view;
 }
 
-test("axes in two reports are found, and each report changes its own", () => {
+test("axes in two reports are found, and each report updates its own", () => {
   const fields = axisFields(kTwoReports);
   assert.equal(fields.length, 6);
   const moved = readAxes(fields, 1, report(350, -175, 0), kRest);
@@ -78,7 +78,7 @@ test("all axes in one report are found", () => {
   assert.deepEqual(readAxes(fields, 1, report(0, 0, 35, 0, -35, 0), kRest), [0, 0, 0.1, 0, -0.1, 0]);
 });
 
-test("axes that begin within a byte, after padding, are read by their bits", () => {
+test("axes that begin within a byte, after padding, are decoded", () => {
   const items = [
     { isConstant: true, usages: [], reportSize: 3, reportCount: 1 },
     { usages: usages(2, 1), reportSize: 10, reportCount: 1, logicalMinimum: -512, logicalMaximum: 511 },
@@ -88,7 +88,7 @@ test("axes that begin within a byte, after padding, are read by their bits", () 
   assert.equal(readAxes(fields, 0, new DataView(Uint8Array.of(bits & 255, bits >> 8).buffer), kRest)[2], -1);
 });
 
-test("a report that is too short, and one of another id, change nothing", () => {
+test("short reports and reports with another id are ignored", () => {
   const fields = axisFields(kSpaceMouse);
   assert.deepEqual(readAxes(fields, 1, report(), kRest), kRest);
   assert.deepEqual(readAxes(fields, 9, report(350, 0, 0, 0, 0, 0), kRest), kRest);

@@ -30,14 +30,14 @@ function started(...steps: GuideStep[]): { player: PathPlayer; state: () => Stat
 
 const shifts = (state: StateEvent) => state.components.map(({ pose }) => pose?.[0] ?? 0);
 
-test("it begins where the path does", () => {
+test("playback starts where the path does", () => {
   const apart = started(step(0, 0, 10, 2), step(1, 0, 20, 4));
   assert.deepEqual(shifts(apart.state()), [0, 0, 0]);
   const together = started(step(1, 20, 0, 4), step(0, 10, 0, 2));
   assert.deepEqual(shifts(together.state()), [10, 20, 0]);
 });
 
-test("a place in time is a place of every component", async () => {
+test("a seek sets the pose of every component", async () => {
   const { player, state } = started(step(0, 0, 10, 2), step(1, 0, 20, 4));
   await player.command("seek", { time: 1 });
   assert.deepEqual(shifts(state()), [5, 0, 0]);
@@ -49,13 +49,13 @@ test("a place in time is a place of every component", async () => {
   assert.equal(state().playback?.time, 6);
 });
 
-test("what is at home is told as assembled", async () => {
+test("components at their assembled position have no pose", async () => {
   const { player, state } = started(step(1, 20, 0, 4));
   await player.command("seek", { time: 4 });
   assert.equal(state().components[1].pose, undefined);
 });
 
-test("hiding and isolating are undone", async () => {
+test("hide and isolate can be undone", async () => {
   const { player, state } = started(step(0, 0, 10, 2));
   const hidden = () => state().components.map((c) => c.hidden === true);
   await player.command("hide", { components: [2] });
@@ -67,13 +67,13 @@ test("hiding and isolating are undone", async () => {
   assert.deepEqual(hidden(), [false, false, false]);
 });
 
-test("what needs an engine is refused in a sentence", async () => {
+test("commands that need an engine are refused with a message", async () => {
   const { player } = started(step(0, 0, 10, 2));
   await assert.rejects(player.command("hold", { components: [0] }), /no engine/);
   await assert.rejects(player.request("/api/path.json"), /no engine/);
 });
 
-test("the model is answered as the server does", async () => {
+test("the model is served as by the server", async () => {
   const { player } = started();
   assert.equal((await (await player.request("/api/model.glb?model=1")).arrayBuffer()).byteLength, 4);
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a killed server leaves, and what is gone on with.
+// Sessions after a crash and after a normal end of the server.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { audit, kSlide, restart, useMicroscope, viewer } from "../support/scene.ts";
@@ -8,9 +8,9 @@ const kOptions = { view: "1" };
 useMicroscope(kOptions);
 const startAgain = (signal: "SIGTERM" | "SIGKILL") => restart(signal, ["--sample", "microscope"], kOptions);
 
-test("killed in mid-drag, the server goes on where the drag was: nothing is lost, and all of it passes the audit", async () => {
+test("a server killed during a drag resumes with the drag's last pose, and the recording passes the audit", async () => {
   await viewer.grab("foot", 0, 20);
-  await viewer.letGo();
+  await viewer.release();
   await viewer.grab(kSlide, 60, 0);
   const [slide, foot] = [await viewer.drawnShift(kSlide), await viewer.drawnShift("foot")];
   assert.ok(slide[0] > 10 && foot[2] < -3, `${slide} ${foot}`);
@@ -22,7 +22,7 @@ test("killed in mid-drag, the server goes on where the drag was: nothing is lost
   assert.deepEqual(await viewer.drawnShift(kSlide), slide);
   assert.deepEqual(await viewer.shift("foot"), foot);
   await viewer.grab(kSlide, 30, 0);
-  await viewer.letGo();
+  await viewer.release();
   assert.ok((await viewer.shift(kSlide))[0] > slide[0]);
   await audit();
   await viewer.press("Control+z", "Control+z", "Control+z");
@@ -31,7 +31,7 @@ test("killed in mid-drag, the server goes on where the drag was: nothing is lost
   await viewer.press("Control+y");
 });
 
-test("a session that was ended in order is offered, and gone on with when one wants it", async () => {
+test("a session that ended normally can be resumed on request", async () => {
   const foot = await viewer.shift("foot");
   await startAgain("SIGTERM");
   assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);

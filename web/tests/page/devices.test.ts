@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { connectDevices, deflect, pushStick } from "../support/devices.ts";
-import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { kSlide, useMicroscope, viewer, waitForEmptyHand, waitForRemoved } from "../support/scene.ts";
 
 useMicroscope({ view: "1", before: connectDevices });
 
@@ -16,19 +16,19 @@ test("with nothing selected the 3D mouse moves the view", async () => {
   assert.equal((await viewer.state()).moves.length, 0);
 });
 
-test("what is selected moves with it, stops at contact, and is one entry of undo", async () => {
+test("the 3D mouse moves the selection, which stops at contact; one undo entry", async () => {
   await viewer.select(kSlide);
   await deflect(100, 0, 120, 0, 0, 0); // right, and down onto the stage
   await viewer.page.waitForFunction((name) => window.dismantle!.drawnMatrix(name)[12] > 10, kSlide);
   await deflect(0, 0, 0, 0, 0, 0);
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await waitForEmptyHand();
   await viewer.idle();
   const [x, , z] = await viewer.shift(kSlide);
   assert.ok(x > 10 && Math.abs(z) < 0.2, `${x} ${z}`);
   assert.equal((await viewer.state()).moves.length, 1);
 });
 
-test("pressed into a wall by a device, it is told what is in the way and what is free, and N finds a path", async () => {
+test("a component pressed against a wall by a device is reported with its blocker and free directions, and N finds a path", async () => {
   await deflect(0, 0, 200, 0, 0, 0);
   await viewer.page
     .locator("[data-banner=stuck]", { hasText: /Blocked by stage plate; free: .*N: find a path/ })
@@ -43,20 +43,14 @@ test("pressed into a wall by a device, it is told what is in the way and what is
     `${marks}`,
   );
   await viewer.page.keyboard.press("n");
-  await viewer.page.waitForFunction(
-    (c) => {
-      const { components, automatic } = window.dismantle!.app.session.store.state!;
-      return automatic === null && components[c].removed;
-    },
-    await viewer.index(kSlide),
-  );
+  await waitForRemoved(kSlide);
   await deflect(0, 0, 0, 0, 0, 0);
   await viewer.idle();
   while ((await viewer.state()).moves.length > 1) await viewer.press("Control+z");
   assert.equal(await viewer.page.evaluate(() => window.dismantle!.app.viewport.contacts.arrows.length), 0);
 });
 
-test("a gamepad moves it, too", async () => {
+test("a gamepad moves the selection, too", async () => {
   const start = await viewer.shift(kSlide);
   await pushStick(-0.5);
   await viewer.page.waitForFunction(
@@ -64,12 +58,12 @@ test("a gamepad moves it, too", async () => {
     [kSlide, start[0]],
   );
   await pushStick(0);
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await waitForEmptyHand();
   await viewer.idle();
   assert.equal((await viewer.state()).moves.length, 2);
 });
 
-test("Esc in mid-motion goes back", async () => {
+test("Esc during the motion returns to its start", async () => {
   const [start] = await viewer.shift(kSlide);
   await deflect(300, 0, 0, 0, 0, 0);
   await viewer.page.waitForFunction(
@@ -77,7 +71,7 @@ test("Esc in mid-motion goes back", async () => {
     [kSlide, start],
   );
   await viewer.page.keyboard.press("Escape");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.hand === null);
+  await waitForEmptyHand();
   await deflect(0, 0, 0, 0, 0, 0);
   await viewer.idle();
   assert.equal((await viewer.shift(kSlide))[0], start);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 import { kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
 
-//   The stage from the front, z up: the slide lies on the stage, two clips hold it down, and it is free to the sides.
+//   The stage from the front, z up: the slide lies on the stage under two clips, and is free to the sides.
 //
 //        clip        clip
 //     ====#============#====   specimen slide
@@ -27,38 +27,33 @@ const drag = () =>
     };
   });
 
-/// How many pixels of the picture have nearly a colour of the theme.
+/// Number of pixels whose colour is close to one of the theme's colours.
 const pixelsLike = (name: "blocking" | "contact") =>
   viewer.page.evaluate((color) => {
-    const { canvas, palette } = window.dismantle!.app.viewport;
-    const wanted = [1, 3, 5].map((at) => Number.parseInt(palette[color].slice(at, at + 2), 16));
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    const brush = copy.getContext("2d")!;
-    brush.drawImage(canvas, 0, 0);
-    const { data } = brush.getImageData(0, 0, copy.width, copy.height);
+    const { palette } = window.dismantle!.app.viewport;
+    const rgb = [1, 3, 5].map((at) => Number.parseInt(palette[color].slice(at, at + 2), 16));
+    const { data } = window.dismantle!.imageData();
     let count = 0;
-    for (let i = 0; i < data.length; i += 4)
-      if (wanted.every((value, k) => Math.abs(data[i + k] - value) < 24)) ++count;
+    for (let i = 0; i < data.length; i += 4) if (rgb.every((value, k) => Math.abs(data[i + k] - value) < 24)) ++count;
     return count;
   }, name);
 
-/// Where the hand wants the grabbed point.
-const wanted = () => viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
+/// Target of the grabbed point.
+const target = () => viewer.page.evaluate(() => window.dismantle!.app.drag.anchor.toArray());
 
-test("a component pressed into a wall stops there: contacts are drawn and the wall is named", async () => {
+test("a component pressed against a wall stops; contacts are drawn and the wall is named", async () => {
   const plain = [await pixelsLike("blocking"), await pixelsLike("contact")];
   await viewer.grab(kSlide, 0, 60);
   const seen = await drag();
   assert.deepEqual([seen.ghost, seen.band], [true, true]);
-  assert.ok((await pixelsLike("blocking")) > plain[0] + 100, "the edges of what blocks are orange");
+  assert.ok((await pixelsLike("blocking")) > plain[0] + 100, "the edges of blocking components are orange");
   assert.ok((await pixelsLike("contact")) > plain[1] + 20, "the contacts are drawn");
   assert.ok(seen.contacts > 0);
   assert.ok(seen.blocking.includes("stage plate"), String(seen.blocking));
   assert.ok((await blocking()) > 0);
   assert.match(await viewer.page.locator("#touches").innerText(), /stage plate/);
-  const status = (part: string, words: RegExp) =>
-    viewer.page.locator(`#status-${part}`, { hasText: words }).waitFor({ state: "attached" });
+  const status = (part: string, pattern: RegExp) =>
+    viewer.page.locator(`#status-${part}`, { hasText: pattern }).waitFor({ state: "attached" });
   await status("clearance", /contact/);
   await status("step", /\d (µs|ms)/);
   await status("device", /CPU|CUDA/);
@@ -80,26 +75,26 @@ test("a component pressed into a wall stops there: contacts are drawn and the wa
     frame.contacts.some(({ normal }) => normal[2] > 0.99),
     "the stage pushes up",
   );
-  await viewer.letGo();
+  await viewer.release();
   assert.equal((await drag()).ghost, false);
   assert.equal(await blocking(), 0);
 });
 
-test("pressed down and pulled aside it slides along", async () => {
+test("a component pressed down and pulled aside slides", async () => {
   await viewer.grab(kSlide, 90, 25);
-  await viewer.letGo();
+  await viewer.release();
   const [x, , z] = await viewer.shift(kSlide);
   assert.ok(x > 10, `${x}`);
   assert.ok(Math.abs(z) < 0.1, `${z}`);
 });
 
-test("with the responses Stop and Touch it does not slide", async () => {
+test("with the responses Stop and Touch nothing slides", async () => {
   for (const response of ["stop", "touch"]) {
     await viewer.page.check(`#response-${response}`);
     await viewer.idle();
     assert.equal((await viewer.state()).response, response);
     await viewer.grab(kSlide, 90, 25, 3);
-    await viewer.letGo();
+    await viewer.release();
     const [x, , z] = await viewer.shift(kSlide);
     assert.ok(x < 5 && Math.abs(z) < 0.1, `${response} ${x} ${z}`);
     if ((await viewer.state()).undo) await viewer.press("Control+z");
@@ -108,8 +103,8 @@ test("with the responses Stop and Touch it does not slide", async () => {
   await viewer.idle();
 });
 
-test("the mesh is drawn where the engine is, never where the hand is", async () => {
-  const { x, y } = await viewer.placeOf(kSlide);
+test("the mesh is drawn at the engine's pose, never at the target", async () => {
+  const { x, y } = await viewer.visiblePoint(kSlide);
   await viewer.page.mouse.move(x, y);
   await viewer.page.mouse.down();
   for (let i = 1; i <= 30; ++i) {
@@ -123,12 +118,12 @@ test("the mesh is drawn where the engine is, never where the hand is", async () 
     }, kSlide);
     assert.equal(differs, 0);
   }
-  await viewer.letGo();
+  await viewer.release();
   assert.deepEqual(await viewer.drawnShift(kSlide), await viewer.shift(kSlide));
 });
 
-test("a picture sends one target at most, the newest; and the grabbed point stays under the pointer", async () => {
-  const { x, y } = await viewer.placeOf(kSlide);
+test("a render sends at most one target, the newest; the grabbed point stays under the pointer", async () => {
+  const { x, y } = await viewer.visiblePoint(kSlide);
   await viewer.grab(kSlide, 10, 0, 2);
   const counted = await viewer.page.evaluate(
     async ([left, top]) => {
@@ -141,13 +136,13 @@ test("a picture sends one target at most, the newest; and the grabbed point stay
         send(bytes);
       };
       const count = () => ++pictures;
-      viewport.afterPicture.add(count);
+      viewport.afterRender.add(count);
       for (let i = 1; i <= 40; ++i) {
         const options = { clientX: left + 10 + i, clientY: top, pointerId: 1, bubbles: true };
         viewport.canvas.dispatchEvent(new PointerEvent("pointermove", options));
       }
       await window.dismantle!.idle();
-      viewport.afterPicture.delete(count);
+      viewport.afterRender.delete(count);
       connection.sendStruct = send;
       return { sent, pictures, point: window.dismantle!.project(hand.anchor.toArray()) };
     },
@@ -156,10 +151,10 @@ test("a picture sends one target at most, the newest; and the grabbed point stay
   assert.ok(counted.sent >= 1 && counted.sent <= counted.pictures && counted.sent < 10, JSON.stringify(counted));
   assert.ok(Math.hypot(counted.point.x - x - 50, counted.point.y - y) < 1, `${JSON.stringify(counted)} ${x} ${y}`);
   await viewer.press("Escape");
-  await viewer.letGo();
+  await viewer.release();
 });
 
-test("Ctrl+Z in mid-drag goes back to its start, and leaves no entry", async () => {
+test("Ctrl+Z during a drag returns to its start and leaves no undo entry", async () => {
   await viewer.grab(kSlide, 80, 0);
   const pulled = await viewer.drawnShift(kSlide);
   assert.ok(pulled[0] > 10, `${pulled}`);
@@ -167,23 +162,23 @@ test("Ctrl+Z in mid-drag goes back to its start, and leaves no entry", async () 
   assert.deepEqual(await viewer.shift(kSlide), [0, 0, 0]);
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.equal((await viewer.state()).hand, null);
-  await viewer.letGo();
+  await viewer.release();
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.equal((await viewer.state()).undo, null);
 });
 
-test("Esc in mid-drag goes back, too", async () => {
+test("Esc during a drag returns to its start", async () => {
   await viewer.grab(kSlide, 80, 0);
   await viewer.press("Escape");
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
-  await viewer.letGo();
+  await viewer.release();
 });
 
-test("a drag is one entry of undo; redo brings it back", async () => {
+test("a drag is one undo entry, and can be redone", async () => {
   await viewer.grab(kSlide, 60, 0);
-  await viewer.letGo();
+  await viewer.release();
   await viewer.grab(kSlide, 30, 0);
-  await viewer.letGo();
+  await viewer.release();
   const there = await viewer.shift(kSlide);
   assert.equal((await viewer.state()).moves.length, 2);
   await viewer.press("Control+z");
@@ -194,12 +189,12 @@ test("a drag is one entry of undo; redo brings it back", async () => {
   assert.deepEqual(await viewer.shift(kSlide), there);
 });
 
-test("what is selected moves as one rigid set, and is one entry of undo", async () => {
+test("the selection moves as one rigid set; one undo entry", async () => {
   const feet = ["foot", "foot#2"];
   await viewer.press("Escape", "f");
   await viewer.select(...feet);
   await viewer.grab("foot", 0, 25);
-  await viewer.letGo();
+  await viewer.release();
   const [one, other] = [await viewer.shift(feet[0]), await viewer.shift(feet[1])];
   assert.ok(one[2] < -3, `${one}`);
   assert.deepEqual(other, one);
@@ -209,46 +204,47 @@ test("what is selected moves as one rigid set, and is one entry of undo", async 
   assert.equal((await viewer.state()).moves.length, 0);
 });
 
-/// The key of a view in which an axis lies across the line of sight, what is free along it, and a way of the pointer.
+/// A key, a view in which its axis is perpendicular to the line of sight, a component that is free along it, and a
+/// pointer offset.
 const kLocks = [
-  { key: "x", view: "1", name: kSlide, way: [40, -40] },
-  { key: "y", view: "3", name: kSlide, way: [30, 40] },
-  { key: "z", view: "1", name: "foot", way: [30, 40] },
+  { key: "x", view: "1", name: kSlide, offset: [40, -40] },
+  { key: "y", view: "3", name: kSlide, offset: [30, 40] },
+  { key: "z", view: "1", name: "foot", offset: [30, 40] },
 ] as const;
 
-for (const [axis, { key, view, name, way }] of kLocks.entries())
-  test(`${key.toUpperCase()} keeps a drag to its axis`, async () => {
+for (const [axis, { key, view, name, offset }] of kLocks.entries())
+  test(`${key.toUpperCase()} locks a drag to its axis`, async () => {
     await viewer.press("Escape", view, "f", key);
-    await viewer.grab(name, way[0], way[1]);
+    await viewer.grab(name, offset[0], offset[1]);
     assert.match(await viewer.page.locator("#status .hint").innerText(), new RegExp(key.toUpperCase()));
     await viewer.press(key);
-    await viewer.letGo();
+    await viewer.release();
     const shift = await viewer.shift(name);
     const across = shift.filter((_, k) => k !== axis);
     assert.ok(Math.abs(shift[axis]) > 2 && across.every((value) => Math.abs(value) < 0.2), `${shift}`);
     assert.deepEqual(await viewer.drawnShift(name), shift);
   });
 
-test("Shift takes it deeper", async () => {
+test("Shift moves in depth", async () => {
   await viewer.press("Escape", "2", "f");
   await viewer.page.keyboard.down("Shift");
   await viewer.grab(kSlide, 5, -30);
   await viewer.page.keyboard.up("Shift");
-  assert.match(await viewer.page.locator("#status .hint").innerText(), /depth/);
-  await viewer.letGo();
+  assert.match(await viewer.page.locator("#status .hint").innerText(), /away from you/);
+  await viewer.release();
   const [x, y, z] = await viewer.shift(kSlide);
-  // Seen from the right, away from the eye is to the left.
+  // Seen from the right, away from the eye is -x.
   assert.ok(x < -3 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
   assert.deepEqual(await viewer.drawnShift(kSlide), [x, y, z]);
 });
 
-test("Alt turns what is held; with an axis, about it", async () => {
+test("Alt rotates the moving set, about the locked axis if there is one", async () => {
   await viewer.press("Escape", "3", "f");
   await viewer.page.keyboard.down("Alt");
   await viewer.grab(kSlide, 0, -40);
-  assert.match(await viewer.page.locator("#status .hint").innerText(), /turning/);
-  assert.ok((await wanted()).every(Number.isFinite));
-  await viewer.letGo();
+  assert.match(await viewer.page.locator("#status .hint").innerText(), /rotating/);
+  assert.ok((await target()).every(Number.isFinite));
+  await viewer.release();
   const pose = async () => (await viewer.state()).components[await viewer.index(kSlide)].pose ?? [0, 0, 0, 1, 0, 0, 0];
   assert.ok(Math.abs((await pose())[3]) < 1 - 1e-6, `${await pose()}`);
   await viewer.page.keyboard.up("Alt");
@@ -258,48 +254,48 @@ test("Alt turns what is held; with an axis, about it", async () => {
   await viewer.grab(kSlide, 3, -6, 3);
   await viewer.page.keyboard.up("Alt");
   await viewer.press("z");
-  await viewer.letGo();
+  await viewer.release();
   const [, , , w, qx, qy, qz] = await pose();
   assert.ok(w < 1 - 1e-7 && Math.hypot(qx, qy) < 0.1 * Math.abs(qz), `${await pose()}`);
 });
 
-test("blocked for a second, the hand is told what is free; the least clearance of the drag is kept", async () => {
+test("a drag blocked for a second shows the free directions, and the minimum clearance of the drag", async () => {
   await viewer.press("1");
   await viewer.grab(kSlide, 0, 60);
   await viewer.page.locator("[data-banner=stuck]", { hasText: /Blocked by stage plate; free: .*X/ }).waitFor();
   assert.ok((await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length)) > 0);
-  const words = await viewer.page.locator("#clearance").innerText();
-  assert.match(words, /Now\s+contact\s+Least in this drag\s+contact/);
-  await viewer.letGo();
+  const clearance = await viewer.page.locator("#clearance").innerText();
+  assert.match(clearance, /Now\s+contact\s+Minimum in this drag\s+contact/);
+  await viewer.release();
   assert.equal(await viewer.page.locator("[data-banner=stuck]").count(), 0);
 });
 
-test("a screw that overlaps its hole comes out of its fit along its axis, and not through the wall", async () => {
-  const { screw, way } = await viewer.page.evaluate(async () => {
+test("a screw that overlaps its hole leaves its fit along its axis, and not through the wall", async () => {
+  const { screw, axis } = await viewer.page.evaluate(async () => {
     const { session } = window.dismantle!.app;
-    const { pairs } = (await session.ask("check", {}))!;
+    const { pairs } = (await session.send("check", {}))!;
     const fits = pairs.filter(({ state }) => state === "fit").flatMap(({ a, b }) => [a, b]);
     for (const component of fits.filter((c) => session.nameOf(c).includes("screw"))) {
-      const { directions } = (await session.ask("free_directions", { components: [component] }))!;
-      const free = directions.find((way) => way.free);
-      if (free) return { screw: session.nameOf(component), way: free.direction };
+      const { directions } = (await session.send("free_directions", { components: [component] }))!;
+      const free = directions.find(({ free }) => free);
+      if (free) return { screw: session.nameOf(component), axis: free.direction };
     }
     throw new Error("no screw is free");
   });
   await viewer.select(screw);
   await viewer.page.locator("#pairs .badge.fit").first().waitFor();
-  const across = way.map((value) => (Math.abs(value) < 0.5 ? 15 : 0));
+  const across = axis.map((value) => (Math.abs(value) < 0.5 ? 15 : 0));
   for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(across[k]));
   await viewer.click("#numeric-apply");
   assert.ok(Math.hypot(...(await viewer.shift(screw))) < 1, `${await viewer.shift(screw)}`);
   if ((await viewer.state()).undo) await viewer.press("Control+z");
-  for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(25 * way[k]));
+  for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(25 * axis[k]));
   await viewer.click("#numeric-apply");
   const shift = await viewer.shift(screw);
-  assert.ok(Math.abs(shift.reduce((sum, value, k) => sum + value * way[k], 0) - 25) < 0.1, `${shift}`);
+  assert.ok(Math.abs(shift.reduce((sum, value, k) => sum + value * axis[k], 0) - 25) < 0.1, `${shift}`);
 });
 
-test("a move by numbers goes as far as the engine lets it", async () => {
+test("a move by numbers goes as far as the engine allows", async () => {
   await viewer.select(kSlide);
   await viewer.page.fill("#numeric-0", "12.5");
   await viewer.page.fill("#numeric-2", "0");

@@ -6,9 +6,9 @@ import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
-const words = () => viewer.page.locator("#explode-step").innerText();
+const status = () => viewer.page.locator("#explode-step").innerText();
 const drawn = (name: string) => viewer.page.evaluate((n) => window.dismantle!.drawn(n), name);
-/// Whether a component is drawn beside the box of the assembly.
+/// True if a component is drawn outside the assembly's box.
 const isOutside = (name: string) =>
   viewer.page.evaluate((n) => {
     const { session, viewport } = window.dismantle!.app;
@@ -24,19 +24,19 @@ const scrub = async (position: number) => {
 
 test("without a path there is nothing to explode, and the panel says what to do", async () => {
   await viewer.press("e");
-  assert.match(await words(), /There is none yet: take components out/);
+  assert.match(await status(), /Nothing to explode yet.*take components out/);
   assert.equal(await viewer.page.isVisible("#explode-slider"), false);
   assert.equal(await playback(), null);
   await viewer.press("e");
   assert.equal(await viewer.page.isVisible("#explode-panel"), false);
 });
 
-test("exploded, what was taken out is where the path took it, and a banner says so", async () => {
+test("the exploded view shows removed components at the end of their paths, with a banner", async () => {
   await viewer.takeOut(kSlide);
   await viewer.takeOut("foot");
   assert.equal(await drawn(kSlide), false);
   await viewer.press("Escape", "e");
-  assert.match(await words(), /Step 2 of 2: take out foot/);
+  assert.match(await status(), /Step 2 of 2: take out foot/);
   assert.equal(await viewer.page.locator("[data-banner=exploded]").count(), 1);
   const { moves } = JSON.parse(await viewer.recording()) as PathFile;
   for (const name of [kSlide, "foot"]) {
@@ -48,7 +48,7 @@ test("exploded, what was taken out is where the path took it, and a banner says 
   }
 });
 
-test("the steps are scrubbed one after another, with trails", async () => {
+test("the slider scrubs the steps in order, with trails", async () => {
   const apart = await viewer.shift(kSlide);
   const trails = () =>
     viewer.page.evaluate(() => {
@@ -58,7 +58,7 @@ test("the steps are scrubbed one after another, with trails", async () => {
     });
   const [both] = await trails();
   await scrub(1);
-  assert.match(await words(), /Step 1 of 2: take out specimen slide/);
+  assert.match(await status(), /Step 1 of 2: take out specimen slide/);
   assert.deepEqual(await viewer.shift("foot"), [0, 0, 0]);
   assert.deepEqual(await viewer.shift(kSlide), apart);
   const [one] = await trails();
@@ -67,24 +67,24 @@ test("the steps are scrubbed one after another, with trails", async () => {
   const [part, whole] = [await viewer.shift(kSlide), apart].map((shift) => Math.hypot(...shift));
   assert.ok(part > 20 && part < 0.9 * whole, `${part} of ${whole}`);
   await scrub(0);
-  assert.match(await words(), /Assembled/);
+  assert.match(await status(), /Assembled/);
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.deepEqual(await trails(), []);
 });
 
-test("buttons and arrow keys go from step to step", async () => {
+test("buttons and arrow keys step through the explosion", async () => {
   await viewer.click("#explode-after");
-  assert.match(await words(), /Step 1 of 2/);
+  assert.match(await status(), /Step 1 of 2/);
   await viewer.click("#explode-after");
-  assert.match(await words(), /Step 2 of 2/);
+  assert.match(await status(), /Step 2 of 2/);
   await viewer.click("#explode-before");
-  assert.match(await words(), /Step 1 of 2/);
+  assert.match(await status(), /Step 1 of 2/);
   await viewer.page.focus("#explode-slider");
   await viewer.press("ArrowLeft");
   assert.ok((await playback())!.time < 1);
 });
 
-test("back to work everything is as it was", async () => {
+test("leaving the exploded view restores all positions", async () => {
   await viewer.click("[data-banner=exploded] button");
   await viewer.page.locator("#explode-panel").waitFor({ state: "hidden" });
   await viewer.idle();

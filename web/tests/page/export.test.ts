@@ -8,7 +8,7 @@ useMicroscope({ view: "1" });
 
 const open = () => viewer.page.click("#export");
 
-test("before anything was moved there are the assembly's files only", async () => {
+test("without moves only the assembly's files can be exported", async () => {
   await open();
   assert.equal(await viewer.page.isDisabled("#export-moves-csv"), true);
   assert.equal(await viewer.page.isDisabled("#export-video"), true);
@@ -18,9 +18,9 @@ test("before anything was moved there are the assembly's files only", async () =
   await viewer.press("Escape");
 });
 
-test("what was done is saved as an animation, a page, tables and a path", async () => {
+test("moves are exported as an animation, a page, tables and a path", async () => {
   await viewer.grab(kSlide, 40, 0);
-  await viewer.letGo();
+  await viewer.release();
   await open();
   const glb = await viewer.saved("#export-animation-glb");
   assert.equal(glb.name, "microscope.glb");
@@ -37,10 +37,10 @@ test("what was done is saved as an animation, a page, tables and a path", async 
   assert.equal(JSON.parse((await viewer.saved("#export-path-json")).bytes.toString()).moves.length, 1);
 });
 
-test("Khronos' validator finds nothing in the animation, nor in the model that the page itself reads", async () => {
+test("the Khronos validator reports nothing for the animation and the page's own model", async () => {
   const model = await viewer.page.evaluate(async () => {
-    const answer = await window.dismantle!.app.session.connection.request("/api/model.glb");
-    return [...new Uint8Array(await answer.arrayBuffer())];
+    const response = await window.dismantle!.app.session.connection.request("/api/model.glb");
+    return [...new Uint8Array(await response.arrayBuffer())];
   });
   for (const bytes of [new Uint8Array((await viewer.saved("#export-animation-glb")).bytes), Uint8Array.from(model)]) {
     const { issues } = await validateBytes(bytes);
@@ -48,16 +48,16 @@ test("Khronos' validator finds nothing in the animation, nor in the model that t
   }
 });
 
-test("reversed, the path comes back", async () => {
+test("a reversed path also puts the components back", async () => {
   await viewer.page.check("#export-reverse");
   assert.equal(JSON.parse((await viewer.saved("#export-path-json")).bytes.toString()).moves.length, 2);
 });
 
-test("the picture is a PNG", async () => {
+test("the image is a PNG", async () => {
   assert.equal((await viewer.saved("#export-png")).bytes.toString("latin1", 1, 4), "PNG");
 });
 
-test("the playback becomes a video", async () => {
+test("the playback is recorded as a video", async () => {
   await viewer.page.uncheck("#export-reverse");
   const { name, bytes } = await viewer.saved("#export-video");
   assert.equal(name, "microscope.webm");

@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
+import { guidePath, highlighted, kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
 const step = () => viewer.page.locator("#guide-step").innerText();
-/// The components that are drawn as what comes next.
-const glowing = () =>
-  viewer.page.evaluate(() =>
-    window.dismantle!.app.viewport.model!.components.filter(({ look }) => look.next).map(({ raw }) => raw.name),
-  );
 const score = () => viewer.page.locator("#guide-score").innerText();
-test("the recording becomes a guide: everything is assembled again, and the first step is named", async () => {
+
+test("a recording becomes a guide: everything is assembled, and the first step is named", async () => {
   await viewer.grab(kSlide, 60, 0);
-  await viewer.letGo();
+  await viewer.release();
   await viewer.grab("foot", 0, 25);
-  await viewer.letGo();
+  await viewer.release();
   await viewer.press("1");
   await viewer.click("#follow");
   await viewer.page.locator("#guide-panel").waitFor();
   await viewer.idle();
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
-  assert.match(await step(), /Step 1 of 2: take specimen slide/);
-  assert.deepEqual(await glowing(), [kSlide]);
+  assert.match(await step(), /Step 1 of 2: remove specimen slide/);
+  assert.deepEqual(await highlighted(), [kSlide]);
 });
 
-test("the ghost shows the way and goes", async () => {
+test("the ghost shows the path and disappears", async () => {
   await viewer.page.hover("#guide-show");
   const before = await viewer.picture();
   await viewer.page.click("#guide-show");
@@ -35,34 +31,34 @@ test("the ghost shows the way and goes", async () => {
   assert.ok((await viewer.picture()) === before);
 });
 
-test("a step that is done leads to the next, the last one to the end", async () => {
+test("a completed step leads to the next, the last one to the end", async () => {
   await viewer.grab(kSlide, 60, 0);
-  await viewer.letGo();
-  assert.match(await step(), /Step 2 of 2: take foot/);
-  assert.deepEqual(await glowing(), ["foot"]);
+  await viewer.release();
+  assert.match(await step(), /Step 2 of 2: remove foot/);
+  assert.deepEqual(await highlighted(), ["foot"]);
   await viewer.grab("foot", 0, 25);
-  await viewer.letGo();
+  await viewer.release();
   assert.match(await step(), /Done/);
 });
 
-test("practice counts what is taken out of turn, contacts and hints", async () => {
+test("practice counts components out of order, contacts and hints", async () => {
   await reset();
   await viewer.page.check("#guide-practice");
   await viewer.idle();
   assert.match(await step(), /Step 1 of 2: what comes next/);
   assert.match(await score(), /^100 points/);
   await viewer.grab("foot", 0, 12);
-  await viewer.letGo();
-  assert.match(await score(), /1 out of turn/);
+  await viewer.release();
+  assert.match(await score(), /1 out of order/);
   await viewer.press("1");
   await viewer.grab(kSlide, 0, 40);
-  await viewer.letGo();
+  await viewer.release();
   assert.match(await score(), /[1-9]\d* contacts/);
   await viewer.click("#guide-show");
   assert.match(await score(), /1 hints/);
 });
 
-test("the guide plays by itself", async () => {
+test("the guide can be played", async () => {
   await reset();
   await viewer.page.click("#guide-play");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.source === "guide");
@@ -70,18 +66,16 @@ test("the guide plays by itself", async () => {
   await viewer.click("#play-stop");
 });
 
-test("a step can be passed over", async () => {
+test("a step can be skipped", async () => {
   await viewer.page.uncheck("#guide-practice");
   await viewer.idle();
   await viewer.click("#guide-skip");
   assert.match(await step(), /Step 2 of 2/);
-  assert.deepEqual(await glowing(), ["foot"]);
+  assert.deepEqual(await highlighted(), ["foot"]);
 });
 
-test("closed, the guide is gone; a path file that is opened is followed again", async () => {
-  const path = await viewer.page.evaluate(async () =>
-    (await window.dismantle!.app.session.connection.request("/api/guide.json")).text(),
-  );
+test("a guide can be closed, and a path file opened as a guide", async () => {
+  const path = await guidePath();
   await viewer.click("#guide-close");
   assert.equal((await viewer.state()).guide, null);
   assert.equal(await viewer.page.isVisible("#guide-panel"), false);

@@ -6,14 +6,14 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { faultsOf, reachedByTab } from "../support/accessible.ts";
+import { reachedByTab, violationsOf } from "../support/accessibility.ts";
+import { program } from "../support/environment.ts";
 import { closeBrowser, Viewer } from "../support/page.ts";
-import { program } from "../support/tree.ts";
 
 type Frame = { t: number; position: number[] };
 
 const folder = mkdtempSync(join(tmpdir(), "dismantle-offline-"));
-const asked: string[] = [];
+const requests: string[] = [];
 let page: Viewer;
 let back: Viewer;
 let lastFrame: Frame;
@@ -23,7 +23,7 @@ const run = (...arguments_: string[]) => execFileSync(program(), arguments_, { c
 async function open(file: string): Promise<Viewer> {
   const url = `${pathToFileURL(join(folder, file))}?test`;
   const viewer = await Viewer.visit(url, undefined, { width: 1100, height: 600 });
-  viewer.page.on("request", (request) => asked.push(request.url()));
+  viewer.page.on("request", (request) => requests.push(request.url()));
   await viewer.page.waitForFunction(() => window.dismantleOffline?.app.viewport.model != null);
   await idle(viewer);
   return viewer;
@@ -41,7 +41,7 @@ const press = async (key: string) => {
   await page.page.keyboard.press(key);
   await idle(page);
 };
-const stands = (viewer: Viewer) =>
+const playbackEnd = (viewer: Viewer) =>
   viewer.page.waitForFunction(() => window.dismantleOffline!.app.session.store.state!.playback!.playing === false);
 
 before(async () => {
@@ -60,17 +60,17 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-test("it shows the model, the steps and the components", async () => {
+test("the page shows the model, the steps and the components", async () => {
   const { moves } = await state();
   assert.equal(await page.page.locator("#steps-panel li").count(), moves.length);
   assert.ok((await page.page.locator("#tree-panel .row").count()) > 20);
   assert.match(await page.page.title(), /scope\.step/);
 });
 
-test("a step that is pressed is played to its end, exactly where the path has it", async () => {
+test("a clicked step plays to its end, exactly to the path's pose", async () => {
   const { moves } = await state();
   await page.page.click("#steps-panel li:first-child button");
-  await stands(page);
+  await playbackEnd(page);
   await idle(page);
   const name = await page.page.evaluate((c) => window.dismantleOffline!.app.session.nameOf(c), moves[0].components[0]);
   const at = await drawn(page, name);
@@ -78,21 +78,21 @@ test("a step that is pressed is played to its end, exactly where the path has it
   assert.equal(await page.page.locator("#steps-panel [aria-current]").innerText(), `1. ${moves[0].label}`);
 });
 
-test("it plays forward and backward to the ends", async () => {
+test("playback runs forward and backward to the ends", async () => {
   const { playback } = await state();
   await page.page.selectOption("#speed", "4");
   await page.page.click("#play-end");
   await idle(page);
   assert.equal((await state()).playback!.time, playback!.duration);
   await page.page.click("#play-reverse");
-  await stands(page);
+  await playbackEnd(page);
   await idle(page);
   const end = await state();
   assert.equal(end.playback!.time, 0);
   assert.ok(end.components.every(({ pose }) => pose === undefined));
 });
 
-test("the line of time scrubs", async () => {
+test("the timeline scrubs", async () => {
   await page.page.focus("#scrub");
   const before = await picture();
   await page.page.locator("#scrub").fill("500");
@@ -102,7 +102,7 @@ test("the line of time scrubs", async () => {
   assert.ok((await picture()) !== before);
 });
 
-test("a section cuts and fills", async () => {
+test("a section cuts the model", async () => {
   const before = await picture();
   await press("s");
   const cut = await picture();
@@ -128,28 +128,28 @@ test("the keyboard plays steps, hides, isolates and searches", async () => {
   assert.ok((await state()).components.some(({ hidden }) => hidden));
   await press(" ");
   await press(".");
-  await stands(page);
+  await playbackEnd(page);
   await press("h");
   assert.equal(await page.page.locator("#help-dialog").isVisible(), true);
   await press("Escape");
 });
 
-test("components cannot be dragged: there is no engine", async () => {
+test("components cannot be dragged without an engine", async () => {
   const before = await state();
-  const place = await page.page.evaluate(() => {
-    const { app, placeOf } = window.dismantleOffline!;
-    return placeOf(app.session.nameOf(0));
+  const position = await page.page.evaluate(() => {
+    const { app, visiblePoint } = window.dismantleOffline!;
+    return visiblePoint(app.session.nameOf(0));
   });
-  assert.ok(place);
-  await page.page.mouse.move(place.x, place.y);
+  assert.ok(position);
+  await page.page.mouse.move(position.x, position.y);
   await page.page.mouse.down();
-  await page.page.mouse.move(place.x + 60, place.y + 20, { steps: 4 });
+  await page.page.mouse.move(position.x + 60, position.y + 20, { steps: 4 });
   await page.page.mouse.up();
   await idle(page);
   assert.deepEqual((await state()).components, before.components);
 });
 
-test("light and dark are told apart", async () => {
+test("the theme can be switched", async () => {
   const theme = () => page.page.evaluate(() => document.documentElement.dataset.theme);
   const before = await theme();
   await press("t");
@@ -157,16 +157,16 @@ test("light and dark are told apart", async () => {
   await press("t");
 });
 
-test("axe-core finds nothing serious: with all that can be opened, in light and dark, and in the help", async () => {
+test("axe-core reports nothing serious with every panel open, in light and dark, and in the help", async () => {
   const faults = async () => {
     await idle(page);
-    return faultsOf(page.page);
+    return violationsOf(page.page);
   };
   await page.page.locator("#tree-panel [role=treeitem]").nth(2).focus();
   await press("Enter");
   await page.page.focus("#stage canvas");
   for (const key of ["s", "m", "i", "p"]) await press(key);
-  await stands(page);
+  await playbackEnd(page);
   for (const part of ["section-panel", "measure-label", "banners"])
     assert.equal(await page.page.isVisible(`#${part}`), true, part);
   assert.deepEqual(await faults(), []);
@@ -179,14 +179,14 @@ test("axe-core finds nothing serious: with all that can be opened, in light and 
   await press("Escape");
 });
 
-test("every button is reached by Tab", async () => {
+test("every button can be reached by Tab", async () => {
   const reached = await reachedByTab(page.page, 60);
-  const wanted = ["section", "measure", "fit", "projection", "screenshot", "theme", "help", "tree-search", "view"];
-  for (const id of [...wanted, "play", "play-reverse", "play-start", "play-end", "scrub", "speed"])
+  const ids = ["section", "measure", "fit", "projection", "screenshot", "theme", "help", "tree-search", "view"];
+  for (const id of [...ids, "play", "play-reverse", "play-start", "play-end", "scrub", "speed"])
     assert.ok(reached.has(id), `${id}: ${[...reached]}`);
 });
 
-test("reversed, it begins taken apart and ends assembled", async () => {
+test("a reversed page starts disassembled and ends assembled", async () => {
   const poses = () =>
     back.page.evaluate(() => window.dismantleOffline!.app.session.store.state!.components.map(({ pose }) => !pose));
   assert.ok((await poses()).some((home) => !home));
@@ -195,9 +195,9 @@ test("reversed, it begins taken apart and ends assembled", async () => {
   assert.ok((await poses()).every((home) => home));
 });
 
-test("it asks nobody for anything, and nothing went wrong", () => {
+test("the page makes no request and has no errors", () => {
   assert.deepEqual(
-    asked.filter((url) => !url.startsWith("blob:") && !url.startsWith("data:")),
+    requests.filter((url) => !url.startsWith("blob:") && !url.startsWith("data:")),
     [],
   );
   assert.deepEqual([...page.problems, ...back.problems], []);

@@ -4,9 +4,9 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { after, test } from "node:test";
+import { sourceFolder } from "../support/environment.ts";
 import { useViewer, viewer } from "../support/scene.ts";
-import { isThere } from "../support/step.ts";
-import { sourceFolder } from "../support/tree.ts";
+import { isPresent } from "../support/step.ts";
 
 const folder = mkdtempSync(join(tmpdir(), "dismantle-root-"));
 useViewer(["--root", folder], { waits: false });
@@ -14,7 +14,7 @@ after(() => rmSync(folder, { recursive: true }));
 
 const modelName = () => viewer.page.evaluate(() => window.dismantle!.app.session.store.model?.name ?? null);
 
-/// A cube of one facet a side, as an OBJ file.
+/// A cube with one facet a side, as an OBJ file.
 const kCube = `o cube
 ${[0, 1, 2, 3, 4, 5, 6, 7].map((k) => `v ${k & 1 ? 10 : 0} ${k & 2 ? 10 : 0} ${k & 4 ? 10 : 0}`).join("\n")}
 f 1 3 4 2
@@ -30,7 +30,7 @@ test("without an assembly the start page offers the samples", async () => {
   assert.equal(await viewer.page.locator("#samples .card").count(), 4);
 });
 
-test("a sample that is clicked is opened, and the start page goes", async () => {
+test("a clicked sample is opened, and the start page closes", async () => {
   await viewer.page.click("[data-sample=microscope]");
   await viewer.model();
   assert.equal(await modelName(), "microscope.step");
@@ -38,7 +38,7 @@ test("a sample that is clicked is opened, and the start page goes", async () => 
   assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), 41);
 });
 
-test("a file of one's own is sent and opened in its place", async () => {
+test("a chosen file is uploaded and replaces the model", async () => {
   await viewer.page.setInputFiles("#file-picker", {
     name: "cube.obj",
     mimeType: "text/plain",
@@ -47,10 +47,10 @@ test("a file of one's own is sent and opened in its place", async () => {
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "cube.obj");
   await viewer.idle();
   assert.equal(await viewer.page.locator("#tree-panel .row:not(.group)").count(), 1);
-  assert.ok(await viewer.placeOf("cube"));
+  assert.ok(await viewer.visiblePoint("cube"));
 });
 
-test("a file that cannot be read is an error message, and the model stays", async () => {
+test("an unreadable file gives an error message, and the model stays", async () => {
   await viewer.page.setInputFiles("#file-picker", {
     name: "broken.step",
     mimeType: "text/plain",
@@ -70,7 +70,7 @@ test("a file dropped on the page is opened", async () => {
   await viewer.idle();
 });
 
-test("files below the roots are listed and opened; those opened are recent", async () => {
+test("files under the roots are listed and opened, and become recent", async () => {
   writeFileSync(join(folder, "box.obj"), kCube);
   await viewer.click("#open");
   await viewer.page.locator(".roots h3", { hasText: basename(folder) }).waitFor();
@@ -82,7 +82,7 @@ test("files below the roots are listed and opened; those opened are recent", asy
   assert.equal(await modelName(), "box.obj");
 });
 
-/// Cancels the import of a file that is on its way.
+/// Cancels a running import.
 async function cancelImport(name: string): Promise<void> {
   await viewer.page.locator("[data-banner=job]", { hasText: name }).waitFor();
   await viewer.page.click("[data-banner=job] button");
@@ -91,7 +91,7 @@ async function cancelImport(name: string): Promise<void> {
   assert.equal(await modelName(), "box.obj");
 }
 
-test("an import that takes long says how far it is, and is cancelled", async () => {
+test("a long import shows its progress and can be cancelled", async () => {
   await viewer.click("#open");
   await viewer.page.click("[data-sample=lathe]");
   await cancelImport("lathe.step");
@@ -99,7 +99,9 @@ test("an import that takes long says how far it is, and is cancelled", async () 
 
 const kLarge = "../shared/data/assemblies/o2ac_fixture/original/fixture_diagonal.step";
 
-test("so is that of an assembly of others", { skip: !isThere(kLarge) && `${kLarge} is not here` }, async () => {
+test("the import of a third-party assembly can be cancelled", {
+  skip: !isPresent(kLarge) && `${kLarge} is not here`,
+}, async () => {
   await viewer.page.setInputFiles("#file-picker", join(sourceFolder(), kLarge));
   await cancelImport("fixture_diagonal.step");
 });

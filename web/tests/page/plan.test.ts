@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { auditPath, kSlide, reset, useMicroscope, viewer } from "../support/scene.ts";
+import {
+  auditPath,
+  guidePath,
+  kSlide,
+  reset,
+  useMicroscope,
+  viewer,
+  waitForRemoved,
+  waitForSearch,
+} from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
 const search = async () => (await viewer.state()).search;
 const banner = (key: string) => viewer.page.locator(`[data-banner=${key}]`);
 const arrows = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.blocked.arrows.length);
-const waitForSearch = (kind: string) =>
-  viewer.page.waitForFunction((k) => window.dismantle!.app.session.store.state!.search?.kind === k, kind);
 
 test("a plan of everything becomes the guide, and moves nothing", async () => {
   await viewer.press("l");
@@ -23,17 +30,13 @@ test("a plan of everything becomes the guide, and moves nothing", async () => {
   assert.ok(components.every(({ pose }) => !pose));
   assert.match(await viewer.page.locator("#plan-found").innerText(), new RegExp(`^${found!.steps} steps`));
   assert.match(await viewer.page.locator("#guide-step").innerText(), /Step 1 of/);
-  auditPath(
-    await viewer.page.evaluate(async () =>
-      (await window.dismantle!.app.session.connection.request("/api/guide.json")).text(),
-    ),
-  );
+  auditPath(await guidePath());
 });
 
-test("the plan plays, and nothing is in its way", async () => {
+test("the plan plays without contact", async () => {
   await viewer.page.selectOption("#speed", "4");
   await viewer.page.click("#guide-play");
-  await viewer.page.waitForFunction(() => (window.dismantle!.app.session.playedTime ?? 0) > 3);
+  await viewer.page.waitForFunction(() => (window.dismantle!.app.session.playbackTime ?? 0) > 3);
   await viewer.page.click("#play-pause");
   await viewer.page.click("#play-end");
   await viewer.idle();
@@ -45,7 +48,7 @@ test("the plan plays, and nothing is in its way", async () => {
   assert.equal(await search(), null);
 });
 
-test("a plan for the selection leaves alone what is not in its way, and what is fixed", async () => {
+test("a plan for the selection moves only what blocks it", async () => {
   await viewer.select("objective 10x");
   await viewer.page.check("#plan-selection");
   await viewer.page.click("#plan-find");
@@ -60,18 +63,18 @@ test("a plan for the selection leaves alone what is not in its way, and what is 
   assert.equal(await viewer.page.isVisible("#plan-panel"), false);
 });
 
-test("what is preferred is asked for, the first ticked first", async () => {
+test("preferences are sent in the order they were ticked", async () => {
   await viewer.press("l");
-  const asked = viewer.page.evaluate(
+  const sent = viewer.page.evaluate(
     () =>
       new Promise((resolve) => {
         const { session } = window.dismantle!.app;
-        const ask = session.ask.bind(session);
-        session.ask = ((name: "plan", members: object) => {
+        const send = session.send.bind(session);
+        session.send = ((name: "plan", members: object) => {
           if (name === "plan") resolve(members);
-          session.ask = ask;
-          return ask(name, members);
-        }) as typeof session.ask;
+          session.send = send;
+          return send(name, members);
+        }) as typeof session.send;
       }),
   );
   await viewer.page.check("#plan-all");
@@ -80,7 +83,7 @@ test("what is preferred is asked for, the first ticked first", async () => {
   await viewer.page.check("#plan-prefer-groups");
   await viewer.page.uncheck("#plan-prefer-upright");
   await viewer.page.click("#plan-find");
-  assert.deepEqual(((await asked) as { prefer: string[] }).prefer, ["support", "groups"]);
+  assert.deepEqual(((await sent) as { prefer: string[] }).prefer, ["support", "groups"]);
   await waitForSearch("plan");
   await viewer.idle();
   assert.ok((await search())!.steps > 10);
@@ -90,7 +93,7 @@ test("what is preferred is asked for, the first ticked first", async () => {
   await viewer.press("l");
 });
 
-test("why it stays: the blocker is named, highlighted, and an arrow points at it", async () => {
+test("blockers are named, highlighted, and pointed at by arrows", async () => {
   await viewer.select("stage plate");
   const before = await viewer.picture();
   await viewer.page.click("#why");
@@ -107,7 +110,7 @@ test("why it stays: the blocker is named, highlighted, and an arrow points at it
   assert.equal(await arrows(), 0);
 });
 
-test("what goes by itself is stopped where it is", async () => {
+test("an automatic motion can be stopped", async () => {
   await viewer.select("pinion shaft");
   await viewer.page.keyboard.press("n");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic !== null);
@@ -120,12 +123,11 @@ test("what goes by itself is stopped where it is", async () => {
   assert.ok(components.some(({ pose }) => pose));
 });
 
-test("find a path takes it out, and first what is in its way; each is one entry of undo", async () => {
+test("find a path removes the blockers, then the component; one undo entry each", async () => {
   await reset();
   await viewer.select("pinion shaft");
   await viewer.press("n");
-  const shaft = await viewer.index("pinion shaft");
-  await viewer.page.waitForFunction((c) => window.dismantle!.app.session.store.state!.components[c].removed, shaft);
+  await waitForRemoved("pinion shaft");
   await viewer.idle();
   const { moves, undo } = await viewer.state();
   assert.ok(moves.length > 1, `${moves.length}`);
@@ -136,28 +138,25 @@ test("find a path takes it out, and first what is in its way; each is one entry 
   await reset();
 });
 
-test("stuck in a drag, N finds the way; let go of, a button does", async () => {
+test("N finds a path during a blocked drag; after the release, a button does", async () => {
   await viewer.press("1");
   await viewer.grab(kSlide, 0, 60);
   await banner("stuck")
     .filter({ hasText: /N: find a path/ })
     .waitFor();
-  await viewer.letGo();
+  await viewer.release();
   await banner("was-stuck")
     .filter({ hasText: /specimen slide was blocked by stage plate/ })
     .waitFor();
   await banner("was-stuck").locator("button").click();
-  const slide = await viewer.index(kSlide);
-  const out = () =>
-    viewer.page.waitForFunction((c) => window.dismantle!.app.session.store.state!.components[c].removed, slide);
-  await out();
+  await waitForRemoved(kSlide);
   await viewer.idle();
   await reset();
   await viewer.press("1");
   await viewer.grab(kSlide, 20, 0);
   await viewer.press("n");
-  await out();
-  await viewer.letGo();
+  await waitForRemoved(kSlide);
+  await viewer.release();
   assert.equal((await viewer.state()).moves.length, 2);
   await reset();
 });

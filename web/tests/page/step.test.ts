@@ -1,30 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assemblies that come as STEP files of the user's: what other tests do in the microscope is done here with a component of each.
+// Third-party STEP assemblies: what other tests do with the microscope is done here with one component of each.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Viewer } from "../support/page.ts";
-import { loseConnection, restart, server, useViewer, viewer } from "../support/scene.ts";
+import {
+  loseConnection,
+  restart,
+  server,
+  useViewer,
+  viewer,
+  waitForPlaybackEnd,
+  waitForSearch,
+} from "../support/scene.ts";
 import {
   chosen,
+  chosenRemoved,
+  type Direction,
   drawnAsInEngine,
-  gone,
   grab,
   isDrawn,
-  isRemoved,
-  isThere,
-  kOfOthers,
+  isPresent,
+  kThirdParty,
   lookAt,
-  pointerWay,
+  pointerOffset,
   send,
-  type Way,
+  travel,
 } from "../support/step.ts";
 
 useViewer([], { waits: false });
 
-const kMine = "samples/microscope.step";
-/// A component that is blocked at once has no more play than this [mm].
-const kSnug = 0.5;
-/// What blocked the chosen component when it was pressed.
+const kOwnFile = "samples/microscope.step";
+/// Play of a component that is blocked at once [mm].
+const kMaxPlay = 0.5;
+/// The component that blocked the chosen one.
 let neighbour = "";
 
 const freeAxis = () => chosen.free.findIndex((value) => Math.abs(value) > 0.9);
@@ -47,42 +55,42 @@ async function press(): Promise<void> {
   assert.ok((await viewer.page.locator("#touches").innerText()).includes(neighbour));
   await viewer.page.locator("[data-banner=stuck]", { hasText: neighbour }).waitFor();
   await viewer.press("Control+z");
-  await viewer.letGo();
+  await viewer.release();
   assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
   assert.equal((await viewer.state()).undo, null);
 }
 
 async function slide(): Promise<void> {
   await grab(60, 20);
-  await viewer.letGo();
-  const reached = await gone(chosen.free);
+  await viewer.release();
+  const reached = await travel(chosen.free);
   const { tolerance } = await viewer.page.evaluate(() => window.dismantle!.app.session.store.model!);
   assert.ok(
-    reached > 1 && (await gone(chosen.blocked)) < kSnug + 2 * tolerance,
-    `${reached} ${await gone(chosen.blocked)}`,
+    reached > 1 && (await travel(chosen.blocked)) < kMaxPlay + 2 * tolerance,
+    `${reached} ${await travel(chosen.blocked)}`,
   );
   await drawnAsInEngine();
   await viewer.press("Control+z");
   assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
   await viewer.press("Control+y");
-  assert.equal(await gone(chosen.free), reached);
+  assert.equal(await travel(chosen.free), reached);
   const key = "xyz"[freeAxis()];
   await viewer.press(key);
   await grab(20, -30);
   await viewer.press(key);
-  await viewer.letGo();
-  assert.ok((await gone(chosen.free)) > reached && (await viewer.state()).moves.length === 2);
+  await viewer.release();
+  assert.ok((await travel(chosen.free)) > reached && (await viewer.state()).moves.length === 2);
 }
 
-/// Two clicks: the distance between what they hit, as one with the drawn components has it.
+/// Measures between two clicks and compares with the picked points.
 async function measure(): Promise<void> {
   await viewer.page.focus("#view");
   const moves = (await viewer.state()).moves.length;
   await viewer.press("f", "m");
   const label = viewer.page.locator("#measure-label");
-  const points: Way[] = [];
+  const points: Direction[] = [];
   for (const name of [chosen.name, neighbour]) {
-    const { x, y } = await viewer.placeOf(name);
+    const { x, y } = await viewer.visiblePoint(name);
     points.push(
       await viewer.page.evaluate(
         ([left, top]) => {
@@ -106,40 +114,40 @@ async function measure(): Promise<void> {
   assert.equal((await viewer.state()).moves.length, moves);
 }
 
-async function allUndone(): Promise<void> {
+async function undoAll(): Promise<void> {
   await viewer.page.focus("#view");
   while ((await viewer.state()).undo) await viewer.press("Control+z");
 }
 
-/// In mid-drag: it is drawn where the last frame has it.
+/// True during a drag: the component is drawn at the last frame's pose.
 const drawnInFrame = async () =>
   assert.deepEqual(
     await viewer.drawnShift(chosen.name),
     await viewer.page.evaluate(() => window.dismantle!.app.session.store.frame!.position),
   );
 
-/// Deeper with Shift, about with Alt, and back with Esc in mid-drag.
-async function deeperAndAbout(): Promise<void> {
-  await allUndone();
-  for (const [key, words] of [
-    ["Shift", /depth/],
-    ["Alt", /turning/],
+/// In depth with Shift, rotation with Alt, and Esc during the drag.
+async function depthAndRotation(): Promise<void> {
+  await undoAll();
+  for (const [key, hint] of [
+    ["Shift", /away from you/],
+    ["Alt", /rotating/],
   ] as const) {
     await viewer.page.keyboard.down(key);
     await grab(12, -30);
     await viewer.page.keyboard.up(key);
-    assert.match(await viewer.page.locator("#status .hint").innerText(), words);
+    assert.match(await viewer.page.locator("#status .hint").innerText(), hint);
     assert.equal((await viewer.state()).hand?.components.length, 1);
     await drawnInFrame();
     await viewer.press("Escape");
-    await viewer.letGo();
+    await viewer.release();
     assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
   }
   assert.equal((await viewer.state()).undo, null);
 }
 
-/// An arrow of the gizmo takes the component along its axis only; a ring turns it.
-async function handles(): Promise<void> {
+/// An arrow of the gizmo moves the component along its axis only; a ring rotates it.
+async function gizmoHandles(): Promise<void> {
   await viewer.select(chosen.name);
   await viewer.page.focus("#view");
   await viewer.press("g");
@@ -152,22 +160,22 @@ async function handles(): Promise<void> {
     const [first, ...others] = places.map(([x, y]) => [center.x + x, center.y + y] as const);
     await viewer.page.mouse.move(...first);
     await viewer.page.mouse.down();
-    for (const place of others) await viewer.page.mouse.move(...place);
+    for (const position of others) await viewer.page.mouse.move(...position);
     await viewer.idle();
-    await viewer.letGo();
+    await viewer.release();
   };
   const sign = Math.sign(chosen.free[freeAxis()]);
   await pull(
-    await pointerWay(70 * sign, 0),
-    await pointerWay(70 * sign + 30, 10),
-    await pointerWay(70 * sign + 60, 25),
+    await pointerOffset(70 * sign, 0),
+    await pointerOffset(70 * sign + 30, 10),
+    await pointerOffset(70 * sign + 60, 25),
   );
-  assert.ok((await gone(chosen.free)) > 1 && Math.abs(await gone(chosen.blocked)) < kSnug);
+  assert.ok((await travel(chosen.free)) > 1 && Math.abs(await travel(chosen.blocked)) < kMaxPlay);
   await drawnAsInEngine();
 
-  await viewer.page.evaluate((way) => {
+  await viewer.page.evaluate((direction) => {
     const { rig } = window.dismantle!.app.viewport;
-    rig.lookFrom(rig.axis("back").fromArray(way));
+    rig.lookFrom(rig.axis("back").fromArray(direction));
   }, chosen.free);
   const onRing = (angle: number): [number, number] => [58 * Math.cos(angle), -58 * Math.sin(angle)];
   await pull(...[0.7, 0.75, 0.8, 0.85, 0.9].map(onRing));
@@ -178,15 +186,15 @@ async function handles(): Promise<void> {
 }
 
 async function moveByNumbers(): Promise<void> {
-  const before = await gone(chosen.free);
+  const before = await travel(chosen.free);
   for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(5 * chosen.free[k]));
   await viewer.click("#numeric-apply");
-  assert.ok(Math.abs((await gone(chosen.free)) - before - 5) < 0.1);
+  assert.ok(Math.abs((await travel(chosen.free)) - before - 5) < 0.1);
   await drawnAsInEngine();
 }
 
 async function takeOutAndBack(): Promise<void> {
-  await allUndone();
+  await undoAll();
   await lookAt(chosen.name);
   await viewer.press("d");
   const tip = await viewer.page.evaluate((free) => {
@@ -200,11 +208,11 @@ async function takeOutAndBack(): Promise<void> {
     );
   }, chosen.free);
   await viewer.page.mouse.click(tip.x, tip.y);
-  await isRemoved(true);
+  await chosenRemoved(true);
   await viewer.idle();
   assert.equal(await isDrawn(), false);
   await viewer.press("b");
-  await isRemoved(false);
+  await chosenRemoved(false);
   await viewer.idle();
   assert.ok(await isDrawn());
   assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
@@ -212,13 +220,11 @@ async function takeOutAndBack(): Promise<void> {
 
 async function replay(): Promise<void> {
   await grab(60, 0);
-  await viewer.letGo();
+  await viewer.release();
   const there = await viewer.shift(chosen.name);
   await viewer.page.selectOption("#speed", "4");
   await viewer.page.click("#play-reverse");
-  const stands = () =>
-    viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.playing === false);
-  await stands();
+  await waitForPlaybackEnd();
   await viewer.idle();
   const { components, playback } = await viewer.state();
   assert.ok(playback!.time === 0 && components.every(({ pose }) => !pose || Math.hypot(...pose.slice(0, 3)) < 1e-9));
@@ -236,7 +242,7 @@ async function replay(): Promise<void> {
   await viewer.page.locator("#explode-panel").waitFor({ state: "hidden" });
 }
 
-async function look(): Promise<void> {
+async function viewTools(): Promise<void> {
   await viewer.page.focus("#view");
   await viewer.press("i");
   assert.equal((await viewer.state()).isolated, true);
@@ -257,17 +263,17 @@ async function look(): Promise<void> {
 
 async function followAndFind(): Promise<void> {
   await viewer.click("#follow");
-  await viewer.page.locator("#guide-step", { hasText: `take ${chosen.name}` }).waitFor();
+  await viewer.page.locator("#guide-step", { hasText: `remove ${chosen.name}` }).waitFor();
   assert.deepEqual(await viewer.drawnShift(chosen.name), [0, 0, 0]);
   await viewer.click("#guide-close");
   await viewer.select(neighbour);
   await viewer.page.focus("#view");
   await viewer.page.keyboard.press("q");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.kind === "why");
+  await waitForSearch("why");
   assert.match(await viewer.page.locator("#reason p").first().innerText(), /along/);
   await viewer.select(chosen.name);
   await viewer.page.keyboard.press("n");
-  await isRemoved(true);
+  await chosenRemoved(true);
   await viewer.press("Control+z");
   await viewer.page.click("#export");
   const [download] = await Promise.all([viewer.page.waitForEvent("download"), viewer.page.click("#export-page-html")]);
@@ -275,14 +281,14 @@ async function followAndFind(): Promise<void> {
   await viewer.press("Escape");
 }
 
-/// A watcher, a lost line, and a killed server, in the middle of drags.
-async function lose(file: string): Promise<void> {
+/// A watching page, a lost connection and a killed server during drags.
+async function connectionLoss(file: string): Promise<void> {
   await lookAt(chosen.name);
   const watcher = await Viewer.open(server);
   await grab(25, 0);
   const held = await viewer.drawnShift(chosen.name);
   await loseConnection();
-  await viewer.letGo();
+  await viewer.release();
   assert.deepEqual(await viewer.shift(chosen.name), held);
   await watcher.catchUpWith(viewer);
   assert.deepEqual(await watcher.drawnShift(chosen.name), held);
@@ -295,27 +301,27 @@ async function lose(file: string): Promise<void> {
   assert.deepEqual(await viewer.drawnShift(chosen.name), reached);
 }
 
-test("a STEP file that is sent is taken apart by hand", async (t) => {
-  await send(kMine, 41, "coarse knob#2");
-  await t.test("pressed into its neighbour it stops, and goes back in mid-drag", press);
-  await t.test("it goes out along an arrow that is clicked, and comes back", takeOutAndBack);
+test("an uploaded STEP file can be disassembled by hand", async (t) => {
+  await send(kOwnFile, 41, "coarse knob#2");
+  await t.test("pressed against its neighbour it stops, and undo during the drag returns it", press);
+  await t.test("a clicked arrow takes it out, and it can be put back", takeOutAndBack);
 });
 
-test("so is one that nobody of the project wrote, with all that can be done", async (t) => {
-  if (!isThere(kOfOthers)) return t.skip(`${kOfOthers} is not here`);
-  const file = await send(kOfOthers, 18, "nut");
-  await t.test("pressed into its neighbour it stops, and goes back in mid-drag", press);
-  await t.test("it slides along, and keeps to an axis", slide);
-  await t.test("it is taken deeper, and turned", deeperAndAbout);
-  await t.test("the gizmo takes it along an axis and about one", handles);
-  await t.test("two clicks measure", measure);
+test("all tools work on a third-party STEP file", async (t) => {
+  if (!isPresent(kThirdParty)) return t.skip(`${kThirdParty} is not here`);
+  const file = await send(kThirdParty, 18, "nut");
+  await t.test("pressed against its neighbour it stops, and undo during the drag returns it", press);
+  await t.test("it slides, and can be locked to an axis", slide);
+  await t.test("it moves in depth, and rotates", depthAndRotation);
+  await t.test("the gizmo moves it along an axis and rotates it about one", gizmoHandles);
+  await t.test("measure gives the distance of two clicks", measure);
   await t.test("it moves by numbers", moveByNumbers);
-  await t.test("it goes out along an arrow that is clicked, and comes back", takeOutAndBack);
-  await t.test("what was done is played backward to the assembled state, and exploded", replay);
-  await t.test("it is isolated, hidden, seen through and cut, and its neighbours are listed", look);
-  await t.test("it is followed, explained, found a way out, and exported", followAndFind);
+  await t.test("a clicked arrow takes it out, and it can be put back", takeOutAndBack);
+  await t.test("the recording plays backward to the assembled state, and explodes", replay);
+  await t.test("isolate, hide, X-ray and section work, and neighbours are listed", viewTools);
+  await t.test("guide, blockers, path search and export work", followAndFind);
   assert.deepEqual(viewer.problems, []);
-  await t.test("nothing is lost with the line or the server", () => lose(file));
+  await t.test("nothing is lost with the connection or the server", () => connectionLoss(file));
 });
 
 test("the page had no errors", () => {

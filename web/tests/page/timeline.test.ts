@@ -2,17 +2,16 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { kSlide, useMicroscope, viewer } from "../support/scene.ts";
+import { kSlide, useMicroscope, viewer, waitForPlaybackEnd } from "../support/scene.ts";
 
 useMicroscope({ view: "1" });
 
-/// How long the hand rests in a drag [ms]: its playback takes its time, however few pictures the drag had.
-const kRest = 4000;
+/// Pause during a drag [ms], so that its playback lasts, however few frames the drag had.
+const kHoldTime = 4000;
 const playback = async () => (await viewer.state()).playback;
 
-/// Until the playback stands still.
-async function stands(): Promise<void> {
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback?.playing === false);
+async function playToEnd(): Promise<void> {
+  await waitForPlaybackEnd();
   await viewer.idle();
 }
 
@@ -21,33 +20,33 @@ test("without a recording there is nothing to play", async () => {
   assert.match(await viewer.page.locator("#timeline").innerText(), /recorded here/);
 });
 
-test("two drags are two blocks on the line of time", async () => {
-  const { x, y } = await viewer.placeOf(kSlide);
+test("two drags are two blocks on the timeline", async () => {
+  const { x, y } = await viewer.visiblePoint(kSlide);
   await viewer.grab(kSlide, 40, 0);
-  await viewer.page.waitForTimeout(kRest);
+  await viewer.page.waitForTimeout(kHoldTime);
   await viewer.page.mouse.move(x + 44, y);
-  await viewer.letGo();
+  await viewer.release();
   await viewer.grab("foot", 0, 25);
-  await viewer.letGo();
+  await viewer.release();
   assert.equal(await viewer.page.locator("#timeline .block").count(), 2);
   assert.equal(await viewer.page.isEnabled("#play"), true);
 });
 
-test("played backward it ends in the assembled state, to the bit", async () => {
+test("backward playback ends exactly in the assembled state", async () => {
   const there = await viewer.shift(kSlide);
   await viewer.page.selectOption("#speed", "4");
   await viewer.click("#play-reverse");
-  await stands();
+  await playToEnd();
   assert.equal((await playback())!.time, 0);
   assert.deepEqual(await viewer.drawnShift(kSlide), [0, 0, 0]);
   assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
   assert.equal(await viewer.page.locator("[data-banner=playback]").count(), 1);
   await viewer.click("#play");
-  await stands();
+  await playToEnd();
   assert.deepEqual(await viewer.drawnShift(kSlide), there);
 });
 
-test("a playback is paused, and goes on faster", async () => {
+test("playback can be paused, and continued at another speed", async () => {
   await viewer.page.selectOption("#speed", "0.25");
   await viewer.page.click("#play");
   await viewer.page.waitForFunction(() => {
@@ -60,12 +59,12 @@ test("a playback is paused, and goes on faster", async () => {
   await viewer.page.keyboard.press("p");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.playback!.playing);
   await viewer.page.selectOption("#speed", "4");
-  await stands();
+  await playToEnd();
   assert.equal((await playback())!.speed, 4);
   assert.equal((await playback())!.time, duration);
 });
 
-test("the scrubber goes to any time", async () => {
+test("the scrubber seeks to any time", async () => {
   await viewer.page.fill("#scrub", "0");
   await viewer.idle();
   assert.equal((await playback())!.time, 0);
@@ -76,7 +75,7 @@ test("the scrubber goes to any time", async () => {
   assert.ok(Math.abs(time - duration) < 1e-6);
 });
 
-test("buttons and keys go from move to move", async () => {
+test("buttons and keys step through the moves", async () => {
   const [first, second] = (await viewer.state()).moves;
   const time = async () => (await playback())!.time;
   await viewer.click("#play-before");
@@ -92,7 +91,7 @@ test("buttons and keys go from move to move", async () => {
   assert.ok(Math.abs((await time()) - second.start - second.duration) < 1e-6, `${await time()}`);
 });
 
-test("back to work: everything is where it was, and can be moved again", async () => {
+test("leaving the playback restores all positions", async () => {
   const there = (await viewer.drawnShift(kSlide))[0];
   await viewer.page.fill("#scrub", "300");
   await viewer.click("#play-stop");
@@ -100,7 +99,7 @@ test("back to work: everything is where it was, and can be moved again", async (
   assert.equal(await playback(), null);
   assert.equal((await viewer.drawnShift(kSlide))[0], there);
   await viewer.grab(kSlide, 20, 0);
-  await viewer.letGo();
+  await viewer.release();
   assert.ok((await viewer.shift(kSlide))[0] > there);
 });
 

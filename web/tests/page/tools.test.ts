@@ -11,9 +11,9 @@ beforeEach(async () => {
   await viewer.press("Escape", "1", "f");
 });
 
-test("a section cuts the model open, filled, and what is cut away cannot be grabbed", async () => {
+test("a section cuts the model, and what is cut away cannot be grabbed", async () => {
   const whole = await viewer.picture();
-  const inFront = await viewer.placeOf("arm");
+  const inFront = await viewer.visiblePoint("arm");
   await viewer.press("s");
   assert.ok((await viewer.picture()) !== whole);
   assert.equal(await viewer.page.locator("[data-banner=section]").count(), 1);
@@ -27,8 +27,8 @@ test("a section cuts the model open, filled, and what is cut away cannot be grab
   assert.ok((await viewer.picture()) === whole);
 });
 
-test("the cut of a solid is filled: flat and hatched, of two colours only", async () => {
-  const place = await viewer.page.evaluate(() => {
+test("the section of a solid is capped: flat and hatched, with two colours only", async () => {
+  const position = await viewer.page.evaluate(() => {
     const { min, max } = window
       .dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === "base")!
       .bounds();
@@ -38,15 +38,15 @@ test("the cut of a solid is filled: flat and hatched, of two colours only", asyn
   await viewer.page.locator("#section-panel input[type=range]").nth(1).fill("0.5");
   await viewer.idle();
   const reds = await viewer.page.evaluate(({ x, y }) => {
-    const { canvas } = window.dismantle!.app.viewport;
-    const box = canvas.getBoundingClientRect();
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    const brush = copy.getContext("2d")!;
-    brush.drawImage(canvas, 0, 0);
-    const patch = brush.getImageData(x - box.left - 6, y - box.top - 6, 12, 12);
-    return [...new Set(patch.data.filter((_, i) => i % 4 === 0))].sort((a, b) => a - b);
-  }, place);
+    const box = window.dismantle!.app.viewport.canvas.getBoundingClientRect();
+    const { data, width } = window.dismantle!.imageData();
+    const [left, top] = [x - box.left - 6, y - box.top - 6].map(Math.trunc);
+    const patch = Array.from(
+      { length: 12 * 12 },
+      (_, i) => data[4 * ((top + Math.floor(i / 12)) * width + left + (i % 12))],
+    );
+    return [...new Set(patch)].sort((a, b) => a - b);
+  }, position);
   const jumps = reds.filter((red, i) => i > 0 && red - reds[i - 1] > 8);
   assert.ok(jumps.length === 1 && reds.length < 6, `${reds}`);
   await viewer.press("s");
@@ -54,19 +54,19 @@ test("the cut of a solid is filled: flat and hatched, of two colours only", asyn
 
 test("measure gives the distance of two clicked points", async () => {
   await viewer.press("m");
-  const [a, b] = [await viewer.placeOf("base"), await viewer.placeOf("eyepiece")];
+  const [a, b] = [await viewer.visiblePoint("base"), await viewer.visiblePoint("eyepiece")];
   await viewer.page.mouse.click(a.x, a.y);
   await viewer.page.mouse.click(b.x, b.y);
   await viewer.idle();
-  const words = await viewer.page.locator("#measure-label").innerText();
-  const distance = Number(/([\d.]+) mm/.exec(words)![1]);
-  assert.ok(distance > 200 && distance < 450, words);
+  const label = await viewer.page.locator("#measure-label").innerText();
+  const distance = Number(/([\d.]+) mm/.exec(label)![1]);
+  assert.ok(distance > 200 && distance < 450, label);
   assert.deepEqual(await viewer.selection(), []);
   await viewer.press("Escape");
   assert.equal(await viewer.page.isVisible("#measure-label"), false);
 });
 
-test("a screenshot is a PNG of the picture", async () => {
+test("a screenshot is a PNG", async () => {
   const [download] = await Promise.all([viewer.page.waitForEvent("download"), viewer.page.click("#screenshot")]);
   const bytes = readFileSync((await download.path())!);
   assert.equal(download.suggestedFilename(), "microscope.png");
@@ -74,7 +74,7 @@ test("a screenshot is a PNG of the picture", async () => {
   assert.ok(bytes.length > 5000, `${bytes.length}`);
 });
 
-/// Where the middle of a component's box is on screen.
+/// Centre of a component's box on the page.
 const centerOf = (component: string) =>
   viewer.page.evaluate((name) => {
     const view = window.dismantle!.app.viewport.model!.components.find(({ raw }) => raw.name === name)!;
@@ -82,7 +82,7 @@ const centerOf = (component: string) =>
     return window.dismantle!.project([(min.x + max.x) / 2, (min.y + max.y) / 2, (min.z + max.z) / 2]);
   }, component);
 
-test("an arrow of the gizmo moves along its axis only, a ring turns", async () => {
+test("the gizmo's arrows move along an axis only, its rings rotate", async () => {
   await viewer.select(kSlide);
   await viewer.press("g", "f");
   const center = await centerOf(kSlide);
@@ -90,20 +90,20 @@ test("an arrow of the gizmo moves along its axis only, a ring turns", async () =
   await viewer.page.mouse.down();
   await viewer.page.mouse.move(center.x + 190, center.y - 30, { steps: 5 });
   await viewer.idle();
-  await viewer.letGo();
+  await viewer.release();
   const [x, y, z] = await viewer.shift(kSlide);
   assert.ok(x > 3 && Math.abs(y) < 0.2 && Math.abs(z) < 0.2, `${[x, y, z]}`);
 
   await viewer.press("3", "f");
   const middle = await centerOf(kSlide);
-  const place = (angle: number) => [middle.x + 58 * Math.cos(angle), middle.y - 58 * Math.sin(angle)] as const;
-  await viewer.page.mouse.move(...place(0.7));
+  const onRing = (angle: number) => [middle.x + 58 * Math.cos(angle), middle.y - 58 * Math.sin(angle)] as const;
+  await viewer.page.mouse.move(...onRing(0.7));
   await viewer.page.mouse.down();
-  for (const angle of [0.75, 0.8, 0.85, 0.9]) await viewer.page.mouse.move(...place(angle));
+  for (const angle of [0.75, 0.8, 0.85, 0.9]) await viewer.page.mouse.move(...onRing(angle));
   await viewer.idle();
-  await viewer.letGo();
+  await viewer.release();
   const [, , , , turnX, turnY, turnZ] = (await viewer.state()).components[await viewer.index(kSlide)].pose!;
-  // It goes round with the pointer: by 0.2, less the first pixels that make it a drag.
+  // The rotation follows the pointer: 0.2 rad, less the first pixels that start the drag.
   assert.ok(turnZ > Math.sin(0.05) && turnZ < Math.sin(0.11), `${turnZ}`);
   assert.ok(Math.hypot(turnX, turnY) < 0.1 * Math.abs(turnZ), `${[turnX, turnY, turnZ]}`);
   await reset();
@@ -111,17 +111,17 @@ test("an arrow of the gizmo moves along its axis only, a ring turns", async () =
   await viewer.press("g");
 });
 
-test("help lists the keys, and closes", async () => {
+test("the help opens and closes", async () => {
   await viewer.press("h");
   assert.equal(await viewer.page.isVisible("#help-dialog"), true);
   await viewer.page.keyboard.press("Escape");
   assert.equal(await viewer.page.isVisible("#help-dialog"), false);
 });
 
-test("free directions are arrows; one that is clicked takes the component out along it", async () => {
+test("a clicked arrow of a free direction takes the component out along it", async () => {
   await viewer.select(kSlide);
   await viewer.press("d");
-  await viewer.page.locator("#directions .way.free").first().waitFor();
+  await viewer.page.locator("#directions .direction.free").first().waitFor();
   const arrows = await viewer.page.evaluate(() => window.dismantle!.app.viewport.directions.arrows.length);
   assert.ok(arrows >= 2, `${arrows}`);
   const tip = await viewer.page.evaluate(() => {
@@ -139,7 +139,7 @@ test("free directions are arrows; one that is clicked takes the component out al
   assert.equal(await viewer.page.evaluate((n) => window.dismantle!.drawn(n), kSlide), false);
 });
 
-test("put back brings it home", async () => {
+test("put back returns the component to its assembled position", async () => {
   await viewer.select(kSlide);
   await viewer.click("#put-back");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);

@@ -15,8 +15,8 @@ const row = (name: string) =>
 const drawn = (name: string) => viewer.page.evaluate((n) => window.dismantle!.drawn(n), name);
 const shownRows = () => viewer.page.locator("#tree-panel .row:not(.group):visible").count();
 
-test("a click in the picture selects in the tree, a click in the tree in the picture", async () => {
-  const { x, y } = await viewer.placeOf("head");
+test("clicks in the view and in the tree select in both", async () => {
+  const { x, y } = await viewer.visiblePoint("head");
   await viewer.page.mouse.click(x, y);
   await viewer.idle();
   assert.deepEqual(await viewer.selection(), ["head"]);
@@ -27,7 +27,7 @@ test("a click in the picture selects in the tree, a click in the tree in the pic
   assert.equal(await viewer.page.locator("#selection-name").innerText(), "base");
 });
 
-test("Ctrl adds and takes away; a group selects all in it", async () => {
+test("Ctrl adds and removes; a group selects its components", async () => {
   await row("base").click();
   await row("arm").click({ modifiers: ["Control"] });
   assert.deepEqual(await viewer.selection(), ["base", "arm"]);
@@ -37,16 +37,16 @@ test("Ctrl adds and takes away; a group selects all in it", async () => {
   assert.deepEqual(await viewer.selection(), ["base", "foot", "foot#2", "foot#3", "foot#4", "arm screw M8x28"]);
 });
 
-test("the search shows what has the words in its name", async () => {
+test("the search filters by name", async () => {
   await viewer.press("/");
   await viewer.page.keyboard.type("objective");
   assert.equal(await shownRows(), 3);
   await viewer.page.fill("#tree-search", "no such thing");
   assert.equal(await shownRows(), 0);
-  assert.equal(await viewer.page.locator("text=No component has that name").isVisible(), true);
+  assert.equal(await viewer.page.locator("text=No matching component").isVisible(), true);
 });
 
-test("the eye hides, and a banner says that what is hidden still stops others", async () => {
+test("the eye hides a component, and a banner says that it still collides", async () => {
   const before = await viewer.picture();
   await row("head").hover();
   await row("head").locator("button").last().click();
@@ -59,7 +59,7 @@ test("the eye hides, and a banner says that what is hidden still stops others", 
   assert.equal(await drawn("head"), true);
 });
 
-test("Space hides what is selected and shows it again", async () => {
+test("Space hides the selection and shows it again", async () => {
   await row("tube").click();
   await viewer.page.focus("#view");
   await viewer.press(" ");
@@ -68,7 +68,7 @@ test("Space hides what is selected and shows it again", async () => {
   assert.equal(await drawn("tube"), true);
 });
 
-test("isolate shows one component alone, and restore all as before", async () => {
+test("isolate shows one component alone, and can be undone", async () => {
   await row("condenser").click();
   await viewer.click("#isolate");
   assert.equal((await viewer.state()).isolated, true);
@@ -79,7 +79,7 @@ test("isolate shows one component alone, and restore all as before", async () =>
   assert.equal(await drawn("base"), true);
 });
 
-test("x-ray lets one see through a component, and changes nothing else", async () => {
+test("X-ray makes a component translucent, and changes nothing else", async () => {
   const before = await viewer.picture();
   await row("arm").hover();
   await row("arm").locator("button").first().click();
@@ -90,7 +90,7 @@ test("x-ray lets one see through a component, and changes nothing else", async (
   assert.equal((await viewer.state()).components[await viewer.index("arm")].hidden, undefined);
 });
 
-test("arrows, Enter and the arrow keys of a tree do all of it by keyboard", async () => {
+test("the tree works by keyboard", async () => {
   await viewer.page.focus("#tree-panel [tabindex='0']");
   await viewer.press("Home", "ArrowLeft");
   assert.equal(await shownRows(), 0);
@@ -98,7 +98,7 @@ test("arrows, Enter and the arrow keys of a tree do all of it by keyboard", asyn
   assert.deepEqual(await viewer.selection(), ["base"]);
 });
 
-test("the neighbours of what is selected are listed with their state", async () => {
+test("the neighbours of the selection are listed with their state", async () => {
   await row("specimen slide").click();
   await viewer.page.locator("#pairs .badge.contact").first().waitFor();
   assert.match(await viewer.page.locator("#pairs").innerText(), /stage plate/);

@@ -18,7 +18,7 @@ function glb(json: object, binary: Uint8Array): ArrayBuffer {
   return bytes.buffer;
 }
 
-/// Two components of one triangle, the second under a node that is moved by a metre.
+/// Two components of one triangle, the second under a node that is translated by 1 m.
 function twoTriangles(): ArrayBuffer {
   const binary = new Uint8Array(44);
   new Float32Array(binary.buffer, 0, 9).set([0, 0, 0, 0.001, 0, 0, 0, 0.002, 0]);
@@ -44,7 +44,7 @@ function twoTriangles(): ArrayBuffer {
   );
 }
 
-test("components come in the order of their indices, in millimetres, with shared surfaces", () => {
+test("components are sorted by index, in millimetres, with shared surfaces", () => {
   const { surfaces, components } = readGlb(twoTriangles());
   assert.equal(surfaces.length, 1);
   assert.deepEqual(
@@ -62,7 +62,7 @@ test("components come in the order of their indices, in millimetres, with shared
   assert.deepEqual(components[0].color, [0.1, 0.2, 0.3, 0.5]);
 });
 
-test("what is no binary glTF is refused", () => {
+test("other files are refused", () => {
   assert.throws(() => readGlb(new ArrayBuffer(40)), /not a binary glTF/);
   assert.throws(() => readGlb(new ArrayBuffer(3)), /not a binary glTF/);
 });

@@ -5,8 +5,8 @@ import { kPalettes, type Palette } from "../../src/scene/palette.ts";
 
 type Rgb = [number, number, number];
 
-/// What dichromats see of linear red, green and blue, after Machado, Oliveira and Fernandes, 2009.
-const kSights: Record<string, number[][]> = {
+/// Simulation of dichromacy on linear RGB (Machado, Oliveira and Fernandes, 2009).
+const kVisions: Record<string, number[][]> = {
   ordinary: [
     [1, 0, 0],
     [0, 1, 0],
@@ -28,7 +28,7 @@ const kSights: Record<string, number[][]> = {
     [0.004733, 0.691367, 0.3039],
   ],
 };
-/// Marks that lie side by side and say different things. Colours this far apart in CIELAB are told apart at a glance.
+/// Colours that are shown side by side with different meanings, and their minimum distance in CIELAB.
 const kPairs: [keyof Palette, keyof Palette][] = [
   ["blocking", "selection"],
   ["blocking", "ghost"],
@@ -47,7 +47,7 @@ const linear = (hex: string): Rgb =>
     return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
   }) as Rgb;
 
-/// CIELAB of a linear colour, white D65.
+/// CIELAB of a linear colour, white point D65.
 function lab(rgb: Rgb): Rgb {
   const xyz = [
     [0.4124564, 0.3575761, 0.1804375, 0.95047],
@@ -58,8 +58,8 @@ function lab(rgb: Rgb): Rgb {
   return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
 }
 
-for (const [sight, matrix] of Object.entries(kSights))
-  test(`marks of different meaning are told apart with ${sight} sight`, () => {
+for (const [vision, matrix] of Object.entries(kVisions))
+  test(`colours of different meaning differ for ${vision} vision`, () => {
     const seen = (hex: string): Rgb => {
       const rgb = linear(hex);
       return lab(matrix.map((row) => row.reduce((sum, value, k) => sum + value * rgb[k], 0)) as Rgb);

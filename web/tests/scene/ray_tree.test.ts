@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { Ray, Vector3 } from "three";
 import { RayTree } from "../../src/scene/ray_tree.ts";
 
-/// Numbers from 0 to 1, the same ones in every run.
+/// A generator of numbers in [0, 1), reproducible.
 function random(seed: number): () => number {
   let state = seed;
   return () => {
@@ -22,7 +22,7 @@ function triangles(count: number, next: () => number): Float32Array {
   return corners;
 }
 
-test("a tree finds what asking every face finds", () => {
+test("the tree finds what testing every face finds", () => {
   const next = random(7);
   const corners = triangles(500, next);
   const all = new RayTree(corners);
@@ -32,16 +32,16 @@ test("a tree finds what asking every face finds", () => {
     const origin = new Vector3(next() * 60 - 20, next() * 60 - 20, -30);
     const ray = new Ray(origin, new Vector3(next() * 20, next() * 20, next() * 20).sub(origin).normalize());
     const distances = alone.map((tree) => tree.cast(ray)?.distance ?? Infinity);
-    const least = Math.min(...distances);
+    const nearest = Math.min(...distances);
     const found = all.cast(ray);
-    assert.equal(found?.distance ?? Infinity, least);
-    if (found) assert.equal(distances[found.face], least);
+    assert.equal(found?.distance ?? Infinity, nearest);
+    if (found) assert.equal(distances[found.face], nearest);
     hits += found ? 1 : 0;
   }
   assert.ok(hits > 50, `${hits}`);
 });
 
-test("a face behind the origin is not met, one without an area neither", () => {
+test("faces behind the origin and degenerate faces are not hit", () => {
   const ray = new Ray(new Vector3(0.2, 0.2, 1), new Vector3(0, 0, 1));
   assert.equal(new RayTree(Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0])).cast(ray), null);
   assert.equal(new RayTree(Float32Array.from([0, 0, 2, 1, 1, 2, 2, 2, 2])).cast(ray), null);

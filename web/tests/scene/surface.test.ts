@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { surfaceFromMesh } from "../../src/scene/surface.ts";
 
-/// A cube of side 2 about the origin; every face has vertices of its own, as some files have.
+/// A cube of side 2 about the origin; each face has its own vertices, as in some files.
 function cube(faces = 6) {
   const positions: number[] = [];
   const indices: number[] = [];
@@ -29,7 +29,7 @@ function cube(faces = 6) {
   return { positions: Float32Array.from(positions), indices: Uint32Array.from(indices) };
 }
 
-/// The side of a prism with so many corners, around z.
+/// The sides of a prism around z.
 function prism(corners: number) {
   const positions: number[] = [];
   const indices: number[] = [];
@@ -54,13 +54,13 @@ test("a cube has twelve feature edges, flat faces, and is closed", () => {
   }
 });
 
-test("a cube without a side is open, and its rim is drawn", () => {
+test("a cube without a side is open, and its boundary is an edge", () => {
   const surface = surfaceFromMesh(cube(5));
   assert.equal(surface.closed, false);
   assert.equal(surface.edges.length, 12 * 6);
 });
 
-test("a round side is smooth: no edges but its two rims, normals straight outward", () => {
+test("a fine prism is smooth: edges only at its two rims, radial normals", () => {
   const surface = surfaceFromMesh(prism(16));
   assert.equal(surface.edges.length, 32 * 6);
   for (let i = 0; i < surface.normals.length; i += 3) {
@@ -69,6 +69,6 @@ test("a round side is smooth: no edges but its two rims, normals straight outwar
   }
 });
 
-test("a side of eight faces is no round one", () => {
+test("a prism of eight sides is not smooth", () => {
   assert.equal(surfaceFromMesh(prism(8)).edges.length, (16 + 8) * 6);
 });

@@ -5,7 +5,7 @@ import { Vector3 } from "three";
 import { type GuideStep, stepsOfPath } from "../../src/guide.ts";
 import { trailsUntil } from "../../src/scene/trails.ts";
 
-//   a goes up 10 mm in a second, b then 20 mm to the right in two.
+//   a moves up 10 mm in 1 s, then b moves right 20 mm in 2 s.
 const turned = [Math.SQRT1_2, 0, 0, Math.SQRT1_2] as const;
 const steps: GuideStep[] = stepsOfPath(
   {
@@ -19,18 +19,18 @@ const steps: GuideStep[] = stepsOfPath(
 const center = (component: number) => new Vector3(component, 0, 0);
 const ends = (time: number, size = 100) => trailsUntil(steps, time, center, size).map((point) => point.toArray());
 
-test("at the beginning there are no trails", () => {
+test("there are no trails at the start", () => {
   assert.deepEqual(ends(0), []);
 });
 
-test("a trail leads from the assembled place to where the component is by now", () => {
+test("a trail leads from the assembled to the current position", () => {
   assert.deepEqual(ends(0.25), [
     [0, 0, 0],
     [0, 0, 2.5],
   ]);
 });
 
-test("each step draws its own trail, the later ones not before their time", () => {
+test("each step has its own trail, once it has begun", () => {
   assert.deepEqual(ends(2), [
     [0, 0, 0],
     [0, 0, 5],
@@ -41,14 +41,14 @@ test("each step draws its own trail, the later ones not before their time", () =
   ]);
 });
 
-test("pieces too short to be seen are joined, and the end is kept", () => {
+test("short pieces are merged, and the end is kept", () => {
   assert.deepEqual(ends(1, 5000), [
     [0, 0, 0],
     [0, 0, 10],
   ]);
 });
 
-test("a turn leads the centre round", () => {
+test("a rotation moves the centre along an arc", () => {
   const turn = stepsOfPath(
     {
       moves: [

@@ -3,13 +3,13 @@ import type { Page } from "playwright-core";
 import { viewer } from "./scene.ts";
 import { kSpaceMouse } from "./space_mouse.ts";
 
-/// Gives a page a 3D mouse and a gamepad, which do what `deflect` and `pushStick` say.
+/// Gives a page a fake 3D mouse and a fake gamepad, driven by `deflect` and `pushStick`.
 export async function connectDevices(page: Page): Promise<void> {
   await page.addInitScript(fakeMouse, kSpaceMouse);
   await page.addInitScript(fakePad);
 }
 
-/// A 3D mouse whose reports the test writes.
+/// A 3D mouse whose reports the test sends.
 function fakeMouse(collections: object): void {
   const device = Object.assign(new EventTarget(), {
     opened: false,
@@ -32,7 +32,7 @@ function fakeMouse(collections: object): void {
   });
 }
 
-/// A gamepad whose left stick is as far to the right as the test says.
+/// A gamepad whose left stick the test moves.
 function fakePad(): void {
   const buttons = Array.from({ length: 17 }, () => ({ value: 0 }));
   const pad = () => ({
@@ -43,14 +43,14 @@ function fakePad(): void {
   Object.defineProperty(navigator, "getGamepads", { value: () => [pad()] });
 }
 
-/// The six axes of the 3D mouse, as its report has them.
+/// Sends the six axes of the 3D mouse.
 export const deflect = (...axes: number[]) =>
   viewer.page.evaluate(
     (values) => (window as unknown as { sendReport: (...v: number[]) => void }).sendReport(...values),
     axes,
   );
 
-/// How far the gamepad's left stick is to the right.
+/// Moves the gamepad's left stick to the right.
 export const pushStick = (x: number) =>
   viewer.page.evaluate((value) => {
     Object.assign(window, { pushed: value });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Khronos' validator comes without types; what the tests use of it.
+// The Khronos validator has no types; these are the ones in use.
 declare module "gltf-validator" {
   export function validateBytes(
     bytes: Uint8Array,

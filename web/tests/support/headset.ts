@@ -2,10 +2,10 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import { sourceFolder } from "./environment.ts";
 import { viewer } from "./scene.ts";
-import { sourceFolder } from "./tree.ts";
 
-export type Place = { x: number; y: number; z: number };
+export type Point = { x: number; y: number; z: number };
 type Side = "left" | "right";
 
 interface Controller {
@@ -26,8 +26,8 @@ declare global {
   }
 }
 
-/// Gives a page a headset with two controllers: `iwer`, which speaks WebXR as a browser does, and moves as a test says.
-export async function wearHeadset(page: Page): Promise<void> {
+/// Gives a page a headset with two controllers, emulated by `iwer`.
+export async function connectHeadset(page: Page): Promise<void> {
   await page.addInitScript(readFileSync(join(sourceFolder(), "web/node_modules/iwer/build/iwer.min.js"), "utf8"));
   await page.addInitScript(() => {
     const iwer = (window as unknown as { IWER: { XRDevice: new (config: object) => Device; metaQuest3: object } }).IWER;
@@ -36,12 +36,12 @@ export async function wearHeadset(page: Page): Promise<void> {
   });
 }
 
-/// A controller at a place, pointing at another one.
-export function aimHand(page: Page, side: Side, at: Place, target: Place): Promise<void> {
-  const way = { x: target.x - at.x, y: target.y - at.y, z: target.z - at.z };
-  const long = Math.hypot(way.x, way.y, way.z);
-  // From -z, as a controller points, onto the way: the half-way rotation.
-  const [x, y, z] = [way.x / long, way.y / long, way.z / long];
+/// Places a controller so that it points at a target.
+export function aimHand(page: Page, side: Side, at: Point, target: Point): Promise<void> {
+  const offset = { x: target.x - at.x, y: target.y - at.y, z: target.z - at.z };
+  const length = Math.hypot(offset.x, offset.y, offset.z);
+  // The rotation from -z, along which controllers point, to the offset.
+  const [x, y, z] = [offset.x / length, offset.y / length, offset.z / length];
   const turn = { x: y, y: -x, z: 0, w: 1 - z };
   const size = Math.hypot(turn.x, turn.y, turn.w);
   const unit =
@@ -49,8 +49,8 @@ export function aimHand(page: Page, side: Side, at: Place, target: Place): Promi
   return page.evaluate(
     ([hand, p, q]) => {
       const controller = window.headset.controllers[hand as Side];
-      const [place, rotation] = [p as Place, q as Place & { w: number }];
-      controller.position.set(place.x, place.y, place.z);
+      const [position, rotation] = [p as Point, q as Point & { w: number }];
+      controller.position.set(position.x, position.y, position.z);
       controller.quaternion.set(rotation.x, rotation.y, rotation.z, rotation.w);
     },
     [side, at, unit] as const,
@@ -65,14 +65,14 @@ export function press(page: Page, side: Side, button: "trigger" | "squeeze", val
   );
 }
 
-/// Some pictures in the headset.
+/// Waits for some frames of the headset.
 export const frames = (count = 3) =>
   viewer.page.evaluate(async (n) => {
     for (let i = 0; i < n; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
   }, count);
 
-/// A place in the room: of a component's upper side, one that a hand that is `from` away from it sees.
-export const inRoom = (name: string, from: Place): Promise<Place> =>
+/// A point on the upper side of a component, in the room, that is visible from a hand at offset `from`.
+export const inRoom = (name: string, from: Point): Promise<Point> =>
   viewer.page.evaluate(
     ([n, offset]) => {
       const { headset, viewport } = window.dismantle!.app;
@@ -86,7 +86,7 @@ export const inRoom = (name: string, from: Place): Promise<Place> =>
         point.x = bounds.min.x + part * (bounds.max.x - bounds.min.x);
         point.z = bounds.max.z;
         const { x, y, z } = point.applyMatrix4(roomFromWorld);
-        ray.origin.copy(point).add(offset as Place);
+        ray.origin.copy(point).add(offset as Point);
         ray.direction.copy(point).sub(ray.origin).normalize();
         const hit = viewport.castWorld(ray.clone().applyMatrix4(roomFromWorld.clone().invert()));
         if (hit?.component === index) return { x, y, z };
@@ -96,20 +96,20 @@ export const inRoom = (name: string, from: Place): Promise<Place> =>
     [name, from] as const,
   );
 
-const button = (id: string): Promise<Place> =>
+const button = (id: string): Promise<Point> =>
   viewer.page.evaluate((name) => {
     const { x, y, z } = window.dismantle!.app.headset.panel.centerOf(name)!;
     return { x, y, z };
   }, id);
 
-/// Metres of the room for a millimetre of the world.
+/// Scale of the scene: metres in the room for 1 mm.
 export const scale = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.getMaxScaleOnAxis());
 
 export const kFront = { x: 0, y: 0.07, z: 0.25 };
-export const plus = (a: Place, b: Place): Place => ({ x: a.x + b.x, y: a.y + b.y, z: a.z + b.z });
+export const plus = (a: Point, b: Point): Point => ({ x: a.x + b.x, y: a.y + b.y, z: a.z + b.z });
 
-/// Points from above with one hand and presses the trigger. Gives where the hand is.
-export async function take(side: "left" | "right", name: string, from = kFront): Promise<Place> {
+/// Points at a component with one hand and presses the trigger. Returns the hand's position.
+export async function grabWith(side: "left" | "right", name: string, from = kFront): Promise<Point> {
   const there = await inRoom(name, from);
   const hand = plus(there, from);
   await aimHand(viewer.page, side, hand, there);
@@ -119,8 +119,8 @@ export async function take(side: "left" | "right", name: string, from = kFront):
   return hand;
 }
 
-/// Moves a hand that points as before.
-export async function carry(side: "left" | "right", from: Place, by: Place, aim: Place): Promise<void> {
+/// Moves a hand without changing its direction.
+export async function moveHand(side: "left" | "right", from: Point, by: Point, aim: Point): Promise<void> {
   for (let i = 1; i <= 8; ++i) {
     const part = { x: (by.x * i) / 8, y: (by.y * i) / 8, z: (by.z * i) / 8 };
     const at = plus(from, part);
@@ -130,22 +130,22 @@ export async function carry(side: "left" | "right", from: Place, by: Place, aim:
   await viewer.idle();
 }
 
-/// Until nothing is in hand any more.
-export const handsEmpty = () =>
+/// Waits until nothing is held.
+export const waitForRelease = () =>
   viewer.page.waitForFunction(() => {
     const { drag, session } = window.dismantle!.app;
     return !drag.active && session.store.state!.hand === null;
   });
 
-export async function letGo(side: "left" | "right"): Promise<void> {
+export async function releaseHand(side: "left" | "right"): Promise<void> {
   await press(viewer.page, side, "trigger", 0);
-  await handsEmpty();
+  await waitForRelease();
   await viewer.idle();
 }
 
 export const kAhead = { x: -kFront.x, y: -kFront.y, z: -kFront.z };
 
-/// Both hands grip the room, and are pulled apart to twice as far.
+/// Grips the scene with both hands and doubles their distance.
 export async function pullApart(): Promise<void> {
   const at = (x: number, z: number) => ({ x, y: 1.2, z });
   await aimHand(viewer.page, "left", at(-0.1, -0.3), at(-0.1, -1.3));
@@ -158,7 +158,7 @@ export async function pullApart(): Promise<void> {
   for (const side of ["left", "right"] as const) await press(viewer.page, side, "squeeze", 0);
 }
 
-/// Where the scene stands in the room.
+/// Placement of the scene in the room.
 export const stage = () => viewer.page.evaluate(() => window.dismantle!.app.headset.stage.matrix.toArray());
 
 /// Points with the right hand at a button of the panel on the left wrist, and presses the trigger.

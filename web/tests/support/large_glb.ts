@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A ball of so many triangles: rings times twice as many sectors, two triangles each.
+/// A sphere with two triangles for each of `rings` times 2 `rings` cells.
 function ball(rings: number, radius: number): { points: number[]; corners: number[] } {
   const sectors = 2 * rings;
   const points: number[] = [];
@@ -23,7 +23,7 @@ function ball(rings: number, radius: number): { points: number[]; corners: numbe
   return { points, corners };
 }
 
-/// An assembly as a binary glTF file: `count` balls in rows of ten, of one mesh that they share.
+/// A binary glTF file with `count` spheres that share a mesh.
 export function ballsGlb(count: number, rings: number): { bytes: Buffer; triangles: number } {
   const { points, corners } = ball(rings, 0.008);
   const positions = Buffer.from(Float32Array.from(points).buffer);

@@ -5,19 +5,19 @@ import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { type Browser, chromium as driver, type Page } from "playwright-core";
 import type { StateEvent } from "../../src/wire/messages.ts";
-import { chromium, pageFolder, program, sourceFolder } from "./tree.ts";
+import { chromium, pageFolder, program, sourceFolder } from "./environment.ts";
 
-/// Drawn by Mesa on the processor: twice as fast as what the browser itself has for machines without a GPU.
+/// Software rendering by Mesa: twice as fast as the browser's own.
 const kChromiumFlags = ["--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
-/// The longest that anything is waited for [ms]: on a machine that does much else.
-const kPatience = 90_000;
+/// Timeout of all waits [ms], for loaded machines.
+const kTimeout = 90_000;
 
-/// A running server with an assembly, as a user starts it.
+/// A running server.
 export class Server {
   private constructor(
     readonly url: string,
     private readonly child: ChildProcess,
-    /// The server's own folder: its journal, its lists, and what a test puts there.
+    /// The server's own folder: journal, lists, and files of the test.
     readonly home: string,
   ) {}
 
@@ -25,13 +25,13 @@ export class Server {
     return Server.startIn(mkdtempSync(join(tmpdir(), "dismantle-viewer-")), ...arguments_);
   }
 
-  /// Starts one where another one was.
+  /// Starts a server in the folder of an earlier one.
   static startIn(home: string, ...arguments_: string[]): Promise<Server> {
     const folders = { HOME: home, XDG_STATE_HOME: home, XDG_CACHE_HOME: home, XDG_CONFIG_HOME: home };
     return Server.spawn(home, program(), ["view", "--no-browser", ...pageFolder(), ...arguments_], folders);
   }
 
-  /// Starts the one of `./run`, as somebody new does; what is not built yet is built first.
+  /// Starts ./run, as a new user does; it builds first if needed.
   static startRun(): Promise<Server> {
     const home = mkdtempSync(join(tmpdir(), "dismantle-viewer-"));
     return Server.spawn(home, join(sourceFolder(), "run"), ["--no-browser", "--no-journal"], {});
@@ -52,14 +52,14 @@ export class Server {
     });
   }
 
-  /// An assembly that was opened: a test's own in `home`, or else a sample.
+  /// The file of an open assembly: a file in `home`, or a sample.
   fileOf(name: string): string {
     const file = join(this.home, name);
     if (!existsSync(file)) execFileSync(program(), ["sample", basename(name, ".step"), "-o", file]);
     return file;
   }
 
-  /// Ends it; its folder stays.
+  /// Ends the server; its folder remains.
   async end(signal: "SIGTERM" | "SIGKILL"): Promise<void> {
     const ended = new Promise((resolve) => this.child.once("exit", resolve));
     this.child.kill(signal);
@@ -79,7 +79,7 @@ export async function closeBrowser(): Promise<void> {
   browser = null;
 }
 
-/// As on a machine so many times as slow, where DISMANTLE_SLOWDOWN says so.
+/// Throttles the processor by DISMANTLE_SLOWDOWN.
 async function slowDown(page: Page): Promise<void> {
   const rate = Number(process.env.DISMANTLE_SLOWDOWN ?? 1);
   if (rate === 1) return;
@@ -88,11 +88,11 @@ async function slowDown(page: Page): Promise<void> {
 }
 
 export interface OpenOptions {
-  /// Until the model is there and drawn; true where it is not given.
+  /// True (default) to wait until the model is drawn.
   waits?: boolean;
-  /// The key of the standard view to begin with.
+  /// The key of the first view.
   view?: string;
-  /// What is done with the page before its own script runs.
+  /// Runs before the page's own script.
   before?: (page: Page) => Promise<unknown>;
 }
 
@@ -101,7 +101,7 @@ type Touch = (
   ...touchPoints: { x: number; y: number; id: number }[]
 ) => Promise<unknown>;
 
-/// A page as a test drives it.
+/// A viewer page driven by a test.
 export class Viewer {
   readonly problems: string[] = [];
 
@@ -113,9 +113,9 @@ export class Viewer {
   }
 
   static async visit(url: string, before?: OpenOptions["before"], size = { width: 800, height: 500 }): Promise<Viewer> {
-    browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags, timeout: kPatience });
+    browser ??= await driver.launch({ executablePath: chromium(), args: kChromiumFlags, timeout: kTimeout });
     const page = await browser.newPage({ viewport: size });
-    page.setDefaultTimeout(kPatience);
+    page.setDefaultTimeout(kTimeout);
     await slowDown(page);
     await before?.(page);
     const viewer = new Viewer(page);
@@ -130,7 +130,7 @@ export class Viewer {
     return viewer;
   }
 
-  /// Waits until a model is there and drawn.
+  /// Waits until a model is loaded and drawn.
   async model(): Promise<void> {
     const there = () => window.dismantle?.app.viewport.model != null;
     await this.page.waitForFunction(there).catch(async (error: Error) => {
@@ -144,7 +144,7 @@ export class Viewer {
     return this.page.evaluate(() => window.dismantle!.idle());
   }
 
-  /// Until what another page of the session knows is known and drawn here.
+  /// Waits until this page shows the state of another page of the session.
   async catchUpWith(other: Viewer): Promise<void> {
     const { number } = await other.state();
     await this.page.waitForFunction((n) => window.dismantle!.app.session.store.state!.number >= n, number);
@@ -162,22 +162,22 @@ export class Viewer {
     );
   }
 
-  /// Where the engine has a component: how far from its assembled place.
+  /// Translation of a component from its assembled position, in the engine [mm].
   async shift(name: string): Promise<[number, number, number]> {
     const [state, index] = [await this.state(), await this.index(name)];
     const pose = state.components[index].pose;
     return pose ? [pose[0], pose[1], pose[2]] : [0, 0, 0];
   }
 
-  /// Where it is drawn.
+  /// The same, as drawn.
   async drawnShift(name: string): Promise<[number, number, number]> {
     const matrix = await this.page.evaluate((n) => window.dismantle!.drawnMatrix(n), name);
     return [matrix[12], matrix[13], matrix[14]];
   }
 
-  /// A place on screen where the component is in front.
-  async placeOf(name: string): Promise<{ x: number; y: number }> {
-    const place = await this.page.evaluate((n) => window.dismantle!.placeOf(n), name);
+  /// A point of the page at which the component is in front.
+  async visiblePoint(name: string): Promise<{ x: number; y: number }> {
+    const place = await this.page.evaluate((n) => window.dismantle!.visiblePoint(n), name);
     if (!place) throw new Error(`${name} is nowhere in front`);
     return place;
   }
@@ -205,7 +205,7 @@ export class Viewer {
     });
   }
 
-  /// Takes a component out by the button, and waits until it is.
+  /// Takes a component out by the button and waits for the end.
   async takeOut(name: string): Promise<void> {
     await this.select(name);
     await this.page.click("#take-out");
@@ -238,21 +238,21 @@ export class Viewer {
     await this.idle();
   }
 
-  /// Presses the left button on a component and moves in steps; the button stays down.
+  /// Presses the left button on a component and moves in steps; the button stays pressed.
   async grab(name: string, dx: number, dy: number, steps = 6): Promise<void> {
-    const { x, y } = await this.placeOf(name);
+    const { x, y } = await this.visiblePoint(name);
     await this.page.mouse.move(x, y);
     await this.page.mouse.down();
     for (let i = 1; i <= steps; ++i) await this.page.mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
     await this.idle();
   }
 
-  async letGo(): Promise<void> {
+  async release(): Promise<void> {
     await this.page.mouse.up();
     await this.idle();
   }
 
-  /// Presses a button, and gives the file that the browser saves.
+  /// Presses a button. Returns the file that the browser saves.
   async saved(button: string): Promise<{ name: string; bytes: Buffer }> {
     const coming = this.page.waitForEvent("download");
     await this.page.click(button);
@@ -260,13 +260,13 @@ export class Viewer {
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
   }
 
-  /// Fingers on the screen: what they do.
-  async fingers(): Promise<Touch> {
+  /// Dispatches touch events.
+  async touchscreen(): Promise<Touch> {
     const touches = await this.page.context().newCDPSession(this.page);
     return (type, ...touchPoints) => touches.send("Input.dispatchTouchEvent", { type, touchPoints });
   }
 
-  /// The picture, without what the page lays over it.
+  /// The image of the 3D view without panels.
   async picture(): Promise<string> {
     await this.idle();
     return this.page.evaluate(() => window.dismantle!.app.viewport.canvas.toDataURL());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { HidCollection } from "../../src/input/hid_axes.ts";
 
-/// The SpaceMouse Wireless's descriptor: all six axes in report 1, 16 bits each.
+/// Descriptor of the SpaceMouse Wireless: all six axes in report 1, 16 bits each.
 export const kSpaceMouse: HidCollection[] = [
   {
     usagePage: 1,

@@ -3,22 +3,22 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { rateMessage, readPoseFrame, targetMessage } from "../../src/wire/structs.ts";
-import { goldenFile } from "../support/tree.ts";
+import { goldenFile } from "../support/environment.ts";
 
 const golden = JSON.parse(readFileSync(goldenFile("wire.json"), "utf8"));
 const hex = (bytes: ArrayBuffer) => Buffer.from(bytes).toString("hex");
 
-test("a target has the bytes that the server takes", () => {
+test("a target is encoded as the server expects", () => {
   const { grip, number, position, rotation } = golden.target;
   assert.equal(hex(targetMessage(grip, number, { position, rotation })), golden.target.hex);
 });
 
-test("a rate has the bytes that the server takes", () => {
+test("a rate is encoded as the server expects", () => {
   const { grip, number, velocity, angular_velocity } = golden.rate;
   assert.equal(hex(rateMessage(grip, number, velocity, angular_velocity)), golden.rate.hex);
 });
 
-test("a pose is read from the bytes that the server sends", () => {
+test("a pose is decoded from the server's bytes", () => {
   const { flags, contacts, hex: bytes, ...expected } = golden.pose;
   const frame = readPoseFrame(Uint8Array.from(Buffer.from(bytes, "hex")).buffer)!;
   assert.deepEqual(
@@ -53,7 +53,7 @@ test("a pose is read from the bytes that the server sends", () => {
   );
 });
 
-test("a pose that is cut off, or of another kind, is none", () => {
+test("truncated and other messages are rejected", () => {
   const pose = new ArrayBuffer(96);
   assert.equal(readPoseFrame(pose), null);
   new DataView(pose).setUint8(0, 16);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Page } from "playwright-core";
 
-/// A line between the server and a page: what matches arrives so much later [ms], and all after it in its order.
-export async function slowLine(page: Page, matches: RegExp, delay: number): Promise<void> {
+/// Delays the server's matching messages, and all after them [ms].
+export async function slowConnection(page: Page, matches: RegExp, delay: number): Promise<void> {
   await page.routeWebSocket(/\/session\?/, (socket) => {
     let arrived = Promise.resolve();
     const server = socket.connectToServer();

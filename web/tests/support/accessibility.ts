@@ -2,10 +2,10 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { sourceFolder } from "./tree.ts";
+import { sourceFolder } from "./environment.ts";
 
-/// What axe-core finds serious or critical in a page as it is now.
-export async function faultsOf(page: Page): Promise<string[]> {
+/// Serious and critical violations that axe-core finds in the current page.
+export async function violationsOf(page: Page): Promise<string[]> {
   if (!(await page.evaluate(() => "axe" in window)))
     await page.evaluate(readFileSync(join(sourceFolder(), "web/node_modules/axe-core/axe.min.js"), "utf8"));
   return page.evaluate(async () => {
@@ -19,7 +19,7 @@ export async function faultsOf(page: Page): Promise<string[]> {
   });
 }
 
-/// The ids of what Tab reaches, from the page's beginning.
+/// Ids of the elements that Tab reaches from the start of the page.
 export async function reachedByTab(page: Page, presses: number): Promise<Set<string>> {
   await page.evaluate(() => (document.activeElement as HTMLElement).blur());
   const reached = new Set<string>();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BackSide, Color, DoubleSide, EqualStencilFunc, ReplaceStencilOp, ShaderMaterial, Vector4 } from "three";
 
-/// What all materials share: the section planes (n.x + d >= 0 is kept) and the light of the theme.
-export const shared = {
+/// Uniforms of all materials: the section planes (n.x + d >= 0 is kept) and the theme's ambient light.
+export const sharedUniforms = {
   uPlanes: { value: [new Vector4(), new Vector4(), new Vector4()] },
   uSky: { value: new Color(1, 1, 1) },
   uGround: { value: new Color(0.4, 0.42, 0.46) },
 };
 
-/// What the stencil says of a pixel.
+/// Stencil values of a pixel.
 const kSurface = 0;
 const kCut = 1;
 
@@ -24,13 +24,13 @@ void clip(vec3 world) {}
 #endif
 `;
 
-const kPlace = /* glsl */ `
+const kTransform = /* glsl */ `
 #include <batching_pars_vertex>
 varying vec3 vWorld;
 #ifdef USE_BATCHING
 varying vec3 vColor;
 #endif
-mat4 place() {
+mat4 transform() {
 #ifdef USE_BATCHING
   float instance = getIndirectIndex(gl_DrawID);
   mat4 worldFromMesh = modelMatrix * getBatchingMatrix(instance);
@@ -44,30 +44,36 @@ mat4 place() {
   return worldFromMesh;
 }`;
 
-const kBodyVertex = /* glsl */ `
-varying vec3 vNormal;
-${kPlace}
-void main() {
-  vNormal = mat3(place()) * normal;
-}`;
-
-// Behind a section plane the first thing that a ray meets of a closed solid is its inside, and nothing else is between
-// that and where the ray crossed the plane: an inside that is seen is a cut, and drawn flat and hatched. The stencil
-// keeps where, so that no edges shine through the filling.
-const kBodyFragment = /* glsl */ `
+/// Inputs of both fragment shaders: position, opacity and the component's colour.
+const kFragmentInputs = /* glsl */ `
 #ifdef BATCHED
 varying vec3 vColor;
+vec3 ownColor() { return vColor; }
 #else
 uniform vec3 uColor;
+vec3 ownColor() { return uColor; }
 #endif
 uniform float uOpacity;
+varying vec3 vWorld;
+${kClip}`;
+
+const kBodyVertex = /* glsl */ `
+varying vec3 vNormal;
+${kTransform}
+void main() {
+  vNormal = mat3(transform()) * normal;
+}`;
+
+// Section caps: behind a section plane, the first surface that a ray meets of a closed solid is its inside, with
+// nothing between it and the plane. So a visible inside is drawn as the cut face, flat and hatched. The stencil marks
+// these pixels, so that no edges show through the cap.
+const kBodyFragment = /* glsl */ `
+${kFragmentInputs}
 uniform vec4 uTint;
 uniform float uHatch;
 uniform vec3 uSky;
 uniform vec3 uGround;
 varying vec3 vNormal;
-varying vec3 vWorld;
-${kClip}
 vec3 lit(vec3 base, vec3 normal, vec3 toEye) {
   vec3 right = vec3(viewMatrix[0][0], viewMatrix[1][0], viewMatrix[2][0]);
   vec3 up = vec3(viewMatrix[0][1], viewMatrix[1][1], viewMatrix[2][1]);
@@ -81,9 +87,9 @@ vec3 lit(vec3 base, vec3 normal, vec3 toEye) {
 void main() {
   clip(vWorld);
 #ifdef BATCHED
-  vec3 base = vColor;
+  vec3 base = ownColor();
 #else
-  vec3 base = mix(uColor, uTint.rgb, uTint.a);
+  vec3 base = mix(ownColor(), uTint.rgb, uTint.a);
 #endif
   vec3 toEye = isOrthographic ? vec3(viewMatrix[0][2], viewMatrix[1][2], viewMatrix[2][2])
                               : normalize(cameraPosition - vWorld);
@@ -106,35 +112,24 @@ void main() {
 }`;
 
 const kEdgeVertex = /* glsl */ `
-${kPlace}
+${kTransform}
 void main() {
-  place();
+  transform();
 }`;
 
 const kEdgeFragment = /* glsl */ `
-#ifdef BATCHED
-varying vec3 vColor;
-#else
-uniform vec3 uColor;
-#endif
-uniform float uOpacity;
-varying vec3 vWorld;
-${kClip}
+${kFragmentInputs}
 void main() {
   clip(vWorld);
-#ifdef BATCHED
-  gl_FragColor = vec4(vColor, uOpacity);
-#else
-  gl_FragColor = vec4(uColor, uOpacity);
-#endif
+  gl_FragColor = vec4(ownColor(), uOpacity);
   #include <colorspace_fragment>
 }`;
 
-/// The material of a component's faces.
+/// Material of a component's faces.
 export function bodyMaterial(color: Color, opacity: number): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: {
-      ...shared,
+      ...sharedUniforms,
       uColor: { value: color },
       uOpacity: { value: opacity },
       uTint: { value: new Vector4(0, 0, 0, 0) },
@@ -153,8 +148,8 @@ export function bodyMaterial(color: Color, opacity: number): ShaderMaterial {
   });
 }
 
-/// The material of the insides of a closed solid, seen where it is cut: shares all that `body` shows. It is not set back
-/// as bodies are, so that it wins over the face of a neighbour that touches from outside.
+/// Material of the section caps of a closed solid; shares the uniforms of `body`. It has no polygon offset, so it wins
+/// over the face of a touching neighbour.
 export function cutMaterial(body: ShaderMaterial, hatch: number): ShaderMaterial {
   return new ShaderMaterial({
     uniforms: { ...body.uniforms, uHatch: { value: hatch } },
@@ -168,10 +163,10 @@ export function cutMaterial(body: ShaderMaterial, hatch: number): ShaderMaterial
   });
 }
 
-/// The material of feature edges, one pixel wide.
+/// Material of feature edges, one pixel wide.
 export function edgeMaterial(color: Color, opacity: number): ShaderMaterial {
   return new ShaderMaterial({
-    uniforms: { uPlanes: shared.uPlanes, uColor: { value: color }, uOpacity: { value: opacity } },
+    uniforms: { uPlanes: sharedUniforms.uPlanes, uColor: { value: color }, uOpacity: { value: opacity } },
     defines: { PLANES: 0 },
     vertexShader: kEdgeVertex,
     fragmentShader: kEdgeFragment,
@@ -181,12 +176,12 @@ export function edgeMaterial(color: Color, opacity: number): ShaderMaterial {
   });
 }
 
-/// As bodyMaterial, for a batch of components that each have their colour.
+/// bodyMaterial for a batch in which each component has its own colour.
 export function batchedBodyMaterial(): ShaderMaterial {
   return batched(bodyMaterial(new Color(), 1));
 }
 
-/// As edgeMaterial, for a batch.
+/// edgeMaterial for a batch.
 export function batchedEdgeMaterial(): ShaderMaterial {
   return batched(edgeMaterial(new Color(), 1));
 }

@@ -6,33 +6,38 @@ import type { Viewport } from "./scene/viewport.ts";
 import type { Session } from "./session.ts";
 import type { Triple } from "./wire/messages.ts";
 
-/// A page that tests look at.
-interface Tested {
+/// A page under test.
+interface TestedPage {
   readonly viewport: Viewport;
   readonly session: Session;
   readonly drag: Drag;
 }
 
-/// What tests ask of the page instead of waiting for some time and hoping. It looks, and changes nothing.
-export interface TestDoor<Page extends Tested = App> {
-  /// When everything asked is answered, shown and drawn.
+/// Queries for tests, and a promise to wait for instead of sleeping. Changes nothing.
+export interface TestApi<Page extends TestedPage = App> {
+  /// Resolves when all commands are answered, shown and drawn.
   idle(): Promise<void>;
-  /// Where the component called `name` is drawn: the matrix from its assembled position, by columns.
+  /// Matrix from assembled to drawn position of the component called `name`, by columns.
   drawnMatrix(name: string): number[];
+  /// True if the component called `name` is visible.
   drawn(name: string): boolean;
-  /// A place in the view where the component is in front, with no panel over it; or null.
-  placeOf(name: string): { x: number; y: number } | null;
+  /// A point of the page at which the component is in front, with no panel over it; null: none.
+  visiblePoint(name: string): { x: number; y: number } | null;
+  /// Position of a world point on the page.
   project(point: Triple): { x: number; y: number };
-  /// What is in front at a place on screen.
+  /// Name of the component at a point of the page; null: none.
   at(x: number, y: number): string | null;
+  /// The last rendered image.
+  imageData(): ImageData;
   readonly app: Page;
-  /// When the first model was drawn, from the page's beginning [ms]; null: not yet.
+  /// Time of the first render of a model, since the page was loaded [ms]; null: not yet.
   readonly modelDrawn: number | null;
 }
 
-const kGrid = 60;
+const kGridSize = 60;
 
-export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
+/// Makes the test interface of a page.
+export function testApi<Page extends TestedPage>(app: Page): TestApi<Page> {
   const view = (name: string) => app.viewport.model?.components.find(({ raw }) => raw.name === name);
   const onPage = (x: number, y: number) => {
     const box = app.viewport.canvas.getBoundingClientRect();
@@ -46,9 +51,9 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
   const watch = () => {
     if (!app.viewport.model) return;
     modelDrawn = performance.now();
-    app.viewport.afterPicture.delete(watch);
+    app.viewport.afterRender.delete(watch);
   };
-  app.viewport.afterPicture.add(watch);
+  app.viewport.afterRender.add(watch);
   return {
     app,
     get modelDrawn() {
@@ -57,7 +62,7 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
     idle: () => waitUntilIdle(app),
     drawnMatrix: (name) => view(name)?.worldFromAssembled.toArray() ?? [],
     drawn: (name) => view(name)?.visible ?? false,
-    placeOf(name) {
+    visiblePoint(name) {
       const { rig, canvas } = app.viewport;
       const bounds = view(name)?.bounds();
       if (!bounds) return null;
@@ -76,18 +81,26 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
         const there = onPage(x, y);
         return nameAt(x, y) === name && document.elementFromPoint(there.x, there.y) === canvas;
       };
-      const place = (values: number[], k: number) =>
-        Math.min(...values) + ((k + 0.5) / kGrid) * (Math.max(...values) - Math.min(...values));
-      const order = Array.from({ length: kGrid }, (_, k) => k).sort(
-        (a, b) => Math.abs(a - kGrid / 2) - Math.abs(b - kGrid / 2),
+      const sample = (values: number[], k: number) =>
+        Math.min(...values) + ((k + 0.5) / kGridSize) * (Math.max(...values) - Math.min(...values));
+      const order = Array.from({ length: kGridSize }, (_, k) => k).sort(
+        (a, b) => Math.abs(a - kGridSize / 2) - Math.abs(b - kGridSize / 2),
       );
       for (const i of order)
-        for (const j of order) if (isShown(place(xs, i), place(ys, j))) return onPage(place(xs, i), place(ys, j));
+        for (const j of order) if (isShown(sample(xs, i), sample(ys, j))) return onPage(sample(xs, i), sample(ys, j));
       return null;
     },
     project(point) {
-      const place = app.viewport.rig.project(new Vector3(...point));
-      return onPage(place.x, place.y);
+      const position = app.viewport.rig.project(new Vector3(...point));
+      return onPage(position.x, position.y);
+    },
+    imageData() {
+      const { canvas } = app.viewport;
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      const context = copy.getContext("2d")!;
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, copy.width, copy.height);
     },
     at(x, y) {
       const origin = onPage(0, 0);
@@ -96,9 +109,9 @@ export function testDoor<Page extends Tested>(app: Page): TestDoor<Page> {
   };
 }
 
-async function waitUntilIdle(app: Tested): Promise<void> {
+async function waitUntilIdle(app: TestedPage): Promise<void> {
   const settled = () =>
-    app.session.settled && app.viewport.settled && app.session.store.link === "open" && !app.drag.waits;
+    app.session.settled && app.viewport.settled && app.session.store.link === "open" && !app.drag.pending;
   for (let calm = 0; calm < 3; ) {
     await new Promise((resolve) => requestAnimationFrame(resolve));
     calm = settled() ? calm + 1 : 0;

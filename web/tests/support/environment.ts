@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { join } from "node:path";
 
-/// Where things are: web/test says so.
+/// A setting made by web/test.
 function setting(name: string): string {
   const value = process.env[name];
   if (!value) throw new Error(`${name} is not set; run the tests by web/test`);
@@ -13,5 +13,5 @@ export const program = (): string => setting("DISMANTLE_PROGRAM");
 export const chromium = (): string => setting("DISMANTLE_CHROMIUM");
 export const goldenFile = (name: string): string => join(sourceFolder(), "tests/server/golden", name);
 
-/// For work on the page: a folder to be served in place of the page that is in the program.
+/// Options that serve a page from a folder in place of the built-in one.
 export const pageFolder = (): string[] => (process.env.DISMANTLE_WEB ? ["--web", process.env.DISMANTLE_WEB] : []);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element } from "../dom.ts";
-import type { Session } from "../session.ts";
+import { kMaxNames, type Session } from "../session.ts";
 import { directionText, lengthText, text } from "../strings.ts";
 import type { Reason } from "../wire/messages.ts";
+import { componentRow } from "./component_row.ts";
 
-/// What the planner knows of the selection: a way out, or why it stays.
-export class WayOutPart {
+/// The inspector's part about removal: finds a path for the selection, or what blocks it.
+export class RemovalPart {
   readonly node: HTMLElement;
   private readonly find: HTMLButtonElement;
   private readonly why: HTMLButtonElement;
@@ -27,18 +28,18 @@ export class WayOutPart {
       key: "Q",
       wide: true,
       id: "why",
-      press: () => void session.askWhy(),
+      press: () => void session.requestReason(),
     });
     this.node = element(
       "section",
       { class: "part" },
-      element("h3", {}, text("wayOut")),
+      element("h3", {}, text("removal")),
       element("div", { class: "actions single" }, this.find, this.why),
       this.reason,
     );
   }
 
-  /// @param busy something moves, or another page is in control
+  /// @param busy something is moving, or another page has control
   update(busy: boolean): void {
     const { state, selection, jobs } = this.session.store;
     const out = selection.every((c) => state?.components[c]?.removed);
@@ -47,28 +48,25 @@ export class WayOutPart {
     const { reason } = this.session;
     if (reason === this.shown) return;
     this.shown = reason;
-    this.reason.replaceChildren(...(reason ? this.wordsOf(reason) : []));
+    this.reason.replaceChildren(...(reason ? this.content(reason) : []));
   }
 
-  private wordsOf({ component: self, direction, blockers, locked }: Reason): HTMLElement[] {
+  private content({ component: self, direction, blockers, locked }: Reason): HTMLElement[] {
     const rows = blockers.map(({ component, distance }) => {
-      const press = () => this.session.select([component]);
-      const name = element(
-        "button",
-        { type: "button", class: "link-button", onclick: press },
-        this.session.nameOf(component),
-      );
       const after = distance === null ? "" : text("reason.after", { distance: lengthText(distance) });
-      return element("li", {}, name, element("span", { class: "badge blocks" }, after));
+      return componentRow(this.session, component, after, "blocks");
     });
-    const words = text(rows.length > 0 ? "reason.by" : "reason.free", { direction: directionText(direction) });
+    const message = text(rows.length > 0 ? "reason.by" : "reason.free", { direction: directionText(direction) });
     const others = locked.filter((c) => c !== self);
     return [
-      element("p", {}, words),
+      element("p", {}, message),
       element("ul", { class: "rows" }, ...rows),
-      ...(others.length > 0
-        ? [element("p", { class: "muted" }, text("reason.locked", { names: this.session.namesOf(others) }))]
-        : []),
+      ...(others.length > 0 ? [element("p", { class: "muted" }, this.lockedText(others))] : []),
     ];
+  }
+
+  private lockedText(others: number[]): string {
+    if (others.length > kMaxNames) return text("reason.locked.many", { count: others.length });
+    return text("reason.locked", { names: this.session.namesOf(others) });
   }
 }

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { faultsOf, reachedByTab } from "../support/accessible.ts";
-import { useMicroscope, viewer } from "../support/scene.ts";
+import { reachedByTab, violationsOf } from "../support/accessibility.ts";
+import { camera, useMicroscope, viewer, waitForSearch } from "../support/scene.ts";
 
 useMicroscope();
 
 async function faults(): Promise<string[]> {
   await viewer.idle();
-  return faultsOf(viewer.page);
+  return violationsOf(viewer.page);
 }
 
-/// To an element by Tab alone.
+/// Moves the focus to an element by Tab alone.
 async function tabTo(selector: string): Promise<void> {
   for (let i = 0; i < 120; ++i) {
-    if (await viewer.page.evaluate((wanted) => document.activeElement?.matches(wanted) === true, selector)) return;
+    if (await viewer.page.evaluate((target) => document.activeElement?.matches(target) === true, selector)) return;
     await viewer.page.keyboard.press("Tab");
   }
   throw new Error(`${selector} is not reached by Tab`);
 }
 
-const type = (words: string) => viewer.page.keyboard.type(words);
+const type = (text: string) => viewer.page.keyboard.type(text);
 const automaticIsOver = () =>
   viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
 
-test("without a pointer: find, select, see the ways, move by numbers, undo, take out, put back", async () => {
+test("by keyboard: search, select, free directions, move by numbers, undo, take out, put back", async () => {
   await viewer.press("/");
   await type("foot");
   await viewer.press("ArrowDown", "Enter");
@@ -32,7 +32,7 @@ test("without a pointer: find, select, see the ways, move by numbers, undo, take
   await viewer.press("ArrowDown", "Control+Enter");
   assert.deepEqual(await viewer.selection(), ["foot", "foot#2"]);
   await viewer.press("ArrowUp", "Enter", "d");
-  await viewer.page.locator("#directions .way.free").first().waitFor();
+  await viewer.page.locator("#directions .direction.free").first().waitFor();
   await tabTo("#numeric-2");
   await viewer.press("Control+a");
   await type("-5");
@@ -52,12 +52,7 @@ test("without a pointer: find, select, see the ways, move by numbers, undo, take
   assert.deepEqual(await viewer.drawnShift("foot"), [0, 0, 0]);
 });
 
-test("without a pointer: turn, move and zoom the view, isolate, see through, measure, cut, and choose what contact does", async () => {
-  const camera = () =>
-    viewer.page.evaluate(() => {
-      const { focus, orientation, distance } = window.dismantle!.app.viewport.rig.current;
-      return { focus: focus.toArray(), orientation: orientation.toArray(), distance };
-    });
+test("by keyboard: orbit, pan, zoom, isolate, X-ray, measure, section and contact response", async () => {
   await tabTo("#view");
   await viewer.press("Escape", "1", "f");
   const start = await camera();
@@ -81,13 +76,13 @@ test("without a pointer: turn, move and zoom the view, isolate, see through, mea
   await viewer.press("Enter");
 
   await viewer.press("m");
-  assert.equal(await viewer.page.isVisible("#measure-middle"), true);
+  assert.equal(await viewer.page.isVisible("#measure-center"), true);
   await viewer.press("1", "f", "Enter", "Shift+ArrowRight", "Enter");
   assert.match(await viewer.page.locator("#measure-label").innerText(), /^[1-9][\d.]* mm/);
   await viewer.press("m", "s");
   const cut = await viewer.picture();
   await viewer.press("ArrowRight", "ArrowRight", "PageUp");
-  assert.ok((await viewer.picture()) !== cut, "the plane goes with the arrow keys");
+  assert.ok((await viewer.picture()) !== cut, "the arrow keys move the plane");
   await viewer.press("s");
   await tabTo("#response input");
   await viewer.press("ArrowRight");
@@ -96,7 +91,7 @@ test("without a pointer: turn, move and zoom the view, isolate, see through, mea
   assert.equal((await viewer.state()).response, "slide");
 });
 
-test("without a pointer: play, step, explode, follow, and export", async () => {
+test("by keyboard: play, step, explode, guide and export", async () => {
   await tabTo("#speed");
   await viewer.press("Home"); // the slowest
   await tabTo("#view");
@@ -126,10 +121,10 @@ test("without a pointer: play, step, explode, follow, and export", async () => {
   await viewer.page.locator("#guide-panel").waitFor();
 });
 
-test("axe-core finds nothing serious: with every panel open, in light and dark", async () => {
+test("axe-core reports nothing serious with every panel open, in light and dark", async () => {
   await viewer.select("foot");
   await viewer.page.keyboard.press("q");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.kind === "why");
+  await waitForSearch("why");
   await tabTo("#view");
   await viewer.press("d", "l", "s", "g", "m", "i");
   await viewer.page.check("#guide-practice");
@@ -141,7 +136,7 @@ test("axe-core finds nothing serious: with every panel open, in light and dark",
   await viewer.press("t", "m", "g", "s", "l", "i");
 });
 
-test("nor with what was recorded, played and exploded", async () => {
+test("axe-core reports nothing serious in the exploded view", async () => {
   await viewer.click("#guide-close");
   await viewer.select("foot");
   await viewer.page.fill("#numeric-2", "-5");
@@ -153,7 +148,7 @@ test("nor with what was recorded, played and exploded", async () => {
   await viewer.press("e");
 });
 
-test("nor in the dialogs", async () => {
+test("axe-core reports nothing serious in the dialogs", async () => {
   await viewer.press("h");
   assert.deepEqual(await faults(), []);
   await viewer.page.keyboard.press("Escape");
@@ -166,7 +161,7 @@ test("nor in the dialogs", async () => {
   await viewer.page.keyboard.press("Escape");
 });
 
-test("every button is reached by Tab, and has a name", async () => {
+test("every button can be reached by Tab", async () => {
   await viewer.select("foot");
   const reached = await reachedByTab(viewer.page, 80);
   for (const id of [
