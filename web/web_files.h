@@ -7,14 +7,14 @@
 
 namespace dismantle {
 
-/// A file of the viewer's page that the program carries in itself.
+/// A file of the viewer page, embedded in the program.
 struct WebFile {
-  std::string_view path;          ///< As a request names it: "/index.html".
-  std::string_view content_type;  ///< "text/html; charset=utf-8"
-  std::string_view bytes;
+  std::string_view path;          ///< Path in requests, such as "/index.html".
+  std::string_view content_type;  ///< HTTP content type, such as "text/html; charset=utf-8".
+  std::string_view bytes;         ///< Content of the file.
 };
 
-/// All of them.
+/// All embedded files.
 Span<const WebFile> web_files();
 
 }  // namespace dismantle
