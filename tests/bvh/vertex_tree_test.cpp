@@ -44,18 +44,18 @@ TEST(VertexTree, HasEveryVertexOnceAndASphereOfItsOwnForEachInnerNode) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 41, 9);
   const VertexTree tree = vertex_tree_build(mesh.vertices, {});
   EXPECT_EQ(std::set<std::uint32_t>(tree.order.begin(), tree.order.end()).size(), mesh.vertices.size());
-  std::set<std::uint32_t> places;
+  std::set<std::uint32_t> indices;
   std::size_t leaves = 0;
   for (const VertexNode& node : nodes_of(tree)) {
     if (node.leaf()) {
       ++leaves;
     } else {
-      EXPECT_TRUE(places.insert(node.place).second);
+      EXPECT_TRUE(indices.insert(node.index).second);
     }
   }
   EXPECT_EQ(leaves, mesh.vertices.size());
-  EXPECT_EQ(places.size(), tree.spheres.size());
-  EXPECT_EQ(*places.rbegin() + 1, tree.spheres.size());
+  EXPECT_EQ(indices.size(), tree.spheres.size());
+  EXPECT_EQ(*indices.rbegin() + 1, tree.spheres.size());
 }
 
 TEST(VertexTree, MergesOnlyChildrenOfTheSameNode) {

@@ -56,14 +56,14 @@ double min_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& f
   if (!b.leaf())
     return std::min(min_distance(moving, m, fixed, b.child, start, end),
                     min_distance(moving, m, fixed, b.child + 1, start, end));
-  double least = 1e9;
+  double minimum = 1e9;
   for (const double time : {0.0, 0.25, 0.5, 0.8, 1.0}) {
     const RigidTransform t = transform_from_pose(pose_between(start, end, time));
     const Triangle own = moving.triangle(a.child);
     const Triangle there{{t * own[0], t * own[1], t * own[2]}};
-    least = std::min(least, distance_triangle_triangle(there, fixed.triangle(b.child)).distance);
+    minimum = std::min(minimum, distance_triangle_triangle(there, fixed.triangle(b.child)).distance);
   }
-  return least;
+  return minimum;
 }
 
 /// @return the number of pairs of small nodes with a claim

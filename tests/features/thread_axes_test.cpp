@@ -119,16 +119,16 @@ TEST(ThreadParts, AreNarrowBandsOfTheProfile) {
   EXPECT_LT(counts[0], mesh.faces.size() / 10);
   for (std::size_t f = 0; f < parts.size(); ++f) {
     if (parts[f] == 0) continue;
-    double least = 1e9, most = 0;
+    double minimum = 1e9, maximum = 0;
     for (int k = 0; k < 3; ++k) {
       const Vec3 p = mesh.triangle(f)[k];
-      least = std::min(least, std::hypot(p.x, p.y));
-      most = std::max(most, std::hypot(p.x, p.y));
+      minimum = std::min(minimum, std::hypot(p.x, p.y));
+      maximum = std::max(maximum, std::hypot(p.x, p.y));
     }
     if (parts[f] == 3) {
-      EXPECT_LT(most, 3.4) << "a root";
+      EXPECT_LT(maximum, 3.4) << "a root";
     } else if (parts[f] == 4) {
-      EXPECT_GT(least, 3.9) << "a crest";
+      EXPECT_GT(minimum, 3.9) << "a crest";
     }
   }
   EXPECT_TRUE(thread_parts(mesh.vertices, mesh.faces, {}).empty());

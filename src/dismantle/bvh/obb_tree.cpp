@@ -16,8 +16,9 @@ namespace dismantle {
 
 namespace {
 
-/// Builds ranges of `order_` into nodes. A range of n triangles is split once at each of its n - 1 inner places, so the
-/// children that a split at place m makes are nodes 2m - 1 and 2m: subtrees can be built in any order, side by side.
+/// Builds ranges of `order_` into nodes. A range of n triangles is split once at each of its n - 1 inner positions, so
+/// the children that a split at position m makes are nodes 2m - 1 and 2m: subtrees can be built in any order, side by
+/// side.
 class Builder {
  public:
   struct Range {
@@ -93,7 +94,7 @@ class Builder {
     return {to_float(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
   }
 
-  /// A way to cut a range: triangles of which `of` (centroids or normals) is less than `border` along `axis` come
+  /// A cut of a range: triangles of which `of` (centroids or normals) is less than `border` along `axis` come
   /// first.
   struct Cut {
     const std::vector<Vec3>* of = nullptr;
@@ -113,12 +114,12 @@ class Builder {
     Cut best = at_mean(range, axes[longest]);
     if (range.size() > 2) {
       const double floor = kFlat * static_cast<double>(box.half[longest]);
-      double least = kThinner * thickness(range, best, floor);
+      double best_thickness = kThinner * thickness(range, best, floor);
       for (int i = 0; i < 3; ++i)
         for (const Cut& cut : {at_mean(range, axes[i]), by_normals(range, axes[i])}) {
           const double found = thickness(range, cut, floor);
-          if (found >= least) continue;
-          least = found;
+          if (found >= best_thickness) continue;
+          best_thickness = found;
           best = cut;
         }
     }
@@ -140,15 +141,15 @@ class Builder {
     return {&centroids_, axis, sum / range.size()};
   }
 
-  /// Two thirds of the way from the least to the most: of the two ends of a shaft and its side, one end.
+  /// Two thirds of the way from the smallest to the largest: separates one end of a shaft from its side and other end.
   Cut by_normals(const Range& range, Vec3 axis) const {
-    double least = 1, most = -1;
+    double low = 1, high = -1;
     for_samples(range, [&](std::uint32_t f) {
       const double x = dot(axis, normals_[f]);
-      least = std::min(least, x);
-      most = std::max(most, x);
+      low = std::min(low, x);
+      high = std::max(high, x);
     });
-    return {&normals_, axis, least + (most - least) * (2.0 / 3)};
+    return {&normals_, axis, low + (high - low) * (2.0 / 3)};
   }
 
   /// The mean thickness of a cut's two sides, by triangles; huge where one side is empty. No side is thinner than
@@ -179,8 +180,8 @@ class Builder {
   std::uint32_t apply(const Range& range, const Cut& cut) {
     const auto begin = order_.begin() + range.begin, end = order_.begin() + range.end;
     auto middle = std::partition(begin, end, [&](std::uint32_t f) { return cut.before(f); });
-    const std::ptrdiff_t least = std::min(middle - begin, end - middle);
-    if (least == 0 || (cut.of == &centroids_ && least * kMinShare < end - begin)) {
+    const std::ptrdiff_t smaller = std::min(middle - begin, end - middle);
+    if (smaller == 0 || (cut.of == &centroids_ && smaller * kMinShare < end - begin)) {
       middle = begin + range.size() / 2;
       std::nth_element(begin, middle, end, [&](std::uint32_t f, std::uint32_t g) {
         const double x = dot(cut.axis, centroids_[f]), y = dot(cut.axis, centroids_[g]);

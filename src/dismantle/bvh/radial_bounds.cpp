@@ -29,19 +29,19 @@ struct Corner {
 
 /// The least distance of the triangle, seen along the axis, from it.
 double min_distance(const Corner (&c)[3], Vec3 axis) {
-  double sides[3], least = std::numeric_limits<double>::infinity();
+  double sides[3], nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3 p = c[i].across, q = c[(i + 1) % 3].across;
     sides[i] = dot(axis, cross(p, q));
-    least = std::min(least, AxisFrame::distance_of_segment(p, q));
+    nearest = std::min(nearest, AxisFrame::distance_of_segment(p, q));
   }
   const bool around =
       (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) || (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);
-  return around ? 0 : least;
+  return around ? 0 : nearest;
 }
 
 constexpr double kHalfTurn = 3.14159265358979;
-/// A third of the spread is what prisms lack; the rest is for what rounding takes.
+/// A third of the deviation is what prisms lack; the rest is for what rounding takes.
 constexpr double kWallShare = 0.4;
 /// What the angles of a sector may be off by [rad].
 constexpr double kAngleRounding = 1e-6;
@@ -53,8 +53,8 @@ struct Sector {
 
 Sector both(const Sector& x, const Sector& y) {
   const double from_x = std::remainder(y.center - x.center, 2 * kHalfTurn);
-  const double least = std::min(-x.half, from_x - y.half), most = std::max(x.half, from_x + y.half);
-  return {x.center + (least + most) / 2, std::min(kHalfTurn, (most - least) / 2)};
+  const double low = std::min(-x.half, from_x - y.half), high = std::max(x.half, from_x + y.half);
+  return {x.center + (low + high) / 2, std::min(kHalfTurn, (high - low) / 2)};
 }
 
 void set_sector(RadialBounds& node, const Sector& sector, const AxisFrame& axis) {
@@ -73,23 +73,23 @@ Sector sector_of(const Corner (&corners)[3], const AxisFrame& axis) {
 
 /// What does not lie across the axis.
 struct Wall {
-  float least = std::numeric_limits<float>::infinity(), most = 0;  // distances [mm]
-  double area = 0;                                                 // [mm^2]
+  float min_radius = std::numeric_limits<float>::infinity(), max_radius = 0;  // distances [mm]
+  double area = 0;                                                            // [mm^2]
 };
 
 Wall both(const Wall& x, const Wall& y) {
-  return {std::min(x.least, y.least), std::max(x.most, y.most), x.area + y.area};
+  return {std::min(x.min_radius, y.min_radius), std::max(x.max_radius, y.max_radius), x.area + y.area};
 }
 
-/// RadialBounds::spread of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the cylinder's
-/// area, and distances that differ by r pi^2 / 2n^2: what has less area than that has gaps, what has more than the
-/// cylinder is not one.
-float spread_of(const Wall& wall, const RadialBounds& node) {
-  const double spread = static_cast<double>(wall.most) - static_cast<double>(wall.least);
+/// RadialBounds::radial_deviation of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the
+/// cylinder's area, and distances that differ by r pi^2 / 2n^2: what has less area than that has gaps, what has more
+/// than the cylinder is not one.
+float radial_deviation_of(const Wall& wall, const RadialBounds& node) {
+  const double deviation = static_cast<double>(wall.max_radius) - static_cast<double>(wall.min_radius);
   const double height = static_cast<double>(node.end) - static_cast<double>(node.begin);
-  const double most = static_cast<double>(wall.most), turned = wall.area / (2 * kHalfTurn * height);
-  const bool whole = turned >= most - kWallShare * spread && turned <= most * (1 + kAngleRounding);
-  return whole ? rounded_up(spread) : std::numeric_limits<float>::infinity();
+  const double radius = static_cast<double>(wall.max_radius), turned = wall.area / (2 * kHalfTurn * height);
+  const bool whole = turned >= radius - kWallShare * deviation && turned <= radius * (1 + kAngleRounding);
+  return whole ? rounded_up(deviation) : std::numeric_limits<float>::infinity();
 }
 
 RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector, Wall& wall) {
@@ -102,12 +102,12 @@ RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector&
   }
   const Vec3 normal = normal_unscaled(triangle);
   const double rounding = kRounding * size;
-  double most = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
+  double max_radius = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
   RadialBounds node;
   node.faces_out = node.faces_in = true;
   for (const Corner& c : corners) {
     const double distance = length(c.across);
-    most = std::max(most, distance);
+    max_radius = std::max(max_radius, distance);
     begin = std::min(begin, c.along);
     end = std::max(end, c.along);
     const double enough = kFacing * distance * length(normal), facing = dot(normal, c.across);
@@ -117,19 +117,19 @@ RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector&
   const bool lies_across = length(cross(normal, axis.direction)) <= kAcross * length(normal);
   node.clear_out = node.faces_out || lies_across;
   node.clear_in = node.faces_in || lies_across;
-  const double least = min_distance(corners, axis.direction);
-  sector = least > rounding ? sector_of(corners, axis) : Sector{};
-  node.least = -rounded_up(rounding - least);
-  node.most = rounded_up(most + rounding);
+  const double min_radius = min_distance(corners, axis.direction);
+  sector = min_radius > rounding ? sector_of(corners, axis) : Sector{};
+  node.min_radius = -rounded_up(rounding - min_radius);
+  node.max_radius = rounded_up(max_radius + rounding);
   node.begin = -rounded_up(rounding - begin);
   node.end = rounded_up(end + rounding);
-  if (!lies_across) wall = {node.least, node.most, length(normal) / 2};
+  if (!lies_across) wall = {node.min_radius, node.max_radius, length(normal) / 2};
   return node;
 }
 
 RadialBounds both(const RadialBounds& x, const RadialBounds& y) {
-  return {std::min(x.least, y.least),
-          std::max(x.most, y.most),
+  return {std::min(x.min_radius, y.min_radius),
+          std::max(x.max_radius, y.max_radius),
           std::min(x.begin, y.begin),
           std::max(x.end, y.end),
           {},
@@ -150,7 +150,7 @@ RevolutionSurface::RevolutionSurface(Span<const Vec3> vertices, Span<const Face>
       nodes_(nodes),
       axes_(std::move(axes)),
       threads_(std::move(threads)),
-      about_(std::make_unique<About[]>(axes_.size())) {
+      bounds_about_(std::make_unique<BoundsAbout[]>(axes_.size())) {
   if (axes_.empty()) return;
   order_.reserve(nodes_.size());
   order_.push_back(0);
@@ -163,9 +163,9 @@ RevolutionSurface::RevolutionSurface(Span<const Vec3> vertices, Span<const Face>
     const ObbNode& node = nodes_[*i];
     if (!node.leaf()) counts[*i] = counts[node.child] + counts[node.child + 1];
   }
-  places_.assign(nodes_.size(), 0);
+  slots_.assign(nodes_.size(), 0);
   for (const std::uint32_t i : order_)
-    if (counts[i] >= kLargeNode) places_[i] = ++large_count_;
+    if (counts[i] >= kLargeNode) slots_[i] = ++large_count_;
 }
 
 double RevolutionSurface::size() const {
@@ -173,13 +173,13 @@ double RevolutionSurface::size() const {
   return 2 * static_cast<double>(std::max({half.x, half.y, half.z}));
 }
 
-const RadialBoundsList& RevolutionSurface::about(std::size_t axis) const {
-  About& known = about_[axis];
+const RadialBoundsList& RevolutionSurface::bounds_about(std::size_t axis) const {
+  BoundsAbout& known = bounds_about_[axis];
   std::call_once(known.once, [&] {
     const AxisFrame frame(axes_[axis].point, axes_[axis].direction);
     RadialBounds unknown;
-    unknown.most = std::numeric_limits<float>::infinity();
-    known.nodes.places_ = &places_;
+    unknown.max_radius = std::numeric_limits<float>::infinity();
+    known.nodes.slots_ = &slots_;
     known.nodes.nodes_.assign(1 + large_count_, unknown);
     std::vector<RadialBounds> nodes(nodes_.size());
     std::vector<Sector> sectors(nodes_.size());
@@ -195,10 +195,10 @@ const RadialBoundsList& RevolutionSurface::about(std::size_t axis) const {
       nodes[*i] = both(nodes[node.child], nodes[node.child + 1]);
       sectors[*i] = both(sectors[node.child], sectors[node.child + 1]);
       walls[*i] = both(walls[node.child], walls[node.child + 1]);
-      if (places_[*i] == 0) continue;
+      if (slots_[*i] == 0) continue;
       set_sector(nodes[*i], sectors[*i], frame);
-      nodes[*i].spread = spread_of(walls[*i], nodes[*i]);
-      known.nodes.nodes_[places_[*i]] = nodes[*i];
+      nodes[*i].radial_deviation = radial_deviation_of(walls[*i], nodes[*i]);
+      known.nodes.nodes_[slots_[*i]] = nodes[*i];
     }
   });
   return known.nodes;

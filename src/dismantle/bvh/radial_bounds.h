@@ -12,59 +12,68 @@
 
 namespace dismantle {
 
-/// Where the triangles of a tree's node are about an axis; certain, despite float32.
+/// Bounds, in cylindrical coordinates about an axis, of the triangles of a tree's node. Certain, despite float32.
 struct RadialBounds {
-  float least = 0, most = 0;  ///< Every point's distance from the axis is between these [mm].
-  float begin = 0, end = 0;   ///< And its place along the axis, from the axis' point [mm].
-  /// Seen from the axis all of it is within an angle of the unit vector `toward`: its cosine and sine; -1 and 0 for all
-  /// around.
-  Vec3f toward;
-  float cosine = -1, sine = 0;
-  bool faces_out = false;  ///< All outward normals are within 45 degrees of pointing away from the axis,
-  bool faces_in = false;   ///< or to it.
-  bool clear_out = false;  ///< All are, but for those of faces that lie across the axis: a shaft with its ends;
-  bool clear_in = false;   ///< or to it: a bore with the faces that it opens in.
-  /// Of one whole cylinder, without gaps, and perhaps its ends: how much its distances differ [mm]. Infinite for all
-  /// else.
-  float spread = std::numeric_limits<float>::infinity();
+  float min_radius = 0;    ///< No point is nearer to the axis [mm].
+  float max_radius = 0;    ///< No point is further from the axis [mm].
+  float begin = 0;         ///< Lower bound of the position along the axis, from the axis' point [mm].
+  float end = 0;           ///< Upper bound of the position along the axis [mm].
+  Vec3f toward;            ///< Middle of the sector about the axis that the triangles are in; unit.
+  float cosine = -1;       ///< Of half the sector's angle; -1 for all around.
+  float sine = 0;          ///< Of half the sector's angle; 0 for all around.
+  bool faces_out = false;  ///< All outward normals are within 45 degrees of pointing away from the axis.
+  bool faces_in = false;   ///< All outward normals are within 45 degrees of pointing to the axis.
+  bool clear_out = false;  ///< As faces_out, but for faces across the axis: a shaft with its ends.
+  bool clear_in = false;   ///< As faces_in, but for faces across the axis: a bore with the faces that it opens in.
+  /// Difference between the largest and the smallest distance from the axis, if the node is one whole cylinder without
+  /// gaps, perhaps with its ends; infinite otherwise [mm].
+  float radial_deviation = std::numeric_limits<float>::infinity();
 };
 
-/// The nodes of a tree about one axis. Of small nodes nothing is known: their distances are from 0 to without end.
+/// The bounds of a tree's nodes about one axis. Small nodes are unbounded: their distances are from 0 to infinity.
 class RadialBoundsList {
  public:
-  const RadialBounds& operator[](std::uint32_t node) const { return nodes_[(*places_)[node]]; }
-  std::size_t size() const { return places_->size(); }
+  /// The bounds of a node.
+  const RadialBounds& operator[](std::uint32_t node) const { return nodes_[(*slots_)[node]]; }
+  /// The number of the tree's nodes.
+  std::size_t size() const { return slots_->size(); }
 
  private:
   friend class RevolutionSurface;
-  const std::vector<std::uint32_t>* places_ = nullptr;  ///< Of each node among the large ones; 0 for a small one.
-  std::vector<RadialBounds> nodes_;                     ///< The first stands for the small ones.
+  const std::vector<std::uint32_t>* slots_ = nullptr;  ///< Of each node, among the large ones; 0 for a small one.
+  std::vector<RadialBounds> nodes_;                    ///< The first stands for the small ones.
 };
 
-/// A component's axes and threads, and its tree's nodes about each, which are worked out when first asked for. May be
-/// asked by several threads at the same time. What the spans look at must outlive it.
+/// A component's surface with its axes and threads, and the bounds of its tree's nodes about each axis, which are
+/// computed when first needed. Safe to use from several threads at the same time. The spans must outlive it.
 class RevolutionSurface {
  public:
-  /// Nodes of at least so many faces are large: what parts two surfaces of revolution is for them.
+  /// Nodes of at least so many faces are large: only they are bounded.
   static constexpr std::uint32_t kLargeNode = 4;
 
-  /// @param nodes of the faces' tree; not empty
-  /// @param axes, threads of the faces
+  /// @param nodes of the tree of the faces; not empty
+  /// @param axes of the faces
+  /// @param threads of the faces
   RevolutionSurface(Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes,
                     std::vector<RevolutionAxis> axes, std::vector<ThreadAxis> threads);
 
+  /// The axes given.
   Span<const RevolutionAxis> axes() const { return axes_; }
+  /// The threads given.
   Span<const ThreadAxis> threads() const { return threads_; }
+  /// Positions [mm, the mesh's frame].
   Span<const Vec3> vertices() const { return vertices_; }
+  /// The mesh's faces.
   Span<const Face> faces() const { return faces_; }
+  /// The nodes of the faces' tree.
   Span<const ObbNode> nodes() const { return nodes_; }
   /// The largest extent of the tree's root box [mm].
   double size() const;
-  /// The nodes of the tree about one axis.
-  const RadialBoundsList& about(std::size_t axis) const;
+  /// The bounds of the tree's nodes about an axis. @param axis index into axes()
+  const RadialBoundsList& bounds_about(std::size_t axis) const;
 
  private:
-  struct About {
+  struct BoundsAbout {
     std::once_flag once;
     RadialBoundsList nodes;
   };
@@ -74,10 +83,10 @@ class RevolutionSurface {
   Span<const ObbNode> nodes_;
   std::vector<RevolutionAxis> axes_;
   std::vector<ThreadAxis> threads_;
-  std::vector<std::uint32_t> order_;   ///< The tree's nodes, parents before their children.
-  std::vector<std::uint32_t> places_;  ///< As RadialBoundsList has it.
+  std::vector<std::uint32_t> order_;  ///< The tree's nodes, parents before their children.
+  std::vector<std::uint32_t> slots_;  ///< As RadialBoundsList has them.
   std::uint32_t large_count_ = 0;
-  std::unique_ptr<About[]> about_;
+  std::unique_ptr<BoundsAbout[]> bounds_about_;
 };
 
 }  // namespace dismantle

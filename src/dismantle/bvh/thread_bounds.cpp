@@ -22,9 +22,9 @@ float rounded_down(double x) {
   return -rounded_up(-x);
 }
 
-ThreadNode unknown() {
-  ThreadNode node;
-  node.most = node.end = kInfinity;
+ThreadBounds unknown() {
+  ThreadBounds node;
+  node.max_radius = node.end = kInfinity;
   node.begin = -kInfinity;
   std::fill(std::begin(node.low), std::end(node.low), -kInfinity);
   std::fill(std::begin(node.high), std::end(node.high), kInfinity);
@@ -42,25 +42,25 @@ class ThreadTriangle {
       along_[i] = frame.axis.along(triangle[i]);
       size = std::max(size, max_abs(triangle[i]));
     }
-    least_ = std::numeric_limits<double>::infinity();
+    min_radius_ = std::numeric_limits<double>::infinity();
     double turned = 0;
     for (int i = 0; i < 3; ++i) {
       const Vec3 p = across_[i], q = across_[(i + 1) % 3];
-      least_ = std::min(least_, AxisFrame::distance_of_segment(p, q));
+      min_radius_ = std::min(min_radius_, AxisFrame::distance_of_segment(p, q));
       turned += angle_between(p, q);
     }
     rounding_ = kRounding * size;
     // Around the axis, or too near it for angles to be told.
-    known_ = least_ > 1e3 * rounding_ && std::abs(turned) < 1;
+    known_ = min_radius_ > 1e3 * rounding_ && std::abs(turned) < 1;
     if (!known_) return;
-    rounding_ *= 1 + std::abs(frame.lead) / least_;
+    rounding_ *= 1 + std::abs(frame.lead) / min_radius_;
     const double first = frame.axis.angle(across_[0]);
     angle_[0] = 0;
     angle_[1] = angle_between(across_[0], across_[1]);
     angle_[2] = angle_between(across_[0], across_[2]);
     for (int i = 0; i < 3; ++i) {
       distance_[i] = length(across_[i]);
-      lift_[i] = along_[i] - frame.lead * (first + angle_[i]) / kTurn;
+      axial_[i] = along_[i] - frame.lead * (first + angle_[i]) / kTurn;
     }
     bend();
   }
@@ -68,23 +68,23 @@ class ThreadTriangle {
   /// Nothing is known of one around the axis, or nearly on it.
   bool known() const { return known_; }
 
-  ThreadNode node() const {
-    ThreadNode node = unknown();
-    node.least = rounded_down(least_ - rounding_);
-    node.most = rounded_up(*std::max_element(distance_, distance_ + 3) + rounding_);
+  ThreadBounds node() const {
+    ThreadBounds node = unknown();
+    node.min_radius = rounded_down(min_radius_ - rounding_);
+    node.max_radius = rounded_up(*std::max_element(distance_, distance_ + 3) + rounding_);
     node.begin = rounded_down(*std::min_element(along_, along_ + 3) - rounding_);
     node.end = rounded_up(*std::max_element(along_, along_ + 3) + rounding_);
     for (int k = 0; k < frame_->direction_count; ++k) {
       const ProfileDirection d = frame_->directions[k];
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (int i = 0; i < 3; ++i) {
-        const double x = d.radial * distance_[i] + d.lift * lift_[i];
+        const double x = d.radial * distance_[i] + d.axial * axial_[i];
         low = std::min(low, x);
         high = std::max(high, x);
       }
-      const double lift = std::abs(d.lift) * lift_bend_ + 2 * rounding_;
-      node.low[k] = rounded_down(low - std::max(0.0, d.radial) * distance_bend_ - lift);
-      node.high[k] = rounded_up(high + std::max(0.0, -d.radial) * distance_bend_ + lift);
+      const double axial = std::abs(d.axial) * axial_bend_ + 2 * rounding_;
+      node.low[k] = rounded_down(low - std::max(0.0, d.radial) * distance_bend_ - axial);
+      node.high[k] = rounded_up(high + std::max(0.0, -d.radial) * distance_bend_ + axial);
     }
     return node;
   }
@@ -110,29 +110,29 @@ class ThreadTriangle {
       max_out = std::max(max_out, outs[i]);
       max_around = std::max(max_around, arounds[i]);
     }
-    distance_bend_ = max_around / (6 * least_);
+    distance_bend_ = max_around / (6 * min_radius_);
     if (!(max_around > 0)) return;
     // 2 x y <= w x^2 + y^2 / w, with the w that is best for the longest steps.
     const double w = std::sqrt(max_around / std::max(max_out, 1e-12 * max_around));
-    double most = 0;
-    for (int i = 0; i < 3; ++i) most = std::max(most, w * outs[i] + arounds[i] / w);
-    lift_bend_ = std::abs(frame_->lead) / kTurn * most / (6 * least_ * least_);
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, w * outs[i] + arounds[i] / w);
+    axial_bend_ = std::abs(frame_->lead) / kTurn * largest / (6 * min_radius_ * min_radius_);
   }
 
   const ThreadFrame* frame_;
   Vec3 across_[3];
-  double along_[3], distance_[3] = {}, angle_[3] = {}, lift_[3] = {};
-  double least_ = 0, rounding_ = 0, distance_bend_ = 0, lift_bend_ = 0;
+  double along_[3], distance_[3] = {}, angle_[3] = {}, axial_[3] = {};
+  double min_radius_ = 0, rounding_ = 0, distance_bend_ = 0, axial_bend_ = 0;
   bool known_ = false;
 };
 
-bool bounded(const ThreadNode& node) {
+bool bounded(const ThreadBounds& node) {
   return node.high[0] < kInfinity;
 }
 
-void extend(ThreadNode& node, const ThreadNode& other, const ThreadFrame& frame) {
-  node.least = std::min(node.least, other.least);
-  node.most = std::max(node.most, other.most);
+void extend(ThreadBounds& node, const ThreadBounds& other, const ThreadFrame& frame) {
+  node.min_radius = std::min(node.min_radius, other.min_radius);
+  node.max_radius = std::max(node.max_radius, other.max_radius);
   node.begin = std::min(node.begin, other.begin);
   node.end = std::max(node.end, other.end);
   if (!bounded(node) || !bounded(other)) {
@@ -145,7 +145,7 @@ void extend(ThreadNode& node, const ThreadNode& other, const ThreadFrame& frame)
                      2;
   const double shift = frame.period * std::round(off / frame.period);
   for (int k = 0; k < frame.direction_count; ++k) {
-    const double shifted = shift * frame.directions[k].lift;
+    const double shifted = shift * frame.directions[k].axial;
     node.low[k] = std::min(node.low[k], rounded_down(static_cast<double>(other.low[k]) + shifted));
     node.high[k] = std::max(node.high[k], rounded_up(static_cast<double>(other.high[k]) + shifted));
   }
@@ -155,14 +155,14 @@ void extend(ThreadNode& node, const ThreadNode& other, const ThreadFrame& frame)
 
 void ThreadFrame::add_direction(ProfileDirection direction) {
   for (int k = 0; k < direction_count; ++k)
-    if (std::abs(directions[k].radial * direction.radial + directions[k].lift * direction.lift) >= kSameDirection)
+    if (std::abs(directions[k].radial * direction.radial + directions[k].axial * direction.axial) >= kSameDirection)
       return;
   if (direction_count < kMaxDirections) directions[direction_count++] = direction;
 }
 
-ThreadNodes::ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
-                         Span<const ObbNode> nodes)
-    : places_(nodes.size(), 0), nodes_(1, unknown()) {
+ThreadBoundsList::ThreadBoundsList(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
+                                   Span<const ObbNode> nodes)
+    : slots_(nodes.size(), 0), nodes_(1, unknown()) {
   std::vector<std::uint32_t> order, waiting{0};  // a node, then all under its first child, then under its second
   order.reserve(nodes.size());
   while (!waiting.empty()) {
@@ -172,7 +172,7 @@ ThreadNodes::ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Sp
       waiting.insert(waiting.end(), {node.child + 1, node.child});
   }
   struct Done {
-    ThreadNode node;
+    ThreadBounds node;
     std::uint32_t count = 1;
   };
   std::vector<Done> done;
@@ -189,7 +189,7 @@ ThreadNodes::ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Sp
       done.back().count += first.count;
     }
     if (done.back().count < kLargeNode) continue;
-    places_[*i] = static_cast<std::uint32_t>(nodes_.size());
+    slots_[*i] = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back(done.back().node);
   }
 }

@@ -9,47 +9,54 @@
 
 namespace dismantle {
 
-/// The coordinates in which threads about an axis are seen: the distance from it, and the lift, which repeats.
+/// The profile plane of the threads about an axis. Its coordinates are the distance from the axis and the axial offset,
+/// which is given up to whole periods.
 struct ThreadFrame {
+  /// Directions that are bounded, at most.
   static constexpr int kMaxDirections = 6;
 
-  AxisFrame axis;
-  double lead = 0;    ///< Along the axis a turn [mm]; not 0.
-  double period = 0;  ///< Lifts that differ by it are the same [mm]; above 0, and the lead is a multiple of it.
-  /// The directions in the plane of both along which nodes are bounded; the first is that of the lift.
-  int direction_count = 1;
-  ProfileDirection directions[kMaxDirections];
+  AxisFrame axis;                               ///< Its angles are those of the helices.
+  double lead = 0;                              ///< Advance along the axis per turn [mm]; not 0.
+  double period = 0;                            ///< Of the axial offset [mm]; above 0, the lead is a multiple of it.
+  int direction_count = 1;                      ///< Directions that nodes are bounded along.
+  ProfileDirection directions[kMaxDirections];  ///< The first is the axial one.
 
   /// Adds a direction if there is room, and none that is nearly the same.
   void add_direction(ProfileDirection direction);
 };
 
-/// Where the triangles of a tree's node are in a thread's frame; certain, despite float32.
-struct ThreadNode {
-  float least = 0, most = 0;  ///< Every point's distance from the axis is between these [mm].
-  float begin = 0, end = 0;   ///< And its place along the axis [mm].
-  /// And (distance, lift) along each direction, one whole number of periods added to all lifts of a triangle [mm];
-  /// without bounds where nothing is known.
-  float low[ThreadFrame::kMaxDirections], high[ThreadFrame::kMaxDirections];
+/// Bounds of the triangles of a tree's node in a thread's frame. Certain, despite float32.
+struct ThreadBounds {
+  float min_radius = 0;  ///< No point is nearer to the axis [mm].
+  float max_radius = 0;  ///< No point is further from the axis [mm].
+  float begin = 0;       ///< Lower bound of the position along the axis [mm].
+  float end = 0;         ///< Upper bound of the position along the axis [mm].
+  /// Lower bounds of (distance, axial offset) along each direction, with a whole number of periods added to the offsets
+  /// of each triangle [mm]; minus infinity if nothing is known.
+  float low[ThreadFrame::kMaxDirections];
+  float high[ThreadFrame::kMaxDirections];  ///< Upper bounds of the same; infinity if nothing is known [mm].
 };
 
-/// The nodes of a tree in one thread's frame. Of small nodes nothing is known.
-class ThreadNodes {
+/// The bounds of a tree's nodes in one thread's frame. Small nodes are unbounded.
+class ThreadBoundsList {
  public:
-  /// Nodes of at least so many faces are large.
+  /// Nodes of at least so many faces are large: only they are bounded.
   static constexpr std::uint32_t kLargeNode = 4;
 
-  /// @param nodes of the faces' tree; not empty
-  ThreadNodes(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces, Span<const ObbNode> nodes);
+  /// @param nodes of the tree of the faces; not empty
+  ThreadBoundsList(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
+                   Span<const ObbNode> nodes);
 
-  const ThreadNode& operator[](std::uint32_t node) const { return nodes_[places_[node]]; }
-  /// Asks for the memory that a node is found by, and a while later for its own.
-  void fetch_place(std::uint32_t node) const { __builtin_prefetch(&places_[node]); }
-  void fetch(std::uint32_t node) const { __builtin_prefetch(&nodes_[places_[node]]); }
+  /// The bounds of a node.
+  const ThreadBounds& operator[](std::uint32_t node) const { return nodes_[slots_[node]]; }
+  ///@{ Prefetch the memory of a node's bounds: first the slot that they are found by, some calls later the bounds.
+  void prefetch_slot(std::uint32_t node) const { __builtin_prefetch(&slots_[node]); }
+  void prefetch(std::uint32_t node) const { __builtin_prefetch(&nodes_[slots_[node]]); }
+  ///@}
 
  private:
-  std::vector<std::uint32_t> places_;  // of each node among the large ones; 0 for a small one
-  std::vector<ThreadNode> nodes_;      // the first stands for the small ones
+  std::vector<std::uint32_t> slots_;  // of each node, among the large ones; 0 for a small one
+  std::vector<ThreadBounds> nodes_;   // the first stands for the small ones
 };
 
 }  // namespace dismantle

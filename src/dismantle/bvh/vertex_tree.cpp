@@ -33,7 +33,7 @@ class Builder {
     for (auto v = begin; v != end; ++v) radius = std::max(radius, length(vertices_[*v] - center));
     radius += kLengthRounding * (4 * radius + max_abs(center) + max_abs(tree_.origin));
     sphere.radius = rounded_up(radius);
-    tree_.spheres[node.place] = sphere;
+    tree_.spheres[node.index] = sphere;
 
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     std::nth_element(begin, begin + node.count() / 2, end, [&](std::uint32_t a, std::uint32_t b) {
@@ -57,7 +57,7 @@ class Builder {
 
 VertexSphere VertexTree::sphere(const VertexNode& node, Span<const Vec3> vertices) const {
   if (node.leaf()) return {vertices[order[node.begin]], 0};
-  const Sphere& s = spheres[node.place];
+  const Sphere& s = spheres[node.index];
   return {origin + to_double(s.center), s.radius};
 }
 

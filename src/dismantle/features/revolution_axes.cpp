@@ -93,8 +93,8 @@ std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& 
   for (const double d : distances)
     if (std::abs(d - mean) > kOneDistance * mean) return std::nullopt;
   const Vec3 normal = normal_unscaled(triangle);
-  const double facing = dot(normal, away), least = kLeadsAway * length(normal) * length(away);
-  if (std::abs(facing) <= least) return std::nullopt;
+  const double facing = dot(normal, away), limit = kLeadsAway * length(normal) * length(away);
+  if (std::abs(facing) <= limit) return std::nullopt;
   return facing > 0 ? mean : -mean;
 }
 
@@ -132,13 +132,13 @@ std::vector<RevolutionAxis> revolution_axes(Span<const Vec3> vertices, Span<cons
   std::map<Cell, RevolutionAxis> cells;  // sums, weighted by the turn
   for (const NeighbouringFaces& pair : neighbouring_faces(faces)) {
     const RevolutionAxis axis = axis_of(vertices, faces, pair, middle);
-    const Vec3 place = axis.point - middle, d = axis.direction;
-    if (!(axis.turn > 0) || !(max_abs(place) <= diagonal)) continue;
+    const Vec3 offset = axis.point - middle, d = axis.direction;
+    if (!(axis.turn > 0) || !(max_abs(offset) <= diagonal)) continue;
     const double size = kSamePlace * diagonal;
     RevolutionAxis& sum =
         cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
-               cell_at(place.x, size), cell_at(place.y, size), cell_at(place.z, size)}];
-    sum.point += axis.turn * place;
+               cell_at(offset.x, size), cell_at(offset.y, size), cell_at(offset.z, size)}];
+    sum.point += axis.turn * offset;
     sum.direction += axis.turn * d;
     sum.turn += axis.turn;
   }
@@ -147,7 +147,7 @@ std::vector<RevolutionAxis> revolution_axes(Span<const Vec3> vertices, Span<cons
     if (sum.turn >= kQuarterTurn) axes.push_back({middle + sum.point / sum.turn, normalized(sum.direction), sum.turn});
   std::stable_sort(axes.begin(), axes.end(),
                    [](const RevolutionAxis& x, const RevolutionAxis& y) { return x.turn > y.turn; });
-  if (axes.size() > kMaxRoundAxes) axes.resize(kMaxRoundAxes);
+  if (axes.size() > kMaxRevolutionAxes) axes.resize(kMaxRevolutionAxes);
   return axes;
 }
 

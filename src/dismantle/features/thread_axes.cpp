@@ -52,22 +52,22 @@ struct Helices {
   double turn = 0;  ///< The sum of their angles [rad].
   double lead = 0;  ///< The same, each times its lead; in the end the mean lead.
   /// Where they are.
-  double begin = std::numeric_limits<double>::infinity(), end = -begin, least = begin, most = 0;
+  double begin = std::numeric_limits<double>::infinity(), end = -begin, min_radius = begin, max_radius = 0;
 
   void add(const Helices& other) {
     turn += other.turn;
     lead += other.lead;
     begin = std::min(begin, other.begin);
     end = std::max(end, other.end);
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
+    min_radius = std::min(min_radius, other.min_radius);
+    max_radius = std::max(max_radius, other.max_radius);
   }
   /// Whether a face may be of the thread that these are edges of.
   bool reach(const ProfileFace& face) const {
     const double play = std::abs(lead) / 4;
-    const AxisPlace& at = face.centroid;
-    return at.along >= begin - play && at.along <= end + play && at.distance >= least - play &&
-           at.distance <= most + play;
+    const AxisCoordinates& at = face.centroid;
+    return at.along >= begin - play && at.along <= end + play && at.distance >= min_radius - play &&
+           at.distance <= max_radius + play;
   }
 };
 
@@ -89,12 +89,12 @@ std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, 
       if (!(std::abs(angle) >= kMinAngle && std::abs(angle) <= kMaxAngle)) continue;
       const double lead = kTurn * rise / angle, size = std::abs(lead);
       if (!(size >= kMinLead * distance && size <= kMaxLead * distance)) continue;
-      const auto place = static_cast<std::int64_t>(std::floor(std::log(size) * cell_count));
+      const auto cell = static_cast<std::int64_t>(std::floor(std::log(size) * cell_count));
       const double turn = std::abs(angle) * static_cast<double>(stride);
       const double low = frame.along(vertices[v]), high = low + rise;
       all += turn;
-      cells[2 * place + (lead < 0 ? 1 : 0)].add({turn, turn * lead, std::min(low, high), std::max(low, high),
-                                                 std::min(distance, other), std::max(distance, other)});
+      cells[2 * cell + (lead < 0 ? 1 : 0)].add({turn, turn * lead, std::min(low, high), std::max(low, high),
+                                                std::min(distance, other), std::max(distance, other)});
     }
   std::vector<Helices> sums, found;
   for (const auto& [cell, votes] : cells) {
@@ -141,20 +141,20 @@ class Agreement {
     for (const ProfileFace& face : faces) {
       FacesOfDirection& d = directions[profile_direction(face.normal)];
       d.radial += face.area * face.normal.radial;
-      d.lift += face.area * face.normal.lift;
+      d.axial += face.area * face.normal.axial;
     }
     for (std::size_t i = 0; i < faces.size(); i += stride) {
       const ProfileFace& face = faces[i];
       const std::size_t direction = profile_direction(face.normal);
       const ProfileDirection normal = directions[direction].normal();
-      seen_.push_back({direction, normal.radial / normal.lift * face.centroid.distance + face.centroid.along,
+      seen_.push_back({direction, normal.radial / normal.axial * face.centroid.distance + face.centroid.along,
                        std::polar(face.area, -face.centroid.angle)});
     }
   }
 
   double area(double lead) const {
     std::array<std::complex<double>, kProfileDirections> sums{};
-    for (const Seen& s : seen_) sums[s.direction] += s.turned * std::polar(1.0, kTurn * s.place / lead);
+    for (const Seen& s : seen_) sums[s.direction] += s.turned * std::polar(1.0, kTurn * s.offset / lead);
     double area = 0;
     for (const std::complex<double>& sum : sums) area += std::abs(sum);
     return area;
@@ -163,7 +163,7 @@ class Agreement {
  private:
   struct Seen {
     std::size_t direction;
-    double place;                 // where its plane of the profile meets the axis, angle 0 [mm]
+    double offset;                // where its plane of the profile meets the axis, angle 0 [mm]
     std::complex<double> turned;  // its area, turned back by its angle
   };
   std::vector<Seen> seen_;
@@ -174,15 +174,15 @@ class Agreement {
 double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double turns) {
   const Agreement few(faces, kMaxScanned), many(faces, kMaxFitted);
   const double step = kLeadStep / std::max(1.0, turns);
-  double best = rough, most = 0;
+  double best = rough, largest = 0;
   for (double off = -kLeadRange; off <= kLeadRange; off += step) {
     const double found = few.area(rough * (1 + off));
-    if (found <= most) continue;
-    most = found;
+    if (found <= largest) continue;
+    largest = found;
     best = rough * (1 + off);
   }
   double low = best * (1 - step), high = best * (1 + step);
-  for (int round = 0; round < kCloser; ++round) {
+  for (int i = 0; i < kCloser; ++i) {
     const double x = low + (high - low) / 3, y = high - (high - low) / 3;
     if (many.area(x) < many.area(y)) {
       low = x;
@@ -203,8 +203,8 @@ std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const
   std::vector<ProfileFace> near;
   for (const Face& f : faces) {
     const ProfileFace face = profile_face(frame, Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
-    const AxisPlace& at = face.centroid;
-    if (may_be_flank(face) && at.along >= rough->begin && at.along <= rough->end && at.distance <= rough->most)
+    const AxisCoordinates& at = face.centroid;
+    if (may_be_flank(face) && at.along >= rough->begin && at.along <= rough->end && at.distance <= rough->max_radius)
       near.push_back(face);
   }
   const double lead = sharpest_lead(near, rough->lead, (rough->end - rough->begin) / std::abs(rough->lead));
@@ -229,8 +229,8 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
 
 bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
   const double lead = std::min(std::abs(x.lead), std::abs(y.lead));
-  return x.leaning() * y.leaning() < 0 && x.starts == y.starts && std::abs(x.lead - y.lead) <= kMatingLead * lead &&
-         length(cross(x.direction, y.direction)) <= kMatingSine &&
+  return x.radial_sum() * y.radial_sum() < 0 && x.starts == y.starts &&
+         std::abs(x.lead - y.lead) <= kMatingLead * lead && length(cross(x.direction, y.direction)) <= kMatingSine &&
          length(AxisFrame(y.point, y.direction).across(x.point)) <= kMatingShare * lead;
 }
 

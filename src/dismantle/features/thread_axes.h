@@ -8,48 +8,53 @@
 
 namespace dismantle {
 
-/// A direction across a thread, in the plane of the distance from its axis and the lift.
+/// A unit direction in the profile plane of a thread, whose coordinates are (distance from the axis, axial offset).
 struct ProfileDirection {
-  double radial = 0, lift = 1;  ///< Of unit length.
+  double radial = 0;  ///< Component away from the axis.
+  double axial = 1;   ///< Component along the axis.
 };
 
-/// A screw thread of a surface, outer or inner. About its axis a point has a distance, an angle and a place along; its
-/// lift is that place less the lead for each turn of the angle. Turned along the thread it keeps its distance and its
-/// lift, so that both are all that matters of a surface: its profile.
+/// A screw thread of a surface, outer or inner. The axial offset of a point is its position along the axis less the
+/// lead times its angle in turns. The screw motion of the thread changes neither a point's distance from the axis nor
+/// its axial offset: in these two coordinates the thread is its profile.
 struct ThreadAxis {
-  Vec3 point;                  ///< On the axis [mm].
-  Vec3 direction;              ///< Unit.
-  double lead = 0;             ///< Along `direction` a turn: above 0 for a right-handed thread [mm].
-  int starts = 1;              ///< Equal ridges side by side: the profile repeats after |lead| / starts.
-  double begin = 0, end = 0;   ///< Where the flanks are along the axis, from `point` [mm].
-  double least = 0, most = 0;  ///< Their distances from the axis [mm].
+  Vec3 point;             ///< On the axis [mm].
+  Vec3 direction;         ///< Unit.
+  double lead = 0;        ///< Advance along `direction` per turn: above 0 for a right-handed thread [mm].
+  int starts = 1;         ///< Number of ridges side by side: the profile repeats after |lead| / starts.
+  double begin = 0;       ///< Start of the flanks along the axis, from `point` [mm].
+  double end = 0;         ///< End of the flanks along the axis, from `point` [mm].
+  double min_radius = 0;  ///< Smallest distance of the flanks from the axis [mm].
+  double max_radius = 0;  ///< Largest distance of the flanks from the axis [mm].
+
+  /// A flank as a line in the profile plane.
   struct Flank {
     ProfileDirection normal;  ///< Outward.
-    double place = 0;         ///< Of (distance, lift) along the normal; as often as the profile repeats [mm].
+    double offset = 0;        ///< Of the line along the normal; one of those that the profile repeats [mm].
   };
-  std::vector<Flank> flanks;
+  std::vector<Flank> flanks;  ///< Of one period of the profile.
 
-  /// Above 0 where the flanks' normals lead away from the axis, as those of an outer thread do; below for an inner one.
-  double leaning() const {
+  /// The sum of the radial components of the flanks' normals: above 0 for an outer thread, below 0 for an inner one.
+  double radial_sum() const {
     double radial = 0;
     for (const Flank& flank : flanks) radial += flank.normal.radial;
     return radial;
   }
 };
 
-/// The threads of a mesh about some of its axes, at most one about each. Found by the edges along helices, as
-/// tessellations of modelled threads have them, and by flanks that keep to their place in the profile all around. Where
-/// there are none, the one whose surface goes along itself by a screw motion (fit_thread), if most of what is curved
-/// does: meshes that were cut anew have no such edges. What is given is only where to look: one may be missing.
+/// The threads of a mesh about some of its axes, at most one about each. They are found by edges along helices, which
+/// tessellations of modelled threads have, and by flanks that keep to one line of the profile all around. If there are
+/// none, the surface is tested for being invariant under a screw motion (fit_thread), which also finds threads in
+/// remeshed surfaces. A heuristic: threads may be missing; they only tell where to look.
 std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> faces, Span<const RevolutionAxis> axes);
 
-/// Whether two threads are those of a screw and its nut: one outer, one inner, of nearly the same lead, as many starts
-/// and nearly the same axis.
+/// True if two threads are those of a screw and its nut: one outer, one inner, of nearly the same lead, the same number
+/// of starts and nearly the same axis.
 bool threads_mate(const ThreadAxis& x, const ThreadAxis& y);
 
-/// Which part of a thread's profile each face belongs to: a number for each flank, crest and root of each thread; 0 for
-/// the rest. Faces of one number lie in a small piece of a profile, wherever they are around the axis. Shape
-/// [face_count]; empty where there are no threads.
+/// The part of a thread's profile that each face belongs to: a number for each flank, for the crests and for the roots
+/// of each thread; 0 for all other faces. Faces of one number are close together in the profile, wherever they are
+/// around the axis. Shape [face_count]; empty if there are no threads.
 std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Face> faces,
                                        Span<const ThreadAxis> threads);
 

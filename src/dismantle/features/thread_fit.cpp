@@ -118,15 +118,15 @@ bool is_thread(const std::vector<Centred>& samples, const Twist& twist, double r
 void add_extent(ThreadAxis& thread, Span<const SurfaceSample> samples, const std::vector<Centred>& centred,
                 const Twist& twist) {
   const AxisFrame frame(thread.point, thread.direction);
-  thread.begin = thread.least = std::numeric_limits<double>::infinity();
+  thread.begin = thread.min_radius = std::numeric_limits<double>::infinity();
   thread.end = -thread.begin;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (off(centred[i], twist) > kOnThread) continue;
     const double along = frame.along(samples[i].point), distance = length(frame.across(samples[i].point));
     thread.begin = std::min(thread.begin, along);
     thread.end = std::max(thread.end, along);
-    thread.least = std::min(thread.least, distance);
-    thread.most = std::max(thread.most, distance);
+    thread.min_radius = std::min(thread.min_radius, distance);
+    thread.max_radius = std::max(thread.max_radius, distance);
   }
 }
 
@@ -156,9 +156,9 @@ std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const s
   return samples;
 }
 
-std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t most) {
+std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t max_count) {
   const std::vector<NeighbouringFaces> pairs = neighbouring_faces(faces);
-  const std::size_t stride = 1 + pairs.size() / most;
+  const std::size_t stride = 1 + pairs.size() / max_count;
   std::vector<SurfaceSample> samples;
   for (std::size_t i = 0; i < pairs.size(); i += stride)
     if (const auto sample = sample_of(vertices, faces, pairs[i], kFlat)) samples.push_back(*sample);

@@ -10,27 +10,27 @@
 
 namespace dismantle {
 
-/// A piece of a surface.
+/// A point of a surface with the normal and the area that it stands for.
 struct SurfaceSample {
   Vec3 point;       ///< [mm]
   Vec3 normal;      ///< Unit.
   double area = 0;  ///< [mm^2]
 };
 
-/// The smooth parts of a mesh, at the edges of two faces that both are of interest: a face by itself leans to one side
-/// of where it is, two next to each other do not.
-/// @param of_interest shape [face_count]
+/// Samples the smooth parts of a mesh at the edges between two faces of interest. The mean normal of two neighbours is
+/// near the smooth surface's, that of a single face is not.
+/// @param of_interest not 0 for the faces to sample; shape [face_count]
 std::vector<SurfaceSample> smooth_samples(const TriangleMesh& mesh, Span<const std::uint8_t> of_interest);
 
-/// The smooth parts of a mesh that are curved, at the edges between their faces; of more than `most` an even choice.
-std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t most);
+/// Samples the smooth and curved parts of a mesh at the edges between their faces, evenly spaced in the order of edges
+/// so that there are at most about `max_count`.
+std::vector<SurfaceSample> curved_samples(Span<const Vec3> vertices, Span<const Face> faces, std::size_t max_count);
 
-/// The thread that these pieces of flanks are of, if they are of one: axis, lead and where they are, but no profile,
-/// and one start. Whatever else is among them (seats, ends, chamfers) may be as long as it is less. It needs no edges
-/// along helices, as thread_axes does, so that meshes that were cut anew have it, too; but only flanks, whatever turns
-/// in a thread touches. A surface goes along itself by a screw motion where no normal has a part of its velocity; that
-/// is linear in the motion (Pottmann, Randrup 1998: rotational and helical surface approximation for reverse
-/// engineering). Nothing where a plain turn or shift does it as well.
+/// The thread that most of the samples lie on: axis, lead and extent, but no flanks, and one start. Other surfaces
+/// among the samples (seats, ends, chamfers) do no harm if they are fewer. It needs no edges along helices, as
+/// thread_axes does, so it also works on remeshed surfaces. The twist whose velocities along the sampled normals are
+/// smallest is a linear problem (Pottmann, Randrup 1998: rotational and helical surface approximation for reverse
+/// engineering). Nothing if a plain rotation or translation fits as well.
 std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples);
 
 }  // namespace dismantle

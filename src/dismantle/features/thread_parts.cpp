@@ -20,10 +20,10 @@ constexpr double kOfBand = 0.25;
 /// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of
 /// the others.
 double between_crest_and_root(const std::vector<double>& distances) {
-  const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
-  if (least == distances.end()) return 0;
-  double low = *least, high = *most;
-  for (int round = 0; round < 4; ++round) {
+  const auto [nearest, furthest] = std::minmax_element(distances.begin(), distances.end());
+  if (nearest == distances.end()) return 0;
+  double low = *nearest, high = *furthest;
+  for (int i = 0; i < 4; ++i) {
     const double middle = (low + high) / 2;
     double sums[2] = {0, 0}, counts[2] = {0, 0};
     for (const double d : distances) {
@@ -40,18 +40,18 @@ double between_crest_and_root(const std::vector<double>& distances) {
 /// 0 for none.
 std::size_t part_of(const ThreadAxis& thread, const ProfileFace& face) {
   const double period = std::abs(thread.lead) / thread.starts;
-  const double play = (thread.most - thread.least) / 4;
-  const AxisPlace& at = face.centroid;
+  const double play = (thread.max_radius - thread.min_radius) / 4;
+  const AxisCoordinates& at = face.centroid;
   if (at.along < thread.begin - period || at.along > thread.end + period) return 0;
-  if (at.distance < thread.least - play || at.distance > thread.most + play) return 0;
+  if (at.distance < thread.min_radius - play || at.distance > thread.max_radius + play) return 0;
   for (std::size_t i = 0; i < thread.flanks.size(); ++i) {
     const ThreadAxis::Flank& flank = thread.flanks[i];
-    if (flank.normal.radial * face.normal.radial + flank.normal.lift * face.normal.lift < kOfFlank) continue;
+    if (flank.normal.radial * face.normal.radial + flank.normal.axial * face.normal.axial < kOfFlank) continue;
     if (on_flank(flank, face, thread.lead, period)) return 1 + i;
   }
   // Crests and roots face the way that both flanks lean to; those of a square thread may face either.
-  const double radial = face.normal.radial, leaning = thread.leaning();
-  return std::abs(radial) < kOfFlank || radial * leaning < 0 ? 0 : thread.flanks.size() + 1;
+  const double radial = face.normal.radial, sum = thread.radial_sum();
+  return std::abs(radial) < kOfFlank || radial * sum < 0 ? 0 : thread.flanks.size() + 1;
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Fac
     const std::size_t count = thread.flanks.size() + 2;
     if (first + count > std::numeric_limits<std::uint8_t>::max()) break;
     const AxisFrame frame(thread.point, thread.direction);
-    std::vector<std::pair<std::size_t, ProfileFace>> round;  // faces of crests and roots
+    std::vector<std::pair<std::size_t, ProfileFace>> bands;  // faces of crests and roots
     std::vector<double> distances;
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (parts[f] != 0) continue;
@@ -75,21 +75,21 @@ std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Fac
           profile_face(frame, Triangle{{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}});
       const std::size_t part = part_of(thread, seen);
       if (part > thread.flanks.size()) {
-        round.emplace_back(f, seen);
+        bands.emplace_back(f, seen);
         distances.push_back(seen.centroid.distance);
       } else if (part > 0) {
         parts[f] = static_cast<std::uint8_t>(first + part);
       }
     }
     const double middle = between_crest_and_root(distances), period = std::abs(thread.lead) / thread.starts;
-    std::complex<double> lifts[2];
-    for (const auto& [f, face] : round)
-      lifts[face.centroid.distance >= middle] +=
-          std::polar(face.area, kTurn * face.centroid.lift(thread.lead) / period);
-    for (const auto& [f, face] : round) {
+    std::complex<double> phase_sums[2];
+    for (const auto& [f, face] : bands)
+      phase_sums[face.centroid.distance >= middle] +=
+          std::polar(face.area, kTurn * face.centroid.axial_offset(thread.lead) / period);
+    for (const auto& [f, face] : bands) {
       const bool outer = face.centroid.distance >= middle;
-      const auto in_band = [&](const AxisPlace& corner) {
-        const double off = corner.lift(thread.lead) / period - std::arg(lifts[outer]) / kTurn;
+      const auto in_band = [&](const AxisCoordinates& corner) {
+        const double off = corner.axial_offset(thread.lead) / period - std::arg(phase_sums[outer]) / kTurn;
         return std::abs(off - std::round(off)) <= kOfBand;
       };
       // What goes on as a plain cylinder is none.

@@ -15,7 +15,7 @@ constexpr int kMaxOfFlank = 6;
 /// What has less than this share of the area of the largest flank is none.
 constexpr double kMinOfLargest = 0.1;
 /// The least share of the normal along the axis that a flank has.
-constexpr double kMinLift = 0.15;
+constexpr double kMinAxial = 0.15;
 /// How well the faces of a flank agree about its place: 1 for all at one, 0 for all over the profile.
 constexpr double kMinAgreement = 0.75;
 /// How little they agree about the angle around the axis.
@@ -28,26 +28,26 @@ constexpr int kMaxStarts = 4;
 /// Another lead or number of starts is taken where flanks have so many times the area with it.
 constexpr double kMuchMore = 1.5;
 
-AxisPlace place_of(const AxisFrame& frame, Vec3 p) {
+AxisCoordinates place_of(const AxisFrame& frame, Vec3 p) {
   const Vec3 across = frame.across(p);
   return {length(across), frame.angle(across), frame.along(p)};
 }
 
 using Directions = std::array<FacesOfDirection, kProfileDirections>;
 
-double along(ProfileDirection normal, const AxisPlace& at, double lead) {
-  return normal.radial * at.distance + normal.lift * at.lift(lead);
+double along(ProfileDirection normal, const AxisCoordinates& at, double lead) {
+  return normal.radial * at.distance + normal.axial * at.axial_offset(lead);
 }
 
 /// How far the place is off the flank, in profiles: between minus and plus a half.
-double profiles_off(const ThreadAxis::Flank& flank, const AxisPlace& at, double lead, double period) {
-  const double off = (along(flank.normal, at, lead) - flank.place) / (flank.normal.lift * period);
+double profiles_off(const ThreadAxis::Flank& flank, const AxisCoordinates& at, double lead, double period) {
+  const double off = (along(flank.normal, at, lead) - flank.offset) / (flank.normal.axial * period);
   return off - std::round(off);
 }
 
 /// The turn that a place along a normal is in the profile.
-std::complex<double> phase(ProfileDirection normal, double place, double period) {
-  return std::polar(1.0, kTurn * place / (normal.lift * period));
+std::complex<double> phase(ProfileDirection normal, double offset, double period) {
+  return std::polar(1.0, kTurn * offset / (normal.axial * period));
 }
 
 /// The runs of directions in which the faces agree about their place.
@@ -57,11 +57,11 @@ std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   for (const FacesOfDirection& d : directions) all += d.area;
   for (std::size_t i = 0; i < kProfileDirections; ++i) {
     const FacesOfDirection& d = directions[i];
-    const bool agrees = d.area > 1e-3 * all && std::abs(d.place) >= kMinAgreement * d.area &&
-                        std::abs(d.angle) <= kMaxOneSided * d.area;
+    const bool agrees = d.area > 1e-3 * all && std::abs(d.phase_sum) >= kMinAgreement * d.area &&
+                        std::abs(d.angle_sum) <= kMaxOneSided * d.area;
     if (!agrees) continue;
     const bool goes_on = !runs.empty() && runs.back().back() + 1 == i && runs.back().size() < kMaxOfFlank &&
-                         directions[i - 1].lift * d.lift > 0;
+                         directions[i - 1].axial * d.axial > 0;
     if (goes_on) {
       runs.back().push_back(i);
     } else {
@@ -73,9 +73,9 @@ std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
     for (const std::size_t i : run) sum += directions[i].area;
     return sum;
   };
-  double most = 0;
-  for (const std::vector<std::size_t>& run : runs) most = std::max(most, area(run));
-  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kMinOfLargest * most; });
+  double largest = 0;
+  for (const std::vector<std::size_t>& run : runs) largest = std::max(largest, area(run));
+  std::erase_if(runs, [&](const std::vector<std::size_t>& run) { return area(run) < kMinOfLargest * largest; });
   return runs;
 }
 
@@ -86,11 +86,11 @@ ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const
   double sum_off = 0, sum_far = 0, off_off = 0, far_far = 0, off_far = 0, count = 0;
   for (const ProfileFace* face : faces) {
     if (std::abs(profiles_off(rough, face->centroid, lead, period)) > kNearPlace) continue;
-    for (const AxisPlace& at : face->corner) {
-      const double off = profiles_off(rough, at, lead, period) * rough.normal.lift * period;
+    for (const AxisCoordinates& at : face->corner) {
+      const double off = profiles_off(rough, at, lead, period) * rough.normal.axial * period;
       // On the line it is where its lift is: off = radial * distance + lift * (lift - that of the period) - place.
-      const double lift = (off + rough.place - rough.normal.radial * at.distance) / rough.normal.lift;
-      const double far = rough.normal.lift * at.distance - rough.normal.radial * lift;
+      const double axial = (off + rough.offset - rough.normal.radial * at.distance) / rough.normal.axial;
+      const double far = rough.normal.axial * at.distance - rough.normal.radial * axial;
       sum_off += off;
       sum_far += far;
       off_off += off * off;
@@ -107,8 +107,8 @@ ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const
   const double cosine = std::cos(tilt), sine = std::sin(tilt);
   const ProfileDirection n = rough.normal;
   ThreadAxis::Flank flank;
-  flank.normal = {cosine * n.radial - sine * n.lift, cosine * n.lift + sine * n.radial};
-  flank.place = cosine * (rough.place + mean_off) - sine * mean_far;
+  flank.normal = {cosine * n.radial - sine * n.axial, cosine * n.axial + sine * n.radial};
+  flank.offset = cosine * (rough.offset + mean_off) - sine * mean_far;
   return flank;
 }
 
@@ -120,12 +120,12 @@ Directions by_direction(const std::vector<ProfileFace>& faces, double lead, doub
     d.faces.push_back(&face);
     d.area += face.area;
     d.radial += face.area * face.normal.radial;
-    d.lift += face.area * face.normal.lift;
+    d.axial += face.area * face.normal.axial;
   }
   for (FacesOfDirection& d : directions)
     for (const ProfileFace* face : d.faces) {
-      d.place += face->area * phase(d.normal(), along(d.normal(), face->centroid, lead), period);
-      d.angle += std::polar(face->area, face->centroid.angle);
+      d.phase_sum += face->area * phase(d.normal(), along(d.normal(), face->centroid, lead), period);
+      d.angle_sum += std::polar(face->area, face->centroid.angle);
     }
   return directions;
 }
@@ -135,9 +135,9 @@ FacesOfDirection sum_of(const Directions& directions, const std::vector<std::siz
   FacesOfDirection sum;
   for (const std::size_t i : run) {
     const FacesOfDirection& d = directions[i];
-    sum.area += std::abs(d.place);
+    sum.area += std::abs(d.phase_sum);
     sum.radial += d.radial;
-    sum.lift += d.lift;
+    sum.axial += d.axial;
     sum.faces.insert(sum.faces.end(), d.faces.begin(), d.faces.end());
   }
   return sum;
@@ -146,10 +146,10 @@ FacesOfDirection sum_of(const Directions& directions, const std::vector<std::siz
 /// The flank that the faces of one direction are of.
 ThreadAxis::Flank flank_of(const FacesOfDirection& d, double lead, double period) {
   ThreadAxis::Flank flank{d.normal(), 0};
-  std::complex<double> place;
+  std::complex<double> sum;
   for (const ProfileFace* face : d.faces)
-    place += face->area * phase(flank.normal, along(flank.normal, face->centroid, lead), period);
-  flank.place = std::arg(place) / kTurn * flank.normal.lift * period;
+    sum += face->area * phase(flank.normal, along(flank.normal, face->centroid, lead), period);
+  flank.offset = std::arg(sum) / kTurn * flank.normal.axial * period;
   return fitted(flank, d.faces, lead, period);
 }
 
@@ -158,11 +158,11 @@ void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vecto
             double period) {
   for (const ProfileFace* face : faces) {
     if (!on_flank(flank, *face, thread.lead, period)) continue;
-    for (const AxisPlace& corner : face->corner) {
+    for (const AxisCoordinates& corner : face->corner) {
       thread.begin = std::min(thread.begin, corner.along);
       thread.end = std::max(thread.end, corner.along);
-      thread.least = std::min(thread.least, corner.distance);
-      thread.most = std::max(thread.most, corner.distance);
+      thread.min_radius = std::min(thread.min_radius, corner.distance);
+      thread.max_radius = std::max(thread.max_radius, corner.distance);
     }
   }
 }
@@ -178,7 +178,7 @@ std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, c
   thread.direction = axis.direction;
   thread.lead = lead;
   thread.starts = starts;
-  thread.begin = thread.least = std::numeric_limits<double>::infinity();
+  thread.begin = thread.min_radius = std::numeric_limits<double>::infinity();
   thread.end = -thread.begin;
   bool leads_on = false, leads_back = false;
   for (const std::vector<std::size_t>& run : agreeing(directions)) {
@@ -187,9 +187,9 @@ std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, c
     extend(thread, flank, sum.faces, period);
     thread.flanks.push_back(flank);
     found.area += sum.area;
-    (flank.normal.lift > 0 ? leads_on : leads_back) = true;
+    (flank.normal.axial > 0 ? leads_on : leads_back) = true;
   }
-  if (!leads_on || !leads_back || thread.least > thread.most) return std::nullopt;
+  if (!leads_on || !leads_back || thread.min_radius > thread.max_radius) return std::nullopt;
   return found;
 }
 
@@ -203,24 +203,24 @@ ProfileFace profile_face(const AxisFrame& frame, const Triangle& t) {
   face.area = length(normal) / 2;
   if (!(face.area > 0) || !(face.centroid.distance > 0)) return face;
   const double radial = dot(normal, frame.across(centroid)) / face.centroid.distance;
-  const double lift = dot(normal, frame.direction);
-  const double size = std::hypot(radial, lift);
-  face.normal = size > face.area ? ProfileDirection{radial / size, lift / size} : ProfileDirection{0, 0};
+  const double axial = dot(normal, frame.direction);
+  const double size = std::hypot(radial, axial);
+  face.normal = size > face.area ? ProfileDirection{radial / size, axial / size} : ProfileDirection{0, 0};
   return face;
 }
 
 bool may_be_flank(const ProfileFace& face) {
-  return std::abs(face.normal.lift) >= kMinLift;
+  return std::abs(face.normal.axial) >= kMinAxial;
 }
 
 bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period) {
-  return std::all_of(std::begin(face.corner), std::end(face.corner), [&](const AxisPlace& corner) {
+  return std::all_of(std::begin(face.corner), std::end(face.corner), [&](const AxisCoordinates& corner) {
     return std::abs(profiles_off(flank, corner, lead, period)) <= kOfPlace;
   });
 }
 
 std::size_t profile_direction(ProfileDirection normal) {
-  const double turned = std::atan2(normal.lift, normal.radial) / kTurn + 0.5;
+  const double turned = std::atan2(normal.axial, normal.radial) / kTurn + 0.5;
   return std::min<std::size_t>(kProfileDirections - 1, static_cast<std::size_t>(turned * kProfileDirections));
 }
 

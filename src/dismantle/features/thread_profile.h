@@ -13,55 +13,67 @@
 #include <optional>
 #include <vector>
 
-/// How a thread's faces lie in its profile, the plane of the distance from the axis and the lift: what finding threads
-/// and sorting their faces share.
+/// Faces in the profile plane of a thread, whose coordinates are (distance from the axis, axial offset).
 namespace dismantle {
 
-/// A place about an axis.
-struct AxisPlace {
-  double distance = 0, angle = 0, along = 0;
-  double lift(double lead) const { return along - lead * angle / kTurn; }
+/// Cylindrical coordinates about an axis.
+struct AxisCoordinates {
+  double distance = 0;  ///< From the axis [mm].
+  double angle = 0;     ///< In (-pi, pi].
+  double along = 0;     ///< Position along the axis [mm].
+
+  /// The position along the axis less the advance of a helix of this lead over the angle [mm].
+  double axial_offset(double lead) const { return along - lead * angle / kTurn; }
 };
 
-/// A face about an axis.
+/// A face in coordinates about an axis.
 struct ProfileFace {
-  AxisPlace centroid, corner[3];
-  ProfileDirection normal;  ///< Unit, or zero for one that faces around the axis.
-  double area = 0;
+  AxisCoordinates centroid;   ///< Mean of the corners.
+  AxisCoordinates corner[3];  ///< In the order of the face.
+  ProfileDirection normal;    ///< Unit, or zero for a face whose normal is nearly tangential.
+  double area = 0;            ///< [mm^2]
 };
 
+/// A triangle in coordinates about an axis.
 ProfileFace profile_face(const AxisFrame& frame, const Triangle& t);
 
-/// Whether the face is neither a crest's or a root's, nor beside the thread.
+/// True if the face's normal has enough of the axis' direction for a flank: not that of a crest or a root.
 bool may_be_flank(const ProfileFace& face);
 
-/// Whether all corners of the face are on the flank, nearly. @param period of the profile [mm]
+/// True if all corners of the face are nearly on the flank, in any period. @param period of the profile [mm]
 bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period);
 
-/// Outward normals in the profile are sorted into so many directions.
+/// Number of directions that outward normals in the profile plane are sorted into.
 inline constexpr int kProfileDirections = 72;
-/// The direction of a normal, from 0 on.
+/// The direction of a normal, in [0, kProfileDirections).
 std::size_t profile_direction(ProfileDirection normal);
 
-/// Faces whose outward normals in the profile are alike.
+/// Faces whose outward normals in the profile plane are alike, with sums over them weighted by area.
 struct FacesOfDirection {
-  double area = 0, radial = 0, lift = 0;  // sums
-  std::complex<double> place, angle;      // where they are in the profile and around the axis
-  std::vector<const ProfileFace*> faces;
+  double area = 0;                        ///< [mm^2]
+  double radial = 0;                      ///< Sum of the normals' radial components [mm^2].
+  double axial = 0;                       ///< Sum of the normals' axial components [mm^2].
+  std::complex<double> phase_sum;         ///< Of unit complex numbers for the faces' offsets, a turn a period [mm^2].
+  std::complex<double> angle_sum;         ///< Of unit complex numbers for the faces' angles about the axis [mm^2].
+  std::vector<const ProfileFace*> faces;  ///< Owned by the caller.
+
+  /// The mean normal.
   ProfileDirection normal() const {
-    const double size = std::hypot(radial, lift);
-    return {radial / size, lift / size};
+    const double size = std::hypot(radial, axial);
+    return {radial / size, axial / size};
   }
 };
 
-/// The thread that the faces have with some lead; the more of their area agrees about it the better.
+/// A thread that faces have with some lead.
 struct ThreadProfile {
-  ThreadAxis thread;
-  double area = 0;
+  ThreadAxis thread;  ///< With its flanks.
+  double area = 0;    ///< Area of the faces that agree about the flanks' offsets: the more, the better [mm^2].
 };
 
-/// Takes the thread that faces, which may be flanks, have about an axis with some lead, if it leads on and back, for
-/// the best one so far where far more area agrees about it; with every number of starts. @param lead signed [mm]
+/// Replaces the best thread so far by the one that the faces have about an axis with this lead, for any number of
+/// starts, if it has flanks of both directions and much more area agrees about it.
+/// @param faces that may be flanks
+/// @param lead signed [mm]
 void improve_profile(std::optional<ThreadProfile>& best, const std::vector<ProfileFace>& faces,
                      const RevolutionAxis& axis, double lead);
 

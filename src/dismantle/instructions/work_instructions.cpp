@@ -214,7 +214,7 @@ class Writer {
     const std::vector<RevolutionAxis> axes = revolution_axes(c.mesh->vertices, c.mesh->faces);
     for (const ThreadAxis& thread : thread_axes(c.mesh->vertices, c.mesh->faces, axes)) {
       if (!lies_along(turned * thread.direction, legs.front())) continue;
-      std::string text = "Thread of " + number_text(2 * thread.most) + " mm, " + number_text(std::abs(thread.lead)) +
+      std::string text = "Thread of " + number_text(2 * thread.max_radius) + " mm, " + number_text(std::abs(thread.lead)) +
                          " mm a turn, " + (thread.lead > 0 ? "right" : "left") + "-handed.";
       if (std::none_of(legs.begin(), legs.end(), is_screwing))
         text += is_forward_ ? " The way shown does not turn: unscrew it first if it is engaged."

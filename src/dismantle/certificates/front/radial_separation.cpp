@@ -12,18 +12,18 @@ namespace dismantle {
 
 namespace {
 
-/// So many pairs of axes are looked at in a sweep, those that are nearest as it begins.
+/// A sweep uses at most this many pairs of axes, the nearest at its start.
 constexpr std::size_t kMaxPairs = 3;
 /// Axes are near each other where the sine of the angle between them is at most this,
 constexpr double kMaxSine = 0.1;
-/// and one's point is off the other by no more than this share of the smaller component's size.
+/// and the distance of one's point from the other is at most this share of the smaller component's size.
 constexpr double kMaxOff = 0.05;
-/// What places along axes may be off by [mm].
-constexpr double kPlaceRounding = 1e-6;
-/// What is further apart than this share of the outer surface's radius is said to be so far apart.
+/// Bound of the rounding of positions along axes [mm].
+constexpr double kPositionRounding = 1e-6;
+/// Gaps are bounded above by this share of the outer surface's radius.
 constexpr double kPastEnds = 0.1;
 
-/// An axis in a frame.
+/// An axis in some frame.
 struct Line {
   Vec3 point, direction;
 };
@@ -42,23 +42,23 @@ Vec3 across(Vec3 v, Vec3 direction) {
 
 std::pair<double, double> RadialSweep::Off::part_beside(const RadialBounds& inner, const RadialBounds& outer,
                                                         double past) const {
-  const double aside = max_aside * static_cast<double>(inner.most) + kPlaceRounding + past;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  const double aside = max_aside * static_cast<double>(inner.max_radius) + kPositionRounding + past;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int end = 0; end < 2; ++end)
     for (const double border : {static_cast<double>(outer.begin) - aside, static_cast<double>(outer.end) + aside}) {
-      const double place = (border - beside[end]) / ahead[end];
-      least = std::min(least, place);
-      most = std::max(most, place);
+      const double position = (border - beside[end]) / ahead[end];
+      low = std::min(low, position);
+      high = std::max(high, position);
     }
   const double begin = inner.begin, end = inner.end;
-  return {std::clamp(least, begin, end), std::clamp(most, begin, end)};
+  return {std::clamp(low, begin, end), std::clamp(high, begin, end)};
 }
 
-double RadialSweep::Off::most(const RadialBounds& inner, const RadialBounds& outer, double room) const {
-  const double least = toward(inner, outer, 0);
-  if (room <= least) return least;
-  // They are apart, but what is past the ends may be nearer.
-  const double past = kPastEnds * static_cast<double>(outer.least);
+double RadialSweep::Off::upper_bound(const RadialBounds& inner, const RadialBounds& outer, double room) const {
+  const double beside_each_other = toward(inner, outer, 0);
+  if (room <= beside_each_other) return beside_each_other;
+  // They are apart, but past the ends they may be nearer.
+  const double past = kPastEnds * static_cast<double>(outer.min_radius);
   return std::max(room - past, std::min(room, toward(inner, outer, past)));
 }
 
@@ -66,23 +66,23 @@ double RadialSweep::Off::toward(const RadialBounds& inner, const RadialBounds& o
   const Vec3 middle = to_double(outer.toward);
   const double cosine = outer.cosine, sine = outer.sine;
   const auto [begin, stop] = part_beside(inner, outer, past);
-  double most = -std::numeric_limits<double>::infinity();  // convex along the axis
+  double largest = -std::numeric_limits<double>::infinity();  // convex along the axis
   for (int end = 0; end < 2; ++end)
-    for (const double place : {begin, stop}) {
-      const Vec3 off = at[end] + place * along[end];
+    for (const double position : {begin, stop}) {
+      const Vec3 off = at[end] + position * along[end];
       const double size = length(off), along_middle = dot(off, middle);
-      // The least angle between it and a direction of the sector is what is left of that to its middle.
+      // Its smallest angle to a direction of the sector is its angle to the middle less half the sector.
       const double across_it = std::sqrt(std::max(0.0, size * size - along_middle * along_middle));
-      most = std::max(most, along_middle >= cosine * size ? size : along_middle * cosine + across_it * sine);
+      largest = std::max(largest, along_middle >= cosine * size ? size : along_middle * cosine + across_it * sine);
     }
-  return most;
+  return largest;
 }
 
-std::optional<CylinderFit> RadialSweep::fit(std::uint32_t moving, std::uint32_t fixed, double spread) const {
+std::optional<CylinderFit> RadialSweep::fit(std::uint32_t moving, std::uint32_t fixed, double max_deviation) const {
   const RadialBounds &m = (*moving_)[moving], &f = (*fixed_)[fixed];
   const bool moving_inside = m.clear_out && f.clear_in, fixed_inside = f.clear_out && m.clear_in;
-  const double together = static_cast<double>(m.spread) + static_cast<double>(f.spread);
-  if (moving_inside == fixed_inside || together > spread) return std::nullopt;
+  const double together = static_cast<double>(m.radial_deviation) + static_cast<double>(f.radial_deviation);
+  if (moving_inside == fixed_inside || together > max_deviation) return std::nullopt;
   const RadialBounds &inner = moving_inside ? m : f, &outer = moving_inside ? f : m;
   return CylinderFit{moving_inside,
                      moving_inside ? *moving_axis_ : *fixed_axis_,
@@ -91,21 +91,21 @@ std::optional<CylinderFit> RadialSweep::fit(std::uint32_t moving, std::uint32_t 
                      inner.end,
                      outer.begin,
                      outer.end,
-                     inner.most,
-                     static_cast<double>(outer.least) - static_cast<double>(inner.most),
+                     inner.max_radius,
+                     static_cast<double>(outer.min_radius) - static_cast<double>(inner.max_radius),
                      together};
 }
 
 std::vector<RadialSweeps::AxisPair> RadialSweeps::nearest_pairs() const {
   std::vector<AxisPair> pairs;
-  const double most = kMaxOff * std::min(moving_->size(), fixed_->size());
+  const double max_off = kMaxOff * std::min(moving_->size(), fixed_->size());
   for (std::size_t i = 0; i < moving_->axes().size(); ++i) {
     const Line a = moved(motion_.t0, line_of(moving_->axes()[i], moving_origin_));
     for (std::size_t j = 0; j < fixed_->axes().size(); ++j) {
       const Line b = line_of(fixed_->axes()[j], fixed_origin_);
       if (length_squared(cross(a.direction, b.direction)) > kMaxSine * kMaxSine) continue;
       const double off = length(across(a.point - b.point, b.direction));
-      if (off <= most) pairs.push_back({i, j, off});
+      if (off <= max_off) pairs.push_back({i, j, off});
     }
   }
   std::sort(pairs.begin(), pairs.end(), [](const AxisPair& x, const AxisPair& y) {
@@ -118,8 +118,8 @@ std::vector<RadialSweeps::AxisPair> RadialSweeps::nearest_pairs() const {
 
 RadialSweep RadialSweeps::sweep(const AxisPair& pair) const {
   RadialSweep sweep;
-  sweep.moving_ = &moving_->about(pair.moving);
-  sweep.fixed_ = &fixed_->about(pair.fixed);
+  sweep.moving_ = &moving_->bounds_about(pair.moving);
+  sweep.fixed_ = &fixed_->bounds_about(pair.fixed);
   sweep.moving_axis_ = &moving_->axes()[pair.moving];
   sweep.fixed_axis_ = &fixed_->axes()[pair.fixed];
   const Line own = line_of(moving_->axes()[pair.moving], moving_origin_);
@@ -141,13 +141,15 @@ RadialSweep RadialSweeps::sweep(const AxisPair& pair) const {
   }
   for (const auto& [off, nodes] : {std::pair{&sweep.moving_off_, sweep.moving_}, {&sweep.fixed_off_, sweep.fixed_}})
     for (int end = 0; end < 2; ++end)
-      for (const float place : {(*nodes)[0].begin, (*nodes)[0].end})
-        sweep.max_off_ = std::max(sweep.max_off_, length(off->at[end] + static_cast<double>(place) * off->along[end]));
+      for (const float position : {(*nodes)[0].begin, (*nodes)[0].end})
+        sweep.max_off_ =
+            std::max(sweep.max_off_, length(off->at[end] + static_cast<double>(position) * off->along[end]));
   const Line seen = moved(inverse(motion_.t0), other);
   const RadialBounds& all = (*sweep.fixed_)[0];
   double rho = 0;
-  for (const float place : {all.begin, all.end})
-    rho = std::max(rho, screw_radius(motion_.back, seen.point + static_cast<double>(place) * seen.direction, all.most));
+  for (const float position : {all.begin, all.end})
+    rho = std::max(
+        rho, screw_radius(motion_.back, seen.point + static_cast<double>(position) * seen.direction, all.max_radius));
   sweep.fixed_bend_ = std::max(0.0, screw_chord_deviation(motion_.back, rho) - motion_.kept) - motion_.deviation;
   return sweep;
 }

@@ -13,91 +13,97 @@
 
 namespace dismantle {
 
-/// The motion of the moving component in the fixed one's frame, in double: between trees' frames as LinearSweep has it.
+/// The motion of a moving component in the frame of a fixed one, in double precision; between their trees' frames like
+/// LinearSweep.
 struct PairMotion {
-  RigidTransform t0, t1;
-  Mat3 middle;  ///< The rotation half way.
-  Screw back;   ///< The motion of the fixed component in the frame of the moving one's tree.
-  /// The largest distance of an arc of the moving component from its chord, beyond what `allowed` leaves out for it
-  /// [mm].
+  RigidTransform t0;  ///< The transform at the start.
+  RigidTransform t1;  ///< The transform at the end.
+  Mat3 middle;        ///< The rotation half way.
+  Screw back;         ///< The motion of the fixed component in the frame of the moving one's tree.
+  /// The largest distance of an arc of the moving component from its chord, less `kept` [mm].
   double deviation = 0;
-  double kept = 0;     ///< What `allowed` leaves out for arcs [mm].
-  double allowed = 0;  ///< How deep triangles may be in each other on the true paths [mm].
-  /// Cylinders in bores that are cylindrical to this [mm] and are not apart are told as fits; below 0: none are.
-  double fit_spread = -1;
-  /// So many blocked pairs are enough, or two of each part of the front; the rest may be left unlooked at.
-  std::size_t enough_blocked = static_cast<std::size_t>(-1);
+  double kept = 0;     ///< Share of the allowance that is reserved for arcs, not contained in `allowed` [mm].
+  double allowed = 0;  ///< Allowed penetration depth of triangles on the true paths [mm].
+  /// Cylinders and bores that are not apart are reported as fits if their radial deviations sum to at most this [mm];
+  /// below 0: none are.
+  double max_fit_deviation = -1;
+  /// The sweep may stop after this many blocked pairs, or two of each part of the front.
+  std::size_t max_blocked = static_cast<std::size_t>(-1);
 };
 
-/// A whole cylinder in a whole bore: what keeps the one's axis within some distance of the other's.
+/// A whole cylinder in a whole bore, as one contact: limits the distance between the two axes.
 struct CylinderFit {
-  bool moving_inside = true;              ///< The cylinder is of the moving component, the bore of the fixed one.
-  RevolutionAxis inner, outer;            ///< [mm, assembled]
-  double inner_begin = 0, inner_end = 0;  ///< The cylinder between places along its axis, from the axis' point [mm],
-  double outer_begin = 0, outer_end = 0;  ///< and the bore.
-  double radius = 0;                      ///< Of the cylinder [mm].
-  double room = 0;    ///< The two are apart while no place of the cylinder's axis in the bore is further off [mm].
-  double spread = 0;  ///< Triangles may allow so much more [mm].
+  bool moving_inside = true;    ///< The cylinder is of the moving component, the bore of the fixed one.
+  RevolutionAxis inner;         ///< Axis of the cylinder [mm, assembled].
+  RevolutionAxis outer;         ///< Axis of the bore [mm, assembled].
+  double inner_begin = 0;       ///< Start of the cylinder along its axis, from the axis' point [mm].
+  double inner_end = 0;         ///< End of the cylinder [mm].
+  double outer_begin = 0;       ///< Start of the bore along its axis [mm].
+  double outer_end = 0;         ///< End of the bore [mm].
+  double radius = 0;            ///< Radius of the cylinder [mm].
+  double room = 0;              ///< The two are apart while the axes, inside the bore, are no further apart [mm].
+  double radial_deviation = 0;  ///< The triangles may allow this much more room [mm].
   friend bool operator==(const CylinderFit&, const CylinderFit&) = default;
 };
 
-/// A certificate of surfaces that turn about nearly the same axis: what is within some distance of the one axis is
-/// apart from what is beyond it of the other, less how far the axes are off each other. Unlike one plane it parts a
-/// whole shaft from its bore, and still does when one turns in the other or slides along it.
+/// Separation of surfaces of revolution with nearly the same axis: everything within some radius about the one axis is
+/// apart from everything beyond that radius about the other, less the distance between the axes. Unlike one plane it
+/// separates a whole shaft from its bore, also while one turns in the other or slides along it.
 ///
-/// Proof: a triangle beyond distance r of a line lies beyond a plane that is r off the line and along it, and whose
-/// normal leads from the line to the triangle's nearest point. Everything within distance s of another line, between
-/// two places of it, is at most s + off in front of that plane's parallel through the first line, off being how far
-/// those places are off the line along the normal. Both are so at the start and at the end of a linear motion, with the
-/// plane at rest: so they are in between. Only those places count that come beside the outer triangle: the rest of the
-/// inner one is past its ends, along the line, and stays there when it is moved along the normal. So moved by as much
-/// as the bound is below zero the two are apart; and where it is above zero for all that is at most some way past the
-/// ends, they are that way apart, or the bound.
+/// Proof: a triangle beyond distance r of a line lies beyond a plane that is parallel to the line at distance r, with
+/// the normal from the line to the triangle's nearest point. Everything within distance s of another line, between two
+/// points of it, is at most s + off in front of that plane's parallel through the first line, where off is the largest
+/// distance of those points from the first line along the normal. Both hold at the start and at the end of a linear
+/// motion with the plane at rest, hence in between. Only those points count that lie beside the outer triangle: the
+/// rest of the inner node is past its ends, along the line, and stays there when it is moved along the normal. So the
+/// two are apart when they are moved apart by minus the bound, if the bound is negative; if it is positive for all that
+/// is at most some distance past the ends, they are apart by that distance or the bound.
 class RadialSweep {
  public:
-  /// What is proved of two nodes: their gap along planes that touch the outer one's cylinder is never less than that
-  /// [mm].
+  /// Lower bound of the gap of two nodes along the planes that touch the outer one's cylinder.
   struct Gap {
-    double gap = 0;
-    bool facing = false;   ///< No outward normal leads away from the other along those planes' normals,
-    bool face_on = false;  ///< and all lead well towards it.
+    double gap = 0;        ///< [mm]
+    bool facing = false;   ///< No outward normal points away from the other node along those planes' normals,
+    bool face_on = false;  ///< and all point clearly towards it.
   };
-  /// @param least gaps below it are of no use: what is given may be far below the true one [mm]
-  Gap gap(std::uint32_t moving, std::uint32_t fixed, double least) const {
+  /// The gap of two nodes during the motion.
+  /// @param min_gap smaller gaps are of no use: the result may then be far below the true one [mm]
+  Gap gap(std::uint32_t moving, std::uint32_t fixed, double min_gap) const {
     const RadialBounds &m = (*moving_)[moving], &f = (*fixed_)[fixed];
-    const double moving_inside = static_cast<double>(f.least) - static_cast<double>(m.most);
-    const double fixed_inside = static_cast<double>(m.least) - static_cast<double>(f.most) - fixed_bend_;
-    if (std::max(moving_inside, fixed_inside) + max_off_ < least)
+    const double moving_inside = static_cast<double>(f.min_radius) - static_cast<double>(m.max_radius);
+    const double fixed_inside = static_cast<double>(m.min_radius) - static_cast<double>(f.max_radius) - fixed_bend_;
+    if (std::max(moving_inside, fixed_inside) + max_off_ < min_gap)
       return {-std::numeric_limits<double>::infinity(), false, false};
     if (moving_inside >= fixed_inside)
-      return {moving_inside - moving_off_.most(m, f, moving_inside), m.clear_out && f.clear_in,
+      return {moving_inside - moving_off_.upper_bound(m, f, moving_inside), m.clear_out && f.clear_in,
               m.faces_out && f.faces_in};
-    return {fixed_inside - fixed_off_.most(f, m, fixed_inside), m.clear_in && f.clear_out, m.faces_in && f.faces_out};
+    return {fixed_inside - fixed_off_.upper_bound(f, m, fixed_inside), m.clear_in && f.clear_out,
+            m.faces_in && f.faces_out};
   }
 
-  /// What two nodes are to each other as a whole cylinder in a whole bore, if they are cylindrical to `spread` together
-  /// [mm].
-  std::optional<CylinderFit> fit(std::uint32_t moving, std::uint32_t fixed, double spread) const;
+  /// Two nodes as a whole cylinder in a whole bore; none if they are not, or their radial deviations sum to more than
+  /// `max_deviation` [mm].
+  std::optional<CylinderFit> fit(std::uint32_t moving, std::uint32_t fixed, double max_deviation) const;
 
  private:
   friend class RadialSweeps;
-  /// How far the points of one axis are off the other, at both ends of the motion.
+  /// The offset of one axis from the other, at both ends of the motion.
   struct Off {
-    Vec3 at[2];            ///< At its own point, across the other [mm].
-    Vec3 along[2];         ///< The change a mm along it.
-    double beside[2];      ///< The place of its own point along the other one [mm].
-    double ahead[2];       ///< The change a mm along it.
-    double max_aside = 0;  ///< The sine of the largest angle between the axes.
-    /// What the axes' being off each other takes at most from the room between the nodes [mm]; negative where the inner
-    /// one is off the other way.
-    /// @param room between the distances of the two from their axes [mm]
-    double most(const RadialBounds& inner, const RadialBounds& outer, double room) const;
+    Vec3 at[2];            ///< Offset of its own point, across the other axis [mm].
+    Vec3 along[2];         ///< Change of the offset per mm along the axis.
+    double beside[2];      ///< Position of its own point along the other axis [mm].
+    double ahead[2];       ///< Change of that position per mm along the axis.
+    double max_aside = 0;  ///< Sine of the largest angle between the axes.
+    /// Upper bound of how much of the room between the nodes the offset takes [mm]; negative if the inner node is
+    /// offset away from the outer one.
+    /// @param room between the radii of the two nodes [mm]
+    double upper_bound(const RadialBounds& inner, const RadialBounds& outer, double room) const;
 
    private:
-    /// How far the inner node's axis is off towards the outer node where the two are beside each other, or at most
-    /// `past` its ends [mm].
+    /// The largest offset of the inner node's axis towards the outer node, where the two are beside each other or at
+    /// most `past` its ends [mm].
     double toward(const RadialBounds& inner, const RadialBounds& outer, double past) const;
-    /// Between which places along its axis something of the inner node may be there at some time.
+    /// The range along its axis in which some of the inner node may be beside the outer one at some time.
     std::pair<double, double> part_beside(const RadialBounds& inner, const RadialBounds& outer, double past) const;
   };
 
@@ -106,19 +112,21 @@ class RadialSweep {
   const RevolutionAxis* moving_axis_ = nullptr;
   const RevolutionAxis* fixed_axis_ = nullptr;
   Off moving_off_, fixed_off_;
-  double max_off_ = 0;     ///< No point of one axis that a node is at is further off the other [mm].
-  double fixed_bend_ = 0;  ///< What arcs of the fixed component, as the moving one sees it, may take more [mm].
+  double max_off_ = 0;     ///< Upper bound of all offsets within the extent of the nodes [mm].
+  double fixed_bend_ = 0;  ///< Additional deviation of the fixed component's arcs in the moving one's frame [mm].
 };
 
-/// The sweeps of the axes of two components that are nearest to each other as a motion begins, a few at most; worked
-/// out when first asked for. May be asked by several threads at the same time.
+/// The radial sweeps of two components: one for each of the few pairs of axes that are nearest to each other at the
+/// start of the motion. Computed on first use; thread-safe.
 class RadialSweeps {
  public:
-  /// @param moving_origin, fixed_origin of the trees [mm, assembled]. The shapes must outlive it.
+  /// The surfaces must outlive the sweeps.
+  /// @param moving_origin, fixed_origin origins of the trees [mm, assembled]
   RadialSweeps(const RevolutionSurface& moving, Vec3 moving_origin, const RevolutionSurface& fixed, Vec3 fixed_origin,
                const PairMotion& motion)
       : moving_(&moving), fixed_(&fixed), moving_origin_(moving_origin), fixed_origin_(fixed_origin), motion_(motion) {}
 
+  /// The sweeps, the nearest axes first.
   Span<const RadialSweep> get() const;
 
  private:

@@ -11,17 +11,17 @@ namespace dismantle {
 
 namespace {
 
-/// Nothing is gained where the axes are further apart than this share of the period, or more at an angle than this
+/// No gap can be proved if the axes are further apart than this share of the period, or at a larger angle than this
 /// [sine].
 constexpr double kMaxOff = 0.25, kMaxSine = 0.02;
-/// The share of the distance from the axis that the way between two points is taken to keep to at least.
+/// A segment between two points is taken to stay beyond this share of their distance from the axis.
 constexpr double kKeptDistance = 0.75;
-/// Lifts of nodes that take more periods than that say nothing.
+/// Nodes whose helix phases span more periods than this are not used.
 constexpr double kMaxPeriods = 8;
 
 ThreadMatch::Side side_of(const ThreadFrame& frame, const RevolutionSurface& shape, Vec3 origin) {
   return {frame.axis.point - origin, frame.axis.direction, frame.axis.first,
-          ThreadNodes(frame, shape.vertices(), shape.faces(), shape.nodes())};
+          ThreadBoundsList(frame, shape.vertices(), shape.faces(), shape.nodes())};
 }
 
 }  // namespace
@@ -32,16 +32,16 @@ std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a
   for (const ThreadAxis& x : a.threads())
     for (const ThreadAxis& y : b.threads()) {
       if (!threads_mate(x, y)) continue;
-      // The longer one tells its lead better.
+      // The longer one determines the lead better.
       const ThreadAxis& longer = x.end - x.begin >= y.end - y.begin ? x : y;
       ThreadFrame frame;
       frame.lead = longer.lead;
       frame.period = std::abs(longer.lead) / longer.starts;
       for (const ThreadAxis* thread : {&x, &y}) {
-        // Lifts change sign with the axis.
+        // Helix phases change sign with the axis.
         const double sign = dot(thread->direction, x.direction) < 0 ? -1 : 1;
         for (const ThreadAxis::Flank& flank : thread->flanks)
-          frame.add_direction({flank.normal.radial, sign * flank.normal.lift});
+          frame.add_direction({flank.normal.radial, sign * flank.normal.axial});
       }
       frame.axis = AxisFrame(x.point, x.direction);
       ThreadFrame other = frame;
@@ -61,14 +61,14 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
   across_ = point - at;
   if (length(tilt_) > kMaxSine || length(across_) > kMaxOff * match.frame.period) return;
 
-  // The angle 0 of the moving side, with the turn taken back that leads one axis to the other.
+  // The direction of angle 0 of the moving side, turned back by the rotation that takes one axis to the other.
   const Vec3 swing = cross(other.direction, direction), first = motion.t0.rotation * own.first;
   const double cosine = dot(other.direction, direction);
   const Vec3 seen = first - cross(swing, first) + (1 / (1 + cosine)) * cross(swing, cross(swing, first));
   const Vec3 quarter = cross(other.direction, other.first);
-  lift_ = along - match.frame.lead * std::atan2(dot(seen, quarter), dot(seen, other.first)) / kTurn;
+  phase_ = along - match.frame.lead * std::atan2(dot(seen, quarter), dot(seen, other.first)) / kTurn;
 
-  // The twist of the moving side as the fixed one sees it, from that of the fixed one as the moving one sees it.
+  // The twist of the moving side in the fixed one's frame, from that of the fixed side in the moving one's frame.
   const Vec3 turning = -(motion.t0.rotation * (motion.back.angle * motion.back.axis));
   const Vec3 velocity =
       -(motion.t0.rotation * motion.back.velocity) + cross(turning, at - motion.t0 * motion.back.reference);
@@ -80,37 +80,39 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
   useful_ = sliding_ < match.frame.period / 4;
 }
 
-double ThreadSweep::off(const ThreadNode& node) const {
-  const double begin = node.begin, end = node.end, most = node.most;
-  const double start = std::max(length(across_ + begin * tilt_), length(across_ + end * tilt_)) + length(tilt_) * most;
-  const double far = length(across_) + std::hypot(most, std::max(std::abs(begin), std::abs(end)));
+double ThreadSweep::off(const ThreadBounds& node) const {
+  const double begin = node.begin, end = node.end, radius = node.max_radius;
+  const double start =
+      std::max(length(across_ + begin * tilt_), length(across_ + end * tilt_)) + length(tilt_) * radius;
+  const double far = length(across_) + std::hypot(radius, std::max(std::abs(begin), std::abs(end)));
   return start + turning_ * (far + angle_ * far + speed_) + sliding_;
 }
 
 double ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const ThreadFrame& frame = match_->frame;
-  const ThreadNode &m = match_->sides[moving_].nodes[moving], &f = match_->sides[1 - moving_].nodes[fixed];
-  const double least = std::min(m.least, f.least);
-  const auto low = [&](const ThreadNode& n, int k) { return static_cast<double>(n.low[k]); };
-  const auto high = [&](const ThreadNode& n, int k) { return static_cast<double>(n.high[k]); };
-  const double max_lift = kMaxPeriods * frame.period;
-  if (!(least > 0) || !(high(m, 0) - low(m, 0) < max_lift) || !(high(f, 0) - low(f, 0) < max_lift)) return kNone;
-  const double off = this->off(m), slope = frame.lead / (kTurn * kKeptDistance * least);
+  const ThreadBounds &m = match_->sides[moving_].nodes[moving], &f = match_->sides[1 - moving_].nodes[fixed];
+  const double radius = std::min(m.min_radius, f.min_radius);
+  const auto low = [&](const ThreadBounds& n, int k) { return static_cast<double>(n.low[k]); };
+  const auto high = [&](const ThreadBounds& n, int k) { return static_cast<double>(n.high[k]); };
+  const double max_phase_range = kMaxPeriods * frame.period;
+  if (!(radius > 0) || !(high(m, 0) - low(m, 0) < max_phase_range) || !(high(f, 0) - low(f, 0) < max_phase_range))
+    return kNone;
+  const double off = this->off(m), slope = frame.lead / (kTurn * kKeptDistance * radius);
   const double steepest = std::sqrt(1 + slope * slope);  // no direction has a longer gradient
-  const auto difference = [&](int k, double lift) {
-    const double shift = frame.directions[k].lift * lift;
+  const auto difference = [&](int k, double phase) {
+    const double shift = frame.directions[k].axial * phase;
     return std::max(low(f, k) - high(m, k) - shift, low(m, k) + shift - high(f, k));
   };
-  const double first = std::floor((low(m, 0) + lift_ - high(f, 0)) / frame.period);
-  const double last = std::ceil((high(m, 0) + lift_ - low(f, 0)) / frame.period);
-  const double beyond = static_cast<double>(std::max(f.least - m.most, m.least - f.most));
-  // Further ways around are longer still.
-  double found = std::min(2 * (1 - kKeptDistance) * least, frame.period / steepest);
+  const double first = std::floor((low(m, 0) + phase_ - high(f, 0)) / frame.period);
+  const double last = std::ceil((high(m, 0) + phase_ - low(f, 0)) / frame.period);
+  const double beyond = static_cast<double>(std::max(f.min_radius - m.max_radius, m.min_radius - f.max_radius));
+  // Other paths around the axis are longer still.
+  double found = std::min(2 * (1 - kKeptDistance) * radius, frame.period / steepest);
   for (double turns = first; turns <= last; ++turns) {
     double widest = -std::numeric_limits<double>::infinity();
     for (int k = 0; k < frame.direction_count; ++k)
-      widest = std::max(widest, difference(k, lift_ - turns * frame.period));
+      widest = std::max(widest, difference(k, phase_ - turns * frame.period));
     found = std::min(found, std::max(beyond, widest / steepest));
     if (found <= off) return kNone;
   }

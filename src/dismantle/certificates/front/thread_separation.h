@@ -9,62 +9,69 @@
 
 namespace dismantle {
 
-/// An outer and an inner thread of two components that fit each other: their trees' nodes in one thread's coordinates.
+/// Mating threads of two components, an external and an internal one: the nodes of both trees in one thread's
+/// coordinates.
 struct ThreadMatch {
+  /// The thread of one component.
   struct Side {
-    Vec3 point, direction;  ///< Of the axis, about the tree's origin [mm].
-    Vec3 first;             ///< Across it, where angles are 0.
-    ThreadNodes nodes;
+    Vec3 point;              ///< A point of the axis, relative to the tree's origin [mm].
+    Vec3 direction;          ///< Unit, along the axis.
+    Vec3 first;              ///< Unit, across the axis: the direction of angle 0.
+    ThreadBoundsList nodes;  ///< Bounds of the tree's nodes.
   };
-  ThreadFrame frame;  ///< Of the lead, the period and the directions; of the first side's axis.
-  Side sides[2];
+  ThreadFrame frame;  ///< Lead, period and profile directions of both; the axis is that of the first side.
+  Side sides[2];      ///< Of A and of B.
 };
 
-/// The threads of A that fit threads of B about nearly the same axis in the assembled state.
-/// @param a, b with their trees' origins [mm, assembled]
+/// The threads of A that mate with threads of B about nearly the same axis in the assembled state.
+/// @param origin_a, origin_b origins of the trees [mm, assembled]
 std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a, const RevolutionSurface& b,
                                        Vec3 origin_b);
 
-/// A certificate of a screw that turns in its nut: two threads are apart as long as their profiles are, which a motion
-/// along the thread does not change. One such certificate parts a flank of the whole bolt from one of the whole nut.
+/// Separation of a screw from the nut that it turns in: two threads are apart as long as their profiles are, which a
+/// motion along the thread does not change. One test separates a flank of the whole bolt from one of the whole nut.
 ///
-/// Proof: (distance, lift) along a direction of their plane is a function of the place whose gradient, at a distance r
-/// from the axis, has the length L(r) = sqrt(radial^2 + lift^2 (1 + (lead / 2 pi r)^2)). Points whose values differ by
-/// g, whatever whole number of periods is added to the lift of one, are thus at least g / L apart, L that of the least
-/// distance from the axis on the way between them. The motion from where the axes agree, along the thread, keeps both
-/// coordinates; the true one is off it by how far the axes are off each other as it begins, and by at most what the two
-/// motions' velocities differ anywhere on the way.
+/// The helix phase of a point is its axial position less the lead for each turn of its angle (ThreadFrame).
+///
+/// Proof: the coordinate of (distance, phase) along a direction of their plane is a function of the point whose
+/// gradient, at a distance r from the axis, has the length L(r) = sqrt(radial^2 + axial^2 (1 + (lead / 2 pi r)^2)).
+/// Points whose values differ by g, whatever whole number of periods is added to the phase of one, are thus at least
+/// g / L apart, with L at the smallest distance from the axis on the segment between them. A motion along the thread of
+/// coincident axes keeps both coordinates; the true motion deviates from it by the offset of the axes at the start, and
+/// by at most the difference of the two motions' velocities anywhere on the path.
 class ThreadSweep {
  public:
-  /// @param moving which side of the match moves
+  /// @param moving index of the side of the match that moves
   ThreadSweep(const ThreadMatch& match, int moving, const PairMotion& motion);
 
-  /// Whether the axes are near enough for anything to be gained.
+  /// False if the axes are too far apart for any gap to be proved.
   bool useful() const { return useful_; }
-  /// Asks for the memory of two nodes: first for where it is, a while later for itself.
-  void fetch_places(std::uint32_t moving, std::uint32_t fixed) const {
-    match_->sides[moving_].nodes.fetch_place(moving);
-    match_->sides[1 - moving_].nodes.fetch_place(fixed);
+  ///@{ Prefetch the memory of two nodes: first their slots, some calls later the nodes.
+  void prefetch_slots(std::uint32_t moving, std::uint32_t fixed) const {
+    match_->sides[moving_].nodes.prefetch_slot(moving);
+    match_->sides[1 - moving_].nodes.prefetch_slot(fixed);
   }
-  void fetch(std::uint32_t moving, std::uint32_t fixed) const {
-    match_->sides[moving_].nodes.fetch(moving);
-    match_->sides[1 - moving_].nodes.fetch(fixed);
+  void prefetch(std::uint32_t moving, std::uint32_t fixed) const {
+    match_->sides[moving_].nodes.prefetch(moving);
+    match_->sides[1 - moving_].nodes.prefetch(fixed);
   }
-  /// Two nodes' triangles are never nearer to each other than that [mm]; without bounds below where nothing is known.
+  ///@}
+  /// Lower bound of the distance of two nodes' triangles during the motion [mm]; minus infinity if nothing is known.
   double gap(std::uint32_t moving, std::uint32_t fixed) const;
 
  private:
-  /// How far points of the node may be off their places along the thread [mm].
-  double off(const ThreadNode& node) const;
+  /// Upper bound of how far points of the node deviate from the motion along the thread [mm].
+  double off(const ThreadBounds& node) const;
 
   const ThreadMatch* match_;
   int moving_;
-  double lift_ = 0;               // what is to be added to lifts of the moving side [mm]
-  Vec3 across_;                   // from the fixed axis to the point of the moving one
-  Vec3 tilt_;                     // the moving axis' direction less the fixed one's
-  double turning_ = 0;            // the length of the difference of the two motions' rotations [rad]
-  double sliding_ = 0;            // and of their velocities where the moving axis' point is seen on the fixed one [mm]
-  double angle_ = 0, speed_ = 0;  // of the true motion, there
+  double phase_ = 0;    ///< To be added to helix phases of the moving side [mm].
+  Vec3 across_;         ///< From the fixed axis to the point of the moving one [mm].
+  Vec3 tilt_;           ///< Direction of the moving axis minus that of the fixed one.
+  double turning_ = 0;  ///< Length of the difference of the two motions' rotations [rad].
+  double sliding_ = 0;  ///< Length of the difference of their velocities, at the moving axis' point [mm].
+  double angle_ = 0;    ///< Rotation of the true motion [rad],
+  double speed_ = 0;    ///< and its velocity at that point [mm].
   bool useful_ = false;
 };
 
