@@ -54,31 +54,31 @@ Result<ExportFormat> check(const ExportCommand& command) {
   if (!format)
     return Error{ErrorKind::Usage,
                  command.output +
-                     " cannot be written (its name tells no format); end it with .glb, .html, .pdf, .png, "
+                     " cannot be written (its extension is not a known format); use .glb, .html, .pdf, .png, "
                      ".stl, .csv, bom.csv, bom.json or .path.json, or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
-                 "there is no path to export (only an assembly is given, and this format is about "
-                 "moves); give a *.path.json, too"};
-  if (command.reverse && (command.path_file.empty() || !knows_direction(*format)))
+                 "there is no path to export (only an assembly is given, and this format needs "
+                 "moves); also give a *.path.json"};
+  if (command.reverse && (command.path_file.empty() || !depends_on_direction(*format)))
     return Error{ErrorKind::Usage,
                  "--reverse has nothing to reverse (there is no path, or the format has no moves); leave it out"};
   if (command.clearance && *format != ExportFormat::Moves)
     return Error{ErrorKind::Usage,
-                 "--clearance has no place in this format (only the table of moves tells it); "
+                 "--clearance does not apply to this format (only to the table of moves); "
                  "leave it out, or write a .csv"};
   const bool is_swept = *format == ExportFormat::SweptStl;
   if (command.step > 0 && ((*format != ExportFormat::Png && !is_swept) || command.path_file.empty()))
     return Error{ErrorKind::Usage,
-                 "--step has no step to show (only a picture or a swept volume is of one, and only of a path); "
+                 "--step does not apply here (only to a picture or a swept volume of a path); "
                  "leave it out, or write a .png or .stl of a path"};
   if (!command.product.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
     return Error{ErrorKind::Usage,
-                 "--product has no place in this format (only work instructions name the product); "
+                 "--product does not apply to this format (only to work instructions); "
                  "leave it out, or write a .pdf or instructions.html"};
   if (command.within > 0 && !is_swept)
     return Error{ErrorKind::Usage,
-                 "--within has no place in this format (only a swept volume is made up to a distance); "
+                 "--within does not apply to this format (only to swept volumes); "
                  "leave it out, or write an .stl"};
   return *format;
 }
@@ -123,7 +123,7 @@ PathDirection direction(const ExportCommand& command) {
 }
 
 Error no_such_step(std::size_t step, std::size_t count) {
-  return {ErrorKind::Usage, fmt::format("there is no step {} (the path has {}); give one that it has", step, count)};
+  return {ErrorKind::Usage, fmt::format("there is no step {} (the path has {}); give one from 1 to that", step, count)};
 }
 
 Result<std::string> png(const Exported& exported, const ExportCommand& command) {
@@ -149,7 +149,7 @@ Result<std::vector<MoveClearance>> clearances(const Exported& exported, const Co
   const Executor executor = make_executor(common);
   auto found = move_clearances(exported.assembly, *states, exported.timeline, {executor, widest_lanes()},
                                progress_printer(common));
-  if (!found) return Error{ErrorKind::Failed, "the table was not written (cancelled); start it again"};
+  if (!found) return Error{ErrorKind::Failed, "the table was not written (cancelled); run the command again"};
   return std::move(*found);
 }
 
@@ -169,7 +169,7 @@ Result<std::string> instructions(ExportFormat format, const Exported& exported, 
 
 Result<std::string> content(ExportFormat format, const Exported& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
-  if (is_made_elsewhere(format)) return instructions(format, exported, command);
+  if (has_own_writer(format)) return instructions(format, exported, command);
   ExportOptions options;
   options.direction = direction(command);
   options.viewer = server::viewer_files();
@@ -186,7 +186,7 @@ Result<SweptVolume> swept(const Exported& exported, const ExportCommand& command
   const std::size_t count = exported.timeline.moves().size();
   if (command.step == 0 && count != 1)
     return Error{ErrorKind::Usage,
-                 fmt::format("there is no one move to sweep (the path has {}); give --step N, from 1", count)};
+                 fmt::format("the move to sweep is not given (the path has {}); give --step N, from 1", count)};
   if (command.step > count) return no_such_step(command.step, count);
   const TimelineMove& move = exported.timeline.moves()[std::max<std::size_t>(command.step, 1) - 1];
   return swept_volume(exported.assembly, move, {command.within, progress_printer(command.common)});
@@ -210,8 +210,8 @@ Result<Done> write_swept(const Exported& exported, const ExportCommand& command)
                       {"within_mm", volume->tolerance}};
     fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    fmt::print("wrote {}: {} triangles, nowhere further than {:.3g} mm from what the move passes\n", command.output,
-               triangles, volume->tolerance);
+    fmt::print("wrote {}: {} triangles, at most {:.3g} mm outside the exact swept volume\n", command.output, triangles,
+               volume->tolerance);
   }
   return Done{};
 }
@@ -263,13 +263,14 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
                                                             {"instructions", ExportFormat::InstructionsHtml},
                                                             {"instructions-pdf", ExportFormat::InstructionsPdf}};
   CLI::App* command = app.add_subcommand(
-      "export", "An assembly and its path for others: animation, page, instructions, pictures, tables, path file");
+      "export", "Export an assembly and its path: animation, page, instructions, pictures, tables, path file");
   auto options = std::make_shared<ExportCommand>();
   command
-      ->add_option("ASSEMBLY", options->common.assembly_file,
-                   "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes; or PATH alone, with its assembly beside it")
+      ->add_option(
+          "ASSEMBLY", options->common.assembly_file,
+          "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes; or PATH alone, with the assembly in its folder")
       ->required();
-  command->add_option("PATH", options->path_file, "What a session, move or plan wrote (*.path.json)");
+  command->add_option("PATH", options->path_file, "Path written by a session, move or plan (*.path.json)");
   command
       ->add_option("-o,--output", options->output,
                    "File to write: .glb (animated), .html (a page that plays it), .pdf or instructions.html (work "
@@ -279,21 +280,21 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
                    ".path.json")
       ->required()
       ->type_name("FILE");
-  command->add_option("--format", options->format, "Format of the file (default: by its name)")
+  command->add_option("--format", options->format, "Format of the file (default: from its extension)")
       ->transform(CLI::CheckedTransformer(kFormats))
       ->type_name("glb|html|png|swept|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
   command->add_flag("--reverse", options->reverse,
-                    "The assembly: moves the other way, last first (.path.json: apart and together again)");
-  command->add_flag("--clearance", options->clearance, "Table of moves: measure the least clearance of each");
-  command->add_option("--step", options->step, "Picture, swept volume: of step N, with what moves, where to, and how")
+                    "Assembly instead of disassembly: moves reversed, last first (.path.json: both)");
+  command->add_flag("--clearance", options->clearance, "Table of moves: add the minimum clearance of each");
+  command->add_option("--step", options->step, "Picture, swept volume: of step N, with its motion")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--within", options->within,
-                   "Swept volume: at most so far beyond what is passed [mm] (default: 2% of its diagonal)")
+                   "Swept volume: largest distance outside the exact one [mm] (default: 2% of its diagonal)")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
-  command->add_option("--product", options->product, "Work instructions: the product's name (default: the file's)")
+  command->add_option("--product", options->product, "Work instructions: name of the product (default: from the file)")
       ->type_name("NAME");
   add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);

@@ -35,7 +35,7 @@ std::optional<ExportRequest> parse_export(const RequestTarget& target) {
   if (target.path.compare(0, kDoor.size(), kDoor) != 0) return {};
   for (const ExportName& known : kNames) {
     if (target.path.compare(kDoor.size(), std::string::npos, known.name) != 0) continue;
-    const bool is_reversed = has(target, "reverse", "1") && knows_direction(known.format);
+    const bool is_reversed = has(target, "reverse", "1") && depends_on_direction(known.format);
     return ExportRequest{known.format, std::string(known.content_type),
                          is_reversed ? PathDirection::Reversed : PathDirection::Forward,
                          has(target, "source", "guide")};

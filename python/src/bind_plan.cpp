@@ -62,7 +62,7 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
   for (const ComponentId c : options.targets)
     if (std::find(options.fixed.begin(), options.fixed.end(), c) != options.fixed.end())
       raise_usage("'" + (*states->assembly)[c].name +
-                  "' cannot come out (it is a target, and fixed); leave out one of the two");
+                  "' cannot be removed (it is both target and fixed); leave out one of the two");
   PlanView view{states, without_gil([&] { return plan_disassembly(*states->assembly, states->pairs, options); })};
   watched.finish();
   return view;
@@ -85,9 +85,9 @@ AuditReport audit(const Assembly& assembly, const Path& path, int threads, const
 void export_file(const Assembly& assembly, const Path& path, const std::filesystem::path& file, bool reverse,
                  const py::object& progress) {
   const std::optional<ExportFormat> format = export_format_of(file.string());
-  if (!format || is_made_elsewhere(*format))
+  if (!format || has_own_writer(*format))
     raise_usage(file.string() +
-                " cannot be written (its name tells no format); end it with .glb, .html, .csv, "
+                " cannot be written (its extension is not a known format); use .glb, .html, .csv, "
                 "bom.csv, bom.json or .path.json");
   PythonProgress watched(progress);
   ExportOptions options;

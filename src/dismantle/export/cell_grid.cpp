@@ -11,37 +11,37 @@ namespace dismantle {
 
 namespace {
 
-/// Cells around the box that is asked for.
+/// Width of the border around the requested box [cells].
 constexpr std::int32_t kBorder = 2;
 
-/// Whether a triangle may touch a cube: false is certain up to rounding, by the separating axes of the two.
-bool may_touch(const Triangle& triangle, const Vec3& middle, double half) {
+/// Separating axis test of a triangle and a cube; false only if they are disjoint, up to rounding.
+bool may_touch(const Triangle& triangle, const Vec3& center, double half) {
   Vec3 corners[3];
-  for (int i = 0; i < 3; ++i) corners[i] = triangle[i] - middle;
-  const auto parted_along = [&](const Vec3& axis) {
+  for (int i = 0; i < 3; ++i) corners[i] = triangle[i] - center;
+  const auto separated_along = [&](const Vec3& axis) {
     const double a = dot(axis, corners[0]), b = dot(axis, corners[1]), c = dot(axis, corners[2]);
     const double reach = half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
   const Vec3 units[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const Vec3& unit : units)
-    if (parted_along(unit)) return false;
-  if (parted_along(cross(corners[1] - corners[0], corners[2] - corners[0]))) return false;
+    if (separated_along(unit)) return false;
+  if (separated_along(cross(corners[1] - corners[0], corners[2] - corners[0]))) return false;
   for (int i = 0; i < 3; ++i)
     for (const Vec3& unit : units)
-      if (parted_along(cross(unit, corners[(i + 1) % 3] - corners[i]))) return false;
+      if (separated_along(cross(unit, corners[(i + 1) % 3] - corners[i]))) return false;
   return true;
 }
 
-/// A cube's corners as bits (x, y, z), and its six tetrahedra about the diagonal from 0 to 7: those of neighbouring
-/// cubes meet face to face. All are of one orientation.
+/// The six tetrahedra of a cube around its diagonal from corner 0 to 7; corner indices have the bits (x, y, z). Those
+/// of neighbouring cubes meet face to face. All have the same orientation.
 constexpr int kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
-/// Collects the surface between corners that are in and those that are not: a vertex in the middle of each edge between
-/// two.
+/// Marching tetrahedra: builds the surface between corners that are inside and outside, with a vertex at the midpoint
+/// of each edge that joins the two kinds.
 class SurfaceBuilder {
  public:
-  /// @param in, points of a tetrahedron's corners, and names that tell corners apart
+  /// Adds the surface within one tetrahedron. @param in, points, names of its corners; a name identifies a grid point
   void add(const std::array<bool, 4>& in, const std::array<Vec3, 4>& points, const std::array<std::size_t, 4>& names) {
     std::vector<int> inner, outer;
     for (int i = 0; i < 4; ++i) (in[static_cast<std::size_t>(i)] ? inner : outer).push_back(i);
@@ -90,28 +90,28 @@ class SurfaceBuilder {
 
 }  // namespace
 
-CellGrid::CellGrid(const Vec3& origin, double side, const Place& count)
+CellGrid::CellGrid(const Vec3& origin, double side, const Cell& count)
     : origin_(origin),
       side_(side),
       count_(count),
       marked_(static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) *
               static_cast<std::size_t>(count[2])) {}
 
-std::optional<CellGrid> CellGrid::around(const Aabb& box, double side, std::size_t most) {
+std::optional<CellGrid> CellGrid::around(const Aabb& box, double side, std::size_t max_cells) {
   DISMANTLE_EXPECT(side > 0 && !box.empty());
-  Place count{};
+  Cell count{};
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double along = std::floor(box.size()[axis] / side) + 1 + 2 * kBorder;
     cells *= along;
-    if (cells > static_cast<double>(most)) return std::nullopt;
+    if (cells > static_cast<double>(max_cells)) return std::nullopt;
     count[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(along);
   }
   return CellGrid(box.lower - kBorder * side * Vec3{1, 1, 1}, side, count);
 }
 
-CellGrid::Place CellGrid::place(const Vec3& point) const {
-  Place p;
+CellGrid::Cell CellGrid::cell_at(const Vec3& point) const {
+  Cell p;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     const double along = std::floor((point[axis] - origin_[axis]) / side_);
@@ -121,15 +121,15 @@ CellGrid::Place CellGrid::place(const Vec3& point) const {
 }
 
 bool CellGrid::is_marked(const Vec3& point) const {
-  return marked_[index(place(point))] != 0;
+  return marked_[index(cell_at(point))] != 0;
 }
 
 void CellGrid::mark(const Triangle& triangle, double margin) {
   Aabb box;
   for (int i = 0; i < 3; ++i) box.extend(triangle[i]);
-  const Place first = place(box.lower - margin * Vec3{1, 1, 1}), last = place(box.upper + margin * Vec3{1, 1, 1});
+  const Cell first = cell_at(box.lower - margin * Vec3{1, 1, 1}), last = cell_at(box.upper + margin * Vec3{1, 1, 1});
   const double half = side_ / 2 + margin;
-  Place p;
+  Cell p;
   for (p[2] = first[2]; p[2] <= last[2]; ++p[2])
     for (p[1] = first[1]; p[1] <= last[1]; ++p[1])
       for (p[0] = first[0]; p[0] <= last[0]; ++p[0]) {
@@ -138,17 +138,17 @@ void CellGrid::mark(const Triangle& triangle, double margin) {
       }
 }
 
-std::vector<std::size_t> CellGrid::region_of(const Place& first, std::vector<std::uint8_t>& seen) const {
+std::vector<std::size_t> CellGrid::region_of(const Cell& first, std::vector<std::uint8_t>& seen) const {
   std::vector<std::size_t> cells;
-  std::vector<Place> waiting{first};
+  std::vector<Cell> waiting{first};
   seen[index(first)] = 1;
   while (!waiting.empty()) {
-    const Place p = waiting.back();
+    const Cell p = waiting.back();
     waiting.pop_back();
     cells.push_back(index(p));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const std::int32_t step : {-1, 1}) {
-        Place next = p;
+        Cell next = p;
         next[axis] += step;
         if (next[axis] < 0 || next[axis] >= count_[axis]) continue;
         const std::size_t i = index(next);
@@ -163,8 +163,8 @@ std::vector<std::size_t> CellGrid::region_of(const Place& first, std::vector<std
 
 void CellGrid::mark_regions(const std::function<bool(const Vec3&)>& is_inside) {
   std::vector<std::uint8_t> seen(marked_.size());
-  region_of({0, 0, 0}, seen);  // all that reaches the border, which is not marked
-  Place p;
+  region_of({0, 0, 0}, seen);  // the outside: everything connected to the border, which is not marked
+  Cell p;
   for (p[2] = 0; p[2] < count_[2]; ++p[2])
     for (p[1] = 0; p[1] < count_[1]; ++p[1])
       for (p[0] = 0; p[0] < count_[0]; ++p[0]) {
@@ -178,7 +178,7 @@ void CellGrid::mark_regions(const std::function<bool(const Vec3&)>& is_inside) {
 
 std::vector<std::uint8_t> CellGrid::corners_of_marked() const {
   std::vector<std::uint8_t> in(marked_.size());
-  Place p;
+  Cell p;
   for (p[2] = 0; p[2] + 1 < count_[2]; ++p[2])
     for (p[1] = 0; p[1] + 1 < count_[1]; ++p[1])
       for (p[0] = 0; p[0] + 1 < count_[0]; ++p[0]) {
@@ -191,18 +191,18 @@ std::vector<std::uint8_t> CellGrid::corners_of_marked() const {
 TriangleMesh CellGrid::surface() const {
   const std::vector<std::uint8_t> is_corner_in = corners_of_marked();
   SurfaceBuilder builder;
-  Place p;
+  Cell p;
   for (p[2] = 0; p[2] + 1 < count_[2]; ++p[2])
     for (p[1] = 0; p[1] + 1 < count_[1]; ++p[1])
       for (p[0] = 0; p[0] + 1 < count_[0]; ++p[0]) {
         std::array<bool, 8> in{};
-        std::array<Place, 8> corners;
+        std::array<Cell, 8> corners;
         for (std::size_t i = 0; i < 8; ++i) {
           corners[i] = {p[0] + static_cast<std::int32_t>(i & 1), p[1] + static_cast<std::int32_t>(i >> 1 & 1),
                         p[2] + static_cast<std::int32_t>(i >> 2 & 1)};
           in[i] = is_corner_in[index(corners[i])] != 0;
         }
-        if (std::all_of(in.begin(), in.end(), [&](bool one) { return one == in[0]; })) continue;
+        if (std::all_of(in.begin(), in.end(), [&](bool is_in) { return is_in == in[0]; })) continue;
         for (const auto& tetrahedron : kTetrahedra) {
           std::array<bool, 4> is_in{};
           std::array<Vec3, 4> points;

@@ -33,7 +33,7 @@ std::optional<ExportFormat> export_format_of(std::string_view file) {
   return {};
 }
 
-bool is_made_elsewhere(ExportFormat format) {
+bool has_own_writer(ExportFormat format) {
   return format == ExportFormat::Png || format == ExportFormat::InstructionsHtml ||
          format == ExportFormat::InstructionsPdf || format == ExportFormat::SweptStl;
 }
@@ -43,13 +43,13 @@ bool needs_path(ExportFormat format) {
          format == ExportFormat::InstructionsPdf || format == ExportFormat::SweptStl;
 }
 
-bool knows_direction(ExportFormat format) {
+bool depends_on_direction(ExportFormat format) {
   return format != ExportFormat::BillCsv && format != ExportFormat::BillJson && format != ExportFormat::SweptStl;
 }
 
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
                                   const ExportOptions& options) {
-  DISMANTLE_EXPECT(!is_made_elsewhere(format));
+  DISMANTLE_EXPECT(!has_own_writer(format));
   const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
   if (!timeline) return timeline.error();
   switch (format) {

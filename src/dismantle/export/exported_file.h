@@ -10,31 +10,32 @@
 
 namespace dismantle {
 
-/// What an assembly and its path are written as; docs/export.md.
+/// Formats in which an assembly and its path are exported; docs/export.md.
 enum class ExportFormat { Glb, Html, Png, Moves, BillCsv, BillJson, Path, InstructionsHtml, InstructionsPdf, SweptStl };
 
-/// Whether a format is made elsewhere: pictures (step_scene.h), swept volumes (swept_volume.h) and work instructions
-/// (instructions/).
-bool is_made_elsewhere(ExportFormat format);
+/// True for formats that exported_file() does not write: pictures (step_scene.h), swept volumes (swept_volume.h) and
+/// work instructions (instructions/).
+bool has_own_writer(ExportFormat format);
 
-/// The format that a file's name tells by how it ends; nothing where it tells none.
+/// The format selected by the ending of a file name; nothing if the ending is unknown.
 std::optional<ExportFormat> export_format_of(std::string_view file);
 
-/// Whether a format is about moves only, so that there has to be a path.
+/// True if a format describes moves and therefore requires a path.
 bool needs_path(ExportFormat format);
-/// Whether a format tells moves apart from their reverse.
-bool knows_direction(ExportFormat format);
+/// True if the content of a format depends on the direction of the path.
+bool depends_on_direction(ExportFormat format);
 
+/// Options of exported_file().
 struct ExportOptions {
-  PathDirection direction = PathDirection::Forward;
-  std::vector<MoveClearance> clearances;  ///< For Moves: as MovesTableOptions has them.
-  ViewerFiles viewer;                     ///< For Html.
-  ProgressCallback progress;
+  PathDirection direction = PathDirection::Forward;  ///< Order in which moves are exported.
+  std::vector<MoveClearance> clearances;             ///< For Moves: see MovesTableOptions::clearances.
+  ViewerFiles viewer;                                ///< For Html.
+  ProgressCallback progress;                         ///< Reports and cancels.
 };
 
-/// The file's bytes. Errors: Unreadable where the path does not fit the
-/// assembly, Failed where the file would be too large or was cancelled.
-/// @pre !is_made_elsewhere(format)
+/// The content of a file in the given format. Errors: Unreadable if the path does not match the assembly, Failed if the
+/// file would be too large or the export was cancelled.
+/// @pre !has_own_writer(format)
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
                                   const ExportOptions& options = {});
 

@@ -11,29 +11,30 @@ namespace dismantle {
 
 namespace {
 
-/// How far a move goes.
-struct Way {
-  double length = 0;  ///< Of the way of the set's middle [mm].
-  double angle = 0;   ///< All turns together [rad].
+/// Extent of a move.
+struct Travel {
+  double length = 0;  ///< Path length of the centre of the moving set [mm].
+  double angle = 0;   ///< Total rotation [rad].
 };
 
-Vec3 middle_of(const Assembly& assembly, const std::vector<ComponentId>& set) {
+/// Centre of a set in the assembled state [mm].
+Vec3 center_of(const Assembly& assembly, const std::vector<ComponentId>& set) {
   Aabb box;
   for (const ComponentId c : set) box.extend(assembled_bounds(assembly[c]));
   return box.empty() ? Vec3{} : box.center();
 }
 
-Way way_of(const TimelineMove& move, Vec3 middle) {
-  Way way;
+Travel travel_of(const TimelineMove& move, Vec3 center) {
+  Travel travel;
   for (std::size_t i = 1; i < move.frames.size(); ++i) {
     const Pose& start = move.frames[i - 1].pose;
     const Screw screw = screw_between(start, move.frames[i].pose);
-    const Vec3 place = transform_from_pose(start) * middle;
-    // A point's speed does not change along a screw.
-    way.length += length(screw.velocity + screw.angle * cross(screw.axis, place - screw.reference));
-    way.angle += screw.angle;
+    const Vec3 point = transform_from_pose(start) * center;
+    // The speed of a point is constant along a screw motion.
+    travel.length += length(screw.velocity + screw.angle * cross(screw.axis, point - screw.reference));
+    travel.angle += screw.angle;
   }
-  return way;
+  return travel;
 }
 
 void add_pose(std::vector<std::string>& row, const Pose& p) {
@@ -51,6 +52,7 @@ std::string header() {
   return csv_row(row);
 }
 
+/// Writes the rows of the table.
 class MovesTable {
  public:
   MovesTable(const Assembly& assembly, const Timeline& timeline, const MovesTableOptions& options)
@@ -64,8 +66,8 @@ class MovesTable {
     const std::size_t index = is_reversed_ ? count - 1 - number : number;
     const TimelineMove& move = timeline_.moves()[index];
     const double start = is_reversed_ ? timeline_.duration() - move.start - move.duration() : move.start;
-    const Vec3 middle = middle_of(assembly_, move.components);
-    const Way way = way_of(move, middle);
+    const Vec3 center = center_of(assembly_, move.components);
+    const Travel travel = travel_of(move, center);
     Pose from = move.frames.front().pose, to = move.frames.back().pose;
     if (is_reversed_) std::swap(from, to);
 
@@ -78,9 +80,9 @@ class MovesTable {
         csv_field(start),
         csv_field(start + move.duration()),
         csv_field(move.frames.size()),
-        csv_field(way.length),
-        csv_field(length(transform_from_pose(to) * middle - transform_from_pose(from) * middle)),
-        csv_field(way.angle)};
+        csv_field(travel.length),
+        csv_field(length(transform_from_pose(to) * center - transform_from_pose(from) * center)),
+        csv_field(travel.angle)};
     add_pose(row, from);
     add_pose(row, to);
     add_clearance(row, index, start);
@@ -93,10 +95,10 @@ class MovesTable {
       row.insert(row.end(), 3, std::string());
       return;
     }
-    const MoveClearance& least = options_.clearances[index];
-    const double time = is_reversed_ ? timeline_.moves()[index].duration() - least.time : least.time;
+    const MoveClearance& minimum = options_.clearances[index];
+    const double time = is_reversed_ ? timeline_.moves()[index].duration() - minimum.time : minimum.time;
     row.insert(row.end(),
-               {csv_field(least.distance), csv_field(start + time), csv_field(assembly_[least.neighbour].name)});
+               {csv_field(minimum.distance), csv_field(start + time), csv_field(assembly_[minimum.neighbour].name)});
   }
 
   const Assembly& assembly_;
@@ -114,19 +116,19 @@ std::optional<std::vector<MoveClearance>> move_clearances(const Assembly& assemb
   std::vector<Pose> poses(assembly.components.size());
   std::vector<MoveClearance> all;
   for (const TimelineMove& move : timeline.moves()) {
-    MoveClearance least{std::numeric_limits<double>::infinity(), 0, {}};
+    MoveClearance minimum{std::numeric_limits<double>::infinity(), 0, {}};
     for (const Frame& frame : move.frames) {
       const double done = timeline.duration() > 0 ? (move.start + frame.time) / timeline.duration() : 1;
       if (!report_progress(progress, "measuring clearances", done)) return {};
       for (const ComponentId c : move.components) poses[c.value] = frame.pose;
       engine.jump(poses);
-      engine.hold(move.components);
-      const Clearance now = engine.clearance(least.distance);
-      if (now.distance < least.distance) least = {now.distance, frame.time, now.fixed};
-      if (!(least.distance > 0)) break;  // no frame is nearer
+      engine.grab(move.components);
+      const Clearance now = engine.clearance(minimum.distance);
+      if (now.distance < minimum.distance) minimum = {now.distance, frame.time, now.fixed};
+      if (!(minimum.distance > 0)) break;  // no frame can be closer
     }
     for (const ComponentId c : move.components) poses[c.value] = move.frames.back().pose;
-    all.push_back(least);
+    all.push_back(minimum);
   }
   return all;
 }

@@ -12,27 +12,27 @@
 
 namespace dismantle {
 
-/// How near a move comes to what does not move.
+/// Minimum clearance between the moving set and the stationary components during a move.
 struct MoveClearance {
-  double distance = 0;    ///< The least at any frame [mm]; 0 where surfaces meet, infinite where there is nothing else.
-  double time = 0;        ///< Of the first such frame, in the move [s].
-  ComponentId neighbour;  ///< What is so near; invalid where there is nothing else.
+  double distance = 0;    ///< Minimum over the frames [mm]; 0 at contact, infinite without other components.
+  double time = 0;        ///< Time of the first frame with that distance, from the start of the move [s].
+  ComponentId neighbour;  ///< The nearest component in that frame; invalid without other components.
 };
 
-/// The least clearance of each move at its frames, exact there. Nothing is told between frames. Embedded pairs do not
-/// count. @return nothing where it was cancelled
+/// The minimum clearance of each move of a timeline. Exact at frames; not evaluated between them. Embedded pairs are
+/// ignored. @return nothing if cancelled
 std::optional<std::vector<MoveClearance>> move_clearances(const Assembly& assembly, const PairStates& pairs,
                                                           const Timeline& timeline,
                                                           const CertificateOptions& options = {},
                                                           const ProgressCallback& progress = {});
 
+/// Options of moves_csv().
 struct MovesTableOptions {
-  PathDirection direction = PathDirection::Forward;
-  std::vector<MoveClearance> clearances;  ///< Of each move of the timeline, or empty: not known.
+  PathDirection direction = PathDirection::Forward;  ///< Order of the moves.
+  std::vector<MoveClearance> clearances;             ///< One per move of the timeline, or empty if unknown.
 };
 
-/// The moves as CSV (RFC 4180), a row each with a header, in the order in which they are gone; the columns are in
-/// docs/formats.md.
+/// The moves as CSV (RFC 4180): a header, and one row per move in the order of the direction. Columns: docs/formats.md.
 std::string moves_csv(const Assembly& assembly, const Timeline& timeline, const MovesTableOptions& options = {});
 
 }  // namespace dismantle

@@ -15,14 +15,14 @@ namespace dismantle {
 
 namespace {
 
-/// A page of a longer model would be more than browsers take [bytes].
-constexpr std::size_t kLargestModel = std::size_t{350} << 20;
+/// Maximum size of the unpacked model: browsers fail to load pages of larger ones [bytes].
+constexpr std::size_t kMaxModelSize = std::size_t{350} << 20;
 
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
     "form-action 'none'";
 
-/// In blocks, so that it can be cancelled.
+/// Compresses block by block, so that packing can be cancelled.
 class Deflater {
  public:
   Deflater() {
@@ -33,7 +33,7 @@ class Deflater {
   Deflater& operator=(const Deflater&) = delete;
 
   void add(std::string_view bytes, bool is_last) {
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // it only reads
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib only reads it
     stream_.avail_in = static_cast<uInt>(bytes.size());
     std::uint8_t block[1 << 16];
     do {
@@ -53,7 +53,7 @@ class Deflater {
 Result<std::string> packed_model(const Assembly& assembly, const ProgressCallback& progress) {
   const Result<std::string> glb = glb_from_assembly(assembly);
   if (!glb) return glb.error();
-  if (glb->size() > kLargestModel)
+  if (glb->size() > kMaxModelSize)
     return Error{ErrorKind::Failed, "the assembly is too large for a page (more than 350 MiB); simplify it"};
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   Deflater deflater;
@@ -61,19 +61,19 @@ Result<std::string> packed_model(const Assembly& assembly, const ProgressCallbac
     const std::size_t end = std::min(begin + kBlock, glb->size());
     deflater.add(std::string_view(*glb).substr(begin, end - begin), end == glb->size());
     if (!report_progress(progress, "packing the model", static_cast<double>(end) / static_cast<double>(glb->size())))
-      return Error{ErrorKind::Failed, "the page was not written (cancelled); start it again"};
+      return Error{ErrorKind::Failed, "the page was not written (cancelled); run it again"};
   }
   return base64(deflater.packed());
 }
 
-/// JSON that cannot end the element that it stands in.
+/// JSON escaped so that it cannot end its script element.
 std::string safe_json(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
   return json;
 }
 
-/// A script or style that cannot end its element: what would is only ever within strings.
+/// A script or style sheet escaped so that it cannot end its element; such text occurs only within strings.
 std::string safe_text(std::string_view text) {
   std::string safe(text);
   for (const std::string_view start : {"</script", "</style", "<!--"})
@@ -86,6 +86,7 @@ std::string data_block(std::string_view id, std::string_view type, const std::st
   return "<script type=\"" + std::string(type) + "\" id=\"" + std::string(id) + "\">" + content + "</script>\n";
 }
 
+/// The path as played in a direction.
 Path directed(Path path, PathDirection direction) {
   if (direction == PathDirection::Forward) return path;
   std::reverse(path.moves.begin(), path.moves.end());

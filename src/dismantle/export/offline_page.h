@@ -11,23 +11,24 @@
 
 namespace dismantle {
 
-/// The files of the viewer's page (web/) that an offline page is made of.
+/// The viewer's files (web/) that an offline page embeds.
 struct ViewerFiles {
-  std::string_view script;   ///< One script, a module without imports.
-  std::string_view style;    ///< Of the viewer.
-  std::string_view offline;  ///< What is different in an offline page.
+  std::string_view script;   ///< A module without imports.
+  std::string_view style;    ///< Style sheet of the viewer.
+  std::string_view offline;  ///< Additional style sheet of offline pages.
   std::string_view icon;     ///< SVG.
 };
 
+/// Options of offline_page().
 struct OfflinePageOptions {
-  PathDirection direction = PathDirection::Forward;
-  ProgressCallback progress;
+  PathDirection direction = PathDirection::Forward;  ///< Direction in which the path is played.
+  ProgressCallback progress;                         ///< Reports and cancels.
 };
 
-/// One HTML page that shows an assembly and plays its path: it holds the viewer, the model and the path in itself,
-/// needs no server, loads nothing from anywhere, and its own policy forbids it to. Same input, same bytes.
-/// @pre the path fits the assembly (Timeline::of_path)
-/// Errors: Failed where the model is too large, or where it was cancelled.
+/// A self-contained HTML page that shows an assembly and plays its path. It embeds the viewer, the model and the path,
+/// needs no server, and its content security policy forbids loading anything. Deterministic.
+/// @pre the path matches the assembly (Timeline::of_path)
+/// Errors: Failed if the model is too large or the export was cancelled.
 Result<std::string> offline_page(const Assembly& assembly, const Path& path, const ViewerFiles& files,
                                  const OfflinePageOptions& options = {});
 

@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// Every track lasts as long as the animation does.
+/// The animation backwards. @pre every track is as long as the animation
 GlbAnimation reversed(GlbAnimation animation) {
   animation.name += ", reversed";
   for (GlbTrack& track : animation.tracks) track.frames = reversed(std::move(track.frames));
@@ -37,7 +37,7 @@ GlbAnimation whole_animation(const Timeline& timeline) {
   return all;
 }
 
-/// @param poses before the move, of every component that any move moves
+/// @param poses of all components that move at any time, before this move
 GlbAnimation move_animation(const TimelineMove& move, std::size_t number, const std::map<ComponentId, Pose>& poses) {
   const std::set<ComponentId> moving(move.components.begin(), move.components.end());
   GlbAnimation animation{std::to_string(number) + ' ' + move.label, {}};

@@ -8,12 +8,12 @@
 
 namespace dismantle {
 
-/// Which way moves are gone: as they were recorded (apart), or from their end to their beginning (together).
+/// Order in which the moves of a path are carried out: as recorded (disassembly), or reversed (assembly).
 enum class PathDirection { Forward, Reversed };
 
-/// The animations of a timeline: "all" and "all, reversed", then "1 LABEL" and "1 LABEL, reversed" for each move; of
-/// each two the one in `first` comes first. In a move's animation the other components stand where they are then.
-/// Empty for a timeline without moves.
+/// The animations of a timeline: "all" and "all, reversed", then "1 LABEL" and "1 LABEL, reversed" for each move.
+/// Within each pair, the direction `first` comes first. In the animation of a move, the other components keep the poses
+/// that they have at that time. Empty for a timeline without moves.
 std::vector<GlbAnimation> path_animations(const Timeline& timeline, PathDirection first = PathDirection::Forward);
 
 }  // namespace dismantle

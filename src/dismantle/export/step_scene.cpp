@@ -11,8 +11,8 @@ namespace {
 
 constexpr Color kMovingColor{0.95f, 0.55f, 0.10f};
 constexpr Color kArrowColor{0.05f, 0.35f, 0.65f};
-constexpr double kArrowRadius = 0.006;  // of the assembly's diagonal
-constexpr double kShortestArrow = 4;    // of its radius: a shorter one would be all head
+constexpr double kArrowRadius = 0.006;  // fraction of the assembly's diagonal
+constexpr double kMinArrow = 4;         // length in radii: a shorter arrow would be all head
 
 }  // namespace
 
@@ -43,7 +43,7 @@ RenderScene step_scene(const Assembly& assembly, const Timeline& timeline, std::
   if (box.empty() || all.empty()) return scene;
   const double radius = kArrowRadius * length(all.size());
   const Vec3 start = transform_from_pose(from) * box.center(), end = transform_from_pose(to) * box.center();
-  if (length(end - start) > kShortestArrow * radius) scene.items.push_back(make_arrow(start, end, radius, kArrowColor));
+  if (length(end - start) > kMinArrow * radius) scene.items.push_back(make_arrow(start, end, radius, kArrowColor));
   return scene;
 }
 

@@ -8,8 +8,8 @@
 
 namespace dismantle {
 
-/// What a picture of one move shows: everything where it is before the move, what moves in a colour of its own, where
-/// it goes as a ghost, and an arrow along the way of its middle. `step` counts from 0 in the direction.
+/// The scene of one move: all components in their poses before the move, the moving set highlighted, a ghost of it in
+/// its final pose, and an arrow along the displacement of its centre. `step` counts from 0 in the given direction.
 /// @pre step < timeline.moves().size()
 RenderScene step_scene(const Assembly& assembly, const Timeline& timeline, std::size_t step,
                        PathDirection direction = PathDirection::Forward);

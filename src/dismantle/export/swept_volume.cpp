@@ -13,13 +13,13 @@ namespace dismantle {
 
 namespace {
 
-/// Between two places on the way no point goes further than this share of a cell's side.
+/// Between two sampled poses no point travels further than this fraction of a cell's side.
 constexpr double kStepShare = 0.5;
-/// How many sides of a cell the surface may be from what is passed: the diagonal of a marked cell, that of the margin
-/// by which triangles are taken to be thicker, and half the diagonal to the surface around it.
+/// Tolerance in sides of a cell: the diagonal of a marked cell, that of the margin by which triangles are thickened,
+/// and half a diagonal from the cell to the surface around it.
 const double kSides = std::sqrt(3) * (1 + kStepShare / 2 + 0.5);
 
-/// The surfaces of a set, assembled.
+/// The surfaces of a moving set in the assembled state.
 struct MovingSurface {
   std::vector<TriangleMesh> meshes;
   Aabb box;
@@ -34,7 +34,7 @@ MovingSurface surface_of(const Assembly& assembly, const TimelineMove& move) {
   return surface;
 }
 
-/// Poses so close on the way that no point of the set goes further than `step` from one to the next [mm].
+/// Poses along a move, so close that no point of the set travels further than `step` [mm] between two of them.
 std::vector<Pose> close_poses(const TimelineMove& move, const Aabb& box, double step) {
   std::vector<Pose> poses{move.frames.front().pose};
   for (std::size_t i = 1; i < move.frames.size(); ++i) {
@@ -48,8 +48,8 @@ std::vector<Pose> close_poses(const TimelineMove& move, const Aabb& box, double 
   return poses;
 }
 
-/// The box around all that is passed, up to `step` [mm].
-Aabb passed_box(const MovingSurface& surface, const std::vector<Pose>& poses, double step) {
+/// Bounds of the swept volume, enlarged by `step` [mm]. @param poses at most `step` apart
+Aabb swept_bounds(const MovingSurface& surface, const std::vector<Pose>& poses, double step) {
   Aabb box;
   for (const Pose& pose : poses) {
     const RigidTransform t = transform_from_pose(pose);
@@ -59,7 +59,7 @@ Aabb passed_box(const MovingSurface& surface, const std::vector<Pose>& poses, do
   return inflated(box, step);
 }
 
-/// Marks what the surface touches at a pose, each triangle thicker by half a step.
+/// Marks the cells that the surface touches at a pose, with triangles thickened by half a step.
 void mark_surface(const MovingSurface& surface, const Pose& pose, CellGrid& grid) {
   const RigidTransform t = transform_from_pose(pose);
   for (const TriangleMesh& mesh : surface.meshes) {
@@ -71,8 +71,7 @@ void mark_surface(const MovingSurface& surface, const Pose& pose, CellGrid& grid
   }
 }
 
-/// Marks the cells that no surface touches but that are inside: what the surface never passes is inside all the time or
-/// never.
+/// Marks the cells inside of closed components: a cell that no surface passes is inside at all times or never.
 void mark_inside(const Assembly& assembly, const TimelineMove& move, CellGrid& grid) {
   std::vector<SolidTree> solids;
   for (const ComponentId c : move.components)
@@ -87,7 +86,7 @@ void mark_inside(const Assembly& assembly, const TimelineMove& move, CellGrid& g
 Error too_fine(double tolerance) {
   char text[200];
   std::snprintf(text, sizeof text,
-                "the swept volume was not made (%g mm is too fine for its size); allow a larger --within", tolerance);
+                "the swept volume was not computed (%g mm is too fine for its size); set a larger --within", tolerance);
   return {ErrorKind::Usage, text};
 }
 
@@ -96,8 +95,8 @@ Error too_fine(double tolerance) {
 Result<SweptVolume> swept_volume(const Assembly& assembly, const TimelineMove& move,
                                  const SweptVolumeOptions& options) {
   const MovingSurface surface = surface_of(assembly, move);
-  const double rough = diagonal(surface.box) / 10;
-  const Aabb all = passed_box(surface, close_poses(move, surface.box, rough), rough);
+  const double coarse_step = diagonal(surface.box) / 10;
+  const Aabb all = swept_bounds(surface, close_poses(move, surface.box, coarse_step), coarse_step);
   const double tolerance = options.tolerance > 0 ? options.tolerance : kSweptShare * diagonal(all);
   const double side = tolerance / kSides;
   const std::optional<CellGrid> empty = CellGrid::around(all, side, kMaxSweptCells);
@@ -107,7 +106,7 @@ Result<SweptVolume> swept_volume(const Assembly& assembly, const TimelineMove& m
   const std::vector<Pose> poses = close_poses(move, surface.box, kStepShare * side);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!report_progress(options.progress, "sweeping", static_cast<double>(i) / static_cast<double>(poses.size())))
-      return Error{ErrorKind::Failed, "the swept volume was not made (cancelled); start it again"};
+      return Error{ErrorKind::Failed, "the swept volume was not computed (cancelled); run it again"};
     mark_surface(surface, poses[i], grid);
   }
   mark_inside(assembly, move, grid);

@@ -8,27 +8,30 @@
 
 namespace dismantle {
 
-/// All that a set passes on its way.
+/// The volume swept by a moving set.
 struct SweptVolume {
-  TriangleMesh mesh;     ///< Closed, every edge has two faces, normals out [mm].
-  double tolerance = 0;  ///< No point of it is further from what is really passed [mm].
+  TriangleMesh mesh;     ///< Closed manifold with outward normals [mm].
+  double tolerance = 0;  ///< Maximum distance of any point from the exact swept volume [mm].
 };
 
+/// Options of swept_volume().
 struct SweptVolumeOptions {
-  /// How much larger than what is really passed it may be [mm]; 0: kSweptShare of the diagonal of the box around it.
+  /// Maximum distance from the exact swept volume [mm]; 0: kSweptShare of the diagonal of its bounding box.
   double tolerance = 0;
-  ProgressCallback progress;
+  ProgressCallback progress;  ///< Reports and cancels.
 };
 
+/// Default tolerance as a fraction of the diagonal.
 inline constexpr double kSweptShare = 0.02;
 
-/// The volume that a move's components pass, solids with their insides, from its first frame to its last. Conservative:
-/// it holds every point of them at every time; and no point of it is further than the tolerance from one of these.
-/// Found on a grid, whose steps its surface shows. Errors: Usage where the tolerance is too fine for the size
-/// (kMaxSweptCells), Failed where it was cancelled.
+/// The volume swept by the components of a move, closed ones including their interior, from the first frame to the
+/// last. Conservative: contains every point of the components at every time, and no point further than the tolerance
+/// from one of these. Computed on a grid, so the surface is stepped. Errors: Usage if the tolerance needs more than
+/// kMaxSweptCells cells, Failed if cancelled.
 Result<SweptVolume> swept_volume(const Assembly& assembly, const TimelineMove& move,
                                  const SweptVolumeOptions& options = {});
 
+/// Maximum number of grid cells, to bound memory.
 inline constexpr std::size_t kMaxSweptCells = std::size_t{1} << 27;
 
 }  // namespace dismantle

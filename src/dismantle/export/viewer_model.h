@@ -7,8 +7,8 @@
 
 namespace dismantle {
 
-/// What the viewer's page knows of an assembly apart from its shape, as a JSON object: the event `model` of
-/// docs/wire.md without `event` and `number`.
+/// Metadata of an assembly for the viewer, as a JSON object: the event `model` of docs/wire.md without `event` and
+/// `number`. @param tolerance depth that counts as touching [mm]
 std::string viewer_model_json(const Assembly& assembly, double tolerance);
 
 }  // namespace dismantle
