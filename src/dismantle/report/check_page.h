@@ -3,8 +3,9 @@
 
 namespace dismantle {
 
-/// The fixed parts of the clash report's page. All of it is well-formed as XML, too: scripts do without '<' and '&'.
+// The fixed parts of the clash report's HTML page. They are also well-formed XML: scripts contain no '<' and '&'.
 
+/// Start of the document, up to its title.
 inline constexpr const char* kPageStart = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -14,6 +15,7 @@ inline constexpr const char* kPageStart = R"(<!DOCTYPE html>
 <meta name="generator" content="dismantle"/>
 )";
 
+/// Style sheet.
 inline constexpr const char* kPageStyle = R"(
 :root { --ink: #1c2430; --soft: #5c6675; --line: #dde2e8; --paper: #ffffff; --ground: #f4f6f8; }
 * { box-sizing: border-box; }
@@ -55,20 +57,24 @@ footer { margin-top: 32px; color: var(--soft); font-size: 13px; }
 @media print { body { background: #ffffff; max-width: none; } .tools { display: none; } figure { break-inside: avoid; } }
 )";
 
+/// Start of the table of pairs: search field and column headers.
 inline constexpr const char* kTableStart = R"(<section><h2>Pairs</h2>
 <div class="tools"><input id="search" type="search" placeholder="Search names and states"
 aria-label="Search names and states"/><span id="shown"></span></div>
 <table id="pairs"><thead><tr><th class="n"><button>#</button></th><th><button>Component</button></th>
-<th><button>with</button></th><th><button>State</button></th><th class="n"><button>Depth [mm]</button></th>
+<th><button>Other component</button></th><th><button>State</button></th><th class="n"><button>Depth [mm]</button></th>
 <th class="n"><button>Allowed [mm]</button></th><th class="n"><button>Distance [mm]</button></th>
 <th class="n"><button>Triangle pairs</button></th>
 </tr></thead><tbody>
 )";
 
+/// Text of the footer.
 inline constexpr const char* kPageFooter =
-    R"(Depth is the largest depth of an intersecting triangle pair: the least translation that parts them. Features of a
-component that are thinner than the allowed depth are not protected. Written by dismantle.)";
+    R"(Depth: the largest penetration depth of an intersecting triangle pair, which is the length of the shortest
+translation that separates the two triangles. Features thinner than the allowed depth are not protected. Written by
+dismantle.)";
 
+/// Script that sorts and filters the table.
 inline constexpr const char* kPageScript = R"(
 "use strict";
 (function () {

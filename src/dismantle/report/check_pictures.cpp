@@ -11,11 +11,11 @@ namespace dismantle {
 
 namespace {
 
-constexpr int kSamples = 2;          // along a pixel's side
+constexpr int kSamples = 2;          // along each side of a pixel
 constexpr float kCurveWidth = 2.0f;  // [pixels]
-// A close-up shows the overlap with this part of it, and of the smaller component, around it.
-constexpr double kOverlapSurroundings = 0.3;
-constexpr double kComponentSurroundings = 0.2;
+// Margin of a close-up around the overlap, as fractions of the overlap and of the smaller component.
+constexpr double kOverlapMargin = 0.3;
+constexpr double kComponentMargin = 0.2;
 
 void add_curve(const std::vector<CurveSegment>& curve, RenderScene& scene) {
   Color color = kOverlapColor;
@@ -33,7 +33,7 @@ CheckPictures::CheckPictures(const Assembly& assembly, int width, int height, co
   options_.executor = executor;
 }
 
-Image CheckPictures::take(const RenderScene& scene, const std::vector<Vec3>& points) const {
+Image CheckPictures::picture(const RenderScene& scene, const std::vector<Vec3>& points) const {
   CameraFit fit;
   fit.aspect = static_cast<double>(options_.width) / options_.height;
   return render(scene, fit_camera(points, fit), options_);
@@ -44,14 +44,14 @@ std::vector<CurveSegment> CheckPictures::curve(const ComponentPair& pair) const 
 }
 
 Image CheckPictures::overview() const {
-  return take(scene_, item_points(scene_.items));
+  return picture(scene_, item_points(scene_.items));
 }
 
 Image CheckPictures::overlaps(const std::vector<ComponentPair>& pairs) const {
   RenderScene scene = scene_;
   for (RenderItem& item : scene.items) make_ghost(item);
   for (const ComponentPair& pair : pairs) add_curve(curve(pair), scene);
-  return take(scene, item_points(scene.items));
+  return picture(scene, item_points(scene.items));
 }
 
 Image CheckPictures::closeup(const ComponentPair& pair) const {
@@ -72,8 +72,8 @@ Image CheckPictures::closeup(const ComponentPair& pair) const {
   const Aabb box_a = assembled_bounds(assembly_[pair.a]), box_b = assembled_bounds(assembly_[pair.b]);
   if (region.empty()) region = diagonal(box_a) < diagonal(box_b) ? box_a : box_b;
   const double smaller = std::min(diagonal(box_a), diagonal(box_b));
-  const double around = std::max(kOverlapSurroundings * diagonal(region), kComponentSurroundings * smaller);
-  return take(scene, corners_of(inflated(region, around / 2)));
+  const double around = std::max(kOverlapMargin * diagonal(region), kComponentMargin * smaller);
+  return picture(scene, corners_of(inflated(region, around / 2)));
 }
 
 }  // namespace dismantle

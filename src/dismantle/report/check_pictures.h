@@ -12,27 +12,26 @@
 
 namespace dismantle {
 
-/// The colours of a pair's first and second component, and of where they overlap.
-inline constexpr Color kFirstColor{0.93f, 0.66f, 0.25f};
-inline constexpr Color kSecondColor{0.36f, 0.58f, 0.86f};
-inline constexpr Color kOverlapColor{0.85f, 0.02f, 0.10f, 0.75f};
+inline constexpr Color kFirstColor{0.93f, 0.66f, 0.25f};           ///< Colour of a pair's first component.
+inline constexpr Color kSecondColor{0.36f, 0.58f, 0.86f};          ///< Colour of a pair's second component.
+inline constexpr Color kOverlapColor{0.85f, 0.02f, 0.10f, 0.75f};  ///< Colour of their overlap.
 
-/// Takes the pictures of a clash report: prepares the assembly once.
+/// Renders the pictures of a clash report; prepares the assembly once.
 class CheckPictures {
  public:
   /// `assembly` must outlive this. @param width, height of each picture [pixels]
   CheckPictures(const Assembly& assembly, int width, int height, const Executor& executor);
 
-  /// The whole assembly in its colours.
+  /// The whole assembly in its own colours.
   Image overview() const;
-  /// The whole assembly looked through, with the curves along which pairs cut each other.
+  /// The whole assembly, transparent, with the intersection curves of the given pairs.
   Image overlaps(const std::vector<ComponentPair>& pairs) const;
-  /// The place where a pair overlaps, from near: the two highlighted, the others looked through, their common volume
-  /// and the curve along which they cut each other marked.
+  /// A close-up of the overlap of a pair: the two components highlighted, all others transparent, their common volume
+  /// and their intersection curve marked.
   Image closeup(const ComponentPair& pair) const;
 
  private:
-  Image take(const RenderScene& scene, const std::vector<Vec3>& points) const;
+  Image picture(const RenderScene& scene, const std::vector<Vec3>& points) const;
   std::vector<CurveSegment> curve(const ComponentPair& pair) const;
 
   const Assembly& assembly_;

@@ -19,7 +19,7 @@ std::string number(double value) {
   return text;
 }
 
-/// A number cell that sorts by its exact value; one that does not apply to the pair is a dash and sorts last.
+/// A table cell that sorts by its exact value; a dash that sorts last if the value does not apply to the pair.
 std::string number_cell(double value, bool applies) {
   char exact[64];
   std::snprintf(exact, sizeof exact, "%.17g", value);
@@ -69,21 +69,20 @@ class PageWriter {
   }
 
  private:
-  static Error cancelled() {
-    return {ErrorKind::Failed, "the HTML report is not written (cancelled); run the command again to have it"};
-  }
+  static Error cancelled() { return {ErrorKind::Failed, "the HTML report was not written (cancelled); run it again"}; }
 
-  bool go_on(std::size_t done) const {
-    return report_progress(options_.progress, "taking pictures",
-                           static_cast<double>(done) / static_cast<double>(closeups_ + 2));
+  /// Reports progress; false if cancelled.
+  bool report(std::size_t pictures_done) const {
+    return report_progress(options_.progress, "rendering pictures",
+                           static_cast<double>(pictures_done) / static_cast<double>(closeups_ + 2));
   }
 
   std::string name(ComponentId id) const { return html_escaped(assembly_[id].name); }
 
   void write_summary() {
     const PairCounts counts = count_pairs(states_);
-    const auto card = [&](const std::string& value, const char* what, const char* style) {
-      page_ += std::string("<div class=\"card ") + style + "\"><b>" + value + "</b><span>" + what + "</span></div>";
+    const auto card = [&](const std::string& value, const char* label, const char* style) {
+      page_ += std::string("<div class=\"card ") + style + "\"><b>" + value + "</b><span>" + label + "</span></div>";
     };
     page_ += "<div class=\"cards\">";
     card(std::to_string(assembly_.components.size()), "components", "");
@@ -100,15 +99,15 @@ class PageWriter {
   }
 
   bool write_overviews() {
-    if (!go_on(0)) return false;
+    if (!report(0)) return false;
     page_ += "<section class=\"pictures\"><figure>" + picture(pictures_.overview(), "The assembly") +
              "<figcaption>The assembly</figcaption></figure>\n";
-    if (!go_on(1)) return false;
+    if (!report(1)) return false;
     if (closeups_ > 0) {
       std::vector<ComponentPair> deep;
       std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(deep), overlaps_deeply);
-      page_ += "<figure>" + picture(pictures_.overlaps(deep), "Where components overlap") +
-               "<figcaption>Where components overlap: <i class=\"o\">red</i> lines</figcaption></figure>\n";
+      page_ += "<figure>" + picture(pictures_.overlaps(deep), "Overlapping components") +
+               "<figcaption>Overlaps: intersection curves in <i class=\"o\">red</i></figcaption></figure>\n";
     }
     page_ += "</section>\n";
     return true;
@@ -120,7 +119,7 @@ class PageWriter {
     return link += "</a>";
   }
 
-  /// For the text that stands for a picture.
+  /// Alternative text of a close-up.
   std::string names(const ComponentPair& p) const {
     std::string text = assembly_[p.a].name + " and ";
     return text += assembly_[p.b].name;
@@ -143,18 +142,18 @@ class PageWriter {
   }
 
   bool write_closeups() {
-    if (closeups_ == 0) return go_on(2);
+    if (closeups_ == 0) return report(2);
     page_ += "<section><h2>Overlaps, worst first</h2><div class=\"pictures\">\n";
     for (std::size_t i = 0; i < closeups_; ++i) {
-      if (!go_on(i + 2)) return false;
+      if (!report(i + 2)) return false;
       const ComponentPair& p = pairs_[i];
       const std::string rank = std::to_string(i + 1);
       page_ += "<figure id=\"pair-" + rank + "\">" + picture(pictures_.closeup(p), names(p));
       page_ += "<figcaption><b>" + rank + "</b> <i class=\"a\">" + name(p.a) + "</i> and <i class=\"b\">" + name(p.b);
-      page_ += "</i>: " + state_badge(p.state) + " " + number(p.penetration) + " mm deep</figcaption></figure>\n";
+      page_ += "</i>: " + state_badge(p.state) + " depth " + number(p.penetration) + " mm</figcaption></figure>\n";
     }
     page_ += "</div></section>\n";
-    return go_on(closeups_ + 2);
+    return report(closeups_ + 2);
   }
 
   const Assembly& assembly_;

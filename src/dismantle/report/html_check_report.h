@@ -12,18 +12,18 @@
 
 namespace dismantle {
 
-/// Options of html_check_report.
+/// Options of html_check_report().
 struct HtmlCheckOptions {
-  std::size_t pictures = 24;  ///< Close-ups of embedded and fit pairs, worst first, at most.
+  std::size_t pictures = 24;  ///< Maximum number of close-ups of embedded and fit pairs, worst first.
   int picture_width = 640;    ///< [pixels]
   int picture_height = 480;   ///< [pixels]
-  Executor executor;
-  ProgressCallback progress;
+  Executor executor;          ///< Renders pictures in parallel.
+  ProgressCallback progress;  ///< Reports and cancels.
 };
 
-/// The clash report as one HTML page (well-formed XML, too) that needs nothing else: a table of the pairs that can be
-/// sorted and searched, pictures of the assembly and, from near, of the overlaps. It loads nothing from anywhere, and
-/// its own policy forbids it to. Same input, same bytes. Errors: Failed where `progress` cancelled.
+/// The clash report as a self-contained HTML page, which is also well-formed XML: a sortable and searchable table of
+/// the pairs, pictures of the assembly and close-ups of the overlaps. Its content security policy forbids loading
+/// anything. Deterministic. Errors: Failed if `progress` cancelled.
 Result<std::string> html_check_report(const Assembly& assembly, const PairStates& states,
                                       const HtmlCheckOptions& options = {});
 

@@ -5,8 +5,7 @@ namespace dismantle {
 
 namespace {
 
-/// The length of the UTF-8 sequence at the start of `text` (RFC 3629: shortest form, no surrogates); 0 where it is
-/// none.
+/// Length of the UTF-8 sequence at the start of `text` (RFC 3629: shortest form, no surrogates); 0 if it is invalid.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

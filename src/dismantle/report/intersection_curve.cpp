@@ -20,7 +20,7 @@ Aabb box_of(const Triangle& t) {
   return box;
 }
 
-/// The faces that reach into `region`, by the lower end of their boxes along `axis`.
+/// The faces whose boxes overlap `region`, sorted by the lower ends of the boxes along `axis`.
 std::vector<BoxedFace> faces_within(const TriangleMesh& mesh, const Aabb& region, int axis) {
   std::vector<BoxedFace> faces;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -32,7 +32,7 @@ std::vector<BoxedFace> faces_within(const TriangleMesh& mesh, const Aabb& region
   return faces;
 }
 
-/// Where the side p-q goes through the triangle, if it does.
+/// The point where the segment p-q crosses the triangle, if it does.
 std::optional<Vec3> crossing(Vec3 p, Vec3 q, const Triangle& t) {
   const Vec3 n = normal_unscaled(t);
   const double above_p = dot(n, p - t[0]), above_q = dot(n, q - t[0]);
@@ -43,7 +43,7 @@ std::optional<Vec3> crossing(Vec3 p, Vec3 q, const Triangle& t) {
   return x;
 }
 
-/// The two crossings of the triangles' sides that are farthest apart.
+/// The intersection of two triangles: the two edge crossings that are farthest apart.
 std::optional<CurveSegment> cut_of(const Triangle& a, const Triangle& b) {
   std::vector<Vec3> points;
   for (int k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ std::vector<CurveSegment> intersection_curve(const TriangleMesh& a, const Triang
     if (const auto segment = cut_of(a.triangle(f.face), b.triangle(g.face)))
       found.push_back({f.face, g.face, *segment});
   };
-  // Sweep: of two boxes that overlap along the axis, one's lower end is within the other.
+  // Sweep and prune: of two boxes that overlap along the axis, one contains the lower end of the other.
   const std::vector<BoxedFace> faces_a = faces_within(a, region, axis), faces_b = faces_within(b, region, axis);
   std::size_t i = 0, j = 0;
   while (i < faces_a.size() && j < faces_b.size()) {

@@ -7,13 +7,13 @@
 
 namespace dismantle {
 
-/// A piece of the curve along which two surfaces cut each other.
+/// A segment of the intersection curve of two surfaces.
 struct CurveSegment {
   Vec3 ends[2];  ///< [mm]
 };
 
-/// Where the surfaces of two meshes cut each other, a segment a triangle pair, for pictures: in plain floating point,
-/// and without what lies in a common plane. Ordered by the faces of `a`, then of `b`.
+/// The intersection curve of two meshes, one segment per triangle pair, for display: computed in plain floating point,
+/// without coplanar contact. Ordered by the faces of `a`, then of `b`.
 std::vector<CurveSegment> intersection_curve(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace dismantle
