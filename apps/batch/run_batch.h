@@ -9,7 +9,7 @@ namespace dismantle::batch {
 
 struct BatchRunOptions {
   int workers = 1;            ///< Processes that work here.
-  bool retry_failed = false;  ///< Do again what failed before.
+  bool retry_failed = false;  ///< Retry assemblies that failed.
   BatchReport report;         ///< Called once an item; Found: it was there before the run.
 };
 

@@ -36,12 +36,15 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command.add_option("--angular-deflection", o.import.angular_deflection, "STEP: largest turn from facet to facet")
+  command
+      .add_option("--angular-deflection", o.import.angular_deflection,
+                  "STEP: largest angle between neighbouring facets")
       ->type_name("RAD")
       ->check(CLI::PositiveNumber)
       ->group(group);
   command
-      .add_option("--tolerance", o.tolerance, "Penetration that counts as touching (default: by size and deflection)")
+      .add_option("--tolerance", o.tolerance,
+                  "Penetration that still counts as contact (default: from size and deflection)")
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->group(group);
@@ -59,8 +62,7 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command
-      .add_option("--device", o.device, "Where to compute: cpu, cuda, or auto (cuda where it is there and worth it)")
+  command.add_option("--device", o.device, "Device: cpu, cuda, or auto (cuda if available and faster)")
       ->transform(CLI::CheckedTransformer(kDevices))
       ->type_name("cpu|cuda|auto")
       ->group(group);
@@ -69,7 +71,7 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->check(CLI::Range(1, 1024))
       ->group(group);
   command.add_flag("--json", o.json, "Print the result as JSON")->group(group);
-  command.add_flag("--quiet", o.quiet, "Print no progress")->group(group);
+  command.add_flag("--quiet", o.quiet, "Do not print progress")->group(group);
 }
 
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {
@@ -86,13 +88,13 @@ Result<std::filesystem::path> assembly_beside(const std::string& path_file, cons
   fs::path assembly = fs::absolute(path_file).parent_path() / fs::path(path.assembly_file).filename();
   if (!fs::exists(assembly))
     return Error{ErrorKind::Unreadable, path_file + " cannot be followed (its assembly '" + path.assembly_file +
-                                            "' is not beside it); put the two into one folder"};
+                                            "' is not in its folder); put both into one folder"};
   return assembly;
 }
 
 void note_other_version(const Path& path, const Assembly& assembly) {
   if (!path.assembly_sha256.empty() && path.assembly_sha256 != assembly.source_sha256)
-    std::fprintf(stderr, "dismantle: note: the path was made from another version of the assembly (SHA-256 differs)\n");
+    std::fprintf(stderr, "dismantle: note: the path was made for another version of the assembly (SHA-256 differs)\n");
 }
 
 ProgressCallback progress_printer(const CommonOptions& options) {

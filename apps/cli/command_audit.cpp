@@ -66,8 +66,8 @@ void print_text(const AuditReport& report, const Assembly& a, const Path& path, 
         return p.deepest / std::max(p.allowed, 1e-300) < q.deepest / std::max(q.allowed, 1e-300);
       });
   if (deepest != report.depths.end())
-    fmt::print("deepest for what it may be: \"{}\" and \"{}\", {:.4g} mm (allowed: {:.4g} mm)\n", a[deepest->a].name,
-               a[deepest->b].name, deepest->deepest, deepest->allowed);
+    fmt::print("deepest relative to its allowance: \"{}\" and \"{}\", {:.4g} mm (allowed: {:.4g} mm)\n",
+               a[deepest->a].name, a[deepest->b].name, deepest->deepest, deepest->allowed);
   if (report.holds()) {
     fmt::print("the guarantee holds\n");
     return;
@@ -91,7 +91,8 @@ ExitCode run_audit(const AuditCommand& command) {
   note_other_version(*path, *assembly);
 
   const AuditReport audit = audit_path(*assembly, *path, {executor, progress_printer(command.common)});
-  if (!audit.complete) return report({ErrorKind::Failed, "the audit was cancelled; start it again"});
+  if (!audit.complete)
+    return report({ErrorKind::Failed, "the audit was not finished (cancelled); run the command again"});
   if (command.common.json) {
     fmt::print("{}\n", to_json(audit, *assembly, *path).dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
@@ -104,17 +105,17 @@ ExitCode run_audit(const AuditCommand& command) {
 
 void add_audit_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "audit", "Check that a path holds the guarantee: at no instant do components penetrate more than allowed");
+      "audit", "Verify that a path holds the guarantee: components never penetrate more than allowed");
   auto options = std::make_shared<AuditCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("PATH", options->path_file, "What move or plan wrote (*.path.json)")->required();
-  command->add_option("--list", options->list, "List the first N violations (--json lists all)")
+  command->add_option("PATH", options->path_file, "Path written by move or plan (*.path.json)")->required();
+  command->add_option("--list", options->list, "Number of violations to list (--json lists all)")
       ->type_name("N")
       ->capture_default_str();
   add_common_options(*command, options->common);
   command->footer(
-      "Exit code 0: the guarantee holds; 1: it does not. The tolerance and the allowed pairs are the path's own;\n"
-      "--deflection and --simplify must be those that the path was made with.");
+      "Exit code 0: the guarantee holds; 1: it does not. Tolerance and allowances are those of the path;\n"
+      "--deflection and --simplify must be the same as when the path was made.");
   command->callback([options, &exit_code] { exit_code = run_audit(*options); });
 }
 

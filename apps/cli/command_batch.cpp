@@ -97,8 +97,8 @@ std::string report_line(const batch::BatchResult& result) {
   std::string line = fmt::format("{} components; pairs: {} in contact, {} fits, {} embedded", s.value("components", 0),
                                  s.value("contact", 0), s.value("fit", 0), s.value("embedded", 0));
   if (s.contains("steps"))
-    line += fmt::format("; {} come out in {} steps, {} stay{}", s.value("removed", 0), s.value("steps", 0),
-                        s.value("staying", 0), s.value("out_of_time", false) ? " (time is up)" : "");
+    line += fmt::format("; {} removed in {} steps, {} not removed{}", s.value("removed", 0), s.value("steps", 0),
+                        s.value("staying", 0), s.value("out_of_time", false) ? " (time limit reached)" : "");
   return line;
 }
 
@@ -109,7 +109,7 @@ batch::BatchReport line_printer(const BatchCommand& command, const batch::BatchJ
   return [&job, count, stream](std::uint32_t i, batch::BatchProgress progress) {
     const std::optional<batch::BatchResult> result = find_result(job, job.items[i]);
     fmt::print(stream, "[{}/{}] {}: {}{}\n", ++*count, job.items.size(), job.items[i].name,
-               progress == batch::BatchProgress::Found ? "(was done) " : "", result ? report_line(*result) : "");
+               progress == batch::BatchProgress::Found ? "(done before) " : "", result ? report_line(*result) : "");
     std::fflush(stream);
   };
 }
@@ -143,11 +143,11 @@ Result<ExitCode> run(const BatchCommand& command, const batch::LaunchedRank& ran
 }
 
 void add_work_options(CLI::App& command, BatchCommand& options) {
-  command.add_flag("--check-only", options.check_only, "Only check, do not plan");
-  command.add_option("--clearance", options.clearance, "List pairs that are apart, too, if by no more than this")
+  command.add_flag("--check-only", options.check_only, "Check only, do not plan");
+  command.add_option("--clearance", options.clearance, "Also list pairs that are apart by at most this")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--time-limit", options.time_limit, "End the search of a plan after so long, with what it found")
+  command.add_option("--time-limit", options.time_limit, "Time limit of the search for a plan; keeps what was found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
 }
@@ -155,26 +155,30 @@ void add_work_options(CLI::App& command, BatchCommand& options) {
 void add_batch_options(CLI::App& command, BatchCommand& options) {
   static const std::map<std::string, batch::MeshGrouping> kMeshes{{"folder", batch::MeshGrouping::Folder},
                                                                   {"file", batch::MeshGrouping::File}};
-  command.add_option("--only", options.selection.only, "Only assemblies whose place in FOLDER is like this")
+  command.add_option("--only", options.selection.only, "Only assemblies whose path in FOLDER matches this pattern")
       ->type_name("PATTERN");
   command
       .add_option("--meshes", options.selection.meshes,
-                  "Mesh files that lie together are one assembly (folder), or one each (file)")
+                  "Mesh files of a folder form one assembly (folder), or one each (file)")
       ->transform(CLI::CheckedTransformer(kMeshes))
       ->type_name("folder|file");
-  command.add_option("--workers", options.workers, "Assemblies at a time on this machine (default: one a core)")
+  command
+      .add_option("--workers", options.workers,
+                  "Assemblies processed in parallel on this machine (default: one per core)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  command.add_flag("--retry", options.retry, "Do again what failed before");
-  command.add_option("--memory", options.limits.memory_gib, "What one assembly may use before it counts as failed")
+  command.add_flag("--retry", options.retry, "Retry assemblies that failed");
+  command.add_option("--memory", options.limits.memory_gib, "Memory limit for one assembly")
       ->type_name("GIB")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--cpu-time", options.limits.cpu_seconds, "The same, computing time")
+  command.add_option("--cpu-time", options.limits.cpu_seconds, "Processor time limit for one assembly")
       ->type_name("S")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--lease", options.lease_seconds, "A machine that is silent for so long has lost its assembly")
+  command
+      .add_option("--lease", options.lease_seconds,
+                  "Time without a sign of life after which another machine takes over an assembly")
       ->type_name("S")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -187,8 +191,9 @@ void add_batch_command(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("batch", "Check and plan every assembly below a folder, on all cores and hosts");
   auto options = std::make_shared<BatchCommand>();
   options->common.threads = 1;
-  command->add_option("FOLDER", options->folder, "Where the assemblies are")->required();
-  command->add_option("-o,--output", options->output, "Folder for the results: one of its own an assembly, and tables")
+  command->add_option("FOLDER", options->folder, "Folder with the assemblies")->required();
+  command
+      ->add_option("-o,--output", options->output, "Folder for the results: a subfolder for each assembly, and tables")
       ->required()
       ->type_name("FOLDER");
   add_work_options(*command, *options);
@@ -196,8 +201,9 @@ void add_batch_command(CLI::App& app, ExitCode& exit_code) {
   add_common_options(*command, options->common);
   command->get_option("--threads")->description("Threads for one assembly (default: 1)");
   command->footer(
-      "What is done is not done again. Several hosts share the work of one output folder: mpirun --enable-recovery "
-      "dismantle batch ... (docs/batch.md).\nExit code 0: every assembly was worked through; 1: some failed, and why.");
+      "Finished assemblies are skipped. Several hosts can share one output folder: mpirun --enable-recovery "
+      "dismantle batch ... (docs/batch.md).\nExit code 0: all assemblies were processed; 1: some failed, with the "
+      "reason.");
   command->callback([options, &exit_code] {
     const batch::LaunchedRank rank = batch::launched_rank();
     const Result<ExitCode> result = run(*options, rank);

@@ -52,15 +52,15 @@ Result<Done> run(const CheckCommand& command) {
 
 void add_check_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
-      app.add_subcommand("check", "Which components touch, fit into or overlap each other, and how deep");
+      app.add_subcommand("check", "List the pairs of components that touch, fit or overlap, with their depth");
   auto options = std::make_shared<CheckCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("--clearance", options->clearance, "List pairs that are apart, too, if by no more than this")
+  command->add_option("--clearance", options->clearance, "Also list pairs that are apart by at most this")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--html", options->html_file, "Write the report as one HTML page with pictures, too")
+  command->add_option("--html", options->html_file, "Also write the report as one HTML page with pictures")
       ->type_name("FILE");
-  command->add_option("--pictures", options->pictures, "Pictures of single overlaps in the HTML page, at most")
+  command->add_option("--pictures", options->pictures, "Maximum number of pictures of single overlaps in the HTML page")
       ->type_name("N")
       ->capture_default_str();
   add_common_options(*command, options->common);

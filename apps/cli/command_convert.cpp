@@ -47,15 +47,15 @@ void add_convert_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ConvertCommand>();
   add_assembly_argument(*command, options->common);
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "File to write: .glb (components, tree and colours), .obj (a section a component), .stl, .ply (everything in "
-          "one), or a new folder of OBJ files where it has no extension")
+      ->add_option("-o,--output", options->output,
+                   "File to write: .glb (components, tree and colours), .obj (one section per component), .stl, .ply "
+                   "(everything in "
+                   "one), or without extension a new folder of OBJ files")
       ->required()
       ->type_name("FILE");
   command->add_flag(
       "--ascii", [options](std::int64_t) { options->write.stl = StlForm::Ascii; },
-      "STL as text, a solid a component, instead of binary");
+      "ASCII STL with one solid per component, instead of binary");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     const Result<Assembly> assembly = run(*options);

@@ -21,7 +21,7 @@ std::string describe_faults(const MeshFaults& f) {
   add(f.boundary_edges, "boundary edges");
   add(f.nonmanifold_edges, "non-manifold edges");
   add(f.misoriented_edges, "misoriented edges");
-  if (!text.empty() && !f.closed() && f.open_edges == 0) text += ": cracks of no width";
+  if (!text.empty() && !f.closed() && f.open_edges == 0) text += ": cracks of zero width";
   if (f.inside_out) text += fmt::format("{}inside out", text.empty() ? "" : ", ");
   return text.empty() ? "closed" : text;
 }

@@ -32,6 +32,13 @@ struct MoveOptions {
   std::string timing_file;
 };
 
+/// The time of a stage for the table; empty for methods that do not have it.
+std::string stage_text(const StepCost& cost, std::string_view stage) {
+  for (const StageTime& time : cost.stages)
+    if (time.stage == stage) return fmt::format("{:.4f}", time.ms);
+  return "";
+}
+
 /// A row a simulation step: Table 1 of the paper, and the sizes of the streams.
 std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
   std::string csv =
@@ -41,11 +48,11 @@ std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
   for (std::size_t i = 0; i < played.steps.size(); ++i) {
     const PlayedStep& s = played.steps[i];
     const StepResult& r = s.result;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{}\n", i, s.move,
-                       s.target, s.time, motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.contacts.size(),
-                       r.sweeps, r.timings.vertices, r.timings.refit, r.timings.front, r.timings.intersection,
-                       r.timings.overall, r.sizes.front, r.sizes.triangle_pairs, r.sizes.intersection_pairs,
-                       r.sizes.elementary_tests, r.sizes.answered_tests, r.sizes.replays);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:.4f},{},{},{},{},{},{}\n", i, s.move, s.target, s.time,
+                       motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.blocking_pairs.size(), r.sweeps,
+                       stage_text(r.cost, kVerticesStage), stage_text(r.cost, kRefitStage),
+                       stage_text(r.cost, kFrontStage), stage_text(r.cost, kIntersectionStage), r.cost.ms, r.cost.pairs,
+                       r.cost.triangle_pairs, r.cost.embedded_pairs, r.cost.tests, r.cost.device_tests, r.cost.replays);
   }
   return csv;
 }
@@ -79,7 +86,7 @@ std::vector<MoveSummary> summarize(const Assembly& assembly, const Motion& motio
     ++m.steps;
     m.reached += step.result.reached ? 1 : 0;
     std::vector<std::string> blockers;
-    for (const CollisionContact& c : step.result.contacts) {
+    for (const BlockingPair& c : step.result.blocking_pairs) {
       const std::string& a = assembly[c.a].name;
       const std::vector<std::string>& own = motion.moves[step.move].components;
       blockers.push_back(std::find(own.begin(), own.end(), a) == own.end() ? a : assembly[c.b].name);
@@ -202,7 +209,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   const Result<PlayedMotion> played =
       play_motion(*assembly, *states, motion, *moving.engine, progress_printer(o.common));
   if (!played) return played.error();
-  if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; what was moved until then is in the path\n");
+  if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; the path holds what was moved until then\n");
 
   const Result<Done> written = write_path(o.output, played->path);
   if (!written) return written.error();
@@ -212,7 +219,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   }
 
   MoveCost cost{moving.device, {}};
-  for (const PlayedStep& s : played->steps) cost.overall.push_back(s.result.timings.overall);
+  for (const PlayedStep& s : played->steps) cost.overall.push_back(s.result.cost.ms);
   const std::vector<MoveSummary> moves = summarize(*assembly, motion, *played);
   if (o.common.json) {
     fmt::print("{}\n", to_json(o, played->path, moves, cost).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -229,27 +236,26 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
                                                             {"elementary", ElementaryTest::Elementary}};
   static const std::map<std::string, ResponseKind> kResponses{
       {"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}};
-  CLI::App* command =
-      app.add_subcommand("move", "Play a motion with collision handling and write the path that really happened");
+  CLI::App* command = app.add_subcommand("move", "Play a motion with collision handling and write the resulting path");
   auto options = std::make_shared<MoveOptions>();
   add_assembly_argument(*command, options->common);
-  command->add_option("MOTION", options->motion_file, "What is asked for (*.motion.json)")->required();
-  command->add_option("-o,--output", options->output, "The path to write (*.path.json)")->required();
+  command->add_option("MOTION", options->motion_file, "Motion to play (*.motion.json)")->required();
+  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")->required();
   command->add_option("--method", options->method, "Collision method")
       ->check(CLI::IsMember({"certificates", "streams"}))
       ->capture_default_str();
   command
       ->add_option("--ccd", options->test,
-                   "Continuous test of method streams: certified (no miss) or elementary (the paper's cubic roots)")
+                   "Continuous test of method streams: certified (no false negatives) or elementary (cubic roots, as "
+                   "in the paper)")
       ->transform(CLI::CheckedTransformer(kTests))
       ->type_name("certified|elementary");
   command
       ->add_option("--response", options->response,
-                   "At contact: stop before the step, touch, or slide along (default: as the motion says)")
+                   "Response to contact: stop before the step, touch, or slide (default: as in the motion file)")
       ->transform(CLI::CheckedTransformer(kResponses))
       ->type_name("stop|touch|slide");
-  command->add_option("--timing", options->timing_file, "Write the time and sizes of every stage of every step")
-      ->type_name("CSV");
+  command->add_option("--timing", options->timing_file, "Write the cost of every step as CSV")->type_name("CSV");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     options->common.uses_device = true;

@@ -35,14 +35,14 @@ bool ends_with(const std::string& text, std::string_view ending) {
 Result<Done> check_graph(const std::string& file) {
   if (file.empty() || ends_with(file, ".svg") || ends_with(file, ".dot") || ends_with(file, ".json")) return Done{};
   return Error{ErrorKind::Usage,
-               file + " cannot be written (its name tells no format); end it with .svg, .dot or .json"};
+               file + " cannot be written (its extension is not a known format); use .svg, .dot or .json"};
 }
 
 /// Writes which step has to come before which. @return how many ranks there are
 Result<std::size_t> write_graph(const std::string& file, const Assembly& a, const PairStates& states, const Plan& plan,
                                 const CommonOptions& common) {
   const ProgressCallback progress = progress_printer(common);
-  const auto go_on = [&] { return report_progress(progress, "finding what has to come before what", -1); };
+  const auto go_on = [&] { return report_progress(progress, "finding the precedence of steps", -1); };
   const PrecedenceGraph graph = precedence_graph(a, states, plan, {make_executor(common), widest_lanes()}, go_on);
   const auto text = ends_with(file, ".svg")   ? precedence_svg
                     : ends_with(file, ".dot") ? precedence_dot
@@ -70,9 +70,9 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   }
   fmt::print("{}{} steps in {:.2f} s:", plan.steps.empty() ? "" : "\n", plan.steps.size(), plan.seconds);
   for (const auto& [tier, count] : tier_counts(plan)) fmt::print(" {} {};", count, name_of(tier));
-  fmt::print(" {}\n", plan.complete() ? "all that was asked for comes out" : "not all comes out");
+  fmt::print(" {}\n", plan.complete() ? "everything asked for can be removed" : "not everything can be removed");
   for (const Explanation& e : plan.staying) fmt::print("  {}\n", explanation_text(a, e));
-  if (plan.out_of_time) fmt::print("The search was ended early; what it found until then is in the path.\n");
+  if (plan.out_of_time) fmt::print("The search was ended early; the path holds what it found until then.\n");
   fmt::print("wrote {}\n", command.output);
 }
 
@@ -90,7 +90,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   for (const ComponentId c : *targets)
     if (std::find(fixed->begin(), fixed->end(), c) != fixed->end())
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
-                                         "' cannot come out (it is a target, and fixed); leave out one of the two"};
+                                         "' cannot be removed (it is both target and fixed); leave out one of the two"};
 
   PlanOptions options{
       *targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)};
@@ -119,35 +119,36 @@ Result<ExitCode> run(const PlanCommand& command) {
 
 void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "plan", "Find how the assembly comes apart, or how to get a component out, and write the path");
+      "plan", "Find a disassembly sequence, of the whole assembly or down to a component, and write its path");
   auto options = std::make_shared<PlanCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("-o,--output", options->output, "The path to write (*.path.json)")->required();
-  command->add_option("--target", options->targets, "Take these out, and as few others as possible (default: all)")
+  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")->required();
+  command
+      ->add_option("--target", options->targets, "Components to remove, with as few others as possible (default: all)")
       ->type_name("NAME");
-  command->add_option("--fixed", options->fixed, "These never move (default: the largest component)")
+  command->add_option("--fixed", options->fixed, "Components that never move (default: the largest component)")
       ->type_name("NAME");
   command
       ->add_option("--graph", options->graph,
-                   "Write which step has to come before which, too: a drawing (.svg), for Graphviz (.dot), or with "
+                   "Also write the precedence graph of the steps: drawing (.svg), Graphviz (.dot), or JSON with "
                    "the tree of subassemblies (.json)")
       ->type_name("FILE");
-  command->add_option("--time-limit", options->time_limit, "End the search after so long, with what it has found")
+  command->add_option("--time-limit", options->time_limit, "Time limit of the search; keeps what was found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--prefer", options->preferences,
-                   "Of what can go straight out next, prefer what goes on in the same direction, does not lead down (z "
-                   "is up), is equal to what came out before, or leaves nothing unsupported; the first counts most")
+                   "Among components that can be removed next, prefer the same direction, not downwards (z "
+                   "is up), equal components in a row, or keeping all supported; the first counts most")
       ->transform(CLI::CheckedTransformer(step_preferences()))
       ->type_name("direction|upright|groups|support");
   command
       ->add_option("--effort", options->effort,
-                   "Search so many times as long for ways that are not straight (default: 1, some seconds)")
+                   "Effort of the search for paths that are not straight, as a factor (default: 1, some seconds)")
       ->type_name("TIMES")
       ->check(CLI::Range(0.0, 1e6));
   add_common_options(*command, options->common);
-  command->footer("Exit code 0: all that was asked for comes out; 1: not all, and why.");
+  command->footer("Exit code 0: everything asked for can be removed; 1: not everything, with the reasons.");
   command->callback([options, &exit_code] {
     const Result<ExitCode> result = run(*options);
     exit_code = result ? *result : report(result.error());

@@ -50,15 +50,17 @@ Result<Done> run(const RenderCommand& command) {
 }  // namespace
 
 void add_render_command(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("render", "A picture of an assembly as a PNG file");
+  CLI::App* command = app.add_subcommand("render", "Render a picture of an assembly as a PNG file");
   auto options = std::make_shared<RenderCommand>();
   add_assembly_argument(*command, options->common);
   command->add_option("-o,--output", options->output, "PNG file to write")->required()->type_name("FILE.png");
   add_picture_options(*command, options->picture);
-  command->add_option("--explode", options->explode, "Move components apart by this times their distance to the middle")
+  command
+      ->add_option("--explode", options->explode,
+                   "Explode: move components away from the center by this factor of their distance")
       ->type_name("FACTOR")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--ghost", options->ghosts, "Components to look through")->type_name("NAME...");
+  command->add_option("--ghost", options->ghosts, "Components to draw transparent")->type_name("NAME...");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     const Result<Done> done = run(*options);

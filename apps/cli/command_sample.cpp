@@ -41,7 +41,7 @@ Result<Done> save(const Result<std::string>& text, const std::string& file, bool
 Result<Done> run(const SampleCommand& options) {
   if (options.name.empty()) {
     if (!options.output.empty() || !options.motion_output.empty())
-      return Error{ErrorKind::Usage, "no sample is named (only a file to write); give NAME before -o"};
+      return Error{ErrorKind::Usage, "the sample is not named (only a file to write); give NAME before -o"};
     list_samples(options.json);
     return Done{};
   }
@@ -61,10 +61,10 @@ void add_sample_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("sample", "Write a bundled sample assembly; without NAME, list them");
   auto options = std::make_shared<SampleCommand>();
   command->add_option("NAME", options->name, "microscope, tooling, lathe or robot");
-  command->add_option("-o,--output", options->output, "STEP file to write (NAME.step where no file is given)");
+  command->add_option("-o,--output", options->output, "STEP file to write (default: NAME.step)");
   command->add_option("--motion", options->motion_output, "Also write the sample's motion file, for 'dismantle move'");
   command->add_flag("--json", options->json, "List the samples as JSON");
-  command->add_flag("--quiet", options->quiet, "Say nothing but errors");
+  command->add_flag("--quiet", options->quiet, "Print errors only");
   command->callback([options, &exit_code] {
     if (const Result<Done> done = run(*options); !done) exit_code = report(done.error());
   });

@@ -43,7 +43,7 @@ std::size_t count_before(const SimplifiedAssembly& simplified) {
 
 void print_text(const SimplifiedAssembly& simplified, const std::string& output) {
   const Assembly& assembly = simplified.assembly;
-  fmt::print("{}: {} triangles, of {} before; no surface moved by more than {:.4g} mm\n\n", output,
+  fmt::print("{}: {} triangles, of {} before; largest deviation of a surface {:.4g} mm\n\n", output,
              triangle_count(assembly), count_before(simplified), assembly.simplification_error);
   std::size_t width = 9;
   for (const Component& c : assembly.components) width = std::max(width, c.name.size());
@@ -78,14 +78,14 @@ void print_json(const SimplifiedAssembly& simplified, const std::string& output)
 
 void add_simplify_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
-      app.add_subcommand("simplify", "Fewer triangles, each component by itself, with the error measured");
+      app.add_subcommand("simplify", "Reduce the number of triangles of each component, with a measured error bound");
   auto options = std::make_shared<SimplifyCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("--triangles", options->triangles, "How many triangles the assembly shall have, about")
+  command->add_option("--triangles", options->triangles, "Approximate number of triangles of the result")
       ->required()
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  command->add_option("-o,--output", options->output, "File or folder to write, as 'convert' does")
+  command->add_option("-o,--output", options->output, "File or folder to write, as for 'convert'")
       ->required()
       ->type_name("FILE");
   add_common_options(*command, options->common);

@@ -42,7 +42,7 @@ sigset_t block_signals() {
 }
 
 void say_no_browser() {
-  std::fprintf(stderr, "No browser can be opened from here: open the address above in one on this machine.\n");
+  std::fprintf(stderr, "No browser can be opened: open the address above in a browser on this machine.\n");
 }
 
 /// Starts a program that is not to inherit the signals that are blocked here. None where it cannot be started.
@@ -117,7 +117,7 @@ Result<Done> open(server::Server& server, const ViewOptions& o) {
 
 Result<Done> run(const ViewOptions& o) {
   if (!o.sample.empty() && !o.common.assembly_file.empty())
-    return Error{ErrorKind::Usage, "two assemblies are named (a file and --sample); give one of them"};
+    return Error{ErrorKind::Usage, "two assemblies are given (a file and --sample); give only one"};
   if (!o.common.assembly_file.empty() && !fs::exists(o.common.assembly_file))
     return Error{ErrorKind::Unreadable, o.common.assembly_file + " cannot be read (no such file); check the path"};
   const Result<server::ServerOptions> options = server_options(o);
@@ -132,7 +132,7 @@ Result<Done> run(const ViewOptions& o) {
 
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  if (!o.common.quiet) std::fprintf(stderr, "The viewer is there; Ctrl+C ends it.\n");
+  if (!o.common.quiet) std::fprintf(stderr, "The viewer is running; Ctrl+C ends it.\n");
   if (!o.no_browser) open_browser(server.url());
   int signal = 0;
   sigwait(&signals, &signal);
@@ -142,19 +142,19 @@ Result<Done> run(const ViewOptions& o) {
 }  // namespace
 
 void add_view_command(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("view", "Take an assembly apart by hand, in a browser");
+  CLI::App* command = app.add_subcommand("view", "Disassemble an assembly interactively in a browser");
   auto options = std::make_shared<ViewOptions>();
   command->add_option(
       "ASSEMBLY", options->common.assembly_file,
-      "STEP, glTF, OBJ, STL, PLY, URDF, a folder of meshes, or a *.path.json to follow (default: choose in "
+      "STEP, glTF, OBJ, STL, PLY, URDF, a folder of meshes, or a *.path.json as a guide (default: choose in "
       "the page)");
   command->add_option("--sample", options->sample, "Open a bundled sample")->type_name("NAME");
   command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
       ->type_name("DIR");
-  command->add_option("--port", options->port, "Port on 127.0.0.1 and ::1 (default: one that is free)")
+  command->add_option("--port", options->port, "Port on 127.0.0.1 and ::1 (default: a free one)")
       ->check(CLI::Range(1, 65535));
   command->add_flag("--no-browser", options->no_browser, "Only print the URL");
-  command->add_flag("--no-journal", options->no_journal, "Keep nothing of the session on disk, and continue none");
+  command->add_flag("--no-journal", options->no_journal, "Do not keep the session on disk or resume one");
   command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);

@@ -42,12 +42,12 @@ Result<ExitCode> run(const WhyCommand& command) {
 }  // namespace
 
 void add_why_command(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("why", "What keeps a component from coming straight out");
+  CLI::App* command = app.add_subcommand("why", "Explain what blocks the straight removal of a component");
   auto options = std::make_shared<WhyCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("COMPONENT", options->component, "Its name, as 'dismantle info' lists it")->required();
+  command->add_option("COMPONENT", options->component, "Name of the component, as in 'dismantle info'")->required();
   add_common_options(*command, options->common);
-  command->footer("Exit code 0: nothing, it comes out; 1: what is printed.");
+  command->footer("Exit code 0: nothing, it can be removed; 1: blocked, as printed.");
   command->callback([options, &exit_code] {
     const Result<ExitCode> result = run(*options);
     exit_code = result ? *result : report(result.error());

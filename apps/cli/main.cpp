@@ -8,8 +8,8 @@
 int main(int argc, char** argv) {
   using namespace dismantle::cli;
   CLI::App app{
-      "dismantle: take CAD assemblies apart, with continuous collision handling.\n"
-      "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' tells what a command takes."};
+      "dismantle: virtual disassembly of CAD assemblies, with continuous collision handling.\n"
+      "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' lists the options of a command."};
   app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 1 the answer is \"no\", 2 wrong usage, 3 unreadable input, 4 failed on the way.");

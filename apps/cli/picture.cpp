@@ -26,7 +26,7 @@ Result<Done> parse_size(std::string_view text, RenderOptions& options) {
   if (cross == std::string_view::npos || !parse_number(text.substr(0, cross), options.width) ||
       !parse_number(text.substr(cross + 1), options.height) || options.width < 1 || options.height < 1 ||
       options.width > kLargestSide || options.height > kLargestSide)
-    return Error{ErrorKind::Usage, fmt::format("--size {} is no picture size (two numbers from 1 to {}); "
+    return Error{ErrorKind::Usage, fmt::format("--size {} is not a picture size (two numbers from 1 to {}); "
                                                "write it like 1200x900",
                                                text, kLargestSide)};
   return Done{};
@@ -42,20 +42,22 @@ Result<SectionPlane> parse_section(std::string_view text, const Camera& camera, 
   const bool has_place = has_axis && text.size() > 2 && text[1] == '=' && parse_number(text.substr(2), point[axis]);
   if (!has_axis || !(has_place || text.size() == 1))
     return Error{ErrorKind::Usage,
-                 fmt::format("--section {} is no plane (an axis and a place in mm); write it like Y=12.5", text)};
+                 fmt::format("--section {} is not a plane (an axis and a position in mm); write it like Y=12.5", text)};
   return section_facing(camera, direction, point);
 }
 
 }  // namespace
 
 void add_picture_options(CLI::App& command, PictureOptions& options) {
-  command.add_option("--view", options.view, "Where it is seen from")
+  command.add_option("--view", options.view, "Direction of view")
       ->check(CLI::IsMember({"iso", "front", "back", "left", "right", "top", "bottom"}))
       ->capture_default_str();
   command.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
-  command.add_option("--section", options.section, "Cut it open across an axis, in the middle or at a place in mm")
+  command
+      .add_option("--section", options.section,
+                  "Section plane perpendicular to an axis, in the middle or at a position in mm")
       ->type_name("X|Y|Z[=MM]");
-  command.add_flag("--perspective", options.perspective, "As a camera sees it, not as a drawing");
+  command.add_flag("--perspective", options.perspective, "Perspective instead of parallel projection");
 }
 
 Result<Image> take_picture(RenderScene scene, const Aabb& middle_of, const PictureOptions& options,

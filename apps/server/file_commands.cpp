@@ -57,7 +57,7 @@ Result<fs::path> new_temporary_folder() {
   std::error_code error;
   std::string name = (fs::temp_directory_path(error) / "dismantle-XXXXXX").string();
   if (error || mkdtemp(name.data()) == nullptr)
-    return Error{ErrorKind::Failed, "no temporary folder can be made (in " + name + "); free some space"};
+    return Error{ErrorKind::Failed, "no temporary folder can be created (in " + name + "); free some space"};
   return fs::path(name);
 }
 
@@ -110,7 +110,7 @@ Result<Json> FileCommands::open(const Json& command) {
     const std::vector<fs::path> files = recent_in_roots();
     const std::uint64_t index = index_member(command, "recent");
     if (index >= files.size())
-      return Error{ErrorKind::Usage, "there is no such recent file (the list is shorter); ask for it anew"};
+      return Error{ErrorKind::Usage, "there is no such recent file (the list is shorter); reload the list"};
     return job_json(open_file(files[index]));
   }
   if (command.contains("sample")) return job_json(open_sample(text_member(command, "sample")));

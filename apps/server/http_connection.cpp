@@ -74,7 +74,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (target->path == "/session") return upgrade(*target);
     if (head_->get().method() == http::verb::post) return receive(*target);
     if (head_->get().method() != http::verb::get)
-      return send(error_answer(405, "this cannot be done (only GET and POST are known here); use one of these"),
+      return send(error_answer(405, "this method is not supported (only GET and POST are); use one of these"),
                   Keep::No);
     site_.get(*target, [self = shared_from_this()](const HttpAnswer& answer) { self->send(answer, Keep::Yes); });
   }
@@ -84,8 +84,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const AccessRules& rules = site_.rules();
     if (headers().count(http::field::host) != 1 || !rules.is_own_host(header(http::field::host)))
       return error_answer(421,
-                          "this server is not called so (Host is none of its own names); use the URL that it printed");
-    if (!target) return error_answer(400, "the request was not understood (its target is malformed); mend the client");
+                          "the Host header is wrong (it is none of this server's names); use the URL that it printed");
+    if (!target)
+      return error_answer(400, "the request was not understood (its target is malformed); correct the client");
     const bool is_socket = target->path == "/session", is_api = target->path.substr(0, 5) == "/api/";
     if (!is_socket && !is_api) return {};
 
@@ -93,12 +94,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const bool own_origin = origins == 1 && rules.is_own_origin(header(http::field::origin));
     if (is_socket ? !own_origin : origins != 0 && !own_origin)
       return error_answer(
-          403, "another page may not talk to this server (Origin is none of its own); use the URL that it printed");
+          403, "the Origin header is wrong (requests from other sites are refused); use the URL that it printed");
     const bool token = is_socket ? rules.offers_token(header(http::field::sec_websocket_protocol))
                                  : rules.is_authorized(header(http::field::authorization));
     if (!token)
       return error_answer(
-          401, "the token is missing or wrong (it is new in every run); use the URL that the server printed");
+          401, "the token is missing or wrong (every run has a new one); use the URL that the server printed");
     return {};
   }
 
@@ -106,8 +107,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const auto key = target.query.find("client");
     if (!beast::websocket::is_upgrade(head_->get()) || key == target.query.end() || !is_client_key(key->second))
       return send(
-          error_answer(
-              400, "this is no socket request (an upgrade to WebSocket with client=HEX is wanted); mend the client"),
+          error_answer(400,
+                       "this is not a WebSocket request (an upgrade with client=HEX is required); correct the client"),
           Keep::No);
     http::request<http::string_body> request;
     static_cast<http::request_header<>&>(request) = head_->get();
@@ -126,7 +127,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     ErrorCode error;
     body_->get().body().open(upload_.file.c_str(), beast::file_mode::write, error);
     if (error)
-      return send(error_answer(500, "the upload cannot be kept (" + error.message() + "); free some space"), Keep::No);
+      return send(error_answer(500, "the upload cannot be stored (" + error.message() + "); free some space"),
+                  Keep::No);
     stream_.expires_after(kUploadTime);
     http::async_read(stream_, buffer_, *body_,
                      [self = shared_from_this()](ErrorCode e, std::size_t) { self->on_body(e); });
@@ -144,7 +146,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void refuse_size() {
-    send(error_answer(413, "the file is too large for an upload; put it below a root of the server"), Keep::No);
+    send(error_answer(413, "the file is too large (for an upload); put it into a folder that the server may read"),
+         Keep::No);
   }
 
   enum class Keep { Yes, No };

@@ -20,7 +20,7 @@ SharedText shared(std::string text) {
 /// That a socket was closed before the command of this id was sent again; its answer is not known any more.
 Error forgotten() {
   return {ErrorKind::Failed,
-          "the answer to this command is not known any more (it was given long ago); look at the "
+          "the reply to this command is no longer stored (it was sent long ago); look at the "
           "state"};
 }
 
@@ -100,7 +100,7 @@ Result<Json> Hub::take_control(const std::string& key) {
   const bool is_there = controller != clients_.end() && controller->second.socket != nullptr;
   if (key != controller_ && is_there && dragging_)
     return Error{ErrorKind::Usage,
-                 "control cannot be taken (another page has a component in hand); wait until it lets go"};
+                 "control cannot be taken (another page is dragging a component); wait until it is released"};
   if (key != controller_) give_control(key);
   return Json::object();
 }
@@ -117,9 +117,9 @@ void Hub::take_binary(const std::string& key, std::string_view bytes) {
   if (found == clients_.end()) return;
   const auto message = decode_from_client(bytes);
   if (!message) {
-    fault(
-        found->second,
-        "a binary message was not understood (it is no struct of docs/wire.md, or has wrong numbers); mend the client");
+    fault(found->second,
+          "a binary message was not understood (it is not a struct of docs/wire.md, or its values are invalid); "
+          "correct the client");
   } else if (key == controller_) {
     engine_.set_wanted(*message);
   }
@@ -132,8 +132,9 @@ void Hub::take_text(const std::string& key, std::string_view text) {
   const Json command = Json::parse(text, nullptr, false);
   if (!command.is_object() || !command.contains("id") || !command["id"].is_number_unsigned() ||
       !command.contains("command") || !command["command"].is_string())
-    return fault(found->second,
-                 "a text message was not understood (it is no JSON object with an id and a command); mend the client");
+    return fault(
+        found->second,
+        "a text message was not understood (it is not a JSON object with an id and a command); correct the client");
   take_command(key, found->second, command);
 }
 
@@ -174,7 +175,7 @@ void Hub::ask_engine(const std::string& key, std::uint64_t id, const Json& comma
       is_metrics&& result ? answer_metrics(key, id, *result) : answer(key, id, result);
     });
   });
-  if (!posted) answer(key, id, Error{ErrorKind::Failed, "the command was not done (too many wait already); try again"});
+  if (!posted) answer(key, id, Error{ErrorKind::Failed, "the command was rejected (too many are pending); try again"});
 }
 
 void Hub::answer_metrics(const std::string& key, std::uint64_t id, Json json) {

@@ -16,10 +16,9 @@ Result<Jobs::Finish> guarded(const std::string& name, const Jobs::Work& work, co
   try {
     return work(progress);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::Failed,
-                 "'" + name + "' was given up (out of memory); simplify the assembly or free memory"};
+    return Error{ErrorKind::Failed, "'" + name + "' failed (out of memory); simplify the assembly or free memory"};
   } catch (const std::exception& error) {
-    return Error{ErrorKind::Failed, "'" + name + "' was given up (" + error.what() + "); please report it"};
+    return Error{ErrorKind::Failed, "'" + name + "' failed (" + error.what() + "); please report it"};
   }
 }
 
@@ -35,7 +34,7 @@ Result<std::uint32_t> Jobs::start(std::string name, Work work) {
   const std::lock_guard lock(mutex_);
   if (running_ || stopped_)
     return Error{ErrorKind::Usage,
-                 "'" + name + "' cannot be begun (something else is being opened or searched); wait or cancel that"};
+                 "'" + name + "' cannot be started (another job is running); wait for it or cancel it"};
   if (thread_.joinable()) thread_.join();
   running_ = true;
   cancelled_ = false;
@@ -46,13 +45,13 @@ Result<std::uint32_t> Jobs::start(std::string name, Work work) {
 
 Result<Done> Jobs::cancel(std::uint32_t job) {
   if (!running_ || job != last_)
-    return Error{ErrorKind::Usage, "nothing was cancelled (this is not going on any more); look at its last news"};
+    return Error{ErrorKind::Usage, "nothing was cancelled (the job has ended); see its last event"};
   cancelled_ = true;
   return Done{};
 }
 
 void Jobs::run(const std::string& name, const Work& work) {
-  JobNews news{last_, name, "beginning", -1, JobNews::Status::Running, {}};
+  JobNews news{last_, name, "starting", -1, JobNews::Status::Running, {}};
   on_news_(news);
   auto told = std::chrono::steady_clock::now();
   const Result<Finish> result = guarded(name, work, [&](std::string_view stage, double fraction) {

@@ -82,9 +82,10 @@ bool JournalStore::can_resume(const Session& session) const {
 Result<Done> JournalStore::resume(Session& session) const {
   std::optional<JournalContents> contents = previous(session);
   if (!contents)
-    return Error{ErrorKind::Usage, "no session can be continued (none of this assembly was kept); go on with this one"};
+    return Error{ErrorKind::Usage,
+                 "there is no session to resume (none of this assembly was stored); continue with this one"};
   if (!session.done().empty() || !session.undone().empty() || session.activity() != SessionActivity::Idle)
-    return Error{ErrorKind::Usage, "the last session cannot be continued (this one has begun already); reset it first"};
+    return Error{ErrorKind::Usage, "the last session cannot be resumed (this one has moves already); reset it first"};
   session.restore(std::move(*contents));
   return Done{};
 }

@@ -61,7 +61,7 @@ Result<Roots> Roots::create(const std::vector<fs::path>& folders) {
     fs::path real = fs::canonical(folder, error);
     if (error || !fs::is_directory(real, error))
       return Error{ErrorKind::Usage,
-                   folder.string() + " cannot be a root (it is no folder that can be read); give one that exists"};
+                   folder.string() + " cannot be a root (it is not a readable folder); give an existing folder"};
     roots.names_.push_back(real.filename().empty() ? real.string() : real.filename().string());
     roots.folders_.push_back(std::move(real));
   }
@@ -82,13 +82,13 @@ Result<fs::path> Roots::place_for(std::uint64_t root, const std::string& relativ
   const std::string name = asked.filename().string();
   if (!folder || name.empty() || name == "." || name == "..")
     return Error{ErrorKind::Usage, "'" + relative +
-                                       "' cannot be written (the server's folders have no such place); choose "
+                                       "' cannot be written (the server's folders have no such path); choose "
                                        "one of those that it lists"};
   std::error_code error;
   const fs::file_status status = fs::symlink_status(*folder / name, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
     return Error{ErrorKind::Usage,
-                 "'" + relative + "' cannot be written (something that is no file has this name); choose another"};
+                 "'" + relative + "' cannot be written (the name is not that of a file); choose another"};
   return *folder / name;
 }
 

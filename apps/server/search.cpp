@@ -142,13 +142,13 @@ bool still_stands(const Standing& standing, const Session& session) {
 }
 
 std::string search_name(const Search& search) {
-  if (search.targets.empty()) return "Plan of " + search.standing->assembly.source_file;
+  if (search.targets.empty()) return "Planning " + search.standing->assembly.source_file;
   std::string names = names_of(search.standing->assembly, local(*search.standing, search.targets));
   switch (search.kind) {
     case SearchKind::Plan:
-      return "Plan for " + names;
+      return "Planning the removal of " + names;
     case SearchKind::TakeOut:
-      return "Way out for " + names;
+      return "Path for " + names;
     case SearchKind::Why:
       return "Why " + names + " stays";
   }

@@ -132,7 +132,7 @@ class Server::Body final : public Site, private EngineListener {
     const auto name = target.query.find("name");
     const std::string base = name == target.query.end() ? "" : fs::path(name->second).filename().string();
     if (base.empty() || base[0] == '.')
-      return error_answer(400, "the upload has no name (its kind is told by it); give ?name=FILE");
+      return error_answer(400, "the upload has no name (its extension gives the format); give ?name=FILE");
     const Result<fs::path> folder = new_temporary_folder();
     if (!folder) return error_answer(500, folder.error().message);
     return UploadPlace{*folder / base, is_guide ? kLargestGuide : kLargestUpload};
@@ -146,7 +146,7 @@ class Server::Body final : public Site, private EngineListener {
 
  private:
   static HttpAnswer not_found(const std::string& path) {
-    return error_answer(404, "there is no " + path + " here (no file of the page has this name); look at docs/wire.md");
+    return error_answer(404, "there is no " + path + " (no file of the page has this name); see docs/wire.md");
   }
 
   static ErrorCode open(Tcp::acceptor& acceptor, const Tcp::endpoint& endpoint) {
@@ -194,7 +194,7 @@ class Server::Body final : public Site, private EngineListener {
   HttpAnswer model_answer(const RequestTarget& target) const {
     const auto number = target.query.find("model");
     if (!glb_ || (number != target.query.end() && number->second != std::to_string(model_number_)))
-      return error_answer(404, "there is no such model (another one or none is open); look at the event model");
+      return error_answer(404, "there is no such model (another one or none is open); see the event model");
     return {200, "model/gltf-binary", glb_, {}};
   }
 

@@ -77,11 +77,11 @@ Result<Json> Workbench::search(Search wanted) {
                    "nothing can be searched for '" + name + "' (it was taken out); put it back first"};
     if (std::find(wanted.fixed.begin(), wanted.fixed.end(), c) != wanted.fixed.end())
       return Error{ErrorKind::Usage,
-                   "'" + name + "' cannot come out (it is a target, and fixed); leave out one of the two"};
+                   "'" + name + "' cannot be removed (it is both target and fixed); leave out one of the two"};
   }
   if (kind == SearchKind::TakeOut) {
     if (session().playback() != nullptr)
-      return Error{ErrorKind::Usage, "no way out can be gone now (a playback is open); stop it first"};
+      return Error{ErrorKind::Usage, "the path cannot be followed now (a playback is open); stop it first"};
     session().release();
     drop_targets();
   }
@@ -107,7 +107,7 @@ void Workbench::take_finding(const Finding& finding) {
 void Workbench::go_out(const Finding& finding) {
   finding_.reset();
   Result<Done> gone = Error{ErrorKind::Usage,
-                            "the way out was found, and is not gone (something was moved since); "
+                            "a path was found but not followed (components were moved meanwhile); "
                             "search again"};
   if (session().activity() == SessionActivity::Idle && still_stands(*finding.standing, session()))
     gone = session().take_out_along(finding.removals);
@@ -193,7 +193,7 @@ StepResult Workbench::drag(Clock::time_point now) {
   const bool by_rate = rate_.has_value();
   StepResult result = session().drag(wanted_pose(now), seconds_between(held_at_, now));
   stepped_at_ = now;
-  settled_ = result.reached || result.way.empty();
+  settled_ = result.reached || result.poses.empty();
   if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLife;
   return result;
 }
@@ -224,7 +224,7 @@ void Workbench::watch_journal() {
   const Journal* journal = session().journal();
   if (journal_failed_ || journal == nullptr || !journal->has_failed()) return;
   journal_failed_ = true;
-  warning_ = "this session is not kept any more (its journal cannot be written: is the disk full?); save the recording";
+  warning_ = "this session is no longer stored (its journal cannot be written: is the disk full?); save the recording";
 }
 
 PoseMessage Workbench::pose_message(const StepResult& step, Clock::time_point now) const {
@@ -247,8 +247,8 @@ PoseMessage Workbench::pose_message(const StepResult& step, Clock::time_point no
 }
 
 std::vector<ContactMessage> Workbench::contact_messages(const StepResult& step) const {
-  std::vector<ContactPoint> points = step.touching;
-  if (points.empty() && !step.contacts.empty())
+  std::vector<ContactPoint> points = step.contact_points;
+  if (points.empty() && !step.blocking_pairs.empty())
     points = session().engine().contacts(kContactReach * session().pairs().tolerance);
   std::stable_sort(points.begin(), points.end(),
                    [](const ContactPoint& a, const ContactPoint& b) { return a.gap < b.gap; });

@@ -85,7 +85,7 @@ class Arguments {
 
   Result<std::string> text(const char* name) const {
     const auto found = command_.find(name);
-    if (found == command_.end() || !found->is_string()) return wrong(name, "a text");
+    if (found == command_.end() || !found->is_string()) return wrong(name, "a string");
     return found->get<std::string>();
   }
 
@@ -112,7 +112,7 @@ class Arguments {
 
  private:
   static Error wrong(const std::string& member, const std::string& wanted) {
-    return usage("the command was not understood", "'" + member + "' must be " + wanted, "look at docs/wire.md");
+    return usage("the command was not understood", "'" + member + "' must be " + wanted, "see docs/wire.md");
   }
 
   const Json& command_;
@@ -214,7 +214,7 @@ class WorkbenchCommands {
     const auto components = in_.components();
     if (!components) return components.error();
     if (components->size() > 1)
-      return usage("this cannot be told", "several components are named", "ask about one at a time");
+      return usage("the blockers cannot be determined", "several components are selected", "select one");
     return bench_.search({SearchKind::Why, {}, *components, {}, {}, {}});
   }
   Result<Json> play() {
@@ -257,7 +257,7 @@ class WorkbenchCommands {
     if (!file) return file.error();
     const std::string name = file->filename().string(), suffix = ".path.json";
     if (name.size() <= suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
-      return usage("the recording cannot be saved", "the file's name must end in .path.json", "give such a name");
+      return usage("the recording cannot be saved", "the file name must end in .path.json", "choose another name");
     const std::string text = *bench_.recording_text();
     const Result<Done> written = write_file(*file, text);
     if (!written) return written.error();
@@ -291,7 +291,7 @@ class WorkbenchCommands {
   }
   Result<Json> clearance() {
     if (session_.moving().empty())
-      return usage("there is no clearance to tell", "nothing is in hand", "take a component in hand first");
+      return usage("there is no clearance", "no component is being dragged", "drag a component first");
     return clearance_json(session_.engine().clearance());
   }
 
@@ -380,7 +380,7 @@ Result<Json> Workbench::execute(const Json& command) {
   const std::string name = command.value("command", "");
   const CommandEntry* entry = find_command(name);
   if (entry == nullptr)
-    return usage("the command was not understood", "there is none called '" + name + "'", "look at docs/wire.md");
+    return usage("the command was not understood", "there is no command '" + name + "'", "see docs/wire.md");
   if (!model_) return usage("'" + name + "' cannot be done", "no assembly is open", "open one first");
   WorkbenchCommands commands(*this, command);
   Result<Json> result = (commands.*entry->run)();

@@ -25,8 +25,7 @@ class Engine {
       if (engine_.poses()[c.value] != engine_.poses()[set[0].value])
         raise_usage("'" + assembly()[c].name + "' cannot be taken in hand with '" + assembly()[set[0]].name +
                     "' (their poses differ); move them one after the other");
-    without_gil([&] { engine_.hold(set); });
-    held_ = set;
+    without_gil([&] { engine_.grab(set); });
   }
 
   StepView step(const DoubleArray& target, const std::string& response) {
@@ -43,8 +42,6 @@ class Engine {
     if (poses.span().size() != assembly().components.size())
       raise_usage("the state cannot be taken on (it has " + std::to_string(poses.span().size()) + " poses); give " +
                   std::to_string(assembly().components.size()) + ", one a component");
-    for (const ComponentId c : held_)  // as MotionEngine::jump does
-      if (poses.span()[c.value] != engine_.poses()[c.value]) held_.clear();
     without_gil([&] { engine_.jump(poses.span()); });
   }
 
@@ -52,7 +49,7 @@ class Engine {
     const Turn turn(mutex_, kName);
     return to_array(engine_.poses());
   }
-  std::vector<std::string> held() const { return component_names(assembly(), held_); }
+  std::vector<std::string> held() const { return component_names(assembly(), {engine_.moving_set().begin(), engine_.moving_set().end()}); }
 
   std::vector<FirstContact> first_contacts(const DoubleArray& targets) {
     const Turn turn(mutex_, kName);
@@ -72,8 +69,8 @@ class Engine {
     check_held();
     if (!(reach >= 0)) raise_usage("contacts cannot be looked for (the reach is negative); give 0 or more");
     StepView view{states_->assembly, {}};
-    view.result.pose = engine_.poses()[held_[0].value];
-    view.result.touching = without_gil([&] { return engine_.contacts(reach); });
+    view.result.pose = engine_.poses()[engine_.moving_set()[0].value];
+    view.result.contact_points = without_gil([&] { return engine_.contacts(reach); });
     return view;
   }
 
@@ -81,12 +78,11 @@ class Engine {
   static constexpr const char* kName = "engine";
 
   void check_held() const {
-    if (held_.empty()) raise_usage("nothing is in hand (hold was not called, or a jump let go); call hold first");
+    if (engine_.moving_set().empty()) raise_usage("nothing is in hand (hold was not called, or a jump let go); call hold first");
   }
 
   CheckedHolder states_;
   CertificateEngine engine_;
-  std::vector<ComponentId> held_;
   std::mutex mutex_;
 };
 
@@ -178,22 +174,22 @@ FirstContactArrays arrays_of(std::vector<FirstContact> contacts) {
 /// Names of what stopped a step, each once.
 std::set<std::string> blocking(const StepView& step) {
   std::set<std::string> names;
-  for (const ContactPoint& c : step.result.touching) names.insert((*step.assembly)[c.fixed].name);
+  for (const ContactPoint& c : step.result.contact_points) names.insert((*step.assembly)[c.fixed].name);
   return names;
 }
 
 template <class Value, class Get>
 py::array_t<Value> column(const StepView& step, const Get& get) {
-  py::array_t<Value> array(static_cast<py::ssize_t>(step.result.touching.size()));
-  for (std::size_t i = 0; i < step.result.touching.size(); ++i) array.mutable_data()[i] = get(step.result.touching[i]);
+  py::array_t<Value> array(static_cast<py::ssize_t>(step.result.contact_points.size()));
+  for (std::size_t i = 0; i < step.result.contact_points.size(); ++i) array.mutable_data()[i] = get(step.result.contact_points[i]);
   return array;
 }
 
 template <class Get>
 py::array_t<double> vectors(const StepView& step, const Get& get) {
-  py::array_t<double> array({static_cast<py::ssize_t>(step.result.touching.size()), py::ssize_t{3}});
-  for (std::size_t i = 0; i < step.result.touching.size(); ++i) {
-    const Vec3 v = get(step.result.touching[i]);
+  py::array_t<double> array({static_cast<py::ssize_t>(step.result.contact_points.size()), py::ssize_t{3}});
+  for (std::size_t i = 0; i < step.result.contact_points.size(); ++i) {
+    const Vec3 v = get(step.result.contact_points[i]);
     for (int k = 0; k < 3; ++k) array.mutable_data()[3 * i + static_cast<std::size_t>(k)] = v[k];
   }
   return array;
@@ -205,7 +201,7 @@ void bind_step(py::module_& module) {
           "pose", [](const StepView& s) { return to_array(s.result.pose); }, "Shape (7,).")
       .def_property_readonly("reached", [](const StepView& s) { return s.result.reached; })
       .def_property_readonly(
-          "way", [](const StepView& s) { return to_array(Span<const Pose>(s.result.way)); },
+          "way", [](const StepView& s) { return to_array(Span<const Pose>(s.result.poses)); },
           "The poses that it went through, a screw from each to the next, shape (n, 7).")
       .def_property_readonly(
           "clearance", [](const StepView& s) { return s.result.clearance; },
@@ -232,7 +228,7 @@ void bind_step(py::module_& module) {
             return column<std::uint32_t>(s, [](const ContactPoint& c) { return c.fixed.value; });
           },
           "Indices of components, shape (n,).")
-      .def_property_readonly("milliseconds", [](const StepView& s) { return s.result.timings.overall; });
+      .def_property_readonly("milliseconds", [](const StepView& s) { return s.result.cost.ms; });
 }
 
 void bind_contacts(py::module_& module) {

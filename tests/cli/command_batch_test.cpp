@@ -40,7 +40,7 @@ class CliBatch : public Cli {
 TEST_F(CliBatch, ChecksAndPlansEveryAssemblyAndReportsFailures) {
   const Outcome o = run("batch products -o out --workers 2");
   EXPECT_EQ(o.exit_code, 1) << o.err;
-  EXPECT_NE(o.out.find("] one: 3 components; pairs: 1 in contact, 0 fits, 0 embedded; 2 come out in 2 steps"),
+  EXPECT_NE(o.out.find("] one: 3 components; pairs: 1 in contact, 0 fits, 0 embedded; 2 removed in 2 steps"),
             std::string::npos)
       << o.out;
   EXPECT_NE(o.out.find("] broken.step: failed: "), std::string::npos) << o.out;
@@ -61,13 +61,13 @@ TEST_F(CliBatch, RedoesOnlyWhatChanged) {
   const Outcome same = run("batch products -o out --only 'deep/*' --check-only");
   EXPECT_NE(same.out.find("[3/3] "), std::string::npos) << same.out;
   EXPECT_EQ(same.out.find("] deep/five: 3"), std::string::npos) << "it is repeated: " << same.out;
-  EXPECT_NE(same.out.find("] deep/five: (was done) 3"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("] deep/five: (done before) 3"), std::string::npos) << same.out;
   fs::remove(in("products/deep/five/lid.obj"));
   const Outcome changed = run("batch products -o out --only 'deep/*' --check-only");
   EXPECT_NE(changed.out.find("] deep/five: 2 components"), std::string::npos) << changed.out;
-  EXPECT_NE(changed.out.find("] deep/four: (was done)"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.out.find("] deep/four: (done before)"), std::string::npos) << changed.out;
   const Outcome options = run("batch products -o out --only 'deep/*' --check-only --tolerance 0.5");
-  EXPECT_EQ(options.out.find("(was done)"), std::string::npos) << options.out;
+  EXPECT_EQ(options.out.find("(done before)"), std::string::npos) << options.out;
 }
 
 TEST_F(CliBatch, PrintsTheTableAsJson) {

@@ -59,8 +59,8 @@ TEST_F(CliExport, TakesPicturesOfTheAssemblyAndOfAStep) {
   EXPECT_EQ(read_all(in("parts.png")).substr(0, 8), png);
   EXPECT_EQ(read_all(in("step.png")).substr(0, 8), png);
   expect_error("export parts pull.path.json -o step.png --step 2", 2, "there is no step 2 (the path has 1)");
-  expect_error("export parts -o step.png --step 1", 2, "--step has no step to show");
-  expect_error("export parts -o parts.png --size 0x7", 2, "is no picture size");
+  expect_error("export parts -o step.png --step 1", 2, "--step does not apply here");
+  expect_error("export parts -o parts.png --size 0x7", 2, "is not a picture size");
 }
 
 TEST_F(CliExport, WritesTheVolumeThatAMoveSweeps) {
@@ -72,10 +72,10 @@ TEST_F(CliExport, WritesTheVolumeThatAMoveSweeps) {
   const Outcome read = run("info swept.stl --json");
   EXPECT_EQ(Json::parse(read.out)["assembly"]["triangles"], report["triangles"]);
 
-  EXPECT_NE(export_to("swept.stl --step 1").out.find("nowhere further than"), std::string::npos);
+  EXPECT_NE(export_to("swept.stl --step 1").out.find("outside the exact swept volume"), std::string::npos);
   expect_error("export parts pull.path.json -o swept.stl --step 2", 2, "there is no step 2 (the path has 1)");
   expect_error("export parts pull.path.json -o swept.stl --within 1e-6", 2, "too fine");
-  expect_error("export parts pull.path.json -o pull.csv --within 1", 2, "--within has no place");
+  expect_error("export parts pull.path.json -o pull.csv --within 1", 2, "--within does not apply");
   expect_error("export parts -o swept.stl", 2, "there is no path to export");
 }
 
@@ -114,7 +114,7 @@ TEST_F(CliExport, FindsTheAssemblyBesideAPathGivenAlone) {
   ASSERT_EQ(o.exit_code, 0) << o.err;
   EXPECT_EQ(read_all(in("alone.glb")).substr(0, 4), "glTF");
   fs::rename(in("parts"), in("elsewhere"));
-  expect_error("export pull.path.json -o alone.glb", 3, "is not beside it");
+  expect_error("export pull.path.json -o alone.glb", 3, "is not in its folder");
 }
 
 TEST_F(CliExport, WritesWorkInstructions) {
@@ -125,21 +125,21 @@ TEST_F(CliExport, WritesWorkInstructions) {
   EXPECT_NE(page.find("/parts</h1>"), std::string::npos) << "with the folder that the parts are in";
   ASSERT_EQ(export_to("pull-instructions.html --product vice").exit_code, 0);
   EXPECT_NE(read_all(in("pull-instructions.html")).find("<h1>Disassembly of vice</h1>"), std::string::npos);
-  expect_error("export parts pull.path.json -o pull.glb --product vice", 2, "--product has no place");
+  expect_error("export parts pull.path.json -o pull.glb --product vice", 2, "--product does not apply");
   EXPECT_NE(page.find("id=\"step-1\""), std::string::npos);
   expect_error("export parts -o parts.pdf", 2, "there is no path to export");
 }
 
 TEST_F(CliExport, TakesTheFormatByNameIfTheFileHasNoExtension) {
   ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
-  expect_error("export parts pull.path.json -o pull.xyz", 2, "its name tells no format");
+  expect_error("export parts pull.path.json -o pull.xyz", 2, "its extension is not a known format");
 }
 
 TEST_F(CliExport, RefusesInvalidArguments) {
   expect_error("export parts -o moves.csv", 2, "there is no path to export");
   expect_error("export parts -o parts.path.json", 2, "there is no path to export");
   expect_error("export parts -o bom.csv --reverse", 2, "--reverse has nothing to reverse");
-  expect_error("export parts pull.path.json -o pull.glb --clearance", 2, "--clearance has no place");
+  expect_error("export parts pull.path.json -o pull.glb --clearance", 2, "--clearance does not apply");
   EXPECT_FALSE(fs::exists(in("moves.csv")));
 }
 

@@ -49,7 +49,7 @@ TEST(Explanation, TellsWhatLocksEachOther) {
 
 TEST(Explanation, SaysThatNothingBlocks) {
   const Assembly pot = scenes::covered_pot();
-  EXPECT_EQ(explanation_text(pot, why(pot, "lid")), "lid comes out along +Z");
+  EXPECT_EQ(explanation_text(pot, why(pot, "lid")), "lid can be removed along +Z");
 }
 
 TEST(DirectionText, NamesTheAxes) {

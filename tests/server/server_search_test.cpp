@@ -38,7 +38,7 @@ class ServerSearch : public ServerScene {
 
 TEST_F(ServerSearch, MakesThePlanTheGuide) {
   start_with(scenes::stack_in_tube(3));
-  Client client(door());
+  Client client(address());
   client.state();
   EXPECT_EQ(search(client, "plan", {})["status"], "done");
   const Json state = state_where(client, "search");
@@ -58,7 +58,7 @@ TEST_F(ServerSearch, MakesThePlanTheGuide) {
 
 TEST_F(ServerSearch, PlansForATargetWithWhatIsFixed) {
   start_with(scenes::stack_in_tube(3));
-  Client client(door());
+  Client client(address());
   client.state();
   search(client, "plan", {{"targets", {kMiddle}}});
   EXPECT_EQ(state_where(client, "search")["guide"]["moves"].size(), 2u);
@@ -81,7 +81,7 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
                                scenes::component("b under", scenes::box({-20, -30, -40}, {0, 30, 0})),
                                scenes::component("c shelf", scenes::box({-4, -3, 0}, {10, 3, 2})),
                                scenes::component("d cup", scenes::box({0, -6, 2}, {9, 6, 22}))}));
-  Client client(door());
+  Client client(address());
   client.state();
   for (const auto& [preferred, first] : {std::pair("direction", kShelf), std::pair("support", kCup)}) {
     search(client, "plan", {{"fixed", {0, 1}}, {"prefer", {preferred}}});
@@ -97,7 +97,7 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
 
 TEST_F(ServerSearch, RemovesTheObstaclesAndThenTheTarget) {
   start_with(scenes::stack_in_tube(3));
-  Client client(door());
+  Client client(address());
   client.state();
   search(client, "find_path", {{"components", {kMiddle}}});
   const Json state = after_motion(client);
@@ -118,7 +118,7 @@ TEST_F(ServerSearch, RemovesTheObstaclesAndThenTheTarget) {
 
 TEST_F(ServerSearch, TakesABodyOutAndThenApart) {
   start_with(scenes::framed_dovetail());
-  Client client(door());
+  Client client(address());
   client.state();
   search(client, "find_path", {{"components", {0, 1}}});
   const Json state = after_motion(client);
@@ -130,7 +130,7 @@ TEST_F(ServerSearch, TakesABodyOutAndThenApart) {
 
 TEST_F(ServerSearch, SaysWhyAComponentStaysUntilItMoves) {
   start_with(scenes::closed_shell());
-  Client client(door());
+  Client client(address());
   client.state();
   EXPECT_EQ(search(client, "why", {{"components", {1}}})["status"], "done");
   const Json state = state_where(client, "search");
@@ -149,7 +149,7 @@ TEST_F(ServerSearch, SaysWhyAComponentStaysUntilItMoves) {
 
 TEST_F(ServerSearch, SaysWhatBlocksIfNothingCanBeRemoved) {
   start_with(scenes::closed_shell());
-  Client client(door());
+  Client client(address());
   client.state();
   search(client, "find_path", {{"components", {1}}});
   const Json state = state_where(client, "search");
@@ -161,7 +161,7 @@ TEST_F(ServerSearch, SaysWhatBlocksIfNothingCanBeRemoved) {
 
 TEST_F(ServerSearch, CanBeCancelledAndAllowsDraggingMeanwhile) {
   start_with(scenes::stack_in_tube(60));
-  Client client(door());
+  Client client(address());
   client.state();
   const Json answer = client.command("plan");
   ASSERT_TRUE(answer["ok"]);
@@ -178,7 +178,7 @@ TEST_F(ServerSearch, CanBeCancelledAndAllowsDraggingMeanwhile) {
 
 TEST_F(ServerSearch, PlaysNoPathFoundBeforeSomethingMoved) {
   start_with(scenes::stack_in_tube(40));
-  Client client(door());
+  Client client(address());
   client.state();
   const Json answer = client.command("find_path", {{"components", {39}}});
   ASSERT_TRUE(answer["ok"]);
@@ -186,7 +186,7 @@ TEST_F(ServerSearch, PlaysNoPathFoundBeforeSomethingMoved) {
   drag(client, grip, {}, {0, 0, 2}, 2);
   client.command("release");
   const Json warning = client.event("log");
-  EXPECT_NE(warning["text"].get<std::string>().find("something was moved since"), std::string::npos) << warning;
+  EXPECT_NE(warning["text"].get<std::string>().find("components were moved meanwhile"), std::string::npos) << warning;
   EXPECT_EQ(client.state()["moves"].size(), 1u);
 }
 

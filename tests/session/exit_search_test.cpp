@@ -47,28 +47,28 @@ TEST_F(ExitSearchBesideAWall, HasToGoUntilTheWholeBoxIsBehind) {
 }
 
 TEST_F(ExitSearchBesideAWall, FollowsADirectionAsFarAsItIsFree) {
-  const std::vector<FreeDirection> ways = out().look(std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
-  EXPECT_FALSE(ways[0].free);
-  EXPECT_EQ(ways[0].blocked_by, ComponentId(1));
-  EXPECT_NEAR(ways[0].distance, 10.5, 0.1);
-  EXPECT_LE(ways[0].distance, 10.5 + pairs_.tolerance);
-  EXPECT_TRUE(ways[1].free);
+  const std::vector<FreeDirection> directions = out().free_distances(std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
+  EXPECT_FALSE(directions[0].free);
+  EXPECT_EQ(directions[0].blocked_by, ComponentId(1));
+  EXPECT_NEAR(directions[0].distance, 10.5, 0.1);
+  EXPECT_LE(directions[0].distance, 10.5 + pairs_.tolerance);
+  EXPECT_TRUE(directions[1].free);
 }
 
 TEST_F(ExitSearchBesideAWall, FindsTheShortestFreePathFirst) {
-  const std::vector<FreeDirection> ways = out().find(kReach);
-  ASSERT_FALSE(ways.empty());
-  EXPECT_TRUE(ways[0].free);
-  EXPECT_EQ(ways[0].direction, (Vec3{-1, 0, 0}));
-  EXPECT_FALSE(ways.back().free);
-  EXPECT_EQ(ways.back().blocked_by, ComponentId(1));
+  const std::vector<FreeDirection> directions = out().find(kReach);
+  ASSERT_FALSE(directions.empty());
+  EXPECT_TRUE(directions[0].free);
+  EXPECT_EQ(directions[0].direction, (Vec3{-1, 0, 0}));
+  EXPECT_FALSE(directions.back().free);
+  EXPECT_EQ(directions.back().blocked_by, ComponentId(1));
 }
 
 TEST_F(ExitSearchBesideAWall, OmitsPathsThatEndBeforeAHundredthOfTheDistance) {
   const auto leads_to_the_wall_from = [&](double gap) {
     engine_.jump(std::vector<Pose>{{{10.5 - gap, 0, 0}, {}}, {}});
-    const std::vector<FreeDirection> ways = out().find(kReach);
-    return std::any_of(ways.begin(), ways.end(), [](const FreeDirection& w) {
+    const std::vector<FreeDirection> directions = out().find(kReach);
+    return std::any_of(directions.begin(), directions.end(), [](const FreeDirection& w) {
       return w.direction == Vec3{1, 0, 0} && !w.free;
     });
   };
@@ -91,8 +91,8 @@ TEST(ExitSearch, FollowsTheNormalsOfWhatTheSetTouches) {
   const PairStates pairs = *classify_pairs(assembly, {});
   CertificateEngine engine(assembly, pairs);
   engine.grab(kFirst);
-  const std::vector<FreeDirection> ways = ExitSearch(assembly, engine, kFirst).find(kReach);
-  const bool has_normal = std::any_of(ways.begin(), ways.end(), [&](const FreeDirection& w) {
+  const std::vector<FreeDirection> directions = ExitSearch(assembly, engine, kFirst).find(kReach);
+  const bool has_normal = std::any_of(directions.begin(), directions.end(), [&](const FreeDirection& w) {
     return w.free && length(w.direction - Vec3{slant, slant, 0}) < 1e-6;
   });
   EXPECT_TRUE(has_normal);

@@ -52,8 +52,8 @@ TEST(PlayMotion, StopsAtTheLastWholeStepBeforeTheWall) {
   // The 11th target and all later ones are beyond the wall: longer and longer sweeps, all stopped.
   EXPECT_DOUBLE_EQ(frames.back().pose.position.x, 10);
   EXPECT_FALSE(result.steps.back().result.reached);
-  ASSERT_FALSE(result.steps.back().result.contacts.empty());
-  EXPECT_EQ(result.steps.back().result.contacts[0].b, ComponentId(1));
+  ASSERT_FALSE(result.steps.back().result.blocking_pairs.empty());
+  EXPECT_EQ(result.steps.back().result.blocking_pairs[0].b, ComponentId(1));
 }
 
 TEST(PlayMotion, TouchesTheWallWithinTheTolerance) {

@@ -80,7 +80,7 @@ std::string direction_text(const Vec3& unit) {
 
 std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   std::string text = assembly[e.component].name;
-  if (e.blockers.empty()) return text + " comes out along " + direction_text(e.direction);
+  if (e.blockers.empty()) return text + " can be removed along " + direction_text(e.direction);
   text += " is blocked by ";
   for (std::size_t i = 0; i < e.blockers.size(); ++i) {
     const Blocker& b = e.blockers[i];

@@ -11,12 +11,12 @@ namespace dismantle {
 
 namespace {
 
-/// What is outside has at least this share of the assembly's diagonal between it and the box.
+/// Margin outside the bounding box, as a share of the assembly's diagonal.
 constexpr double kMarginShare = 0.02;
-/// Directions within about 2.5 degrees are the same.
+/// Cosine above which directions count as the same (about 2.5 degrees).
 constexpr double kSameDirection = 0.999;
 constexpr std::size_t kMaxDirections = 32;
-/// Free for less than this share of the way out is stuck.
+/// A direction free for less than this share of the exit distance is left out.
 constexpr double kNowhereShare = 0.01;
 
 void add_direction(std::vector<Vec3>& list, const Vec3& direction) {
@@ -54,7 +54,7 @@ double ExitSearch::exit_distance(const Vec3& direction) const {
   return least + kMarginShare * diagonal(all_);
 }
 
-std::vector<FreeDirection> ExitSearch::look(Span<const Vec3> directions) const {
+std::vector<FreeDirection> ExitSearch::free_distances(Span<const Vec3> directions) const {
   std::vector<Vec3> ways;
   std::vector<FreeDirection> result;
   for (const Vec3& d : directions) {
@@ -84,7 +84,7 @@ std::vector<FreeDirection> ExitSearch::find(double contact_reach) const {
   }
   add_direction(directions, sum);
 
-  // Most lead nowhere: a look as far as that tells, and costs little beside one all the way out.
+  // Most directions are blocked soon: a short query decides that and is cheap compared with a full one.
   std::vector<Vec3> near;
   near.reserve(directions.size());
   for (const Vec3& d : directions) near.push_back((kNowhereShare * exit_distance(d)) * d);
@@ -93,7 +93,7 @@ std::vector<FreeDirection> ExitSearch::find(double contact_reach) const {
   for (std::size_t i = 0; i < directions.size(); ++i)
     if (contacts[i].free) open.push_back(directions[i]);
 
-  std::vector<FreeDirection> found = look(open);
+  std::vector<FreeDirection> found = free_distances(open);
   std::erase_if(found, [&](const FreeDirection& d) {
     return !d.free && d.distance < kNowhereShare * exit_distance(d.direction);
   });

@@ -8,32 +8,33 @@
 
 namespace dismantle {
 
-/// How far a set can go straight.
+/// How far a set can move straight along one direction.
 struct FreeDirection {
   Vec3 direction;          ///< Unit [world].
-  bool free = false;       ///< All the way until the set is outside the assembly's box.
-  double distance = 0;     ///< How far it certainly gets [mm]; where free: until it is outside.
-  ComponentId blocked_by;  ///< Where not free.
+  bool free = false;       ///< The set can leave the assembly's bounding box.
+  double distance = 0;     ///< Certified free distance [mm]; if free: until it is outside.
+  ComponentId blocked_by;  ///< The first component that blocks; invalid if free.
 };
 
-/// The ways out of an assembly for a set that its engine has in hand.
+/// Finds straight exit motions of the moving set of an engine.
 class ExitSearch {
  public:
-  /// @param set all at one pose, in hand of `engine`; both must outlive this
+  /// @param set the moving set of `engine`, all at one pose; assembly and engine must outlive this
   ExitSearch(const Assembly& assembly, const CertificateEngine& engine, Span<const ComponentId> set);
 
-  /// The box around the set where it is [mm].
+  /// The bounding box of the set at its present pose [mm].
   const Aabb& box() const { return box_; }
+  /// True if the set is outside the bounding box of the assembled assembly.
   bool is_outside() const;
-  /// How far the set has to go along a unit direction until it is outside the assembled assembly's box, with a margin
-  /// [mm].
+  /// Distance along a unit direction after which the set is outside the bounding box of the assembled assembly, with a
+  /// margin [mm].
   double exit_distance(const Vec3& direction) const;
-  /// How far the set can go along each direction.
-  std::vector<FreeDirection> look(Span<const Vec3> directions) const;
-  /// The axes' directions and the normals of what the set touches, free ones first, then the furthest first; those
-  /// that lead nowhere are left out.
+  /// How far the set can move along each unit direction.
+  std::vector<FreeDirection> free_distances(Span<const Vec3> directions) const;
+  /// Candidate directions: coordinate axes and the normals of contacts within `contact_reach` [mm]. Free ones first,
+  /// then by descending distance; those along which the set can hardly move are left out.
   std::vector<FreeDirection> find(double contact_reach) const;
-  /// From the assembly's middle to the set's; up where they are the same.
+  /// Direction from the center of the assembly to that of the set; +z if they coincide.
   Vec3 outward() const;
 
  private:

@@ -19,7 +19,7 @@ namespace dismantle {
 
 namespace {
 
-/// How often what was written is flushed to the disk.
+/// Interval of flushes to the disk.
 constexpr std::chrono::milliseconds kFlushInterval{500};
 
 Error cannot_write(const std::filesystem::path& file, const std::string& why) {
@@ -29,11 +29,11 @@ Error cannot_write(const std::filesystem::path& file, const std::string& why) {
 }  // namespace
 
 /// An open file, and the thread that flushes it.
-class Journal::Body {
+class Journal::Impl {
  public:
-  explicit Body(int descriptor) : descriptor_(descriptor), flusher_([this] { flush_now_and_then(); }) {}
+  explicit Impl(int descriptor) : descriptor_(descriptor), flusher_([this] { flush_now_and_then(); }) {}
 
-  ~Body() {
+  ~Impl() {
     {
       const std::lock_guard lock(mutex_);
       is_ending_ = true;
@@ -42,8 +42,8 @@ class Journal::Body {
     flusher_.join();
     ::close(descriptor_);
   }
-  Body(const Body&) = delete;
-  Body& operator=(const Body&) = delete;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   void write(const std::string& record) {
     std::size_t done = 0;
@@ -77,12 +77,12 @@ class Journal::Body {
   std::thread flusher_;
 };
 
-Journal::Journal(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+Journal::Journal(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Journal::~Journal() = default;
 
 Result<std::unique_ptr<Journal>> Journal::create(const std::filesystem::path& file, const JournalHeader& header) {
   Result<std::unique_ptr<Journal>> journal = go_on(file, {});
-  if (journal) (*journal)->body_->write(header_record(header));
+  if (journal) (*journal)->impl_->write(header_record(header));
   return journal;
 }
 
@@ -96,44 +96,44 @@ Result<std::unique_ptr<Journal>> Journal::go_on(const std::filesystem::path& fil
     ::close(descriptor);
     return cannot_write(file, why);
   }
-  return std::unique_ptr<Journal>(new Journal(std::make_unique<Body>(descriptor)));
+  return std::unique_ptr<Journal>(new Journal(std::make_unique<Impl>(descriptor)));
 }
 
 void Journal::begin(const SessionEntry& entry) {
-  body_->write(begin_record(entry));
+  impl_->write(begin_record(entry));
 }
 
 void Journal::add_frames(Span<const Frame> frames) {
   DISMANTLE_EXPECT(!frames.empty());
-  body_->write(frames_record(frames));
+  impl_->write(frames_record(frames));
 }
 
 void Journal::end(const SessionEntry& entry) {
-  body_->write(end_record(entry));
+  impl_->write(end_record(entry));
 }
 
 void Journal::drop() {
-  body_->write(plain_record(JournalRecord::Drop));
+  impl_->write(plain_record(JournalRecord::Drop));
 }
 
 void Journal::undo() {
-  body_->write(plain_record(JournalRecord::Undo));
+  impl_->write(plain_record(JournalRecord::Undo));
 }
 
 void Journal::redo() {
-  body_->write(plain_record(JournalRecord::Redo));
+  impl_->write(plain_record(JournalRecord::Redo));
 }
 
 void Journal::reset() {
-  body_->write(plain_record(JournalRecord::Reset));
+  impl_->write(plain_record(JournalRecord::Reset));
 }
 
 void Journal::close() {
-  body_->write(plain_record(JournalRecord::Close));
+  impl_->write(plain_record(JournalRecord::Close));
 }
 
 bool Journal::has_failed() const {
-  return body_->has_failed();
+  return impl_->has_failed();
 }
 
 }  // namespace dismantle

@@ -14,60 +14,61 @@
 
 namespace dismantle {
 
-/// What a journal is of; a session goes on with one only where this is the same.
+/// Identifies the session of a journal; a session resumes from a journal only if all of this is equal.
 struct JournalHeader {
-  std::string assembly_name;
-  std::string assembly_sha256;
-  std::uint32_t component_count = 0;
-  double tolerance = 0;  ///< [mm]
+  std::string assembly_name;          ///< File name.
+  std::string assembly_sha256;        ///< Of the file.
+  std::uint32_t component_count = 0;  ///< Of the assembly.
+  double tolerance = 0;               ///< [mm]
   friend bool operator==(const JournalHeader&, const JournalHeader&) = default;
 };
 
-/// What a journal says was done.
+/// The contents of a journal.
 struct JournalContents {
-  JournalHeader header;
-  std::vector<SessionEntry> entries;
-  std::size_t done_count = 0;   ///< Of the entries; those behind were undone.
-  bool is_open = false;         ///< The last entry was still going on.
-  bool is_closed = false;       ///< The session ended in order.
-  std::size_t whole_bytes = 0;  ///< Up to where the bytes are whole records.
+  JournalHeader header;               ///< The session.
+  std::vector<SessionEntry> entries;  ///< Everything recorded, undone entries included.
+  std::size_t done_count = 0;         ///< Number of entries in effect; those after them were undone.
+  bool is_open = false;               ///< The last entry was still in progress.
+  bool is_closed = false;             ///< The session ended normally.
+  std::size_t whole_bytes = 0;        ///< Length of the complete records [bytes].
 };
 
-/// Reads a journal from its bytes, up to the first record that is not whole: its tail may be torn anywhere. None where
-/// not even the header is whole.
+/// Parses a journal up to the first incomplete record: its tail may be torn anywhere. None if the header is incomplete.
 std::optional<JournalContents> parse_journal(std::string_view bytes);
 
-/// Writes down a session while it happens, so that it can go on after a crash: append-only, each record checked by a
-/// hash. What is written has left the process when a call returns (a killed process loses nothing), and is on the
-/// disk within a second (a power loss loses no more than that). Files are readable by their owner only.
+/// A write-ahead log of a session, so that it can be resumed after a crash: append-only, each record with a hash. Data
+/// has left the process when a call returns (a killed process loses nothing) and is on the disk within a second (so
+/// much may be lost with the power). Files are readable by their owner only.
 class Journal {
  public:
-  /// Begins a journal, replacing what bore the name. Errors: Failed, also where another process writes it.
+  /// Starts a journal, replacing the file. Errors: Failed, also if another process writes it.
   static Result<std::unique_ptr<Journal>> create(const std::filesystem::path& file, const JournalHeader& header);
-  /// Goes on with one behind its whole records. Errors: as create().
+  /// Appends to a journal after its complete records. Errors: as create().
   static Result<std::unique_ptr<Journal>> go_on(const std::filesystem::path& file, const JournalContents& contents);
-  /// Everything written is on the disk then.
+  /// Flushes everything to the disk.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
+  /// Records the start of an entry.
   void begin(const SessionEntry& entry);
-  /// @pre not empty
+  /// Records frames of the present entry. @pre not empty
   void add_frames(Span<const Frame> frames);
+  /// Records the end of an entry.
   void end(const SessionEntry& entry);
-  void drop();  ///< The entry that was begun is none.
-  void undo();
-  void redo();
-  void reset();
-  void close();
+  void drop();   ///< Discards the entry in progress.
+  void undo();   ///< Records an undo.
+  void redo();   ///< Records a redo.
+  void reset();  ///< Records that everything was reset.
+  void close();  ///< Records that the session ended normally.
 
-  /// Whether something could not be written (disk full); the journal is of no use from then on.
+  /// True if a record could not be written (disk full); the journal is incomplete from then on.
   bool has_failed() const;
 
  private:
-  class Body;
-  explicit Journal(std::unique_ptr<Body> body);
-  std::unique_ptr<Body> body_;
+  class Impl;
+  explicit Journal(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace dismantle

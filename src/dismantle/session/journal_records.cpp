@@ -13,14 +13,14 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::string_view kMagic = "dismantle-journal";
 constexpr std::size_t kHeadBytes = 8;  // length and hash
 
-/// FNV-1a: tells torn and stale bytes from written ones.
+/// FNV-1a hash: detects torn and stale bytes.
 std::uint32_t hash_of(std::string_view bytes) {
   std::uint32_t hash = 2166136261u;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
   return hash;
 }
 
-/// Makes the payload of a record.
+/// Writes the payload of a record.
 class Payload {
  public:
   explicit Payload(JournalRecord kind) { bytes_ += static_cast<char>(kind); }
@@ -58,7 +58,7 @@ class Payload {
   std::string bytes_;
 };
 
-/// Takes a payload apart; what is not there makes it fail.
+/// Reads a payload; missing bytes make it fail.
 class Source {
  public:
   explicit Source(std::string_view bytes) : bytes_(bytes) {}
@@ -73,7 +73,7 @@ class Source {
     bytes_.remove_prefix(sizeof(T));
     return value;
   }
-  /// A count of things of at least `bytes` each.
+  /// A count of items of at least `bytes` each.
   std::size_t count(std::size_t bytes) {
     const auto value = number<std::uint32_t>();
     if (value > bytes_.size() / bytes) ok_ = false;
@@ -109,7 +109,7 @@ class Source {
   bool ok_ = true;
 };
 
-/// Does again what the records say.
+/// Replays the records.
 class JournalReplay {
  public:
   bool take(std::string_view payload) {
@@ -147,7 +147,7 @@ class JournalReplay {
   }
 
   bool has_header() const { return has_header_; }
-  /// What was going on when the records ended has ended there.
+  /// Ends an entry that was in progress when the records ended.
   JournalContents finish() {
     contents_.is_open = open_ && has_effect(*open_);
     end_open();
@@ -155,7 +155,7 @@ class JournalReplay {
   }
 
  private:
-  /// Nothing says how it ended: its process did.
+  /// There is no record of its end, as the process ended.
   void end_open() {
     if (open_ && has_effect(*open_)) {
       contents_.entries.resize(contents_.done_count);

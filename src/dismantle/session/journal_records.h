@@ -8,8 +8,8 @@
 
 namespace dismantle {
 
-/// The records of a journal: length (u32) and hash (u32) of the payload, the payload; its first byte is the kind.
-/// Little-endian.
+/// Kinds of journal records. A record is the length (u32) and hash (u32) of its payload, then the payload, whose first
+/// byte is the kind; little-endian.
 enum class JournalRecord : char {
   Header = 'H',
   Begin = 'B',
@@ -22,11 +22,15 @@ enum class JournalRecord : char {
   Close = 'C',
 };
 
+/// The record that identifies the session.
 std::string header_record(const JournalHeader& header);
+/// The record of the start of an entry.
 std::string begin_record(const SessionEntry& entry);
+/// The record of frames of the present entry.
 std::string frames_record(Span<const Frame> frames);
+/// The record of the end of an entry.
 std::string end_record(const SessionEntry& entry);
-/// Of the kinds that say no more than that.
+/// A record without further payload.
 std::string plain_record(JournalRecord kind);
 
 }  // namespace dismantle

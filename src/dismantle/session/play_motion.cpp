@@ -32,10 +32,10 @@ Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const Motion
   return ids;
 }
 
-/// Adds the frames of one target: at least one, but for a first target that asks for where the set starts.
+/// Adds the frames of one target: at least one, except for a first target that equals the start pose.
 void append_frames(Move& move, double time, const StepResult& step) {
-  append_way(move.frames, time, step);
-  if (step.way.empty() && (move.frames.size() > 1 || time > 0)) move.frames.push_back({time, step.pose});
+  append_step_frames(move.frames, time, step);
+  if (step.poses.empty() && (move.frames.size() > 1 || time > 0)) move.frames.push_back({time, step.pose});
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& sta
     const MotionMove& asked = motion.moves[m];
     const Result<std::vector<ComponentId>> set = find_set(assembly, asked, m, engine.poses());
     if (!set) return set.error();
-    engine.hold(*set);
+    engine.grab(*set);
     Move move{"move " + assembly[set->front()].name, asked.components, {{0, engine.poses()[set->front().value]}}};
 
     for (std::size_t k = 0; k < asked.targets.size(); ++k) {

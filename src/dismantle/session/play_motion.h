@@ -11,24 +11,25 @@
 
 namespace dismantle {
 
-/// One simulation step of a motion: what it asked for, what came of it, and what it cost.
+/// One simulation step of a motion, with its result and cost.
 struct PlayedStep {
   std::size_t move = 0;    ///< Index into Motion::moves.
   std::size_t target = 0;  ///< Index into MotionMove::targets.
   double time = 0;         ///< [s]
-  StepResult result;
+  StepResult result;       ///< Pose reached, contacts and cost.
 };
 
-/// What playing a motion gave.
+/// The result of playing a motion.
 struct PlayedMotion {
-  Path path;  ///< How far the components really got; one frame a screw, at least one a target.
-  std::vector<PlayedStep> steps;
-  bool cancelled = false;  ///< `progress` ended it early; path holds what was moved until then.
+  Path path;  ///< The path that the components really took; one frame for each screw, at least one for each target.
+  std::vector<PlayedStep> steps;  ///< One for each target.
+  bool cancelled = false;         ///< `progress` ended it early; `path` is what was moved until then.
 };
 
-/// Plays a motion with collision handling: one step a target, each from the pose really reached to the next target.
+/// Plays a motion with collision handling: one step for each target, from the pose really reached to the next
+/// target.
 /// @param engine in its start state: every component assembled
-/// Errors: Usage where the motion names an unknown component, or moves components together whose poses differ by then.
+/// Errors: Usage if the motion names an unknown component, or moves components together whose poses differ.
 /// @pre engine.can_respond(motion.response)
 Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& pairs, const Motion& motion,
                                  MotionEngine& engine, const ProgressCallback& progress = {});

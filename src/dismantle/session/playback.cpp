@@ -12,13 +12,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// advance() comes back after about this long, wherever it is then.
+/// advance() returns after about this long.
 constexpr std::chrono::milliseconds kMaxTime{8};
 
-/// What is in the way of a set.
+/// The component that blocks a set.
 ComponentId blocker(const StepResult& step, Span<const ComponentId> set) {
-  if (step.contacts.empty()) return {};
-  const CollisionContact& c = step.contacts.front();
+  if (step.blocking_pairs.empty()) return {};
+  const BlockingPair& c = step.blocking_pairs.front();
   return std::find(set.begin(), set.end(), c.a) == set.end() ? c.a : c.b;
 }
 
@@ -26,7 +26,7 @@ ComponentId blocker(const StepResult& step, Span<const ComponentId> set) {
 
 Span<const ComponentId> Playback::moving() const {
   if (timeline_.moves().empty()) return {};
-  return timeline_.moves()[place_.move].components;
+  return timeline_.moves()[position_.move].components;
 }
 
 void Playback::play(double speed) {
@@ -36,60 +36,62 @@ void Playback::play(double speed) {
 }
 
 void Playback::seek(double time) {
-  place_ = timeline_.place_at(time);
-  time_ = timeline_.time_of(place_);
+  position_ = timeline_.position_at(time);
+  time_ = timeline_.time_of(position_);
   block_.reset();
 }
 
-TimelinePlace Playback::forward(double goal) const {
-  const TimelineMove& move = timeline_.moves()[place_.move];
-  if (place_.frame + 1 == move.frames.size())
-    return place_.move + 1 < timeline_.moves().size() ? TimelinePlace{place_.move + 1, 0, 0} : place_;
-  // In the timeline's time, not the move's: their difference is rounded, and the end would never be reached.
-  const double from = move.start + move.frames[place_.frame].time;
-  const double to = move.start + move.frames[place_.frame + 1].time;
-  if (to <= goal) return {place_.move, place_.frame + 1, 0};
-  return {place_.move, place_.frame, std::clamp((goal - from) / (to - from), place_.share, 1 - 1e-12)};
+TimelinePosition Playback::forward(double goal) const {
+  const TimelineMove& move = timeline_.moves()[position_.move];
+  if (position_.frame + 1 == move.frames.size())
+    return position_.move + 1 < timeline_.moves().size() ? TimelinePosition{position_.move + 1, 0, 0} : position_;
+  // In the timeline's time, not the move's: with rounded differences the end might never be reached.
+  const double from = move.start + move.frames[position_.frame].time;
+  const double to = move.start + move.frames[position_.frame + 1].time;
+  if (to <= goal) return {position_.move, position_.frame + 1, 0};
+  return {position_.move, position_.frame, std::clamp((goal - from) / (to - from), position_.share, 1 - 1e-12)};
 }
 
-TimelinePlace Playback::backward(double goal) const {
-  if (place_.share == 0 && place_.frame == 0) {
-    if (place_.move == 0) return place_;
-    return {place_.move - 1, timeline_.moves()[place_.move - 1].frames.size() - 1, 0};
+TimelinePosition Playback::backward(double goal) const {
+  if (position_.share == 0 && position_.frame == 0) {
+    if (position_.move == 0) return position_;
+    return {position_.move - 1, timeline_.moves()[position_.move - 1].frames.size() - 1, 0};
   }
-  const TimelineMove& move = timeline_.moves()[place_.move];
-  const std::size_t frame = place_.share > 0 ? place_.frame : place_.frame - 1;
+  const TimelineMove& move = timeline_.moves()[position_.move];
+  const std::size_t frame = position_.share > 0 ? position_.frame : position_.frame - 1;
   const double from = move.start + move.frames[frame].time, to = move.start + move.frames[frame + 1].time;
-  if (from >= goal) return {place_.move, frame, 0};
-  if (place_.share == 0 && goal >= to) return place_;
-  return {place_.move, frame,
-          std::clamp((goal - from) / (to - from), 1e-12, place_.share > 0 ? place_.share : 1 - 1e-12)};
+  if (from >= goal) return {position_.move, frame, 0};
+  if (position_.share == 0 && goal >= to) return position_;
+  return {position_.move, frame,
+          std::clamp((goal - from) / (to - from), 1e-12, position_.share > 0 ? position_.share : 1 - 1e-12)};
 }
 
-TimelinePlace Playback::next_place(double goal) const {
+TimelinePosition Playback::next_position(double goal) const {
   return speed_ > 0 ? forward(goal) : backward(goal);
 }
 
 bool Playback::is_excused(const StepResult& step, std::size_t move) const {
   const PairList& embedded = timeline_.moves()[move].embedded_before;
-  return !step.contacts.empty() && std::all_of(step.contacts.begin(), step.contacts.end(), [&](const auto& c) {
-    return std::binary_search(embedded.begin(), embedded.end(), std::pair(std::min(c.a, c.b), std::max(c.a, c.b)));
-  });
+  return !step.blocking_pairs.empty() &&
+         std::all_of(step.blocking_pairs.begin(), step.blocking_pairs.end(), [&](const auto& c) {
+           return std::binary_search(embedded.begin(), embedded.end(),
+                                     std::pair(std::min(c.a, c.b), std::max(c.a, c.b)));
+         });
 }
 
-void Playback::put(MotionEngine& engine, const TimelinePlace& place) const {
-  engine.jump(timeline_.poses_at(place, component_count_));
-  engine.hold(timeline_.moves()[place.move].components);
+void Playback::put(MotionEngine& engine, const TimelinePosition& position) const {
+  engine.jump(timeline_.poses_at(position, component_count_));
+  engine.grab(timeline_.moves()[position.move].components);
 }
 
-bool Playback::is_free_the_other_way(MotionEngine& engine, const TimelinePlace& next) const {
+bool Playback::is_free_the_other_way(MotionEngine& engine, const TimelinePosition& next) const {
   put(engine, next);
-  const bool is_free = engine.step(timeline_.pose_of(place_), ResponseKind::Stop).reached;
-  put(engine, place_);
+  const bool is_free = engine.step(timeline_.pose_of(position_), ResponseKind::Stop).reached;
+  put(engine, position_);
   return is_free;
 }
 
-bool Playback::is_free_by_sliding(MotionEngine& engine, const TimelinePlace& next) const {
+bool Playback::is_free_by_sliding(MotionEngine& engine, const TimelinePosition& next) const {
   if (!engine.can_respond(ResponseKind::Slide)) return false;
   const Pose wanted = timeline_.pose_of(next);
   const Pose got = engine.step(wanted, ResponseKind::Slide).pose;
@@ -102,11 +104,11 @@ bool Playback::is_free_by_sliding(MotionEngine& engine, const TimelinePlace& nex
   return off <= tolerance_;
 }
 
-bool Playback::go(MotionEngine& engine, const TimelinePlace& next, StepResult& result) {
+bool Playback::go(MotionEngine& engine, const TimelinePosition& next, StepResult& result) {
   const std::vector<ComponentId>& set = timeline_.moves()[next.move].components;
-  if (next.move != place_.move) {
-    engine.hold(set);
-    place_ = next;
+  if (next.move != position_.move) {
+    engine.grab(set);
+    position_ = next;
     return true;  // the last pose of the one move is the first of the other
   }
   const Pose pose = timeline_.pose_of(next);
@@ -114,16 +116,16 @@ bool Playback::go(MotionEngine& engine, const TimelinePlace& next, StepResult& r
   if (!result.reached) {
     const bool excused =
         is_excused(result, next.move) || is_free_the_other_way(engine, next) || is_free_by_sliding(engine, next);
-    if (!excused && !block_) block_ = PlaybackBlock{timeline_.time_of(place_), blocker(result, set)};
+    if (!excused && !block_) block_ = PlaybackBlock{timeline_.time_of(position_), blocker(result, set)};
     if (!excused && source_ == PlaybackSource::Guide) {
-      put(engine, place_);
+      put(engine, position_);
       return false;
     }
     put(engine, next);
     result.pose = pose;
-    result.way = {pose};
+    result.poses = {pose};
   }
-  place_ = next;
+  position_ = next;
   return true;
 }
 
@@ -131,23 +133,23 @@ StepResult Playback::advance(MotionEngine& engine, double dt) {
   StepResult result;
   const Clock::time_point end = Clock::now() + kMaxTime;
   const double goal = std::clamp(time_ + speed_ * dt, 0.0, timeline_.duration());
-  engine.hold(moving());
+  engine.grab(moving());
   bool is_there = false;
   while (!is_there && Clock::now() < end) {
-    const TimelinePlace next = next_place(goal);
-    if (next == place_) {
+    const TimelinePosition next = next_position(goal);
+    if (next == position_) {
       is_there = true;
     } else if (!go(engine, next, result)) {
       playing_ = false;
       break;
     } else {
-      is_there = place_.share > 0;
+      is_there = position_.share > 0;
     }
   }
-  time_ = is_there ? goal : timeline_.time_of(place_);
-  const bool at_end = speed_ > 0 ? place_ == timeline_.end() : place_ == TimelinePlace{};
+  time_ = is_there ? goal : timeline_.time_of(position_);
+  const bool at_end = speed_ > 0 ? position_ == timeline_.end() : position_ == TimelinePosition{};
   if (is_there && at_end) playing_ = false;
-  result.pose = timeline_.pose_of(place_);
+  result.pose = timeline_.pose_of(position_);
   return result;
 }
 

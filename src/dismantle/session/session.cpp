@@ -9,9 +9,9 @@ namespace dismantle {
 
 namespace {
 
-/// Where the set stood still for longer than this [s], a frame says until when.
+/// A rest longer than this [s] gets a frame at its end.
 constexpr double kLongestRest = 0.05;
-/// The time that the step after a rest is given [s]: about a frame of a screen.
+/// Duration of the first step after a rest [s]: about one screen frame.
 constexpr double kStepTime = 1.0 / 60;
 
 PairList pair_list(const std::vector<ComponentPair>& pairs) {
@@ -21,7 +21,7 @@ PairList pair_list(const std::vector<ComponentPair>& pairs) {
   return list;
 }
 
-/// The box around the assembled set.
+/// The bounding box of the assembled set.
 Aabb assembled_box(const Assembly& assembly, Span<const ComponentId> components) {
   Aabb box;
   for (const ComponentId c : components) box.extend(assembled_bounds(assembly[c]));
@@ -113,7 +113,7 @@ Result<Done> Session::hold(Span<const ComponentId> components) {
 }
 
 void Session::begin(SessionActivity activity, std::string_view verb, std::vector<ComponentId> set) {
-  engine_->hold(set);
+  engine_->grab(set);
   open_ = new_entry(verb, set);
   if (journal_) journal_->begin(*open_);
   moving_center_ = assembled_box(*assembly_, set).center();
@@ -130,11 +130,11 @@ StepResult Session::drag(const Pose& target, double time) {
   DISMANTLE_EXPECT(activity_ == SessionActivity::Drag);
   StepResult step = engine_->step(target, response_);
   std::vector<Frame>& frames = open_->frames;
-  if (step.way.empty()) return step;
+  if (step.poses.empty()) return step;
   const std::size_t before = frames.size();
   time = std::max(time, frames.back().time);
   if (time - frames.back().time > kLongestRest) frames.push_back({time - kStepTime, frames.back().pose});
-  append_way(frames, time, step);
+  append_step_frames(frames, time, step);
   write_frames(before);
   return step;
 }
@@ -182,7 +182,7 @@ void Session::cancel_drag() {
 }
 
 void Session::put(Span<const Pose> poses, const PairList& wanted) {
-  const std::vector<Pose> all(poses.begin(), poses.end());  // they may be the engine's own
+  const std::vector<Pose> all(poses.begin(), poses.end());  // `poses` may refer to the engine's own
   const auto includes = [](const PairList& a, const PairList& b) {
     return std::includes(a.begin(), a.end(), b.begin(), b.end());
   };
@@ -204,7 +204,7 @@ Result<Done> Session::undo() {
   if (activity_ != SessionActivity::Idle) {
     const std::size_t before = done_count_;
     release();
-    if (done_count_ == before) return Done{};  // back where it never left
+    if (done_count_ == before) return Done{};  // nothing had moved
   }
   if (done_count_ == 0) return Error{ErrorKind::Usage, "nothing can be undone (nothing was done yet)"};
   const SessionEntry& entry = entries_[--done_count_];

@@ -3,11 +3,11 @@
 
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/result.h"
+#include "dismantle/session/exit_search.h"
 #include "dismantle/session/journal.h"
 #include "dismantle/session/playback.h"
 #include "dismantle/session/session_entry.h"
 #include "dismantle/session/visibility.h"
-#include "dismantle/session/exit_search.h"
 
 #include <memory>
 #include <optional>
@@ -16,133 +16,146 @@
 
 namespace dismantle {
 
-/// What moves in a session just now.
+/// The present activity of a session.
 enum class SessionActivity {
   Idle,
-  Drag,       ///< A set is in hand.
-  Automatic,  ///< A set goes its way by itself: it is taken out or put back.
+  Drag,       ///< The user holds a set.
+  Automatic,  ///< A set moves by itself: it is taken out or put back.
   Playback,   ///< A recording or a guide is open.
 };
 
-/// What a set does by itself.
+/// The kinds of automatic motions.
 enum class AutomaticKind { TakeOut, PutBack };
 
-/// How a set leaves where it stands, found beforehand.
+/// A removal of a set, planned beforehand.
 struct Removal {
-  std::vector<ComponentId> components;
-  Pose from;  ///< Of the set, when the way was found.
-  /// The motions that the set has made by then, world frame; the first is none. Where the set has gone elsewhere since
-  /// as part of a body that was taken out before, they are relative to that body.
+  std::vector<ComponentId> components;  ///< The moving set.
+  Pose from;                            ///< Pose of the set for which the path was planned.
+  /// The path as motions from `from`, world frame; the first is the identity. If the set has been moved since as part
+  /// of a body that was taken out, they are relative to that body.
   std::vector<Frame> frames;
-  Vec3 exit;  ///< Unit: after the way it goes on like this to a place of its own; zero: it stays at the way's end.
+  Vec3 exit;  ///< Unit: direction in which it then moves to its parking position; zero: it stays at the end.
 };
 
-/// A path file that a session is to follow.
+/// A path file that guides the user.
 struct Guide {
-  std::string name;
-  std::string text;  ///< The file, as it was read.
-  Timeline timeline;
+  std::string name;   ///< Of the file.
+  std::string text;   ///< Contents of the file.
+  Timeline timeline;  ///< Its moves.
 };
 
-/// An assembly that a person takes apart: a set in hand, collision handling by the method `certificates`, a recording
-/// of everything that was let happen, undo and redo. Whatever it holds satisfies the guarantee of docs/guarantee.md.
-/// The same calls give the same session, bit for bit. For one thread at a time.
+/// An interactive disassembly session: dragging with collision handling by the method `certificates`, a recording of
+/// everything that happened, undo and redo. Every motion satisfies docs/guarantee.md. Equal calls give equal sessions,
+/// bit for bit. Not thread-safe.
 class Session {
  public:
-  /// Everything assembled. `assembly` must outlive the session.
+  /// A session with everything assembled. `assembly` must outlive it.
   Session(const Assembly& assembly, PairStates pairs, const CertificateOptions& options = {});
 
+  /// The assembly.
   const Assembly& assembly() const { return *assembly_; }
+  /// Pair states in the assembled state.
   const PairStates& pairs() const { return pairs_; }
-  /// Where every component is.
+  /// The present pose of every component.
   Span<const Pose> poses() const { return engine_->poses(); }
-  /// The engine, for questions about the set that it has in hand; it moves nothing.
+  /// The engine, for queries about its moving set.
   const CertificateEngine& engine() const { return *engine_; }
+  /// Options of the engine.
   const CertificateOptions& options() const { return options_; }
+  /// The present activity.
   SessionActivity activity() const { return activity_; }
-  /// The set that moves; empty where nothing does.
+  /// The moving set; empty if nothing moves.
   Span<const ComponentId> moving() const { return playback_ ? playback_->moving() : Span<const ComponentId>(moving_); }
-  /// Whether it was taken away; in a playback, whether it is at that time.
+  /// True if the component is removed; in a playback, at its present time.
   bool is_removed(ComponentId c) const { return playback_ ? played_removed_[c.value] : removed_[c.value]; }
+  /// Which components are drawn.
   Visibility& visibility() { return visibility_; }
+  /// Which components are drawn.
   const Visibility& visibility() const { return visibility_; }
 
-  /// Takes a set in hand; what was in hand before is released. Errors: Usage where the set is empty or torn (different
-  /// poses), or one is hidden or taken away.
+  /// Starts to drag a set; a previous drag is released. Errors: Usage if the set is empty, its components have
+  /// different poses, or one is hidden or removed.
   Result<Done> hold(Span<const ComponentId> components);
-  /// Moves the set in hand towards `target` as far as the response lets it, and records how far it got.
-  /// @param time since hold() [s]; where it is less than before, as before
+  /// Moves the dragged set towards `target` as far as the response allows, and records the motion.
+  /// @param time since hold() [s]; not decreasing, else the previous time is used
   /// @pre activity() is Drag
   StepResult drag(const Pose& target, double time);
-  /// Lets go: one entry for undo, where anything moved. @return whether it did
+  /// Ends the drag: one entry for undo, if anything moved. @return true if it did
   bool release();
-  /// Lets go, and goes back to where the set was taken in hand, without an entry.
+  /// Ends the drag and restores the poses from before it, without an entry.
   void cancel_drag();
-  /// The middle of the box around the moving set [mm, world]. @pre something moves
+  /// The center of the bounding box of the moving set [mm, world]. @pre something moves
   Vec3 moving_center() const;
 
+  /// The response of drags.
   ResponseKind response() const { return response_; }
+  /// Sets the response of drags.
   void set_response(ResponseKind response) { response_ = response; }
 
-  /// Takes back the last entry; in mid-drag the drag, which it ends. Errors: Usage where there is none.
+  /// Undoes the last entry; during a drag, ends and undoes the drag. Errors: Usage if there is none.
   Result<Done> undo();
-  /// Does again what was taken back last. Errors: Usage where there is none.
+  /// Redoes the entry undone last. Errors: Usage if there is none.
   Result<Done> redo();
-  /// What undo() would take back, in order: the recording.
+  /// The entries in effect, in order: the recording.
   Span<const SessionEntry> done() const { return {entries_.data(), done_count_}; }
-  /// What redo() would do again; the next one first.
+  /// The undone entries; the next one to redo first.
   Span<const SessionEntry> undone() const { return {entries_.data() + done_count_, entries_.size() - done_count_}; }
-  /// The recording as docs/formats.md has it, with what the drag in hand has made so far.
+  /// The recording as a path, including the present drag so far.
   Path recording() const;
-  /// Everything assembled, nothing recorded, nothing hidden.
+  /// Resets: everything assembled, nothing recorded, nothing hidden.
   void reset();
 
-  /// What a journal of this session says that it is of.
+  /// The header of a journal of this session.
   JournalHeader journal_header() const;
-  /// Writes down from now on. @pre nothing is recorded, or the journal has it
+  /// Writes a journal from now on. @pre nothing is recorded, or the journal has it
   void set_journal(std::unique_ptr<Journal> journal) { journal_ = std::move(journal); }
+  /// The journal; null if there is none.
   const Journal* journal() const { return journal_.get(); }
-  /// Writes that the session ended in order, and no more from then on.
+  /// Records a normal end of the session and stops writing.
   void close_journal();
-  /// Is where the session was that wrote a journal; a motion that was going on then has ended. What has a journal by
-  /// now writes all of it down there. @pre nothing is recorded; the contents' header is journal_header()
+  /// Restores the state of a journal; a motion that was in progress has ended. If this session has a journal,
+  /// everything is written to it. @pre nothing is recorded; the contents' header is journal_header()
   void restore(JournalContents contents);
 
-  /// Begins to move a set out along `direction`, or without one along the shortest free way, so far that it is outside
-  /// the assembly's box and out of the way of those that follow; then it is taken away. Errors: Usage as of hold(), and
-  /// where something is in the way, by name.
+  /// Starts to move a set out along `direction`, or along the shortest free direction, to outside the assembly's
+  /// bounding box and clear of later removals; it then counts as removed. Errors: Usage as of hold(), and if a
+  /// component blocks, with its name.
   Result<Done> take_out(Span<const ComponentId> components, const std::optional<Vec3>& direction);
-  /// Begins to take sets out, one after another along ways that were found beforehand, as far as each is free; each is
-  /// an entry, and those of its components that move no more afterwards are taken away. Where one does not get out,
-  /// those after it do not begin. Errors: Usage as of hold(), and where a set is not where its way begins.
+  /// Starts to take sets out, one after another along planned paths, as far as each is free; each is an entry, and its
+  /// components that do not move again count as removed. If one does not get out, those after it are not started.
+  /// Errors: Usage as of hold(), and if a set is not at the start of its path.
   Result<Done> take_out_along(std::vector<Removal> removals);
-  /// Begins to move a set home along the way that it came, reversed, as far as it is free now; it is not taken away any
-  /// more. Errors: Usage where the set is empty or torn, or where it is at home.
+  /// Starts to move a set back along its recorded path, reversed, as far as it is free now; it no longer counts as
+  /// removed. Errors: Usage if the set is empty, its components have different poses, or it is in its assembled pose.
   Result<Done> put_back(Span<const ComponentId> components);
-  /// What goes by itself. @pre activity() is Automatic
+  /// The kind of the automatic motion. @pre activity() is Automatic
   AutomaticKind automatic() const { return automatic_->kind; }
-  /// Ends it where it is; what it has made is an entry.
+  /// Ends the automatic motion where it is; the motion so far is an entry.
   void halt();
-  /// How far a set can go straight, free ways first. Errors: Usage where the set is empty or torn, or another is in
-  /// hand.
+  /// How far a set can move straight, free directions first. Errors: Usage if the set is empty, its components have
+  /// different poses, or another set is being dragged.
   Result<std::vector<FreeDirection>> free_directions(Span<const ComponentId> components);
 
-  /// Opens a playback, where none of this source is open, and plays; backward where `speed` is negative. A recording
-  /// opens at its end, a guide at its beginning. Errors: Usage where there is nothing to play, or another source is
-  /// open.
+  /// Opens a playback of the source, unless it is open, and plays; backward if `speed` is negative. A recording opens
+  /// at its end, a guide at its start. Errors: Usage if there is nothing to play, or another source is open.
   Result<Done> play(PlaybackSource source, double speed);
+  /// Opens a playback of the source, unless it is open, and jumps to a time [s]. Errors: as play().
   Result<Done> seek(PlaybackSource source, double time);
+  /// Pauses the playback.
   void pause();
-  /// Closes it; everything is where it was before.
+  /// Closes the playback and restores the poses from before it.
   void stop_playback();
+  /// The open playback; null if there is none.
   const Playback* playback() const { return playback_ ? &*playback_ : nullptr; }
 
-  /// A path to be followed; a playback of the one before ends. Errors: of Timeline::of_path.
+  /// Sets the guide; a playback of the previous one ends. Errors: as Timeline::of_path.
   Result<Done> set_guide(std::string name, std::string text, const Path& path);
+  /// Removes the guide.
   void close_guide();
+  /// The guide; null if there is none.
   const Guide* guide() const { return guide_ ? &*guide_ : nullptr; }
 
-  /// Moves what moves by itself on by `dt` [s]. @pre activity() is Automatic, or Playback that plays
+  /// Advances the automatic motion or playback by `dt` [s]. @pre activity() is Automatic, or Playback that plays
   StepResult advance(double dt);
 
  private:
@@ -151,7 +164,7 @@ class Session {
     std::vector<Frame> targets;
     std::size_t next = 0;
     double clock = 0;
-    int stuck = 0;  ///< Targets in a row that were not reached.
+    int stuck = 0;  ///< Number of consecutive targets that were not reached.
   };
 
   std::unique_ptr<CertificateEngine> make_engine(const PairList& embedded) const;
@@ -162,7 +175,7 @@ class Session {
   SessionEntry new_entry(std::string_view verb, Span<const ComponentId> components) const;
   bool finish_entry();
   void write_frames(std::size_t from);
-  /// Puts all there, with these pairs embedded.
+  /// Puts all components at `poses`, with these pairs embedded.
   void put(Span<const Pose> poses, const PairList& embedded);
   void put(const SessionEntry& entry, const Frame& frame, const PairList& embedded);
   void begin(SessionActivity activity, std::string_view verb, std::vector<ComponentId> set);
@@ -186,13 +199,13 @@ class Session {
   std::vector<ComponentId> moving_;
   Vec3 moving_center_;  ///< Of the box around the assembled set [mm].
   ResponseKind response_ = ResponseKind::Slide;
-  std::optional<SessionEntry> open_;  ///< Of the motion that is going on.
+  std::optional<SessionEntry> open_;  ///< The entry in progress.
   std::vector<SessionEntry> entries_;
   std::size_t done_count_ = 0;
   std::vector<bool> removed_;
   Visibility visibility_;
   std::optional<Automatic> automatic_;
-  std::vector<Removal> removals_;  ///< Still to come, the next one last.
+  std::vector<Removal> removals_;  ///< Pending, the next one last.
   std::optional<Playback> playback_;
   std::vector<bool> played_removed_;
   std::vector<Pose> live_poses_;  ///< Before the playback.
@@ -201,7 +214,7 @@ class Session {
   std::unique_ptr<Journal> journal_;
 };
 
-/// Ordered, without repeats.
+/// The components in ascending order, without repeats.
 std::vector<ComponentId> sorted_set(Span<const ComponentId> components);
 
 /// "screw", "screw and jaw", "screw and 3 more": for labels.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a session does by itself: taking out, putting back, playing.
+// Automatic motions of a session: taking out, putting back, playing.
 #include "dismantle/session/session.h"
 
 #include "dismantle/math/screw.h"
@@ -15,20 +15,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How long a set takes to come out, to its parking place from there, and to go home [s].
+/// Duration of moving out, from there to the parking position, and back home [s].
 constexpr double kOutTime = 0.8, kParkTime = 0.2, kHomeTime = 1.2;
-/// Targets a second.
+/// Targets per second.
 constexpr double kTargetRate = 60;
-/// Between two parked sets, as a share of the assembly's diagonal.
+/// Gap between parked sets, as a share of the assembly's diagonal.
 constexpr double kParkGap = 0.02;
-/// A motion by itself ends after so many targets in a row that it did not reach.
+/// An automatic motion ends after this many consecutive targets that were not reached.
 constexpr int kMaxStuck = 6;
-/// Contacts whose normals are tried as directions: nearer than so many tolerances.
+/// Contacts nearer than this contribute their normals as candidate directions [tolerances].
 constexpr double kContactReach = 3;
-/// One advance of a motion by itself comes back after about this long.
+/// One advance of an automatic motion returns after about this long.
 constexpr std::chrono::milliseconds kMaxTime{8};
 
-/// Appends targets along a straight line that begin and end gently.
+/// Appends targets along a straight line with smooth start and end.
 void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
   const Frame from = targets.back();
   const int count = std::max(1, static_cast<int>(std::lround(duration * kTargetRate)));
@@ -39,7 +39,7 @@ void append_line(std::vector<Frame>& targets, const Vec3& by, double duration) {
   }
 }
 
-/// Whether two boxes can meet where one of them goes straight along a direction: their shadows along it overlap.
+/// True if two boxes can meet when one moves straight along a direction: their projections along it overlap.
 bool are_in_line(const Aabb& a, const Aabb& b, const Vec3& direction) {
   const Vec3 between = b.center() - a.center(), half = 0.5 * (a.size() + b.size());
   for (const Vec3& edge : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
@@ -50,9 +50,9 @@ bool are_in_line(const Aabb& a, const Aabb& b, const Vec3& direction) {
   return true;
 }
 
-/// The poses of a set that goes a way from `start`, screw by screw, at the targets' rate.
+/// The targets of a set along a planned path from `start`, screw by screw, at the target rate.
 std::vector<Frame> targets_along(const Removal& removal, const Pose& start) {
-  const Pose body = start * inverse(removal.from);  // what the body that it is part of has moved since
+  const Pose body = start * inverse(removal.from);  // motion since then of the body that it belongs to
   std::vector<Frame> targets{{0, start}};
   for (std::size_t k = 1; k < removal.frames.size(); ++k) {
     const Frame &a = removal.frames[k - 1], &b = removal.frames[k];
@@ -79,13 +79,13 @@ Result<std::vector<FreeDirection>> Session::free_directions(Span<const Component
   if (activity_ != SessionActivity::Idle && moving_ != set)
     return Error{ErrorKind::Usage,
                  "free directions cannot be told now (another component is moving); let go of it first"};
-  if (activity_ == SessionActivity::Idle) engine_->hold(set);
+  if (activity_ == SessionActivity::Idle) engine_->grab(set);
   return ExitSearch(*assembly_, *engine_, set).find(kContactReach * pairs_.tolerance);
 }
 
 double Session::parking_distance(const Vec3& direction) const {
-  // Those that are taken out later park nearer: each has its own stretch of the way. What goes straight along the same
-  // direction beside it does not need one.
+  // Sets that are taken out later park nearer: each has its own section of the exit. Sets that move beside it in the
+  // same direction do not need one.
   const double gap = kParkGap * diagonal(assembled_bounds(*assembly_));
   Aabb own;
   for (const ComponentId c : moving_) own.extend(bounds_at((*assembly_)[c], poses()[c.value]));
@@ -104,14 +104,14 @@ Result<Done> Session::take_out(Span<const ComponentId> components, const std::op
   release();
   std::vector<ComponentId> set = sorted_set(components);
   if (Result<Done> sane = check_set(set); !sane) return sane;
-  engine_->hold(set);
+  engine_->grab(set);
   const ExitSearch out(*assembly_, *engine_, set);
   std::optional<FreeDirection> way;
   if (direction || out.is_outside()) {
     const std::vector<Vec3> only{direction ? normalized(*direction) : out.outward()};
     if (!(length(only[0]) > 0))
       return Error{ErrorKind::Usage, "nothing can be taken out that way (the direction is zero); give another"};
-    way = out.look(only).front();
+    way = out.free_distances(only).front();
   } else if (const std::vector<FreeDirection> found = out.find(kContactReach * pairs_.tolerance); !found.empty()) {
     way = found.front();
   }
@@ -208,11 +208,11 @@ void Session::begin_automatic(AutomaticKind kind, std::vector<Frame> targets) {
 }
 
 StepResult Session::follow(const Frame& target) {
-  // First the very way that is known to be free; where that is not allowed any more, as near as contacts let it.
+  // First the path that is known to be free; if it is no longer free, as near as the contacts allow.
   StepResult step = engine_->step(target.pose, ResponseKind::Stop);
   if (!step.reached) step = engine_->step(target.pose, ResponseKind::Slide);
   const std::size_t before = open_->frames.size();
-  append_way(open_->frames, std::max(target.time, open_->frames.back().time), step);
+  append_step_frames(open_->frames, std::max(target.time, open_->frames.back().time), step);
   write_frames(before);
   return step;
 }
@@ -282,8 +282,8 @@ Result<Done> Session::open_playback(PlaybackSource source) {
 }
 
 void Session::put_playback() {
-  // The pairs that may be embedded at the place; those that are apart there part by themselves.
-  const TimelineMove& move = playback_->timeline().moves()[playback_->place().move];
+  // The pairs that may be embedded at that position; those that are apart there are cleared by the engine.
+  const TimelineMove& move = playback_->timeline().moves()[playback_->position().move];
   put(playback_->poses(), move.embedded_before);
   played_removed_ = playback_->removed();
 }
@@ -293,9 +293,9 @@ Result<Done> Session::play(PlaybackSource source, double speed) {
     return Error{ErrorKind::Usage, "this cannot be played (the speed is zero or no number); give another"};
   if (Result<Done> open = open_playback(source); !open) return open;
   const Playback& p = *playback_;
-  // From the end again from the beginning, and the other way round.
-  if (speed > 0 && p.place() == p.timeline().end()) playback_->seek(0);
-  if (speed < 0 && p.place() == TimelinePlace{}) playback_->seek(p.timeline().duration());
+  // At the end, start again from the beginning, and vice versa.
+  if (speed > 0 && p.position() == p.timeline().end()) playback_->seek(0);
+  if (speed < 0 && p.position() == TimelinePosition{}) playback_->seek(p.timeline().duration());
   put_playback();
   playback_->play(speed);
   return Done{};

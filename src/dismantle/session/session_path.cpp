@@ -32,12 +32,12 @@ std::vector<std::string> removed_components(const Assembly& assembly, Span<const
   return names;
 }
 
-void append_way(std::vector<Frame>& frames, double time, const StepResult& step) {
+void append_step_frames(std::vector<Frame>& frames, double time, const StepResult& step) {
   const double before = frames.back().time;
-  const auto count = static_cast<double>(step.way.size());
-  for (std::size_t i = 0; i + 1 < step.way.size(); ++i)
-    frames.push_back({before + (time - before) * (static_cast<double>(i) + 1) / count, step.way[i]});
-  if (!step.way.empty()) frames.push_back({time, step.pose});
+  const auto count = static_cast<double>(step.poses.size());
+  for (std::size_t i = 0; i + 1 < step.poses.size(); ++i)
+    frames.push_back({before + (time - before) * (static_cast<double>(i) + 1) / count, step.poses[i]});
+  if (!step.poses.empty()) frames.push_back({time, step.pose});
 }
 
 }  // namespace dismantle

@@ -71,58 +71,58 @@ Result<Timeline> Timeline::of_path(const Assembly& assembly, const PairStates& p
   return timeline;
 }
 
-TimelinePlace Timeline::end() const {
+TimelinePosition Timeline::end() const {
   if (moves_.empty()) return {};
   return {moves_.size() - 1, moves_.back().frames.size() - 1, 0};
 }
 
-TimelinePlace Timeline::place_at(double time) const {
+TimelinePosition Timeline::position_at(double time) const {
   if (moves_.empty() || time <= 0) return {};
   if (time >= duration()) return end();
   const auto next =
       std::upper_bound(moves_.begin(), moves_.end(), time, [](double t, const TimelineMove& m) { return t < m.start; });
-  TimelinePlace place;
-  place.move = static_cast<std::size_t>(next - moves_.begin()) - 1;
-  const TimelineMove& move = moves_[place.move];
+  TimelinePosition position;
+  position.move = static_cast<std::size_t>(next - moves_.begin()) - 1;
+  const TimelineMove& move = moves_[position.move];
   const double local = time - move.start;
   const auto later = std::upper_bound(move.frames.begin(), move.frames.end(), local,
                                       [](double t, const Frame& f) { return t < f.time; });
-  place.frame = static_cast<std::size_t>(later - move.frames.begin()) - 1;
+  position.frame = static_cast<std::size_t>(later - move.frames.begin()) - 1;
   if (later != move.frames.end()) {
-    const double before = move.frames[place.frame].time;
-    place.share = (local - before) / (later->time - before);
+    const double before = move.frames[position.frame].time;
+    position.share = (local - before) / (later->time - before);
   }
-  return place;
+  return position;
 }
 
-double Timeline::time_of(const TimelinePlace& place) const {
+double Timeline::time_of(const TimelinePosition& position) const {
   if (moves_.empty()) return 0;
-  const TimelineMove& move = moves_[place.move];
-  double time = move.frames[place.frame].time;
-  if (place.share > 0) time += place.share * (move.frames[place.frame + 1].time - time);
+  const TimelineMove& move = moves_[position.move];
+  double time = move.frames[position.frame].time;
+  if (position.share > 0) time += position.share * (move.frames[position.frame + 1].time - time);
   return move.start + time;
 }
 
-Pose Timeline::pose_of(const TimelinePlace& place) const {
-  const std::vector<Frame>& frames = moves_[place.move].frames;
-  if (place.share == 0) return frames[place.frame].pose;
-  return pose_between(frames[place.frame].pose, frames[place.frame + 1].pose, place.share);
+Pose Timeline::pose_of(const TimelinePosition& position) const {
+  const std::vector<Frame>& frames = moves_[position.move].frames;
+  if (position.share == 0) return frames[position.frame].pose;
+  return pose_between(frames[position.frame].pose, frames[position.frame + 1].pose, position.share);
 }
 
-std::vector<Pose> Timeline::poses_at(const TimelinePlace& place, std::size_t component_count) const {
+std::vector<Pose> Timeline::poses_at(const TimelinePosition& position, std::size_t component_count) const {
   std::vector<Pose> poses(component_count);
   if (moves_.empty()) return poses;
-  for (std::size_t i = 0; i < place.move; ++i)
+  for (std::size_t i = 0; i < position.move; ++i)
     for (const ComponentId c : moves_[i].components) poses[c.value] = moves_[i].frames.back().pose;
-  for (const ComponentId c : moves_[place.move].components) poses[c.value] = pose_of(place);
+  for (const ComponentId c : moves_[position.move].components) poses[c.value] = pose_of(position);
   return poses;
 }
 
-std::vector<bool> Timeline::removed_at(const TimelinePlace& place, std::size_t component_count) const {
+std::vector<bool> Timeline::removed_at(const TimelinePosition& position, std::size_t component_count) const {
   std::vector<bool> removed(component_count, false);
-  for (std::size_t i = 0; i < moves_.size() && i <= place.move; ++i) {
-    const bool is_over = i < place.move || place.frame + 1 == moves_[i].frames.size();
-    // What is put back is there from the beginning of its move, what is taken out is gone at its end.
+  for (std::size_t i = 0; i < moves_.size() && i <= position.move; ++i) {
+    const bool is_over = i < position.move || position.frame + 1 == moves_[i].frames.size();
+    // Returned components are present from the start of their move; removed ones are gone at its end.
     if (!moves_[i].removed_after || (*moves_[i].removed_after && !is_over)) continue;
     for (const ComponentId c : moves_[i].components) removed[c.value] = *moves_[i].removed_after;
   }

@@ -9,23 +9,28 @@
 
 namespace dismantle {
 
-/// Which components are drawn. What is hidden still stands where it is and stops others.
+/// Which components are drawn. Hidden components keep their poses and still block others.
 class Visibility {
  public:
+  /// Everything visible.
   explicit Visibility(std::size_t component_count) : hidden_(component_count, false) {}
 
+  /// True if the component is hidden.
   bool is_hidden(ComponentId c) const { return hidden_[c.value]; }
-  /// Whether restore() has something to go back to.
+  /// True if components are isolated, so that restore() has an effect.
   bool is_isolated() const { return before_.has_value(); }
 
+  /// Hides components.
   void hide(Span<const ComponentId> components) { set(components, true); }
+  /// Shows components.
   void show(Span<const ComponentId> components) { set(components, false); }
-  /// Hides all others and shows these. What was hidden before the first of several comes back by restore().
+  /// Hides all others and shows these. The visibility from before the first of several calls is kept for restore().
   void isolate(Span<const ComponentId> components) {
     if (!before_) before_ = hidden_;
     hidden_.assign(hidden_.size(), true);
     set(components, false);
   }
+  /// Ends the isolation.
   void restore() {
     if (before_) hidden_ = *before_;
     before_.reset();

@@ -11,22 +11,22 @@ namespace {
 TEST(SearchTree, FindsTheNearestConfigurationAndItsPath) {
   std::mt19937_64 random(4);
   SearchTree tree({1, 2, 3}, 5);
-  std::vector<std::vector<Pose>> ways(1);
+  std::vector<std::vector<Pose>> paths(1);
   for (int k = 0; k < 60; ++k) {
     const std::size_t from = random() % tree.size();
     std::vector<Pose> part;
     for (int i = 0; i <= k % 3; ++i) part.push_back(scenes::random_pose(random, 20, 3));
-    std::vector<Pose> way = ways[from];
-    way.insert(way.end(), part.begin(), part.end());
-    ways.push_back(way);
+    std::vector<Pose> path = paths[from];
+    path.insert(path.end(), part.begin(), part.end());
+    paths.push_back(path);
     tree.add({part.back(), from, part});
   }
-  for (std::size_t k = 0; k < tree.size(); ++k) EXPECT_EQ(tree.path_to(k), ways[k]);
+  for (std::size_t k = 0; k < tree.size(); ++k) EXPECT_EQ(tree.path_to(k), paths[k]);
   for (int k = 0; k < 100; ++k) {
     const Pose pose = scenes::random_pose(random, 20, 3);
-    const auto [place, apart] = tree.nearest(pose);
-    EXPECT_EQ(tree.distance(tree[place].pose, pose), apart);
-    for (std::size_t i = 0; i < tree.size(); ++i) EXPECT_LE(apart, tree.distance(tree[i].pose, pose));
+    const auto [index, distance] = tree.nearest(pose);
+    EXPECT_EQ(tree.distance(tree[index].pose, pose), distance);
+    for (std::size_t i = 0; i < tree.size(); ++i) EXPECT_LE(distance, tree.distance(tree[i].pose, pose));
   }
 }
 
