@@ -86,7 +86,7 @@ export class Session {
     if (selection.length === 1) await this.send("why", { components: selection });
   }
 
-  /// What blocks the selection, if the planner has been asked; null: not determined.
+  /// The blockers of the selection, found by the planner; null: not determined.
   get reason(): Reason | null {
     const { state, selection } = this.store;
     return state?.search?.reasons.find(({ component }) => selection.includes(component)) ?? null;

@@ -4,7 +4,7 @@ import { type Axis, kAxisVectors } from "../axes.ts";
 import { rotationOf } from "../pose.ts";
 import type { WirePose } from "../wire/structs.ts";
 
-/// How pointer motion is interpreted: in the plane of the screen, in depth, as rotation, or locked to an axis.
+/// Interpretation of pointer motion: in the plane of the screen, in depth, as rotation, or locked to an axis.
 export interface DragMode {
   kind: "plane" | "depth" | "turn";
   /// World axis that locks the translation or the rotation.

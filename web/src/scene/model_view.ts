@@ -84,7 +84,7 @@ export class ComponentView {
   readonly object = new Group();
   /// The pose at which it is drawn.
   readonly worldFromAssembled = new Matrix4();
-  /// How it is drawn; see setAppearance.
+  /// Current appearance; see setAppearance.
   appearance: Readonly<Appearance> = kPlainAppearance;
   private readonly body: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly edges: LineSegments<BufferGeometry, ShaderMaterial>;

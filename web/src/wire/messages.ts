@@ -57,7 +57,7 @@ export interface Playback {
   blocked: { time: number; by: number | null } | null;
 }
 
-/// What blocks the straight removal of a component.
+/// The blockers of the straight removal of a component.
 export interface Reason {
   component: number;
   direction: Triple;
