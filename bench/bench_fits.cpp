@@ -48,7 +48,7 @@ bool run(const Fit& fit, std::uint64_t seed) {
     if (d.deepest > max_depth) max_depth = d.deepest, allowed_depth = d.allowed;
   std::vector<double> us;
   for (const PlayedStep& s : made.played.steps)
-    if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.timings.overall);
+    if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.cost.ms);
   const bool required = fit.tolerance + fit.clearance >= 0.005 - 1e-12;
   const bool in_time = out > 0 && out <= static_cast<int>(1.2 * fit.straight_steps);
   const bool good = made.audit.holds() && (in_time || !required);

@@ -91,7 +91,7 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
   const ResponseKind response = response_for(*engine, settings);
   int steps = 0, reached = 0;
   for (const BenchMove& move : scene.moves) {
-    engine->hold(move.components);
+    engine->grab(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
       const bench::Stopwatch stepping(clock_of(settings));
       const StepResult result = engine->step(move.targets[k], response);
@@ -101,8 +101,8 @@ Measured measure(const std::string& method, const BenchScene& scene, const Setti
         continue;
       }
       m.us.push_back(us);
-      m.front = std::max(m.front, result.sizes.front);
-      m.device_tests += result.sizes.answered_tests;
+      m.front = std::max(m.front, result.cost.pairs);
+      m.device_tests += result.cost.device_tests;
       ++steps;
       reached += result.reached ? 1 : 0;
       visited.push_back({&move, {engine->poses().begin(), engine->poses().end()}});

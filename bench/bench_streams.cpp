@@ -73,7 +73,7 @@ void run(const Settings& settings, std::size_t triangles) {
       make_streams_engine(assembly, states_for(settings), options, std::move(chosen.backend));
   const double build_ms = building.ms();
 
-  StepTimings sum;
+  StageTimings sum;
   std::vector<double> overall;
   SweepResult last;
   int blocked = 0;

@@ -42,7 +42,7 @@ StepTest certificates_test(const scenes::OneStep& step) {
   const Pose poses[] = {Pose{}, step.start};
   engine.jump({poses, 2});
   const ComponentId moving(1);
-  engine.hold({&moving, 1});
+  engine.grab({&moving, 1});
   const FirstContact first = engine.first_contacts({&step.target, 1})[0];
   return {first.free, first.toi};
 }

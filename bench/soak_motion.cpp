@@ -107,7 +107,7 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
     Vec3 displacement;
     displacement[k / 2] = k % 2 == 0 ? distance : -distance;
     engine.jump(poses);
-    engine.hold({&moving, 1});
+    engine.grab({&moving, 1});
     if (!straight_is_free(now, states, engine.embedded_pairs(), moving, displacement)) continue;
     ++row.straight_motions;
     const Pose& pose = poses[moving.value];
@@ -139,9 +139,9 @@ class Soak {
     CertificateEngine engine(assembly_, states_, options);
     const Result<PlayedMotion> played = play_motion(assembly_, states_, motion, engine);
     for (const PlayedStep& step : played->steps) {
-      row_.us.push_back(1e3 * step.result.timings.overall);
+      row_.us.push_back(1e3 * step.result.cost.ms);
       row_.reached += step.result.reached ? 1 : 0;
-      row_.front = std::max(row_.front, step.result.sizes.front);
+      row_.front = std::max(row_.front, step.result.cost.pairs);
     }
     row_.steps += played->steps.size();
     ++row_.batches;

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
 
   const PairStates states = classify_pairs(*assembly, {}).value();
   CertificateEngine engine(*assembly, states);
-  engine.hold({&*component, 1});
+  engine.grab({&*component, 1});
 
   // One target a candidate; each is one screw from where the component is. Nothing moves.
   const double distance = argc == 4 ? std::atof(argv[3]) : diagonal(assembled_bounds((*assembly)[*component]));

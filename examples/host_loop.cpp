@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   CertificateEngine engine(*assembly, states);
 
   // Take the component in hand. Several would move as one rigid body.
-  engine.hold({&*component, 1});
+  engine.grab({&*component, 1});
 
   // One step a target. The hand's target may lie inside a solid; the component's pose never does.
   const double way = 1.5 * diagonal(assembled_bounds((*assembly)[*component]));
@@ -48,14 +48,14 @@ int main(int argc, char** argv) {
     const Pose target{(way * k / steps) * direction, {}};
     const StepResult step = engine.step(target, ResponseKind::Slide);
     reached += step.reached ? 1 : 0;
-    slowest = std::max(slowest, step.timings.overall);
+    slowest = std::max(slowest, step.cost.ms);
     if (k % 20 != 0) continue;
 
     // What a program draws: where the component is, what it touches, and where.
     std::set<std::string> touched;
-    for (const ContactPoint& contact : step.touching) touched.insert((*assembly)[contact.fixed].name);
+    for (const ContactPoint& contact : step.contact_points) touched.insert((*assembly)[contact.fixed].name);
     std::printf("step %3d: at (%.3f, %.3f, %.3f) mm, %zu contact points", k, step.pose.position.x, step.pose.position.y,
-                step.pose.position.z, step.touching.size());
+                step.pose.position.z, step.contact_points.size());
     for (const std::string& name : touched) std::printf(" '%s'", name.c_str());
     std::printf("\n");
   }

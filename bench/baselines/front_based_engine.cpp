@@ -98,11 +98,11 @@ SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path
   result.timings.front = clock.lap();
   PairTestResults results = test_triangle_pairs(path_deviation);
   test_embedded_pairs(results, path_deviation);
-  result.contacts = collision_contacts(fixed_, first_of(results.contacts));
+  result.blocking_pairs = blocking_pairs(fixed_, first_of(results.contacts));
   result.timings.intersection = clock.lap();
 
-  for (const CollisionContact& contact : result.contacts) result.toi = std::min(result.toi, contact.toi);
-  result.free = result.contacts.empty();
+  for (const BlockingPair& contact : result.blocking_pairs) result.toi = std::min(result.toi, contact.toi);
+  result.free = result.blocking_pairs.empty();
   result.sizes = {front_.size(), front_.triangle_pairs().size(), embedded_.pairs().size(), results.tests, 0};
   may_commit_ = result.free;
   result.timings.overall = clock.total();

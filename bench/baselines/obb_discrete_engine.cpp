@@ -40,21 +40,26 @@ class ObbDiscreteEngine final : public MotionEngine {
     }
   }
 
-  void hold(Span<const ComponentId> components) override {
+  void grab(Span<const ComponentId> components) override {
     moving_set_.assign(components.begin(), components.end());
     moves_.assign(moves_.size(), false);
     for (const ComponentId c : moving_set_) moves_[c.value] = true;
   }
 
+  Span<const ComponentId> moving_set() const override { return moving_set_; }
   StepResult step(const Pose& target, ResponseKind) override;
   bool can_respond(ResponseKind response) const override { return response == ResponseKind::Stop; }
-  void jump(Span<const Pose> poses) override { poses_.assign(poses.begin(), poses.end()); }
+  void jump(Span<const Pose> poses) override {
+    const auto moved = [&](ComponentId c) { return !(poses[c.value] == poses_[c.value]); };
+    if (std::any_of(moving_set_.begin(), moving_set_.end(), moved)) grab({});
+    poses_.assign(poses.begin(), poses.end());
+  }
   Span<const Pose> poses() const override { return poses_; }
   std::vector<ComponentPair> embedded_pairs() const override { return {}; }
 
  private:
-  std::vector<CollisionContact> first_contact(const Pose& target) const;
-  std::vector<CollisionContact> first_contact(ComponentId moving, const Pose& target, ComponentId fixed) const;
+  std::vector<BlockingPair> first_contact(const Pose& target) const;
+  std::vector<BlockingPair> first_contact(ComponentId moving, const Pose& target, ComponentId fixed) const;
 
   PairStates pairs_;
   ObbDetail detail_;
@@ -69,31 +74,31 @@ StepResult ObbDiscreteEngine::step(const Pose& target, [[maybe_unused]] Response
   DISMANTLE_EXPECT(can_respond(response));
   StageClock clock;
   StepResult result;
-  result.contacts = first_contact(target);
-  result.reached = result.contacts.empty();
+  result.blocking_pairs = first_contact(target);
+  result.reached = result.blocking_pairs.empty();
   result.sweeps = 1;
   if (result.reached) {
-    if (!(poses_[moving_set_.front().value] == target)) result.way = {target};
+    if (!(poses_[moving_set_.front().value] == target)) result.poses = {target};
     for (const ComponentId c : moving_set_) poses_[c.value] = target;
   }
   result.pose = poses_[moving_set_.front().value];
-  result.timings.overall = result.timings.intersection = clock.total();
+  result.cost.ms = clock.total();
   return result;
 }
 
-std::vector<CollisionContact> ObbDiscreteEngine::first_contact(const Pose& target) const {
+std::vector<BlockingPair> ObbDiscreteEngine::first_contact(const Pose& target) const {
   for (const ComponentId moving : moving_set_) {
     for (std::uint32_t c = 0; c < poses_.size(); ++c) {
       const ComponentId fixed(c);
       if (moves_[c] || pairs_.find(moving, fixed) != nullptr) continue;
-      std::vector<CollisionContact> found = first_contact(moving, target, fixed);
+      std::vector<BlockingPair> found = first_contact(moving, target, fixed);
       if (!found.empty()) return found;
     }
   }
   return {};
 }
 
-std::vector<CollisionContact> ObbDiscreteEngine::first_contact(ComponentId moving, const Pose& target,
+std::vector<BlockingPair> ObbDiscreteEngine::first_contact(ComponentId moving, const Pose& target,
                                                                ComponentId fixed) const {
   const BoxedComponent& x = components_[moving.value];
   const BoxedComponent& y = components_[fixed.value];

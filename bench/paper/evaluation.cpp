@@ -87,8 +87,8 @@ void add_speed_ups(Evaluation& e, const BenchScene& scene, const Runs& runs) {
 void add_stages(Evaluation& e, const BenchScene& scene, const Runs& runs) {
   for (const PaperMethod method :
        {PaperMethod::FrontBased, PaperMethod::FrontBasedRigid, PaperMethod::StreamsElementary}) {
-    StepTimings sum;
-    for (const StepTimings& t : runs.at(method).stages) {
+    StageTimings sum;
+    for (const StageTimings& t : runs.at(method).stages) {
       sum.vertices += t.vertices;
       sum.refit += t.refit;
       sum.front += t.front;

@@ -16,17 +16,31 @@ namespace dismantle {
 
 namespace {
 
+/// The stages of a step in the columns of the page; a method without stages has one intersection test.
+StageTimings stages_of(const StepCost& cost) {
+  StageTimings t;
+  t.overall = cost.ms;
+  if (cost.stages.empty()) t.intersection = cost.ms;
+  for (const StageTime& time : cost.stages) {
+    if (time.stage == kVerticesStage) t.vertices = time.ms;
+    if (time.stage == kRefitStage) t.refit = time.ms;
+    if (time.stage == kFrontStage) t.front = time.ms;
+    if (time.stage == kIntersectionStage) t.intersection = time.ms;
+  }
+  return t;
+}
+
 /// Plays the scene once and keeps the shorter time of each step.
 void play(const BenchScene& scene, MotionEngine& engine, MethodRun& run) {
   std::size_t index = 0;
   for (const BenchMove& move : scene.moves) {
-    engine.hold(move.components);
+    engine.grab(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
       StageClock clock;
       const StepResult result = engine.step(move.targets[k], ResponseKind::Stop);
       const double overall = clock.total();
       if (k == 0) continue;  // builds the front
-      const StepTimings& t = result.timings;
+      const StageTimings t = stages_of(result.cost);
       const TableTimes times{t.vertices + t.refit, t.front + t.intersection, overall};
       if (index == run.times.size()) {
         run.times.push_back(times);

@@ -3,6 +3,7 @@
 
 #include "bench/motion_scenes.h"
 #include "dismantle/engine/motion_engine.h"
+#include "dismantle/streams/sweep_engine.h"
 
 #include <memory>
 #include <string_view>
@@ -41,7 +42,7 @@ struct MethodRun {
   PaperMethod method = PaperMethod::FrontBased;
   int cores = 1;
   std::vector<TableTimes> times;    ///< Of each step but the first of each move; the shortest of the repeats.
-  std::vector<StepTimings> stages;  ///< The same steps, stage by stage, of the shortest repeat.
+  std::vector<StageTimings> stages;  ///< The same steps, stage by stage, of the shortest repeat.
   std::vector<Pose> poses;          ///< Of the moving set after each of these steps.
   std::size_t reached = 0;          ///< Number of these steps that reached their targets.
 };

@@ -89,7 +89,7 @@ std::vector<TunnelCount> count_tunnels(const TunnelCase& tunnel_case, const std:
     const bool blocked = collides(assembly, states, step.target);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const std::unique_ptr<MotionEngine> engine = methods[m].make(assembly, states);
-      engine->hold({&moving, 1});
+      engine->grab({&moving, 1});
       const bool reached = engine->step(step.target, ResponseKind::Stop).reached;
       TunnelCount& count = counts[m];
       ++count.steps;

@@ -49,7 +49,7 @@ class Engine {
     const Turn turn(mutex_, kName);
     return to_array(engine_.poses());
   }
-  std::vector<std::string> held() const { return component_names(assembly(), {engine_.moving_set().begin(), engine_.moving_set().end()}); }
+  std::vector<std::string> held() const { return component_names(assembly(), engine_.moving_set()); }
 
   std::vector<FirstContact> first_contacts(const DoubleArray& targets) {
     const Turn turn(mutex_, kName);

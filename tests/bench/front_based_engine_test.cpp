@@ -35,11 +35,11 @@ TEST(FrontBasedEngine, FindsTheContactsOfStreamsBitForBitWhereEveryPairIsOrdinar
     for (int step = 0; step < 40; ++step) {
       const std::vector<RigidTransform> next = shaken(random, *streams);
       const SweepResult expected = streams->sweep(next, 1e-4);
-      contacts += expected.contacts.size();
+      contacts += expected.blocking_pairs.size();
       free += expected.free ? 1 : 0;
       for (const auto& engine : engines) {
         const SweepResult result = engine->sweep(next, 1e-4);
-        ASSERT_EQ(result.contacts, expected.contacts) << "step " << step;
+        ASSERT_EQ(result.blocking_pairs, expected.blocking_pairs) << "step " << step;
         ASSERT_EQ(result.toi, expected.toi);
         if (result.free) engine->commit();
       }

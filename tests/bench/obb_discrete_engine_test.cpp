@@ -21,12 +21,12 @@ TEST(ObbDiscreteEngine, LooksAtTheTargetAlone) {
   const Assembly assembly = tube_and_peg();
   const auto engine = make_obb_discrete_engine(assembly, {0.01, {}}, ObbDetail::Triangles);
   const ComponentId peg(1);
-  engine->hold({&peg, 1});
+  engine->grab({&peg, 1});
   EXPECT_TRUE(engine->step(shift(0, 0, 5), ResponseKind::Stop).reached);
   const StepResult blocked = engine->step(shift(3, 0, 5), ResponseKind::Stop);
   EXPECT_FALSE(blocked.reached);
   EXPECT_EQ(blocked.pose, shift(0, 0, 5));
-  EXPECT_EQ(blocked.contacts.size(), 1u);
+  EXPECT_EQ(blocked.blocking_pairs.size(), 1u);
   EXPECT_TRUE(engine->step(shift(40, 0, 5), ResponseKind::Stop).reached);  // through the wall
   EXPECT_EQ(engine->poses()[1], shift(40, 0, 5));
 }
@@ -35,7 +35,7 @@ TEST(ObbDiscreteEngine, FillsHolesWhereABoxStandsForAComponent) {
   const Assembly assembly = tube_and_peg();
   const auto engine = make_obb_discrete_engine(assembly, {0.01, {}}, ObbDetail::Boxes);
   const ComponentId peg(1);
-  engine->hold({&peg, 1});
+  engine->grab({&peg, 1});
   EXPECT_FALSE(engine->step(shift(0, 0, 5), ResponseKind::Stop).reached);
   EXPECT_TRUE(engine->step(shift(0, 0, 21), ResponseKind::Stop).reached);
 }
@@ -45,7 +45,7 @@ TEST(ObbDiscreteEngine, LeavesOutPairsThatTouchWhenAssembled) {
   const PairStates states{0.01, {scenes::pair_of(0, 1, PairState::Contact, 0.01)}};
   const auto engine = make_obb_discrete_engine(assembly, states, ObbDetail::Triangles);
   const ComponentId peg(1);
-  engine->hold({&peg, 1});
+  engine->grab({&peg, 1});
   EXPECT_TRUE(engine->step(shift(3, 0, 5), ResponseKind::Stop).reached);
 }
 
@@ -54,7 +54,7 @@ TEST(ObbDiscreteEngine, FindsAnIntersectionWhereSomeTriangleOfTheSetInHandMeetsO
   const Assembly assembly = scenes::random_assembly(random, 8, 4);
   const auto engine = make_obb_discrete_engine(assembly, {0.01, {}}, ObbDetail::Triangles);
   const ComponentId moving(3);
-  engine->hold({&moving, 1});
+  engine->grab({&moving, 1});
   const TriangleMesh mesh = assembled_mesh(assembly[moving]);
   int free = 0, blocked = 0;
   for (int trial = 0; trial < 100; ++trial) {

@@ -73,7 +73,7 @@ TEST(VertexDepthGuard, KeepsAPinOutOfTheWall) {
   const Assembly assembly = fine_press_fit();
   const PairStates states = states_of(assembly);
   VertexDepthGuard guard(assembly, states, solids_of(assembly, Executor()), Executor());
-  const std::vector<VertexContact> contacts = guard.sweep(pin_at({0, 0, 0}), pin_at({2, 0, 0}));
+  const std::vector<BlockingPair> contacts = guard.sweep(pin_at({0, 0, 0}), pin_at({2, 0, 0}));
   ASSERT_FALSE(contacts.empty());
   // 0.2 mm deep at the start; the deepest vertex may have twice the allowance.
   const double limit = 2 * states.pairs[0].allowed_penetration;

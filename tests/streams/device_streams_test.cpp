@@ -41,7 +41,7 @@ class Comparison {
   SweepResult sweep(const std::vector<RigidTransform>& next) {
     const SweepResult expected = expected_->sweep(next, 1e-4);
     const SweepResult result = engine_->sweep(next, 1e-4);
-    EXPECT_EQ(result.contacts, expected.contacts);
+    EXPECT_EQ(result.blocking_pairs, expected.blocking_pairs);
     EXPECT_EQ(result.toi, expected.toi);
     EXPECT_EQ(result.free, expected.free);
     EXPECT_EQ(result.sizes.triangle_pairs, expected.sizes.triangle_pairs);
@@ -110,7 +110,7 @@ TEST_P(DeviceStreams, GiveTheContactsOfTheHostsStreamsFromEveryCapacity) {
           continue;
         }
         const SweepResult result = engines.move(next);
-        contacts += result.contacts.size();
+        contacts += result.blocking_pairs.size();
         free += result.free ? 1 : 0;
         replays += result.sizes.replays;
       }
@@ -152,7 +152,7 @@ TEST_P(DeviceStreams, BringDownAnyNumberOfContactsFromCapacityOne) {
   const PegInTube scene;
   Comparison engines = compared(scene.assembly, scene.states, ElementaryTest::Certified, 1);
   const SweepResult blocked = engines.sweep({{}, transform_from_pose(shift(1, 0, 0))});
-  EXPECT_GT(blocked.contacts.size(), 256u);
+  EXPECT_GT(blocked.blocking_pairs.size(), 256u);
 }
 
 TEST_P(DeviceStreams, FollowEmbeddedPairsUntilTheyPartFromCapacityOne) {

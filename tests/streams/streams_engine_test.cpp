@@ -30,20 +30,20 @@ constexpr ElementaryTest kBothTests[] = {ElementaryTest::Certified, ElementaryTe
 
 // A plate of 1 um, and a box that is on its other side after one step.
 TEST(StreamsEngine, CatchesABoxThatPassesThroughAThinPlateInOneStep) {
-  const std::vector<Pose> ways{
+  const std::vector<Pose> targets{
       shift(0, 0, -20),
       shift(3, -2, -20),
       {{0, 0, -20}, quat_about({0, 0, 1}, 0.3)},
       {{1, 2, -25}, quat_about(normalized(Vec3{1, 1, 0}), 0.5)},
   };
   for (const ElementaryTest test : kBothTests) {
-    for (const Pose& way : ways) {
+    for (const Pose& target : targets) {
       EngineScene scene(
           {{"plate", scenes::box({-30, -30, 0}, {30, 30, 0.001})}, {"box", scenes::box({-1, -1, 5}, {1, 1, 7})}}, {},
           kTolerance, options(test));
-      const SweepResult result = scene.sweep({{1, way}});
+      const SweepResult result = scene.sweep({{1, target}});
       EXPECT_FALSE(result.free);
-      EXPECT_FALSE(result.contacts.empty());
+      EXPECT_FALSE(result.blocking_pairs.empty());
       EXPECT_GT(result.toi, 0.05);
       EXPECT_LT(result.toi, 0.5);
     }
@@ -57,8 +57,8 @@ TEST(StreamsEngine, StopsATranslationAtItsContact) {
     const SweepResult result = scene.sweep({{1, shift(-4, 0, 0)}});
     EXPECT_FALSE(result.free);
     EXPECT_NEAR(result.toi, 0.5, 0.5 * kTolerance);
-    EXPECT_EQ(result.contacts.front().a, ComponentId(0));
-    EXPECT_EQ(result.contacts.front().b, ComponentId(1));
+    EXPECT_EQ(result.blocking_pairs.front().a, ComponentId(0));
+    EXPECT_EQ(result.blocking_pairs.front().b, ComponentId(1));
   }
 }
 
@@ -209,9 +209,9 @@ void expect_first_of(const std::vector<BlockingPair>& all, const SweepResult& re
   };
   for (const BlockingPair& contact : all) {
     if (contact.toi > result.toi + kContactWindow - kSlack) continue;
-    EXPECT_EQ(std::count_if(result.contacts.begin(), result.contacts.end(), same(contact)), 1);
+    EXPECT_EQ(std::count_if(result.blocking_pairs.begin(), result.blocking_pairs.end(), same(contact)), 1);
   }
-  for (const BlockingPair& contact : result.contacts) {
+  for (const BlockingPair& contact : result.blocking_pairs) {
     const auto place = std::find_if(all.begin(), all.end(), same(contact));
     ASSERT_NE(place, all.end());
     EXPECT_NEAR(contact.toi, place->toi, kSlack);
@@ -230,7 +230,7 @@ TEST(StreamsEngine, FindsTheFirstContactsOfBruteForce) {
         if (random() % 4 == 0) t = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * t;
       const SweepResult result = scene.engine().sweep(next, 0);
       expect_first_of(brute_force_contacts(scene, next), result);
-      found += result.contacts.size();
+      found += result.blocking_pairs.size();
       if (result.free) scene.engine().commit();
     }
   }
@@ -253,11 +253,11 @@ TEST(StreamsEngine, GivesTheSameBytesOnEveryExecutorFromEveryCapacity) {
       for (RigidTransform& t : next)
         if (random() % 5 == 0) t = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * t;
       const SweepResult expected = engines[0]->sweep(next, 1e-4);
-      contacts += expected.contacts.size();
+      contacts += expected.blocking_pairs.size();
       free += expected.free ? 1 : 0;
       for (const auto& engine : engines) {
         const SweepResult result = engine->sweep(next, 1e-4);
-        ASSERT_EQ(result.contacts, expected.contacts) << "step " << step;
+        ASSERT_EQ(result.blocking_pairs, expected.blocking_pairs) << "step " << step;
         ASSERT_EQ(result.toi, expected.toi);
         ASSERT_EQ(result.sizes.front, expected.sizes.front);
         ASSERT_EQ(result.sizes.triangle_pairs, expected.sizes.triangle_pairs);

@@ -8,48 +8,49 @@
 #include "dismantle/engine/contact.h"
 #include "dismantle/engine/step_cost.h"
 
-#include <memory>
 #include <vector>
 
 namespace dismantle {
 
 /// How one step towards a target ended, and what it cost.
 struct StepResult {
-  Pose pose;             ///< Where the set really is now.
-  bool reached = false;  ///< pose is the target.
-  /// The poses that the set went through, each by one screw from the one before (the first from where it was); the
-  /// last is `pose`. Empty where it did not move.
-  std::vector<Pose> way;
-  std::vector<CollisionContact> contacts;  ///< The triangle pairs that stopped the motion; empty where reached.
-  std::vector<ContactPoint> touching;      ///< The same as points and normals at `pose`; methods that have none: empty.
-  int sweeps = 0;                          ///< How many sweeps the motion was cut into, and the repeated ones.
-  /// A lower bound of the distance from the set to all that it may not overlap, at `pose` [mm]; 0 in contact or where
-  /// the method gives none.
+  Pose pose;             ///< Pose of the moving set after the step.
+  bool reached = false;  ///< `pose` is the target.
+  /// The poses that the set went through, each by one screw from the one before (the first from the pose before the
+  /// step); the last is `pose`. Empty if the set did not move.
+  std::vector<Pose> poses;
+  std::vector<BlockingPair> blocking_pairs;  ///< The triangle pairs that stopped the motion; empty if reached.
+  std::vector<ContactPoint> contact_points;  ///< The contacts at `pose`; empty for methods that do not compute them.
+  int sweeps = 0;                            ///< Sweeps made: the motion is divided, and parts of it are retried.
+  /// A lower bound of the distance at `pose` from the set to all that it may not overlap [mm]; 0 in contact, or if the
+  /// method computes none.
   double clearance = 0;
-  StepTimings timings;  ///< Summed over the sweeps.
-  StreamSizes sizes;    ///< Of the last sweep; tests and replays summed.
+  StepCost cost;  ///< Time and work of this step.
 };
 
-/// A collision method with its response, as the loop of a host program sees it (docs/design/0000-overview.md): takes
-/// components in hand and moves them as one rigid body towards targets. Everything it lets happen holds the guarantee
-/// of docs/guarantee.md. Not for use by two threads at the same time; any number of engines may run side by side.
+/// A collision method with its response, as the loop of a host program uses it (docs/design/0000-overview.md): grabs
+/// components and moves them as one rigid body towards targets. All motion that it allows holds the guarantee of
+/// docs/guarantee.md. Not for use by two threads at the same time; any number of engines may run side by side.
 class MotionEngine {
  public:
   virtual ~MotionEngine() = default;
 
-  /// Takes these components in hand, and lets go of all others.
+  /// Makes these components the moving set; those grabbed before are released.
   /// @pre not empty, no repeats, all at the same pose
-  virtual void hold(Span<const ComponentId> components) = 0;
-  /// Moves the set in hand towards `target` as far as `response` lets it. @pre something is in hand;
-  /// can_respond(response)
+  virtual void grab(Span<const ComponentId> components) = 0;
+  /// The components grabbed; empty before the first grab(), and after a jump() that moved one of them.
+  virtual Span<const ComponentId> moving_set() const = 0;
+  /// Moves the moving set towards `target` as far as `response` allows.
+  /// @pre the moving set is not empty; can_respond(response)
   virtual StepResult step(const Pose& target, ResponseKind response) = 0;
+  /// True if step() implements this response.
   virtual bool can_respond(ResponseKind response) const = 0;
 
-  /// Puts all components at `poses` without a test (undo, or a recorded state known to be free), one pose a component.
-  /// Embedded pairs that are apart there are clear from then on. What is in hand stays so where its poses are still
-  /// the same, else nothing is.
+  /// Puts all components at `poses` without a test (undo, or a recorded state known to be free). Embedded pairs that
+  /// are apart there count as parted from then on. Releases the moving set if that changes the pose of one of it.
+  /// @param poses shape [component_count]
   virtual void jump(Span<const Pose> poses) = 0;
-  /// Where every component is.
+  /// The pose of every component, shape [component_count].
   virtual Span<const Pose> poses() const = 0;
   /// The pairs that are still embedded.
   virtual std::vector<ComponentPair> embedded_pairs() const = 0;

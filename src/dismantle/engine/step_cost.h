@@ -2,26 +2,27 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
+#include <vector>
 
 namespace dismantle {
 
-/// Wall time of the stages of one step [ms], as in the paper's Table 1.
-struct StepTimings {
-  double vertices = 0;      ///< S_tm -> S_v
-  double refit = 0;         ///< S_v -> S_bv, S_bvh
-  double front = 0;         ///< S_bvh -> S_f, S_t
-  double intersection = 0;  ///< S_t -> results: TID and CCD
-  double overall = 0;
+/// The wall time of one stage of a step.
+struct StageTime {
+  std::string_view stage;  ///< A string literal; each method documents the names of its stages.
+  double ms = 0;           ///< Summed over the sweeps of the step [ms].
 };
 
-/// Sizes of the streams of one step.
-struct StreamSizes {
-  std::size_t front = 0;               ///< S_f
-  std::size_t triangle_pairs = 0;      ///< S_t
-  std::size_t intersection_pairs = 0;  ///< S_i: component pairs
-  std::size_t elementary_tests = 0;    ///< VF and EE tests, or certified triangle-pair tests, that the filters left
-  std::size_t answered_tests = 0;      ///< Those of them that a device answered (method `certificates`)
-  std::size_t replays = 0;             ///< Times that a stage ran again because its buffer was full
+/// What one step of a MotionEngine cost. A method leaves what it does not have at 0.
+struct StepCost {
+  double ms = 0;                   ///< Wall time of the whole step [ms].
+  std::size_t pairs = 0;           ///< Pairs of hierarchy nodes that the last sweep visited: the size of the front.
+  std::size_t triangle_pairs = 0;  ///< Triangle pairs left by the broad phase (`streams`: of the last sweep).
+  std::size_t tests = 0;           ///< Continuous tests of triangles or of their features, over all sweeps.
+  std::size_t device_tests = 0;    ///< Those of `tests` that a device computed.
+  std::size_t embedded_pairs = 0;  ///< Component pairs that are still embedded.
+  std::size_t replays = 0;         ///< Stages repeated because a buffer was full.
+  std::vector<StageTime> stages;   ///< In the order in which they run; empty for a method without stages.
 };
 
 }  // namespace dismantle

@@ -328,20 +328,21 @@ VertexDepthGuard::Finding VertexDepthGuard::sweep_side(Side& side, const Course&
   return first;
 }
 
-VertexContact VertexDepthGuard::contact_of(const Side& side, const Finding& finding) const {
+BlockingPair VertexDepthGuard::contact_of(const Side& side, const Finding& finding) const {
   const Span<const Face> faces = side.solid_inner->faces;
   const auto has_vertex = [&](const Face& f) { return std::count(f.v, f.v + 3, finding.vertex) > 0; };
   const auto at = std::find_if(faces.begin(), faces.end(), has_vertex) - faces.begin();
   const FaceId inner_face(static_cast<std::uint32_t>(at)), outer_face(finding.face);
-  if (side.inner < side.outer) return {{side.inner, side.outer, inner_face, outer_face, finding.toi}, false};
-  return {{side.outer, side.inner, outer_face, inner_face, finding.toi}, true};
+  if (side.inner < side.outer)
+    return {side.inner, side.outer, inner_face, outer_face, finding.toi, BlockingRule::VertexOfA};
+  return {side.outer, side.inner, outer_face, inner_face, finding.toi, BlockingRule::VertexOfB};
 }
 
-std::vector<VertexContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to) {
+std::vector<BlockingPair> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to) {
   return sweep_sides(from, to, [](const Side&) { return true; });
 }
 
-std::vector<VertexContact> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+std::vector<BlockingPair> VertexDepthGuard::sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
                                                    Span<const std::pair<ComponentId, ComponentId>> touching) {
   return sweep_sides(from, to, [&](const Side& side) {
     return std::any_of(touching.begin(), touching.end(), [&](const std::pair<ComponentId, ComponentId>& pair) {
@@ -350,9 +351,9 @@ std::vector<VertexContact> VertexDepthGuard::sweep(Span<const RigidTransform> fr
   });
 }
 
-std::vector<VertexContact> VertexDepthGuard::sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
+std::vector<BlockingPair> VertexDepthGuard::sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
                                                          const MayMeet& may_meet) {
-  std::vector<VertexContact> contacts;
+  std::vector<BlockingPair> contacts;
   for (Side& side : sides_) {
     const RigidTransform start = inverse(from[side.outer.value]) * from[side.inner.value];
     const RigidTransform end = inverse(to[side.outer.value]) * to[side.inner.value];

@@ -16,11 +16,6 @@
 
 namespace dismantle {
 
-/// A vertex that gets too deep in a component: a face that it is a corner of, and the one that is nearest to it.
-struct VertexContact : CollisionContact {
-  bool a_is_outer = false;  ///< The vertex is b's.
-};
-
 /// Keeps the second rule of the guarantee (docs/guarantee.md) where triangle pairs cannot: no vertex of a component
 /// gets deeper than twice the pair's allowance inside another closed component.
 ///
@@ -51,9 +46,9 @@ class VertexDepthGuard {
 
   /// The vertices that get too deep on the way from state `from` to `to`: one contact a pair of components at most,
   /// with the toi up to which all its vertices are certainly allowed. Relative motions are screws.
-  std::vector<VertexContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
+  std::vector<BlockingPair> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to);
   /// The same where only the pairs in `touching` can have met on the way: all others are known to be apart.
-  std::vector<VertexContact> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
+  std::vector<BlockingPair> sweep(Span<const RigidTransform> from, Span<const RigidTransform> to,
                                    Span<const std::pair<ComponentId, ComponentId>> touching);
   /// Makes the end of the last sweep the state that the kept slacks are for. @pre that sweep found nothing
   void commit();
@@ -95,10 +90,10 @@ class VertexDepthGuard {
   double thinnest(ComponentId component);
   const VertexTree& tree_of(ComponentId component);
   using MayMeet = std::function<bool(const Side&)>;
-  std::vector<VertexContact> sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
+  std::vector<BlockingPair> sweep_sides(Span<const RigidTransform> from, Span<const RigidTransform> to,
                                          const MayMeet& may_meet);
   Finding sweep_side(Side& side, const Course& course) const;
-  VertexContact contact_of(const Side& side, const Finding& finding) const;
+  BlockingPair contact_of(const Side& side, const Finding& finding) const;
   static void begin_anew(Side& side);
   static void merge(Side& side);
 

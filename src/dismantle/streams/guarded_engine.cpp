@@ -19,10 +19,9 @@ class GuardedEngine final : public SweepEngine {
     SweepResult result = engine_->sweep(next, path_deviation);
     if (!result.free) return result;
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<VertexContact> found = guard_.sweep(engine_->state(), next);
-    result.contacts.assign(found.begin(), found.end());
-    for (const CollisionContact& c : result.contacts) result.toi = std::min(result.toi, c.toi);
-    result.free = result.contacts.empty();
+    result.blocking_pairs = guard_.sweep(engine_->state(), next);
+    for (const BlockingPair& c : result.blocking_pairs) result.toi = std::min(result.toi, c.toi);
+    result.free = result.blocking_pairs.empty();
     const double spent = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     result.timings.intersection += spent;
     result.timings.overall += spent;

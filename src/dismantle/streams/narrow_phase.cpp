@@ -116,15 +116,15 @@ std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contac
   return first;
 }
 
-std::vector<CollisionContact> collision_contacts(const AssemblyTriangles& streams,
+std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams,
                                                  Span<const TrianglePairContact> contacts) {
-  std::vector<CollisionContact> result;
+  std::vector<BlockingPair> result;
   for (const TrianglePairContact& found : contacts) {
     const NodePair p = pair_of_key(found.key);
     result.push_back({ComponentId(streams.bvh.component_of[p.a]), ComponentId(streams.bvh.component_of[p.b]),
                       streams.face_of[p.a], streams.face_of[p.b], found.toi});
   }
-  std::sort(result.begin(), result.end(), [](const CollisionContact& x, const CollisionContact& y) {
+  std::sort(result.begin(), result.end(), [](const BlockingPair& x, const BlockingPair& y) {
     if (x.a != y.a) return x.a < y.a;
     if (x.b != y.b) return x.b < y.b;
     return x.face_a != y.face_a ? x.face_a < y.face_a : x.face_b < y.face_b;

@@ -56,7 +56,7 @@ std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, 
 StepTriangles step_triangles(const MovingStreams& streams);
 
 /// The contacts by components and faces, in this order.
-std::vector<CollisionContact> collision_contacts(const AssemblyTriangles& streams,
+std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams,
                                                  Span<const TrianglePairContact> contacts);
 
 }  // namespace dismantle

@@ -2,6 +2,7 @@
 #include "dismantle/streams/step_towards.h"
 
 #include "dismantle/math/screw.h"
+#include "dismantle/streams/streams_motion_engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,18 +39,16 @@ class Stepper {
 
  private:
   void add_cost(const SweepResult& swept) {
-    StepTimings& t = result_.timings;
-    t.vertices += swept.timings.vertices;
-    t.refit += swept.timings.refit;
-    t.front += swept.timings.front;
-    t.intersection += swept.timings.intersection;
-    t.overall += swept.timings.overall;
-    StreamSizes& sizes = result_.sizes;
-    sizes.elementary_tests += swept.sizes.elementary_tests;
-    sizes.replays += swept.sizes.replays;
-    sizes.front = swept.sizes.front;
-    sizes.triangle_pairs = swept.sizes.triangle_pairs;
-    sizes.intersection_pairs = swept.sizes.intersection_pairs;
+    StepCost& cost = result_.cost;
+    cost.ms += swept.timings.overall;
+    cost.tests += swept.sizes.elementary_tests;
+    cost.replays += swept.sizes.replays;
+    cost.pairs = swept.sizes.front;
+    cost.triangle_pairs = swept.sizes.triangle_pairs;
+    cost.embedded_pairs = swept.sizes.intersection_pairs;
+    const double stages[] = {swept.timings.vertices, swept.timings.refit, swept.timings.front,
+                             swept.timings.intersection};
+    for (std::size_t k = 0; k < cost.stages.size(); ++k) cost.stages[k].ms += stages[k];
   }
 
   SweepEngine& engine_;
@@ -81,6 +80,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
   DISMANTLE_EXPECT(tolerance > 0);
   StepResult result;
   result.pose = start;
+  result.cost.stages = {{kVerticesStage}, {kRefitStage}, {kFrontStage}, {kIntersectionStage}};
   if (start == target) {
     result.reached = true;
     return result;
@@ -102,7 +102,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
       stepper.commit(next);
       continue;
     }
-    result.contacts = std::move(swept.contacts);
+    result.blocking_pairs = std::move(swept.blocking_pairs);
     const double backoff = kTouchBackoffShare * tolerance / (travel / cuts);
     double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
     for (int retry = 0; retry < kMaximumTouchRetries && share > backoff; ++retry) {

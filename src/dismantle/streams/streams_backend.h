@@ -16,7 +16,7 @@ struct StreamsStep {
   std::vector<TrianglePairContact> contacts;  ///< Those within kContactWindow of the first; in no particular order.
   /// The triangle pairs of components in S_i that intersect at the end of the step; in no particular order.
   std::vector<std::uint64_t> intersecting;
-  StepTimings timings;  ///< Of the stages; not overall.
+  StageTimings timings;  ///< Of the stages; not overall.
   StreamSizes sizes;    ///< Without intersection_pairs.
 };
 

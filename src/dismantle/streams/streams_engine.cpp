@@ -52,11 +52,11 @@ SweepResult StreamsEngine::sweep(Span<const RigidTransform> next, double path_de
   StageClock embedded_clock;
   test_embedded_pairs(step, path_deviation);
   SweepResult result;
-  result.contacts = collision_contacts(backend_->fixed(), first_of(step.contacts));
+  result.blocking_pairs = blocking_pairs(backend_->fixed(), first_of(step.contacts));
   step.timings.intersection += embedded_clock.total();
 
-  for (const CollisionContact& contact : result.contacts) result.toi = std::min(result.toi, contact.toi);
-  result.free = result.contacts.empty();
+  for (const BlockingPair& contact : result.blocking_pairs) result.toi = std::min(result.toi, contact.toi);
+  result.free = result.blocking_pairs.empty();
   result.timings = step.timings;
   result.sizes = step.sizes;
   result.sizes.intersection_pairs = embedded_.pairs().size();

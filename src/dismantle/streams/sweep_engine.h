@@ -5,7 +5,6 @@
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/core/span.h"
 #include "dismantle/engine/contact.h"
-#include "dismantle/engine/step_cost.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/math/rigid_transform.h"
 
@@ -26,13 +25,31 @@ enum class ElementaryTest {
 /// happen.
 inline constexpr double kContactWindow = 0x1p-10;
 
-/// What one sweep found.
+/// Wall times of the stages of a sweep, as in Table 1 of Du et al. 2015 [ms].
+struct StageTimings {
+  double vertices = 0;      ///< S_tm -> S_v
+  double refit = 0;         ///< S_v -> S_bv, S_bvh
+  double front = 0;         ///< S_bvh -> S_f, S_t
+  double intersection = 0;  ///< S_t -> results: TID and CCD
+  double overall = 0;       ///< The whole sweep.
+};
+
+/// Sizes of the streams of a sweep.
+struct StreamSizes {
+  std::size_t front = 0;               ///< S_f
+  std::size_t triangle_pairs = 0;      ///< S_t
+  std::size_t intersection_pairs = 0;  ///< S_i: component pairs.
+  std::size_t elementary_tests = 0;    ///< VF and EE tests, or certified triangle-pair tests, left by the filters.
+  std::size_t replays = 0;             ///< Stages repeated because a buffer was full.
+};
+
+/// The result of one sweep.
 struct SweepResult {
-  double toi = 1;  ///< The least toi of all contacts; 1 where the whole motion is free.
-  bool free = true;
-  /// Every triangle pair whose own toi is within kContactWindow of the least one, ordered by (a, b, face_a, face_b).
-  std::vector<CollisionContact> contacts;
-  StepTimings timings;
+  double toi = 1;    ///< The smallest toi of all blocking pairs; 1 if the whole motion is free.
+  bool free = true;  ///< Nothing blocks the motion.
+  /// Every triangle pair whose own toi is within kContactWindow of the smallest, ordered by (a, b, face_a, face_b).
+  std::vector<BlockingPair> blocking_pairs;
+  StageTimings timings;
   StreamSizes sizes;
 };
 

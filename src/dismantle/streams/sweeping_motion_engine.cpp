@@ -16,18 +16,20 @@ class SweepingMotionEngine final : public MotionEngine {
   SweepingMotionEngine(const Assembly& assembly, double tolerance, std::unique_ptr<SweepEngine> engine)
       : assembly_(assembly), tolerance_(tolerance), engine_(std::move(engine)), poses_(assembly.components.size()) {}
 
-  void hold(Span<const ComponentId> components) override {
+  void grab(Span<const ComponentId> components) override {
     DISMANTLE_EXPECT(!components.empty());
     set_ = make_rigid_set(assembly_, {components.begin(), components.end()});
     DISMANTLE_EXPECT(std::all_of(components.begin(), components.end(),
                                  [&](ComponentId c) { return poses_[c.value] == poses_[components[0].value]; }));
   }
 
+  Span<const ComponentId> moving_set() const override { return set_.components; }
+
   StepResult step(const Pose& target, ResponseKind response) override {
     DISMANTLE_EXPECT(!set_.components.empty());
     const Pose start = poses_[set_.components.front().value];
     StepResult result = step_towards(*engine_, set_, start, target, response, tolerance_);
-    if (!(result.pose == start)) result.way = {result.pose};
+    if (!(result.pose == start)) result.poses = {result.pose};
     for (const ComponentId c : set_.components) poses_[c.value] = result.pose;
     return result;
   }
@@ -39,9 +41,9 @@ class SweepingMotionEngine final : public MotionEngine {
     std::vector<RigidTransform> state;
     for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
     engine_->jump(state);
+    const auto moved = [&](ComponentId c) { return !(poses[c.value] == poses_[c.value]); };
+    if (std::any_of(set_.components.begin(), set_.components.end(), moved)) set_ = {};
     poses_.assign(poses.begin(), poses.end());
-    const auto parted = [&](ComponentId c) { return !(poses_[c.value] == poses_[set_.components.front().value]); };
-    if (std::any_of(set_.components.begin(), set_.components.end(), parted)) set_ = {};
   }
 
   Span<const Pose> poses() const override { return poses_; }

@@ -5,8 +5,8 @@ namespace dismantle {
 
 StepResult LocalPlanner::slide(const Pose& target) {
   StepResult made = validator_.slide(target);
-  for (const CollisionContact& c : made.contacts) met_.insert(c.a == component_ ? c.b : c.a);
-  for (const ContactPoint& c : made.touching) met_.insert(c.fixed);
+  for (const BlockingPair& c : made.blocking_pairs) met_.insert(c.a == component_ ? c.b : c.a);
+  for (const ContactPoint& c : made.contact_points) met_.insert(c.fixed);
   return made;
 }
 

@@ -35,7 +35,7 @@ void MotionValidator::stand(const ComponentSet& present) {
 }
 
 MotionValidator::Trial MotionValidator::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
-  engine_.hold(set);
+  engine_.grab(set);
   moving_ = set[0];
   embedded_ = engine_.embedded_pairs();
   Trial trial = trial_of(go_straight(direction, way), set);
@@ -49,7 +49,7 @@ MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<co
   const auto add = [&](ComponentId a, ComponentId b) {
     if (moves(a) != moves(b)) trial.against.emplace_back(moves(a) ? a : b, moves(a) ? b : a);
   };
-  for (const CollisionContact& c : made.contacts) add(c.a, c.b);
+  for (const BlockingPair& c : made.blocking_pairs) add(c.a, c.b);
   // Embedded pairs that have parted and meet again are stopped by a rule that names no faces.
   if (!trial.free && trial.against.empty() && some_parted())
     for (const ComponentPair& pair : embedded_) add(pair.a, pair.b);
@@ -66,8 +66,8 @@ void MotionValidator::put_back() {
 
 StepResult MotionValidator::step(const Pose& target, ResponseKind response) {
   StepResult made = engine_.step(target, response);
-  effort_ += made.sizes.elementary_tests +
-             (kSweepEffort + made.sizes.front / kFrontShare) * static_cast<std::size_t>(made.sweeps);
+  effort_ += made.cost.tests +
+             (kSweepEffort + made.cost.pairs / kFrontShare) * static_cast<std::size_t>(made.sweeps);
   return made;
 }
 
@@ -94,12 +94,12 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
 }
 
 const CertificateEngine& MotionValidator::hold(ComponentId component) {
-  engine_.hold({&component, 1});
+  engine_.grab({&component, 1});
   return engine_;
 }
 
 void MotionValidator::take(ComponentId component) {
-  engine_.hold({&component, 1});
+  engine_.grab({&component, 1});
   moving_ = component;
   embedded_ = engine_.embedded_pairs();
 }
@@ -109,7 +109,7 @@ void MotionValidator::go_back(const Pose& pose) {
   std::vector<Pose> poses = poses_;
   poses[moving_.value] = pose;
   engine_.jump(poses);
-  engine_.hold({&moving_, 1});
+  engine_.grab({&moving_, 1});
 }
 
 MotionValidator::Trial MotionValidator::try_exit(const Vec3& direction, double way) {

@@ -109,11 +109,11 @@ class SampleOut {
       local_planner_.go_back(tree_[from].pose);
       StepResult made = local_planner_.slide(target);
       double gain = 0;
-      if (!made.way.empty()) {
+      if (!made.poses.empty()) {
         const double novelty = tree_.nearest(made.pose).second;
         gain = std::min(1.0, novelty / (kReaches[1] * radius_));
         if (novelty > kSameConfiguration * radius_)
-          if (auto step = add_node(from, std::move(made.way))) return step;
+          if (auto step = add_node(from, std::move(made.poses))) return step;
       }
       bandit_.learn(arm, gain);
     }
@@ -188,12 +188,12 @@ class SampleOut {
       local_planner_.go_back(way[first]);
       const StepResult made = local_planner_.slide(way[last]);
       if (!made.reached) continue;
-      double at_once = tree_.distance(way[first], made.way.front());
-      for (std::size_t k = 1; k < made.way.size(); ++k) at_once += tree_.distance(made.way[k - 1], made.way[k]);
+      double at_once = tree_.distance(way[first], made.poses.front());
+      for (std::size_t k = 1; k < made.poses.size(); ++k) at_once += tree_.distance(made.poses[k - 1], made.poses[k]);
       if (at_once >= as_it_is) continue;
       const auto begin = way.begin() + static_cast<std::ptrdiff_t>(first) + 1;
       const auto at = way.erase(begin, way.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-      way.insert(at, made.way.begin(), made.way.end());
+      way.insert(at, made.poses.begin(), made.poses.end());
     }
     return way;
   }

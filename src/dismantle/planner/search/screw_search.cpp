@@ -61,7 +61,7 @@ std::optional<PlanStep> turn_out(LocalPlanner& local_planner, ThreadAxis thread,
   for (int turns = 1, stuck = 0; stuck < kStuckTurns && std::abs(turned) < max_turned && keep_going(); ++turns) {
     const Pose before = local_planner.pose();
     const StepResult made = local_planner.slide(screw_motion(thread, turn) * before);
-    way.insert(way.end(), made.way.begin(), made.way.end());
+    way.insert(way.end(), made.poses.begin(), made.poses.end());
 
     const Screw screw = screw_between(before, made.pose);
     const double angle = screw.angle * dot(screw.axis, thread.direction);

@@ -88,9 +88,9 @@ class SlideOut {
     for (bool stuck = false; !stuck && turned < kMaxTurn && goes_on();) {
       const Pose before = local_planner_.pose();
       const StepResult made = local_planner_.slide(target(before, held, move));
-      way.insert(way.end(), made.way.begin(), made.way.end());
+      way.insert(way.end(), made.poses.begin(), made.poses.end());
       stuck = tree_.distance(before, made.pose) < kStuckShare * kHandShare * radius_;
-      if (made.way.empty()) break;
+      if (made.poses.empty()) break;
       ends.push_back(way.size());
       turned += pushed ? 0 : hand_turn(move.axis);
       if (pushed && dot(tree_.center_at(made.pose) - tree_.center_at({}), move.push) > exit_distance_)
