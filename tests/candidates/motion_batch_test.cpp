@@ -54,7 +54,7 @@ struct RandomState {
         to[c.value] = transform_from_pose(pose_between(poses[3], target, (k + 1.0) / pieces));
       }
       engine->jump(from);
-      const SweepResult sweep = engine->sweep(to, kPathDeviationShare * kTolerance);
+      const SweepResult sweep = engine->sweep(to, kArcShare * kTolerance);
       result.free = sweep.free;
       result.toi = (k + sweep.toi) / pieces;
     }
@@ -74,19 +74,19 @@ TEST(MotionBatch, StopsLinearMotionsWhereSweepsDoAndGivesTheSameBytesEverywhere)
     std::mt19937_64 random(seed);
     RandomState scene(random);
     std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Embedded; });
-    std::vector<Vec3> ways;
-    for (int i = 0; i < 60; ++i) ways.push_back(scenes::random_vector(random, i % 2 == 0 ? 0.3 : 30));
+    std::vector<Vec3> displacements;
+    for (int i = 0; i < 60; ++i) displacements.push_back(scenes::random_vector(random, i % 2 == 0 ? 0.3 : 30));
     const auto batches = all_batches(scene.assembly, scene.states);
     std::vector<FirstContact> expected;
     for (const auto& batch : batches) {
       batch->set_state(scene.poses, scene.moving);
-      const std::vector<FirstContact> contacts = batch->straight_contacts(ways);
+      const std::vector<FirstContact> contacts = batch->straight_contacts(displacements);
       if (expected.empty()) expected = contacts;
       EXPECT_EQ(contacts, expected);
     }
-    for (std::size_t i = 0; i < ways.size(); ++i) {
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
       Pose target = scene.poses[3];
-      target.position = target.position + ways[i];
+      target.position = target.position + displacements[i];
       expect_agree(expected[i], scene.swept(target, 1));
       free += expected[i].free ? 1 : 0;
       stopped_on_the_way += !expected[i].free && expected[i].toi > 0 ? 1 : 0;
@@ -117,7 +117,7 @@ TEST(MotionBatch, StopsScrewsWhereSweepsDoAndGivesTheSameBytesEverywhere) {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       const Screw screw = screw_between(scene.poses[3], targets[i]);
       const double rho = screw_radius(screw, transform_from_pose(scene.poses[3]) * set.center, set.radius);
-      const int pieces = chord_count(screw_chord_deviation(screw, rho), kPathDeviationShare * kTolerance);
+      const int pieces = chord_count(screw_chord_deviation(screw, rho), kArcShare * kTolerance);
       expect_agree(expected[i], scene.swept(targets[i], pieces));
       free += expected[i].free ? 1 : 0;
       stopped_on_the_way += !expected[i].free && expected[i].toi > 0 ? 1 : 0;
@@ -149,19 +149,19 @@ TEST(MotionBatch, ExemptsEmbeddedPairsAndLimitsFitsToTheirAllowance) {
   const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-5, -5, -1}, {5, 5, 1})),
                                               scenes::component("peg", scenes::box({-1, -1, -2}, {1, 1, 2}))});
   const std::vector<ComponentId> peg{ComponentId(1)};
-  const std::vector<Vec3> ways{{2, 0, 0}, {0, 0, 9}};
+  const std::vector<Vec3> displacements{{2, 0, 0}, {0, 0, 9}};
   const auto embedded =
       make_motion_batch(assembly, {kTolerance, {pair_of(0, 1, PairState::Embedded, 0)}}, Executor(), DeviceChoice::Cpu);
   embedded.batch->set_state(std::vector<Pose>(2), peg);
-  for (const FirstContact& contact : embedded.batch->straight_contacts(ways)) EXPECT_TRUE(contact.free);
+  for (const FirstContact& contact : embedded.batch->straight_contacts(displacements)) EXPECT_TRUE(contact.free);
   const auto ordinary = make_motion_batch(assembly, {kTolerance, {}}, Executor(), DeviceChoice::Cpu);
   ordinary.batch->set_state(std::vector<Pose>(2), peg);
-  for (const FirstContact& contact : ordinary.batch->straight_contacts(ways)) EXPECT_EQ(contact.toi, 0);
+  for (const FirstContact& contact : ordinary.batch->straight_contacts(displacements)) EXPECT_EQ(contact.toi, 0);
 }
 
-OverlapTimes times_of(double way, double allowed) {
+OverlapTimes times_of(double displacement, double allowed) {
   OverlapTimes t;
-  t.meet({0, 1}, way, {3, 4}, allowed);
+  t.meet({0, 1}, displacement, {3, 4}, allowed);
   return t;
 }
 

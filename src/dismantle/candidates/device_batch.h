@@ -3,6 +3,7 @@
 
 #include "dismantle/candidates/candidate_kernel.h"
 #include "dismantle/candidates/motion_batch.h"
+#include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/device/device_buffers.h"
 #include "dismantle/streams/moving_streams.h"
@@ -31,7 +32,7 @@ class DeviceBatch final : public MotionBatch {
   std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override;
 
  private:
-  double path_deviation() const { return kPathDeviationShare * rules_.tolerance(); }
+  double path_deviation() const { return kArcShare * rules_.tolerance(); }
   CandidateScene scene() const;
   std::vector<Pose> stations_to(const Pose& target) const;
   std::vector<FirstContact> brought_down_contacts(const DeviceArray<CandidateContact>& found);

@@ -4,16 +4,11 @@
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/streams_motion_engine.h"
 
-#include <algorithm>
-#include <cmath>
 
 namespace dismantle {
 
 namespace {
 
-/// A motion that goes on to the contact ends this share of the tolerance before it [of path length], so that the next
-/// sweep does not start on the very edge of what is allowed; shorter ones are not worth a sweep of their own.
-constexpr double kTouchBackoffShare = 1e-3;
 /// How often a motion up to the contact is shortened by half where its own sweep does not come out free.
 constexpr int kMaximumTouchRetries = 4;
 
@@ -70,10 +65,6 @@ RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> compo
   return set;
 }
 
-int chord_count(double chord_deviation, double deviation) {
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(chord_deviation / deviation))));
-}
-
 StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
                         ResponseKind response, double tolerance) {
   DISMANTLE_EXPECT(response != ResponseKind::Slide);
@@ -89,9 +80,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
   const Screw screw = screw_between(start, target);
   const double rho = screw_radius(screw, transform_from_pose(start) * set.center, set.radius);
   const double travel = screw_path_length(screw, rho);
-  // The same share is kept back whatever the motion: a state reached by a translation must not be too deep for a
-  // rotation.
-  const double deviation = kPathDeviationShare * tolerance;
+  const double deviation = kArcShare * tolerance;
   const int cuts = chord_count(screw_chord_deviation(screw, rho), deviation);
 
   Stepper stepper(engine, set, result);
@@ -103,7 +92,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
       continue;
     }
     result.blocking_pairs = std::move(swept.blocking_pairs);
-    const double backoff = kTouchBackoffShare * tolerance / (travel / cuts);
+    const double backoff = kBackoffShare * tolerance / (travel / cuts);
     double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
     for (int retry = 0; retry < kMaximumTouchRetries && share > backoff; ++retry) {
       const Pose touching = pose_between(start, target, (k + share) / cuts);

@@ -3,6 +3,7 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/path.h"
+#include "dismantle/engine/chords.h"
 #include "dismantle/engine/motion_engine.h"
 #include "dismantle/streams/sweep_engine.h"
 
@@ -19,15 +20,6 @@ struct RigidSet {
 
 /// The set of these components with its bounding sphere.
 RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> components);
-
-/// How far the linear vertex paths of a sweep may be from the true screw, as a share of the tolerance. Motions are cut
-/// until they are that near; the share is taken off every allowance, always, so the guarantee holds for the screw
-/// itself.
-inline constexpr double kPathDeviationShare = 0.125;
-
-/// Into how many equal screws a motion must be cut so that each one's chords are within `deviation` of its arcs.
-/// @param chord_deviation of the whole motion: screw_chord_deviation [mm]
-int chord_count(double chord_deviation, double deviation);
 
 /// Moves the set from `start`, where the engine's state has it, along the one screw towards `target`, as far as
 /// `response` allows. The engine's state is then the pose that is returned. Guarantee: the screw from `start` to the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/response/embedded_watch.h"
 
+#include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/sweep_engine.h"
 
@@ -10,8 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// A motion that is stopped is made up to this share before the contact, and tried that many times.
-constexpr double kBackoff = 1 - 1e-3;
+/// Attempts to make a motion that is stopped up to its contact.
 constexpr int kTries = 4;
 
 }  // namespace
@@ -55,7 +55,7 @@ double EmbeddedWatch::follow(const std::vector<bool>& held, Span<const Pose> pos
       const auto at = [&](ComponentId c) { return transform_from_pose(held[c.value] ? next : poses[c.value]); };
       const RigidTransform state[2] = {at(w->pair.a), at(w->pair.b)};
       const SweepResult found = w->engine->sweep({state, 2}, deviation);
-      if (!found.free) toi = std::min(toi, found.toi * kBackoff);
+      if (!found.free) toi = std::min(toi, found.toi * (1 - kBackoffShare));
     }
     return toi;
   };
