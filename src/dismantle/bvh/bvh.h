@@ -11,27 +11,31 @@ namespace dismantle {
 
 /// Index of a node of a Bvh. Leaves come first: node i < leaf_count() is the leaf of the i-th triangle in leaf order.
 using NodeIndex = std::uint32_t;
+/// The index of no node.
 inline constexpr NodeIndex kNoNode = 0xffffffffu;
 
-/// The two children of an inner node.
+/// The two children of an inner node; both have smaller indices than it.
 struct BvhChildren {
-  NodeIndex left = kNoNode, right = kNoNode;
+  NodeIndex left = kNoNode;   ///< The first child.
+  NodeIndex right = kNoNode;  ///< The second child.
   friend bool operator==(const BvhChildren&, const BvhChildren&) = default;
 };
 
-/// What lies below one component's root, as ranges: leaves [leaf_begin, leaf_end) and inner nodes [inner_begin,
-/// inner_end), in post-order (children before parents, the root last).
+/// The nodes of one component's subtree, as ranges.
 struct BvhComponent {
-  NodeIndex leaf_begin = 0, leaf_end = 0;
-  NodeIndex inner_begin = 0, inner_end = 0;
-  NodeIndex root = kNoNode;  ///< kNoNode for a component without triangles.
+  NodeIndex leaf_begin = 0;   ///< First leaf.
+  NodeIndex leaf_end = 0;     ///< One past the last leaf.
+  NodeIndex inner_begin = 0;  ///< First inner node; they are in post-order (children before parents, the root last).
+  NodeIndex inner_end = 0;    ///< One past the last inner node.
+  NodeIndex root = kNoNode;   ///< kNoNode for a component without triangles.
+  /// The number of leaves.
   std::uint32_t leaf_count() const { return leaf_end - leaf_begin; }
   friend bool operator==(const BvhComponent&, const BvhComponent&) = default;
 };
 
-/// A binary bounding volume hierarchy over the triangles of all components, without its bounds: topology only, built
-/// once. One triangle a leaf. Every node lies below one component's root or has whole components below it ("top"
-/// nodes).
+/// The topology of a binary bounding volume hierarchy over the triangles of all components, one triangle a leaf. It is
+/// built once; bounds are kept apart. Every node lies below one component's root or has whole components below it
+/// ("top" nodes).
 ///
 /// Node order, n = leaf_count(): leaves [0, n), component after component; then the inner nodes of component after
 /// component, each in post-order, so that a subtree's nodes are one range; then the top nodes in post-order. The root
@@ -43,31 +47,37 @@ struct Bvh {
   std::vector<BvhComponent> components;      ///< Shape [component_count].
   NodeIndex top_begin = 0;                   ///< The first top node; node_count() where there is none.
 
+  /// The number of leaves, which is that of triangles.
   NodeIndex leaf_count() const { return static_cast<NodeIndex>(leaf_triangle.size()); }
+  /// The number of all nodes.
   NodeIndex node_count() const { return static_cast<NodeIndex>(leaf_triangle.size() + children.size()); }
+  /// True if there are no triangles.
   bool empty() const { return leaf_triangle.empty(); }
-  /// @pre !empty()
+  /// The root of all components. @pre !empty()
   NodeIndex root() const { return node_count() - 1; }
   friend bool operator==(const Bvh&, const Bvh&) = default;
 };
 
-/// The topology as kernels see it.
+/// A view of the topology for kernels.
 struct BvhView {
-  Span<const BvhChildren> children;
-  Span<const std::uint32_t> component_of;
-  NodeIndex leaf_count = 0;
-  NodeIndex top_begin = 0;
+  Span<const BvhChildren> children;        ///< As Bvh::children.
+  Span<const std::uint32_t> component_of;  ///< As Bvh::component_of.
+  NodeIndex leaf_count = 0;                ///< As Bvh::leaf_count().
+  NodeIndex top_begin = 0;                 ///< As Bvh::top_begin.
 
   BvhView() = default;
+  /// Views the tree, which must outlive it.
   explicit BvhView(const Bvh& bvh)
       : children(bvh.children),
         component_of(bvh.component_of),
         leaf_count(bvh.leaf_count()),
         top_begin(bvh.top_begin) {}
 
+  /// True for a leaf.
   DISMANTLE_HOST_DEVICE bool is_leaf(NodeIndex node) const { return node < leaf_count; }
+  /// True for a node that has whole components below it.
   DISMANTLE_HOST_DEVICE bool is_top(NodeIndex node) const { return node >= top_begin; }
-  /// @pre !is_leaf(node)
+  /// The children of an inner node. @pre !is_leaf(node)
   DISMANTLE_HOST_DEVICE BvhChildren children_of(NodeIndex node) const { return children[node - leaf_count]; }
 };
 

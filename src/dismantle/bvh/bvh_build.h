@@ -7,15 +7,15 @@
 
 namespace dismantle {
 
-/// What the hierarchy is built over: the triangles' boxes [mm, assembly frame], component after component.
+/// The boxes of the triangles to build a hierarchy over [mm, assembly frame], component after component.
 struct BvhInput {
   Span<const Aabb> triangle_boxes;            ///< Shape [triangle_count].
   Span<const std::uint32_t> component_begin;  ///< Shape [component_count + 1]: component c's triangles are
                                               ///< [component_begin[c], component_begin[c + 1]).
 };
 
-/// How deep a component's subtree may get by the surface area heuristic; below this, ranges are halved, so that no
-/// subtree is deeper than this plus log2 of its triangles.
+/// Depth of a component's subtree from which on ranges are halved instead of cut by the surface area heuristic, so that
+/// no subtree is deeper than this plus log2 of its triangles.
 inline constexpr int kBvhHeuristicDepth = 40;
 
 /// Builds the hierarchy top-down by the binned surface area heuristic, each component by itself, then a tree over the

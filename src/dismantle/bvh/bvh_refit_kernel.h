@@ -7,14 +7,16 @@
 
 namespace dismantle {
 
-/// S_v -> S_bv: the bounds of a leaf's triangle over the whole step, S_v(n) and S_v(n+1) together; linear vertex paths
-/// stay within. Item: a leaf.
+/// Stage S_v -> S_bv: bounds a leaf's triangle over the whole step, which contains the linear paths of its vertices.
+/// Item: a leaf.
 struct BvhRefitLeafKernel {
-  Span<const Vec3> vertices_t0, vertices_t1;  ///< The same span twice where nothing moves.
-  Span<const Face> faces;                     ///< In leaf order.
-  Span<Kdop16> bounds;                        ///< Of all nodes.
-  float margin = 0;                           ///< [mm]
+  Span<const Vec3> vertices_t0;  ///< Positions at the start of the step [mm].
+  Span<const Vec3> vertices_t1;  ///< Positions at its end [mm]; the same span if nothing moves.
+  Span<const Face> faces;        ///< In leaf order.
+  Span<Kdop16> bounds;           ///< Of all nodes.
+  float margin = 0;              ///< Growth of the bounds on every side [mm].
 
+  /// Bounds one leaf.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t leaf) const {
     const Face face = faces[leaf];
     KdopOfPoints points;
@@ -25,12 +27,13 @@ struct BvhRefitLeafKernel {
   }
 };
 
-/// S_bv -> S_bvh: the bounds around an inner node's children. Item: an inner node, counted from the first. Children
-/// before parents: in ascending order, or level by level.
+/// Stage S_bv -> S_bvh: bounds an inner node's children. Item: an inner node, counted from the first. Children must be
+/// bounded before their parents: in ascending order, or level by level.
 struct BvhRefitNodeKernel {
-  BvhView tree;
-  Span<Kdop16> bounds;
+  BvhView tree;         ///< Topology.
+  Span<Kdop16> bounds;  ///< Of all nodes.
 
+  /// Bounds one inner node.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t inner) const {
     const BvhChildren c = tree.children[inner];
     bounds[tree.leaf_count + inner] = united(bounds[c.left], bounds[c.right]);

@@ -11,7 +11,8 @@ namespace dismantle {
 
 /// A node pair of the bounding volume traversal tree (BVTT).
 struct NodePair {
-  NodeIndex a = kNoNode, b = kNoNode;
+  NodeIndex a = kNoNode;  ///< One node.
+  NodeIndex b = kNoNode;  ///< The other node, or the same.
   friend bool operator==(const NodePair&, const NodePair&) = default;
 };
 
@@ -21,14 +22,15 @@ DISMANTLE_HOST_DEVICE inline std::uint64_t pair_key(NodeIndex a, NodeIndex b) {
   return low << 32 | high;
 }
 
+/// The pair of a key: a <= b.
 DISMANTLE_HOST_DEVICE inline NodePair pair_of_key(std::uint64_t key) {
   return {static_cast<NodeIndex>(key >> 32), static_cast<NodeIndex>(key & 0xffffffffu)};
 }
 
-/// The children of a node pair in the BVTT: two, or three where a node is paired with itself.
+/// The children of a node pair in the BVTT.
 struct NodePairChildren {
-  NodePair pair[3];
-  int count = 0;
+  NodePair pair[3];  ///< The first `count` are set.
+  int count = 0;     ///< 2, or 3 for a node paired with itself.
 };
 
 /// Expands a pair that is not two leaves. A node with itself: each child with itself, and both together. Otherwise one
@@ -53,8 +55,8 @@ DISMANTLE_HOST_DEVICE inline NodePairChildren expanded(const BvhView& tree, Span
   return {{{p.a, c.left}, {p.a, c.right}, {}}, 2};
 }
 
-/// Calls visit(leaf_a, leaf_b) for every pair of leaves below `start` whose bounds overlap and that belong to different
-/// components; plain depth-first traversal. Each such pair once; leaf_a < leaf_b, so a's component comes first.
+/// Calls visit(leaf_a, leaf_b) once for every pair of leaves below `start` whose bounds overlap and that belong to
+/// different components, depth first. leaf_a < leaf_b, so a's component comes first.
 template <class Visit>
 void bvh_traverse(const BvhView& tree, Span<const Kdop16> bounds, NodePair start, Visit&& visit) {
   std::vector<NodePair> open{start};

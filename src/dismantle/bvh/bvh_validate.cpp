@@ -32,7 +32,7 @@ std::string check_links(const Bvh& bvh) {
         return at("subtree of a component has a node of another", node);
     }
     if ((bvh.component_of[node] == ComponentId::kInvalid) != (node >= bvh.top_begin))
-      return at("top node is where components' nodes are, or the other way round", node);
+      return at("top node among the components' nodes, or a component's node among the top nodes", node);
   }
   for (NodeIndex node = 0; node + 1 < bvh.node_count(); ++node)
     if (parents[node] != 1) return at("node has not exactly one parent", node);

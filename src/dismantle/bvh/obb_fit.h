@@ -9,9 +9,10 @@
 
 namespace dismantle {
 
-/// A box around the listed triangles, relative to `origin`, along the principal axes of their surface (Gottschalk, Lin,
-/// Manocha 1996); one triangle's box lies along its longest edge. Certainly contains them, despite float32.
-/// @param order indices of faces, not empty
+/// Fits a box to triangles along the principal axes of their surface (Gottschalk, Lin, Manocha 1996), or along the
+/// longest edge of a single triangle. It certainly contains them, despite float32.
+/// @param order indices of the faces, not empty
+/// @param origin that the box is relative to [mm]
 Obb obb_fit(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order, Vec3 origin);
 
 /// An upper bound of the distance from the box's center to any of its points [mm].

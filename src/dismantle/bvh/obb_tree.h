@@ -17,71 +17,76 @@ inline constexpr double kObbAxisRounding = 2e-6;
 
 /// A node of an ObbTree: one cache line.
 struct ObbNode {
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  ///< The index of no node.
 
   Obb box;           ///< About the tree's origin [mm].
   float radius = 0;  ///< Every point of the box is at most this far from its center [mm].
-  /// The room that the box takes, a flat one being as thick as a thousandth of its radius [mm^3]: of two nodes the
-  /// larger one is split first. Negative for a leaf.
+  /// Volume of the box, each side being at least a thousandth of its radius [mm^3]; -1 for a leaf. Of two nodes the
+  /// larger one is split first.
   float size = -1;
-  std::uint32_t child = 0;       ///< The first child, the second comes right behind it; for a leaf its face.
+  std::uint32_t child = 0;       ///< The first child, followed by the second; for a leaf its face.
   std::uint32_t parent = kNone;  ///< kNone for the root.
 
+  /// True for a leaf.
   DISMANTLE_HOST_DEVICE bool leaf() const { return size < 0; }
 };
 
-/// The directions of a node's outward normals: every unit w with w.axis >= ahead has a cosine of at least kMinAhead
-/// with each of them.
+/// A bound on the directions of a node's outward normals: every unit vector w with dot(w, axis) >= ahead has a cosine
+/// of at least kMinAhead with each of them.
 struct NormalCone {
-  static constexpr double kMinAhead = 0.3;
-  /// What `ahead` is where no direction has.
-  static constexpr float kNever = 2;
+  static constexpr double kMinAhead = 0.3;  ///< Smallest cosine with a normal.
+  static constexpr float kNever = 2;        ///< Value of `ahead` if no direction has that cosine with all normals.
 
-  Vec3f axis;
-  float ahead = kNever;
+  Vec3f axis;            ///< Unit; zero if the normals cancel out.
+  float ahead = kNever;  ///< Smallest cosine between w and `axis`.
 };
 
-/// The corners of a face about the tree's origin, rounded [mm].
+/// A triangle in float32.
 struct TriangleF {
-  Vec3f corner[3];
+  Vec3f corner[3];  ///< About the tree's origin, rounded [mm].
 };
 
 /// A static tree of oriented boxes over one component's triangles, one triangle a leaf (Gottschalk, Lin, Manocha 1996).
-/// Node 0 is the root; siblings are neighbours (2k - 1, 2k), k being the place between theirs in an order of the faces
-/// in which those of every node are together. Every node's box contains its triangles as they are in double, about
-/// `origin`: certain, despite float32.
+/// Node 0 is the root. Siblings are nodes 2k - 1 and 2k, k being the position between their faces in an order in which
+/// the faces of every node are together. Every node's box certainly contains its triangles as given in double, relative
+/// to `origin`, despite float32.
 struct ObbTree {
-  Vec3 origin;  ///< [mm, the mesh's frame]
-  std::vector<ObbNode> nodes;
+  Vec3 origin;                       ///< That boxes and triangles are relative to [mm, the mesh's frame].
+  std::vector<ObbNode> nodes;        ///< Shape [2 face_count - 1].
   std::vector<NormalCone> cones;     ///< Of each node.
   std::vector<TriangleF> triangles;  ///< Of each face.
 
+  /// True if there are no faces.
   bool empty() const { return nodes.empty(); }
 };
 
-/// A node and all below it.
+/// A node and all nodes below it.
 struct ObbSubtree {
-  std::uint32_t node = 0;
-  std::uint32_t begin = 0, end = 0;  ///< The places of its faces in the tree's order.
+  std::uint32_t node = 0;   ///< Its root.
+  std::uint32_t begin = 0;  ///< Position of its first face in the tree's order.
+  std::uint32_t end = 0;    ///< One past the position of its last face.
 
+  /// The whole tree.
   static ObbSubtree whole(const ObbTree& tree) { return {0, 0, static_cast<std::uint32_t>(tree.triangles.size())}; }
+  /// True if a node of the tree is in the subtree.
   bool holds(std::uint32_t other) const {
-    const std::uint32_t place = (other + 1) / 2;
-    return other == node || (begin < place && place < end);
+    const std::uint32_t split = (other + 1) / 2;
+    return other == node || (begin < split && split < end);
   }
-  /// The one below the first child (k = 0) or the second (k = 1). @pre the node is no leaf
+  /// The subtree of the first child (k = 0) or the second (k = 1). @pre the node is no leaf
   ObbSubtree half(const ObbTree& tree, std::uint32_t k) const {
-    const std::uint32_t child = tree.nodes[node].child, place = (child + 1) / 2;
-    return k == 0 ? ObbSubtree{child, begin, place} : ObbSubtree{child + 1, place, end};
+    const std::uint32_t child = tree.nodes[node].child, split = (child + 1) / 2;
+    return k == 0 ? ObbSubtree{child, begin, split} : ObbSubtree{child + 1, split, end};
   }
 };
 
-/// Builds the tree of a mesh. The same tree for every executor.
-/// @param parts of each face, or empty: faces of different parts are parted first, whatever room that takes
+/// Builds the tree of a mesh. Every executor builds the same one.
+/// @param parts part number of each face, or empty: faces of different parts are separated first, whatever the volume
 ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor,
                        Span<const std::uint8_t> parts = {});
 
-/// What is wrong with a tree over these triangles, in words for a test; empty where nothing is.
+/// Checks the structure of a tree and that its boxes contain its triangles; for tests.
+/// @return the fault in a few words; empty if there is none
 const char* obb_tree_fault(const ObbTree& tree, Span<const Vec3> vertices, Span<const Face> faces);
 
 }  // namespace dismantle

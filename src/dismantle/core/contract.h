@@ -7,18 +7,18 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// Contracts tell *our* bugs (a caller broke a precondition, a function its promise); what the user's input gets wrong
-/// is a Result. They are checked where DISMANTLE_CONTRACTS is set (dev and sanitizer builds), on the host and on the
-/// device.
-///   DISMANTLE_EXPECT(condition)  on entry: the caller's promise
-///   DISMANTLE_ENSURE(condition)  on exit: our promise
+/// Contracts report our own bugs: a caller that broke a precondition, a function that broke its promise. Errors in the
+/// user's input are a Result. Contracts are checked if DISMANTLE_CONTRACTS is defined (dev and sanitizer builds), on
+/// the host and on the device; a broken one ends the program.
 #if defined(DISMANTLE_CONTRACTS)
 #if defined(__CUDA_ARCH__)
 #define DISMANTLE_CONTRACT_FAILED(kind, text) assert(false)
 #else
 #define DISMANTLE_CONTRACT_FAILED(kind, text) ::dismantle::contract_failed(kind, text, __FILE__, __LINE__)
 #endif
+/// Checks a precondition on entry: the caller's promise.
 #define DISMANTLE_EXPECT(condition) ((condition) ? (void)0 : DISMANTLE_CONTRACT_FAILED("expected", #condition))
+/// Checks a postcondition on exit: the function's promise.
 #define DISMANTLE_ENSURE(condition) ((condition) ? (void)0 : DISMANTLE_CONTRACT_FAILED("ensured", #condition))
 #else
 #define DISMANTLE_EXPECT(condition) ((void)0)
@@ -27,7 +27,7 @@
 
 namespace dismantle {
 
-/// Prints the broken contract with its place and aborts.
+/// Prints the broken contract with its file and line and aborts.
 [[noreturn]] inline void contract_failed(const char* kind, const char* text, const char* file, int line) {
   std::fprintf(stderr, "%s:%d: contract broken: %s %s\n", file, line, kind, text);
   std::abort();

@@ -7,14 +7,16 @@
 
 namespace dismantle {
 
-/// A typed index: an Id of one kind cannot be passed where another kind is wanted. Invalid by default.
+/// A typed index: an Id of one kind does not convert to another kind. Invalid by default.
 template <class Tag>
 struct Id {
-  static constexpr std::uint32_t kInvalid = 0xffffffffu;
-  std::uint32_t value = kInvalid;
+  static constexpr std::uint32_t kInvalid = 0xffffffffu;  ///< The value of an invalid Id.
+  std::uint32_t value = kInvalid;                         ///< The index.
 
   constexpr Id() = default;
+  /// The Id of an index.
   DISMANTLE_HOST_DEVICE explicit constexpr Id(std::uint32_t index) : value(index) {}
+  /// False by default.
   DISMANTLE_HOST_DEVICE constexpr bool valid() const { return value != kInvalid; }
   friend constexpr bool operator==(Id, Id) = default;
   friend constexpr auto operator<=>(Id, Id) = default;

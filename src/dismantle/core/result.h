@@ -9,29 +9,33 @@
 
 namespace dismantle {
 
-/// Where the fault of an Error lies; the command line turns it into its exit code.
+/// The class of an Error, which gives the command line's exit code.
 enum class ErrorKind {
-  Usage,       ///< What was asked for makes no sense (exit code 2).
-  Unreadable,  ///< The input cannot be read as what it claims to be (exit code 3).
-  Failed,      ///< It went wrong on the way: disk full, out of memory, cancelled (exit code 4).
+  Usage,       ///< The request makes no sense (exit code 2).
+  Unreadable,  ///< The input is not what it claims to be (exit code 3).
+  Failed,      ///< The work failed or was cancelled: disk full, out of memory (exit code 4).
 };
 
-/// What went wrong, in one sentence for the user: "<problem> (<why>); <what to do>".
+/// An error for the user.
 struct Error {
-  ErrorKind kind = ErrorKind::Failed;
-  std::string message;
+  ErrorKind kind = ErrorKind::Failed;  ///< Gives the exit code.
+  std::string message;                 ///< One sentence: "<problem> (<why>); <what to do>".
 };
 
-/// A value, or the Error that stands in its place. `if (!result) return result.error();`
+/// A value or an Error. `if (!result) return result.error();`
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::move(value)) {}      // NOLINT: a value is a result
+  /// A success.
+  Result(T value) : state_(std::move(value)) {}  // NOLINT: a value is a result
+  /// A failure.
   Result(Error error) : state_(std::move(error)) {}  // NOLINT: an error is a result
 
+  /// True if there is a value.
   bool ok() const { return state_.index() == 0; }
+  /// As ok().
   explicit operator bool() const { return ok(); }
-  /// @pre ok()
+  ///@{ The value. @pre ok()
   T& value() & {
     DISMANTLE_EXPECT(ok());
     return std::get<0>(state_);
@@ -48,7 +52,8 @@ class [[nodiscard]] Result {
   const T& operator*() const { return value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
-  /// @pre !ok()
+  ///@}
+  /// The error. @pre !ok()
   const Error& error() const {
     DISMANTLE_EXPECT(!ok());
     return std::get<1>(state_);
@@ -58,7 +63,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-/// The value of a Result that carries none: done, or the Error.
+/// The value of a Result that carries none, as in Result<Done>.
 struct Done {};
 
 }  // namespace dismantle

@@ -10,29 +10,31 @@
 
 namespace dismantle {
 
-/// What a kernel appends to: writes past the capacity are counted but not stored, so that nothing is lost unnoticed.
-/// The position is taken by one atomic addition (the paper's global lock, section 4.3). The same on CPU threads and
-/// CUDA.
+/// A view of a buffer that kernels append to, on CPU threads and CUDA. Values past the capacity are counted but not
+/// stored, so that no loss goes unnoticed. Positions are taken by one atomic addition (the global lock of Du et al.
+/// 2015, section 4.3).
 template <class T>
 class AppendView {
  public:
   AppendView() = default;
-  /// @param needed counts what is appended, kept or not
+  /// @param needed counts the values that are appended, stored or not
   DISMANTLE_HOST_DEVICE AppendView(Span<T> storage, std::uint64_t* needed) : storage_(storage), needed_(needed) {}
 
+  /// Appends one value.
   DISMANTLE_HOST_DEVICE void append(const T& value) const { put(take(1), value); }
 
-  /// Appends all the values with one addition.
+  /// Appends values with one addition.
   void append(Span<const T> values) const {
     if (values.empty()) return;
-    const std::size_t place = take(values.size());
-    for (std::size_t i = 0; i < values.size() && place + i < storage_.size(); ++i) storage_[place + i] = values[i];
+    const std::size_t first = take(values.size());
+    for (std::size_t i = 0; i < values.size() && first + i < storage_.size(); ++i) storage_[first + i] = values[i];
   }
 
-  /// Takes places for so many values with one addition, and gives the first; put() fills them.
+  /// Reserves positions for so many values with one addition; put() fills them. @return the first
   DISMANTLE_HOST_DEVICE std::size_t take(std::size_t count) const { return atomic_add(needed_, count); }
-  DISMANTLE_HOST_DEVICE void put(std::size_t place, const T& value) const {
-    if (place < storage_.size()) storage_[place] = value;
+  /// Stores a value at a reserved position, if that is within the capacity.
+  DISMANTLE_HOST_DEVICE void put(std::size_t position, const T& value) const {
+    if (position < storage_.size()) storage_[position] = value;
   }
 
  private:
@@ -40,20 +42,23 @@ class AppendView {
   std::uint64_t* needed_ = nullptr;
 };
 
-/// Collects up to `kCount` values of one thread before it appends them with one addition: on CPU threads the counter's
-/// cache line would otherwise travel with every value.
+/// Collects up to `kCount` values of one thread and appends them with one addition, so that CPU threads do not contend
+/// for the counter's cache line with every value.
 template <class T, std::size_t kCount = 64>
 class StagedAppend {
  public:
+  /// Appends to `target`, at the latest when destroyed.
   explicit StagedAppend(AppendView<T> target) : target_(target) {}
   StagedAppend(const StagedAppend&) = delete;
   StagedAppend& operator=(const StagedAppend&) = delete;
   ~StagedAppend() { flush(); }
 
+  /// Appends one value.
   void append(const T& value) {
     if (count_ == kCount) flush();
     staged_[count_++] = value;
   }
+  /// Passes the collected values on.
   void flush() {
     target_.append(Span<const T>(staged_, count_));
     count_ = 0;
@@ -65,26 +70,28 @@ class StagedAppend {
   T staged_[kCount];
 };
 
-/// Owns the storage of an AppendView. After the kernel: if overflowed(), call grow() and run the same kernel again from
-/// the same inputs ("grow and replay"): no value is ever lost.
+/// Owns the storage of an AppendView. If a kernel overflowed() it, call grow() and run the same kernel again on the
+/// same inputs ("grow and replay"), so that no value is lost.
 template <class T>
 class AppendBuffer {
  public:
+  /// Room for `capacity` values, at least one.
   explicit AppendBuffer(std::size_t capacity = 1024) : storage_(capacity > 0 ? capacity : 1) {}
 
-  /// Empties the buffer and gives the view for a kernel to append to.
+  /// Empties the buffer. @return the view for a kernel to append to
   AppendView<T> start() {
     needed_ = 0;
     return AppendView<T>(Span<T>(storage_), &needed_);
   }
-  /// True where values did not fit: they were counted, but not kept.
+  /// True if values did not fit: they were counted, but not stored.
   bool overflowed() const { return needed() > storage_.size(); }
-  /// How many values were appended, kept or not.
+  /// The number of values that were appended, stored or not.
   std::size_t needed() const { return needed_; }
+  /// The number of values that fit.
   std::size_t capacity() const { return storage_.size(); }
-  /// Makes room for what was needed, and half as much again.
+  /// Makes room for the values needed and half as many again.
   void grow() { storage_.resize(needed() + needed() / 2); }
-  /// The values appended, in no particular order. @pre !overflowed()
+  ///@{ The values appended, in no particular order. @pre !overflowed()
   Span<T> values() {
     DISMANTLE_EXPECT(!overflowed());
     return Span<T>(storage_).subspan(0, needed());
@@ -93,14 +100,15 @@ class AppendBuffer {
     DISMANTLE_EXPECT(!overflowed());
     return Span<const T>(storage_).subspan(0, needed());
   }
+  ///@}
 
  private:
   std::vector<T> storage_;
   std::uint64_t needed_ = 0;
 };
 
-/// Runs `kernel(view)` and, as long as it appended more than there was room for, grows the buffer and runs it again.
-/// @return how many runs it took
+/// Calls run(view), and as long as it appended more values than fit, grows the buffer and calls it again.
+/// @return the number of calls
 template <class T, class Run>
 int append_with_replay(AppendBuffer<T>& buffer, const Run& run) {
   int runs = 1;

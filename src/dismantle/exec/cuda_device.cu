@@ -11,8 +11,8 @@ Result<std::string> cuda_device_name() {
   if (counted != cudaSuccess) return Error{ErrorKind::Failed, cudaGetErrorString(counted)};
   if (count == 0) return Error{ErrorKind::Failed, "there is no CUDA device"};
   cudaDeviceProp properties{};
-  const cudaError_t asked = cudaGetDeviceProperties(&properties, 0);
-  if (asked != cudaSuccess) return Error{ErrorKind::Failed, cudaGetErrorString(asked)};
+  const cudaError_t status = cudaGetDeviceProperties(&properties, 0);
+  if (status != cudaSuccess) return Error{ErrorKind::Failed, cudaGetErrorString(status)};
   return std::string(properties.name);
 }
 

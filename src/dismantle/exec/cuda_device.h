@@ -8,14 +8,14 @@
 
 namespace dismantle {
 
-/// A CUDA call that failed while kernels were at work: the device was lost or its memory is used up.
+/// The exception for a CUDA call that failed while kernels ran: the device was lost or is out of memory.
 class CudaError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The name of the CUDA device that is used, the first one. Errors: Failed where this build has no CUDA, or where there
-/// is no device or driver; the message has the reason only, for a sentence of the caller.
+/// The name of the CUDA device that is used, the first one. Errors: Failed if this build has no CUDA, or there is no
+/// device or driver; the message is the reason only, for the caller's sentence.
 Result<std::string> cuda_device_name();
 
 }  // namespace dismantle

@@ -14,20 +14,20 @@
 
 namespace dismantle {
 
-/// Throws a CudaError where a call failed.
-inline void check_cuda(cudaError_t error, const char* what) {
-  if (error != cudaSuccess) throw CudaError(std::string(what) + " failed (" + cudaGetErrorString(error) + ")");
+/// Throws a CudaError if a call failed.
+inline void check_cuda(cudaError_t error, const char* call) {
+  if (error != cudaSuccess) throw CudaError(std::string(call) + " failed (" + cudaGetErrorString(error) + ")");
 }
 
-/// One thread an item.
+/// Runs a body with one thread per item.
 template <class Body>
 __global__ void run_items(std::size_t count, const Body body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i < count) body(i);
 }
 
-/// A CUDA device's stream, with the interface of HostQueue: what that says holds here. Copies and launches return
-/// before they are done. Throws CudaError where a call fails.
+/// A stream of a CUDA device, with the interface that HostQueue documents. Copies and launches return before they are
+/// done. Throws CudaError if a call fails.
 class CudaQueue {
  public:
   static constexpr int kMarkCount = 8;
@@ -71,7 +71,7 @@ class CudaQueue {
     check_cuda(cudaGetLastError(), "a kernel's launch");
   }
 
-  /// For what launch() cannot do: blocks that share memory, and CUB.
+  /// The stream itself, for blocks that share memory and for CUB.
   cudaStream_t stream() const { return state_->stream; }
 
   std::size_t sort_scratch_bytes(std::size_t count) const {

@@ -10,25 +10,27 @@
 
 namespace dismantle {
 
-/// How an Executor runs its items. All give the same results: only wall time differs.
+/// The way in which an Executor runs its items. Results are the same; only wall time differs.
 enum class ExecutorKind {
   Serial,    ///< One after another, on the calling thread.
   Threads,   ///< On oneTBB's worker threads.
-  Shuffled,  ///< One after another in a scrambled order: tests use it to show that order does not matter.
+  Shuffled,  ///< One after another in a scrambled order, for tests that the order does not matter.
 };
 
 class ThreadBackend;
 
-/// Runs kernels: functors of views, called once an item with the item's index. Cheap to copy; copies share their
-/// threads.
+/// Runs kernels: functors of views that are called once per item with the item's index. Cheap to copy; copies share
+/// their threads.
 class Executor {
  public:
   /// Serial.
   Executor();
-  /// @param thread_count for Threads: how many; 0 means all that the machine has. Ignored otherwise.
+  /// @param thread_count for Threads: number of threads; 0 for as many as the machine runs at once. Ignored otherwise.
   explicit Executor(ExecutorKind kind, int thread_count = 0);
 
+  /// As constructed.
   ExecutorKind kind() const { return kind_; }
+  /// The number of threads that items run on; 1 unless the kind is Threads.
   int thread_count() const { return thread_count_; }
 
   /// Calls kernel(i) for every i in [0, count), in any order and possibly at the same time.
@@ -48,7 +50,7 @@ class Executor {
   }
 
   /// As for_each, but calls kernel(begin, end) for ranges of at most `items_per_range` items that make up [0, count):
-  /// for kernels that stage what they append, and for items whose worth is known.
+  /// for kernels that stage their appends, and for items of known cost.
   template <class Kernel>
   void for_each_range(std::size_t count, std::size_t items_per_range, const Kernel& kernel) const {
     const std::size_t ranges = (count + items_per_range - 1) / items_per_range;

@@ -10,10 +10,10 @@ namespace {
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigitValues = std::size_t{1} << kDigitBits;
 constexpr int kDigitCount = (64 + kDigitBits - 1) / kDigitBits;
-constexpr std::size_t kFewKeys = 1024;  // below, comparing is as fast
+constexpr std::size_t kFewKeys = 1024;  // below, std::sort is as fast
 
-std::size_t digit(std::uint64_t key, int place) {
-  return static_cast<std::size_t>(key >> (place * kDigitBits)) & (kDigitValues - 1);
+std::size_t digit(std::uint64_t key, int index) {
+  return static_cast<std::size_t>(key >> (index * kDigitBits)) & (kDigitValues - 1);
 }
 
 }  // namespace
@@ -29,17 +29,17 @@ void radix_sort(Span<std::uint64_t> keys, std::vector<std::uint64_t>& scratch) {
 
   std::uint64_t* from = keys.data();
   std::uint64_t* to = scratch.data();
-  for (int place = 0; place < kDigitCount; ++place) {
-    if (digit(varying, place) == 0) continue;
+  for (int index = 0; index < kDigitCount; ++index) {
+    if (digit(varying, index) == 0) continue;
     std::size_t position[kDigitValues] = {};
-    for (std::size_t i = 0; i < keys.size(); ++i) ++position[digit(from[i], place)];
+    for (std::size_t i = 0; i < keys.size(); ++i) ++position[digit(from[i], index)];
     std::size_t begin = 0;
     for (std::size_t& p : position) {
       const std::size_t count = p;
       p = begin;
       begin += count;
     }
-    for (std::size_t i = 0; i < keys.size(); ++i) to[position[digit(from[i], place)]++] = from[i];
+    for (std::size_t i = 0; i < keys.size(); ++i) to[position[digit(from[i], index)]++] = from[i];
     std::swap(from, to);
   }
   if (from != keys.data()) std::copy(from, from + keys.size(), keys.data());

@@ -6,10 +6,10 @@
 #include <atomic>
 #include <cstdint>
 
-/// Atomic operations on plain words that kernel bodies share: the same text for CPU threads and CUDA.
+/// Atomic operations on plain words for kernels, on CPU threads and CUDA.
 namespace dismantle {
 
-/// Adds to a counter; what else memory holds is not ordered by it. @return the counter before
+/// Adds to a counter without ordering other memory accesses. @return the value before
 DISMANTLE_HOST_DEVICE inline std::uint64_t atomic_add(std::uint64_t* counter, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(reinterpret_cast<unsigned long long*>(counter), static_cast<unsigned long long>(value));
@@ -18,7 +18,7 @@ DISMANTLE_HOST_DEVICE inline std::uint64_t atomic_add(std::uint64_t* counter, st
 #endif
 }
 
-/// Lowers a word to `value` where that is less.
+/// Sets a word to the smaller of itself and `value`, without ordering other memory accesses.
 DISMANTLE_HOST_DEVICE inline void atomic_lower(std::uint64_t* word, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<unsigned long long*>(word), static_cast<unsigned long long>(value));
@@ -30,16 +30,16 @@ DISMANTLE_HOST_DEVICE inline void atomic_lower(std::uint64_t* word, std::uint64_
 #endif
 }
 
-/// Counts who comes to a place. Whoever comes later sees all that those before had written when they came.
-/// @return how many were there before
-DISMANTLE_HOST_DEVICE inline std::uint32_t arrive(std::uint32_t* place) {
+/// Adds 1 to a counter of arrivals. A thread sees everything that those before it had written when they arrived.
+/// @return the number of arrivals before
+DISMANTLE_HOST_DEVICE inline std::uint32_t arrive(std::uint32_t* counter) {
 #if defined(__CUDA_ARCH__)
   __threadfence();
-  const std::uint32_t before = atomicAdd(place, 1u);
+  const std::uint32_t before = atomicAdd(counter, 1u);
   __threadfence();
   return before;
 #else
-  return std::atomic_ref<std::uint32_t>(*place).fetch_add(1, std::memory_order_acq_rel);
+  return std::atomic_ref<std::uint32_t>(*counter).fetch_add(1, std::memory_order_acq_rel);
 #endif
 }
 

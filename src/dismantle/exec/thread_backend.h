@@ -10,19 +10,19 @@
 
 namespace dismantle {
 
-/// The threads behind an Executor of kind Threads. Two implementations, one of them linked: oneTBB, and plain
-/// std::thread for ThreadSanitizer builds, which report races inside Debian's oneTBB that are not there.
+/// The threads of an Executor of kind Threads. One of two implementations is linked: oneTBB, or plain std::thread for
+/// ThreadSanitizer builds, which report false races inside Debian's oneTBB.
 class ThreadBackend {
  public:
   virtual ~ThreadBackend() = default;
-  /// Calls run(begin, end) for ranges of about `chunk` items that make up [0, count).
+  /// Calls run(begin, end) for ranges of about `chunk` items that make up [0, count), possibly at the same time.
   virtual void run_chunks(std::size_t count, std::size_t chunk,
                           const std::function<void(std::size_t, std::size_t)>& run) const = 0;
   /// Sorts keys ascending.
   virtual void sort(Span<std::uint64_t> keys) const = 0;
 };
 
-/// @pre thread_count > 0
+/// Makes the linked implementation. @pre thread_count > 0
 std::shared_ptr<const ThreadBackend> make_thread_backend(int thread_count);
 
 }  // namespace dismantle

@@ -10,7 +10,7 @@ namespace dismantle {
 
 namespace {
 
-/// Starts its threads anew for every run: slow, but plain to ThreadSanitizer.
+/// Starts new threads for every run: slow, but transparent to ThreadSanitizer.
 class StdThreadBackend final : public ThreadBackend {
  public:
   explicit StdThreadBackend(int thread_count) : thread_count_(thread_count) {}

@@ -7,7 +7,7 @@
 
 namespace dismantle {
 
-/// The eight corners of a box: bits 0, 1 and 2 of an index take the upper x, y and z.
+/// The eight corners of a box; bits 0, 1 and 2 of the index are set for the upper x, y and z.
 inline std::vector<Vec3> corners_of(const Aabb& box) {
   std::vector<Vec3> corners(8);
   for (unsigned i = 0; i < 8; ++i)

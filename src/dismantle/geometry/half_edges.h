@@ -12,10 +12,11 @@ namespace dismantle {
 
 /// One side of a face, as one of the half edges that make up an edge of the mesh.
 struct HalfEdge {
-  std::uint32_t low, high;  ///< The vertices of the edge, low <= high.
-  std::uint32_t face;       ///< Index of the face.
-  std::uint8_t side;        ///< From the face's corner `side` to the next one.
-  bool forward;             ///< Runs from low to high.
+  std::uint32_t low;   ///< The vertex of the edge with the smaller index.
+  std::uint32_t high;  ///< The other vertex of the edge.
+  std::uint32_t face;  ///< Index of the face.
+  std::uint8_t side;   ///< From the face's corner `side` to the next one.
+  bool forward;        ///< Runs from low to high.
 };
 
 /// The half edges of all faces, sorted by low, high and face: those of one edge are together. Shape [3 face_count].

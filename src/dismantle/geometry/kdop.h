@@ -8,65 +8,74 @@
 
 namespace dismantle {
 
-/// Infinity as device code can name it.
+/// Infinity, as a constant that device code can use.
 inline constexpr float kKdopInfinity = std::numeric_limits<float>::infinity();
 
 /// A discrete oriented polytope over 8 fixed axes (16 half-spaces): the bounding volume of the collision streams (Du et
 /// al. 2015, section 5; Klosowski et al. 1998). One cache line. Axes, not normalised: x, y, z, x+y, x+z, y+z, x-y, x-z.
-/// In float32, rounded outward only: it contains every point that it was extended by, exactly. Empty by default.
+/// In float32, rounded outward: it certainly contains the points that it bounds.
 struct alignas(64) Kdop16 {
-  static constexpr int kAxisCount = 8;
-  float lower[kAxisCount];
-  float upper[kAxisCount];
+  static constexpr int kAxisCount = 8;  ///< Number of axes.
+  float lower[kAxisCount];              ///< Smallest projections [mm].
+  float upper[kAxisCount];              ///< Largest projections [mm].
 
+  /// Empty.
   DISMANTLE_HOST_DEVICE Kdop16() {
     for (int k = 0; k < kAxisCount; ++k) {
       lower[k] = kKdopInfinity;
       upper[k] = -kKdopInfinity;
     }
   }
+  /// True if it contains no point.
   DISMANTLE_HOST_DEVICE bool empty() const { return lower[0] > upper[0]; }
   friend bool operator==(const Kdop16&, const Kdop16&) = default;
 };
 
-/// Coordinates up to this size [mm] can be bounded in float32.
+/// Coordinates of up to this size can be bounded in float32 [mm].
 inline constexpr double kKdopLargestCoordinate = 1e36;
 
-/// How far outward a bound is moved, relative to its size: at least one unit in the last place of float32, more than
-/// the half unit of rounding a projection to float and the error of its sum in double together.
+/// Outward shift of a bound, relative to its size: at least one unit in the last place of float32, which covers the
+/// half unit of rounding a projection to float and the error of its sum in double together.
 inline constexpr float kKdopRelativeRounding = 1.1920929e-7f;
-/// The same for bounds near zero, where float32 loses relative accuracy.
+/// Outward shift of a bound near zero, where float32 loses relative accuracy [mm].
 inline constexpr float kKdopAbsoluteRounding = 1.1754944e-38f;
 
-/// Two doubles that are worked on at once, in 16 bytes, aligned to 16: a vector where the compiler has them (2.5 times
-/// as fast), a plain pair in device code and the host code beside it; the same layout and the same results.
+/// Two doubles in 16 aligned bytes: a vector of the compiler if it has them (2.5 times as fast), a plain struct in
+/// device code and the host code beside it. Layout and results are the same.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 using DoublePair = double __attribute__((vector_size(16)));
+///@{ a < b ? a : b and a > b ? a : b, each double by itself.
 inline DoublePair min(DoublePair a, DoublePair b) {
   return a < b ? a : b;
 }
 inline DoublePair max(DoublePair a, DoublePair b) {
   return a > b ? a : b;
 }
+///@}
 #else
 struct alignas(16) DoublePair {
-  double value[2];
+  double value[2];  ///< The doubles.
+  /// One of the doubles. @param i 0 or 1
   DISMANTLE_HOST_DEVICE double operator[](int i) const { return value[i]; }
 };
+///@{ a < b ? a : b and a > b ? a : b, each double by itself.
 DISMANTLE_HOST_DEVICE inline DoublePair min(DoublePair a, DoublePair b) {
   return {a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
 }
 DISMANTLE_HOST_DEVICE inline DoublePair max(DoublePair a, DoublePair b) {
   return {a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]};
 }
+///@}
 #endif
 static_assert(sizeof(DoublePair) == 16 && alignof(DoublePair) == 16);
 
-/// The extents of points along the axes of Kdop16, in double: extend by points, then take rounded_outward.
+/// The extents of points along the axes of Kdop16, in double. Extend it by points, then take rounded_outward().
 struct KdopOfPoints {
-  static constexpr int kPairCount = Kdop16::kAxisCount / 2;
-  DoublePair lower[kPairCount], upper[kPairCount];
+  static constexpr int kPairCount = Kdop16::kAxisCount / 2;  ///< Pairs of axes.
+  DoublePair lower[kPairCount];                              ///< Smallest projections [mm].
+  DoublePair upper[kPairCount];                              ///< Largest projections [mm].
 
+  /// No points.
   DISMANTLE_HOST_DEVICE KdopOfPoints() {
     for (int k = 0; k < kPairCount; ++k) {
       lower[k] = DoublePair{kKdopInfinity, kKdopInfinity};
@@ -74,7 +83,7 @@ struct KdopOfPoints {
     }
   }
 
-  /// @pre finite coordinates within kKdopLargestCoordinate
+  /// Adds a point. @pre finite coordinates within kKdopLargestCoordinate
   DISMANTLE_HOST_DEVICE void extend(Vec3 p) {
     const DoublePair along[kPairCount] = {DoublePair{p.x, p.y}, DoublePair{p.z, p.x + p.y},
                                           DoublePair{p.x + p.z, p.y + p.z}, DoublePair{p.x - p.y, p.x - p.z}};
@@ -100,7 +109,7 @@ struct KdopOfPoints {
   }
 };
 
-/// The k-DOP around both: exact, so that a parent contains its children bit for bit.
+/// The k-DOP of two, without rounding: a parent contains its children bit for bit.
 DISMANTLE_HOST_DEVICE inline Kdop16 united(const Kdop16& a, const Kdop16& b) {
   Kdop16 result;
   for (int k = 0; k < Kdop16::kAxisCount; ++k) {
@@ -110,14 +119,14 @@ DISMANTLE_HOST_DEVICE inline Kdop16 united(const Kdop16& a, const Kdop16& b) {
   return result;
 }
 
-/// False only where one of the axes separates the closed k-DOPs: what contains two touching things overlaps.
+/// False only if one of the axes separates the closed k-DOPs; those of two touching objects overlap.
 DISMANTLE_HOST_DEVICE inline bool overlaps(const Kdop16& a, const Kdop16& b) {
   int apart = 0;
   for (int k = 0; k < Kdop16::kAxisCount; ++k) apart |= (a.lower[k] > b.upper[k]) | (b.lower[k] > a.upper[k]);
   return apart == 0;
 }
 
-/// True where `outer` contains `inner`, bound by bound.
+/// True if `outer` contains `inner`, bound by bound.
 DISMANTLE_HOST_DEVICE inline bool contains(const Kdop16& outer, const Kdop16& inner) {
   int outside = 0;
   for (int k = 0; k < Kdop16::kAxisCount; ++k)

@@ -5,18 +5,21 @@
 
 namespace dismantle {
 
-/// Three corners [mm], counter-clockwise seen from outside.
+/// A triangle, counter-clockwise seen from outside.
 struct Triangle {
-  Vec3 corner[3];
+  Vec3 corner[3];  ///< [mm]
 
+  ///@{ A corner. @param i 0 to 2
   DISMANTLE_HOST_DEVICE Vec3& operator[](int i) { return corner[i]; }
   DISMANTLE_HOST_DEVICE const Vec3& operator[](int i) const { return corner[i]; }
+  ///@}
+  /// True if the corners are equal, in the same order.
   DISMANTLE_HOST_DEVICE friend bool operator==(const Triangle& a, const Triangle& b) {
     return a.corner[0] == b.corner[0] && a.corner[1] == b.corner[1] && a.corner[2] == b.corner[2];
   }
 };
 
-/// The normal, of length twice the area, of the triangle's right-handed side.
+/// The outward normal; its length is twice the area [mm^2].
 DISMANTLE_HOST_DEVICE inline Vec3 normal_unscaled(const Triangle& t) {
   return cross(t[1] - t[0], t[2] - t[0]);
 }

@@ -53,8 +53,8 @@ CleanedMesh clean_mesh(const TriangleMesh& mesh) {
   first_with_position.reserve(mesh.vertices.size());
   std::vector<std::uint32_t> representative(mesh.vertices.size());
   for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-    const auto [place, is_new] = first_with_position.try_emplace(mesh.vertices[i], i);
-    representative[i] = place->second;
+    const auto [entry, is_new] = first_with_position.try_emplace(mesh.vertices[i], i);
+    representative[i] = entry->second;
     result.faults.welded_vertices += is_new ? 0 : 1;
   }
 
