@@ -29,7 +29,7 @@ inline Assembly bolted_lid() {
 inline Path bolted_lid_path() {
   Path path;
   path.components = {"base", "lid", "bolt", "bolt#2"};
-  const auto up = [](double way) { return std::vector<Frame>{{0, {}}, {1, {{0, 0, way}, {}}}}; };
+  const auto up = [](double height) { return std::vector<Frame>{{0, {}}, {1, {{0, 0, height}, {}}}}; };
   path.moves = {
       {"remove bolt", {"bolt"}, up(60)}, {"remove bolt#2", {"bolt#2"}, up(75)}, {"remove lid", {"lid"}, up(30)}};
   return path;

@@ -30,28 +30,30 @@ TEST(MotionText, NamesTheUpwardDirection) {
 }
 
 TEST(MotionText, CountsTurnsAsTheFitterSeesThem) {
-  EXPECT_EQ(text_of(screwed_out(18)),
-            "Turn 4.5 times anticlockwise (seen from where it comes out, 4.5 mm along the axis), then straight up.");
-  EXPECT_EQ(text_of(screwed_out(18), PathDirection::Reversed),
-            "Straight down, then turn 4.5 times clockwise (seen from where it comes out, 4.5 mm along the axis).");
+  EXPECT_EQ(
+      text_of(screwed_out(18)),
+      "Unscrew 4.5 turns anticlockwise (seen from the side where it comes out), moving out 4.5 mm, then straight up.");
+  EXPECT_EQ(
+      text_of(screwed_out(18), PathDirection::Reversed),
+      "Straight down, then screw in 4.5 turns clockwise (seen from the side where it goes in), moving in 4.5 mm.");
 }
 
 TEST(MotionText, TellsOfLeftHandedThreads) {
   RemovalMove removal = screwed_out(8);
   for (Pose& pose : removal.poses) pose.rotation = conjugate(pose.rotation);
-  EXPECT_EQ(text_of(removal).substr(0, 20), "Turn 2 times clockwi");
+  EXPECT_EQ(text_of(removal).substr(0, 25), "Unscrew 2 turns clockwise");
 }
 
 TEST(MotionText, TellsLegsInTheOrderInWhichTheyAreGone) {
   const RemovalMove removal{{ComponentId(0)}, {{}, {{4, 0, 0}, {}}, {{4, 0, 30}, {}}}};
-  EXPECT_EQ(text_of(removal), "Straight along +X, 4 mm, then straight up.");
-  EXPECT_EQ(text_of(removal, PathDirection::Reversed), "Straight down, then straight along -X, 4 mm.");
+  EXPECT_EQ(text_of(removal), "Straight along +X by 4 mm, then straight up.");
+  EXPECT_EQ(text_of(removal, PathDirection::Reversed), "Straight down, then straight along -X by 4 mm.");
 }
 
 TEST(MotionText, SummarisesADrag) {
   RemovalMove removal{{ComponentId(0)}, {{}}};
   for (int i = 1; i <= 40; ++i) removal.poses.push_back({{std::sin(i * 1.0), 0.5 * i, 0}, {}});
-  EXPECT_EQ(text_of(removal).substr(0, 15), "Along the arrow");
+  EXPECT_EQ(text_of(removal).substr(0, 16), "Follow the arrow");
 }
 
 TEST(MotionText, TellsNumbersForPeople) {

@@ -17,19 +17,19 @@ TEST(PathClearance, EndsContactWhenASetLeavesAndMeasuresTheRest) {
   Lid lid;
   RemovalFacts facts(lid.assembly, lid.pairs, {});
   const PathClearance up = facts.clearance(lid.steps[0], lid.steps[0].removals[0]);
-  EXPECT_EQ(up.touching, 0);
-  EXPECT_EQ(up.touched, ComponentId(1));
+  EXPECT_EQ(up.contact_length, 0);
+  EXPECT_EQ(up.last_contact, ComponentId(1));
   EXPECT_FALSE(up.nearest.valid()) << "the lid that it leaves does not count";
 
   const RemovalMove along{{ComponentId(2)}, {{}, {{70, 0, 0}, {}}}};
   const PathClearance slid = facts.clearance(lid.steps[0], along);
-  EXPECT_EQ(slid.touching, 70) << "it touches the lid all along";
+  EXPECT_EQ(slid.contact_length, 70) << "it touches the lid all along";
   EXPECT_FALSE(slid.nearest.valid());
 
   const RemovalMove over{{ComponentId(2)}, {{}, {{0, 0, 6}, {}}, {{40, 0, 6}, {}}}};
   const PathClearance passing = facts.clearance(lid.steps[0], over);
   EXPECT_EQ(passing.nearest, ComponentId(3));
-  EXPECT_NEAR(passing.least, 2, 1e-9) << "over the other head, which is 4 mm high";
+  EXPECT_NEAR(passing.min_distance, 2, 1e-9) << "over the other head, which is 4 mm high";
 }
 
 TEST(PathClearance, DoesNotCountWhatWasPutAside) {
@@ -53,7 +53,7 @@ TEST(PathClearance, TellsNothingOfWhatIsFarForTheSizeOfTheSet) {
   EXPECT_FALSE(facts.clearance(up, up.removals[0]).nearest.valid());
 }
 
-TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
+TEST(UnsupportedAfter, IsWhatStoodOnWhatIsTakenAway) {
   // A shelf under a cup: the shelf moves sideways. The cup's neighbour, a wall, does not support it.
   const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-10, -50, -50}, {0, 50, 50})),
                                        scenes::component("shelf", scenes::box({0, -5, -2}, {20, 5, 0})),
@@ -64,24 +64,25 @@ TEST(LeftUnsupported, IsWhatStoodOnWhatIsTakenAway) {
   };
   PairStates pairs{0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
   const WorkStep step{{{{ComponentId(1)}, {{}, {{100, 0, 0}, {}}}}}, std::vector<Pose>(4)};
-  EXPECT_EQ(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)), std::vector<ComponentId>{ComponentId(2)})
+  EXPECT_EQ(RemovalFacts(a, pairs, {}).unsupported_after(step, ComponentId(0)),
+            std::vector<ComponentId>{ComponentId(2)})
       << "the lamp was unsupported before, too";
 
   pairs.pairs.insert(pairs.pairs.begin() + 1, {ComponentId(0), ComponentId(2), PairState::Fit, 0, 0.1, 0.11, 4});
-  EXPECT_TRUE(RemovalFacts(a, pairs, {}).left_unsupported(step, ComponentId(0)).empty()) << "it fits into the wall";
+  EXPECT_TRUE(RemovalFacts(a, pairs, {}).unsupported_after(step, ComponentId(0)).empty()) << "it fits into the wall";
 }
 
-TEST(LeftUnsupported, IsNothingIfTheRestStandsOnTheGround) {
+TEST(UnsupportedAfter, IsNothingIfTheRestStandsOnTheGround) {
   Lid lid;
   RemovalFacts facts(lid.assembly, lid.pairs, {});
-  for (const WorkStep& step : lid.steps) EXPECT_TRUE(facts.left_unsupported(step, ComponentId(0)).empty());
+  for (const WorkStep& step : lid.steps) EXPECT_TRUE(facts.unsupported_after(step, ComponentId(0)).empty());
 }
 
-TEST(StayingComponents, AreThoseThatNoStepMovesTheLargestFirst) {
+TEST(StationaryComponents, AreThoseThatNoStepMovesTheLargestFirst) {
   Lid lid;
-  EXPECT_EQ(staying_components(lid.assembly, lid.steps), std::vector<ComponentId>{ComponentId(0)});
+  EXPECT_EQ(stationary_components(lid.assembly, lid.steps), std::vector<ComponentId>{ComponentId(0)});
   lid.steps.pop_back();
-  EXPECT_EQ(staying_components(lid.assembly, lid.steps), (std::vector<ComponentId>{ComponentId(1), ComponentId(0)}));
+  EXPECT_EQ(stationary_components(lid.assembly, lid.steps), (std::vector<ComponentId>{ComponentId(1), ComponentId(0)}));
 }
 
 }  // namespace

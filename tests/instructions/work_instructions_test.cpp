@@ -35,15 +35,17 @@ TEST(WorkInstructions, CountEqualComponentsNameToolsAndListTheParts) {
   const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), scenes::bolted_lid_path());
   ASSERT_EQ(made.steps.size(), 2u);
   EXPECT_EQ(made.steps[0].title, "Remove 2 \u00d7 bolt");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Way), "Straight up. One after another, each the same way.\n");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "Spanner 7 mm\n");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance).substr(0, 29), "Touches lid at the beginning.");
-  EXPECT_EQ(made.tools, std::vector<std::string>{"Spanner 7 mm"});
-  EXPECT_EQ(made.staying, std::vector<std::string>{"base"});
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Motion),
+            "Straight up. Remove one at a time, all in the same direction.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "7 mm spanner (wrench)\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance).substr(0, 25), "Touches lid at the start.");
+  EXPECT_EQ(made.tools, std::vector<std::string>{"7 mm spanner (wrench)"});
+  EXPECT_EQ(made.stationary, std::vector<std::string>{"base"});
   ASSERT_EQ(made.parts.size(), 3u);
   EXPECT_EQ(made.parts[2].count, 2u);
   EXPECT_EQ(made.parts[2].steps, std::vector<std::size_t>{1});
   EXPECT_EQ(part_text(made, made.steps[0].parts[0]), "2 \u00d7 bolt (item 3)");
+  EXPECT_EQ(summary_text(made).substr(0, 55), "2 steps, 4 components of 3 kinds; 1 base part. Source: ");
 }
 
 TEST(WorkInstructions, AreReversedForAssembly) {
@@ -52,7 +54,7 @@ TEST(WorkInstructions, AreReversedForAssembly) {
   ASSERT_EQ(made.steps.size(), 2u);
   EXPECT_EQ(made.title.substr(0, 9), "Assembly ");
   EXPECT_EQ(made.steps[0].title, "Mount lid");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Way), "Straight down.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Motion), "Straight down.\n");
   EXPECT_EQ(made.steps[1].title, "Mount 2 \u00d7 bolt");
 }
 
@@ -63,9 +65,14 @@ TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
   pairs.pairs[0] = {ComponentId(0), ComponentId(1), PairState::Fit, 0, 0.05, 0.06, 4};
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, path);
   EXPECT_EQ(made.steps[0].title, "Remove lid and 2 \u00d7 bolt together");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "These 3 go as one body: keep them together.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "Remove these 3 parts as a unit.\n");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "lid in base, 0.05 mm: a close fit, a press fit or a thread.\n");
+            "lid and base overlap by 0.05 mm: close fit, press fit or thread.\n");
+
+  pairs.pairs[0].state = PairState::Embedded;
+  EXPECT_EQ(said(written(scenes::bolted_lid(), pairs, path).steps[0], InstructionNote::Kind::Overlap),
+            "The CAD models of lid and base interfere by 0.05 mm; collision between them is not checked while they "
+            "overlap.\n");
 }
 
 TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
@@ -77,7 +84,7 @@ TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path(), options);
   EXPECT_EQ(made.title, "Disassembly of vice");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "2 \u00d7 bolt in lid, 0.05 mm: a close fit, a press fit or a thread.\n");
+            "2 \u00d7 bolt and lid overlap by 0.05 mm: close fit, press fit or thread.\n");
 }
 
 TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {
@@ -94,7 +101,7 @@ TEST(WorkInstructions, SayWhatMovesWithoutLeaving) {
   path.moves = {{"shift", {"bolt"}, {{0, {}}, {1, {{3, 0, 0}, {}}}}}};
   const WorkInstructions made = written(scenes::bolted_lid(), scenes::bolted_lid_pairs(), path);
   EXPECT_EQ(made.steps[0].title, "Move bolt");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance), "Slides on lid for about the first 3 mm.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Clearance), "Slides along lid for about the first 3 mm.\n");
 }
 
 TEST(WorkInstructions, HaveSomethingToTell) {

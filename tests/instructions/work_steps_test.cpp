@@ -52,13 +52,13 @@ TEST(Surroundings, AreWhatStandsToASetAsAssembled) {
 
 TEST(PlacesAlong, BeginAtHomeEndAtTheEndAndHaveAllEndsOfScrews) {
   const RemovalMove removal{{ComponentId(0)}, {{}, {{3, 0, 0}, {}}, {{3, 4, 0}, {}}}};
-  const std::vector<PathPose> places = poses_along(removal, {}, 5);
-  ASSERT_EQ(places.size(), 11u);
-  EXPECT_EQ(places.front().pose, Pose{});
-  EXPECT_EQ(places[5].pose, removal.poses[1]);
-  EXPECT_EQ(places.back().pose, removal.poses[2]);
-  EXPECT_NEAR(places.back().distance, 7, 1e-12);
-  EXPECT_LT(places[1].distance, 3.0 / 5) << "positions are dense at the beginning";
+  const std::vector<PathPose> poses = poses_along(removal, {}, 5);
+  ASSERT_EQ(poses.size(), 11u);
+  EXPECT_EQ(poses.front().pose, Pose{});
+  EXPECT_EQ(poses[5].pose, removal.poses[1]);
+  EXPECT_EQ(poses.back().pose, removal.poses[2]);
+  EXPECT_NEAR(poses.back().distance, 7, 1e-12);
+  EXPECT_LT(poses[1].distance, 3.0 / 5) << "positions are dense at the beginning";
 }
 
 }  // namespace

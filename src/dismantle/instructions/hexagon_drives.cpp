@@ -11,26 +11,25 @@ namespace dismantle {
 
 namespace {
 
-/// Faces are along the axis whose normal's share along it is below.
+/// A face is parallel to the axis if the cosine between its normal and the axis is below this.
 constexpr double kAlong = 0.02;
-/// Distances are equal that differ by no more of themselves.
+/// Relative difference up to which distances count as equal.
 constexpr double kSameDistance = 2e-3;
-/// Normals belong to a face of the hexagon that differ from its own by no more [rad].
+/// Maximum angle between the normal of a triangle and that of the hexagon's side that it belongs to [rad].
 constexpr double kSameFace = 0.02;
-/// A side of a hexagon reaches this share of its distance aside, and no more than by the second share further.
-constexpr double kSideReach = 0.5773502691896258, kSideSlack = 0.02;
-/// The six faces have at least this share of all surface at their distance, and each this share of a sixth.
+/// Half the width of a hexagon's side as a fraction of its distance from the axis, and relative tolerance of it.
+constexpr double kHalfWidth = 0.5773502691896258, kHalfWidthTolerance = 0.02;
+/// Minimum fraction of the area at one distance that the six sides cover, and of a sixth of it that each covers.
 constexpr double kMinShare = 0.95, kMinSide = 0.6;
 
 const double kSixth = std::acos(-1.0) / 3;
 
-/// A triangle along the axis.
+/// A triangle parallel to the axis.
 struct FlatFace {
-  double distance = 0;  ///< Of its plane from the axis, below 0 where it faces it [mm].
-  double angle = 0;     ///< Of its normal [rad].
-  double area = 0;      ///< [mm^2]
-  double aside =
-      0;  ///< The furthest that it reaches from the foot of the axis' perpendicular on it, across the axis [mm].
+  double distance = 0;    ///< From the axis to its plane; negative if it faces the axis [mm].
+  double angle = 0;       ///< Polar angle of its normal [rad].
+  double area = 0;        ///< [mm^2]
+  double half_width = 0;  ///< Maximum distance of a corner from the foot of the perpendicular, across the axis [mm].
 };
 
 std::vector<FlatFace> faces_along(const TriangleMesh& mesh, const AxisFrame& frame) {
@@ -41,32 +40,32 @@ std::vector<FlatFace> faces_along(const TriangleMesh& mesh, const AxisFrame& fra
     const double area = length(scaled) / 2;
     if (!(area > 0) || std::abs(dot(scaled, frame.direction)) > 2 * area * kAlong) continue;
     const Vec3 normal = normalized(scaled), tangent = normalized(cross(frame.direction, normal));
-    double aside = 0;
-    for (const Vec3& v : triangle.corner) aside = std::max(aside, std::abs(dot(v - frame.point, tangent)));
+    double half_width = 0;
+    for (const Vec3& v : triangle.corner) half_width = std::max(half_width, std::abs(dot(v - frame.point, tangent)));
     faces.push_back(
-        {dot(triangle[0] - frame.point, normal), frame.angle(frame.across(frame.point + normal)), area, aside});
+        {dot(triangle[0] - frame.point, normal), frame.angle(frame.across(frame.point + normal)), area, half_width});
   }
   std::sort(faces.begin(), faces.end(), [](const FlatFace& a, const FlatFace& b) { return a.distance < b.distance; });
   return faces;
 }
 
-/// Whether faces of one distance are the sides of a hexagon.
+/// True if faces at one distance form the sides of a hexagon.
 bool is_hexagon(Span<const FlatFace> faces) {
   const double first = std::max_element(faces.begin(), faces.end(), [](const FlatFace& a, const FlatFace& b) {
                          return a.area < b.area;
                        })->angle;
   std::array<double, 6> sides{};
-  double all = 0, on_sides = 0;
+  double total = 0, on_sides = 0;
   for (const FlatFace& face : faces) {
     const double turns = (face.angle - first) / kSixth, nearest = std::round(turns);
-    all += face.area;
+    total += face.area;
     if (std::abs(turns - nearest) * kSixth > kSameFace) continue;
-    if (face.aside > kSideReach * std::abs(face.distance) * (1 + kSideSlack)) continue;
+    if (face.half_width > kHalfWidth * std::abs(face.distance) * (1 + kHalfWidthTolerance)) continue;
     on_sides += face.area;
     sides[static_cast<std::size_t>(nearest + 12) % 6] += face.area;
   }
-  const double least = *std::min_element(sides.begin(), sides.end());
-  return on_sides > kMinShare * all && least > kMinSide * all / 6;
+  const double smallest = *std::min_element(sides.begin(), sides.end());
+  return on_sides > kMinShare * total && smallest > kMinSide * total / 6;
 }
 
 }  // namespace

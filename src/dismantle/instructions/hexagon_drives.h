@@ -7,18 +7,20 @@
 
 namespace dismantle {
 
-/// A hexagon about an axis that a tool takes hold of.
+/// A hexagonal drive about an axis.
 struct HexagonDrive {
+  /// Which tool fits.
   enum class Kind {
-    Head,    ///< Faces outward: a spanner fits.
-    Socket,  ///< Faces inward: a hexagon key fits.
+    Head,    ///< Faces point outward: a spanner (wrench).
+    Socket,  ///< Faces point inward: a hex key.
   };
-  Kind kind = Kind::Head;
-  double across_flats = 0;  ///< [mm]
+  Kind kind = Kind::Head;   ///< External or internal.
+  double across_flats = 0;  ///< Size of the tool [mm].
 };
 
-/// The hexagons of a mesh about an axis: six plane faces around it at one distance, which all the surface along the
-/// axis at that distance belongs to. Of several at one distance, one. A surface that is cut up otherwise may hide one.
+/// Detects the hexagonal drives of a mesh about an axis: six plane faces parallel to the axis at one distance, which
+/// make up nearly all of the surface that is parallel to the axis at that distance. Reports one drive per distance; may
+/// miss drives whose faces are interrupted.
 std::vector<HexagonDrive> hexagon_drives(const TriangleMesh& mesh, const RevolutionAxis& axis);
 
 }  // namespace dismantle

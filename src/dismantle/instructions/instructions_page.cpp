@@ -31,7 +31,7 @@ td.n, th.n { text-align: right; white-space: nowrap; }
 .step { border-top: 2px solid #1c2430; padding: 10px 0 20px; break-inside: avoid; }
 .step h2 { margin: 0 0 8px; } .step h2 b { display: inline-block; min-width: 2em; }
 .columns { display: grid; grid-template-columns: 3fr 2fr; gap: 16px; }
-.care { border-left: 5px solid #a86500; padding-left: 8px; }
+.caution { border-left: 5px solid #a86500; padding-left: 8px; }
 .overview { width: 55%; margin-top: 10px; }
 footer { margin-top: 24px; color: #5c6675; font-size: 13px; }
 @media (max-width: 700px) { .columns { grid-template-columns: 1fr; } }
@@ -66,7 +66,7 @@ std::string parts_table(const WorkInstructions& instructions) {
     }
     html += "<tr><td class=\"n\">" + std::to_string(i + 1) + "</td><td>" + html_escaped(line.name) +
             "</td><td class=\"n\">" + std::to_string(line.count) + "</td><td class=\"n\">" + size_text(line.size) +
-            "</td><td>" + (steps.empty() ? "stays" : steps) + "</td></tr>\n";
+            "</td><td>" + (steps.empty() ? "base" : steps) + "</td></tr>\n";
   }
   return html + "</tbody></table>\n";
 }
@@ -86,7 +86,7 @@ std::string notes(const Instruction& step) {
     std::vector<std::string> texts;
     for (; i < step.notes.size() && step.notes[i].kind == kind; ++i) texts.push_back(step.notes[i].text);
     const bool warns = kind == InstructionNote::Kind::Warning;
-    html += std::string(warns ? "<div class=\"care\">" : "<div>") + "<h3>" + heading_of(kind) + "</h3>" +
+    html += std::string(warns ? "<div class=\"caution\">" : "<div>") + "<h3>" + heading_of(kind) + "</h3>" +
             (texts.size() == 1 ? "<p>" + html_escaped(texts[0]) + "</p>\n" : list(texts)) + "</div>\n";
   }
   return html;
@@ -100,7 +100,7 @@ std::string step_section(const WorkInstructions& instructions, std::size_t index
                      picture(step.picture, "Step " + number + ": " + step.title) + "</div>\n<div><h3>Parts</h3><ul>";
   for (const CountedPart& part : step.parts) html += "<li>" + html_escaped(part_text(instructions, part)) + "</li>";
   html += "</ul>\n" + notes(step);
-  if (step.overview) html += picture(*step.overview, "Where it is", " class=\"overview\"");
+  if (step.overview) html += picture(*step.overview, "Overview", " class=\"overview\"");
   return html + "</div></div></section>\n";
 }
 

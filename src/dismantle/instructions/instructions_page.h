@@ -7,8 +7,8 @@
 
 namespace dismantle {
 
-/// Work instructions as one HTML page (well-formed XML, too) for the screen and for paper, two steps or more a sheet.
-/// It loads nothing from anywhere, has no script, and its own policy forbids both. Same input, same bytes.
+/// Work instructions as a self-contained HTML page for screen and print, which is also well-formed XML. Has no scripts;
+/// its content security policy forbids them and loading anything. Deterministic.
 std::string instructions_page(const WorkInstructions& instructions);
 
 }  // namespace dismantle

@@ -9,14 +9,14 @@ namespace dismantle {
 
 namespace {
 
-// All places and sizes in points.
+// All positions and sizes in points.
 constexpr double kBorder = 40;
 constexpr double kInside = PdfSheet::kWidth - 2 * kBorder;
-constexpr double kBottom = PdfSheet::kHeight - kBorder - 16;  // above the page's number
+constexpr double kBottom = PdfSheet::kHeight - kBorder - 16;  // above the page number
 constexpr double kPictureWidth = 280, kGap = 12, kTextWidth = kInside - kPictureWidth - kGap;
-constexpr double kOverviewShare = 0.4;  // of the text's width
+constexpr double kOverviewShare = 0.4;  // fraction of the text width
 constexpr double kNoteGap = 4;
-constexpr double kTitleWidth = kInside - 50;  // beside it is the item's number
+constexpr double kTitleWidth = kInside - 50;  // leaves room for the item number
 constexpr TextStyle kTitle{20, true}, kHeading{12, true}, kSmallHeading{8.5, true}, kText{9}, kNumber{9, false, true};
 
 /// A column of the parts list.
@@ -31,8 +31,8 @@ constexpr Column kColumns[] = {{"Item", 0, 30, true},
                                {"Size [mm]", 305, 115, true},
                                {"Steps", 430, kInside - 430, false}};
 
-/// Whether text is put on the page, or only measured.
-enum class Ink { Put, Measured };
+/// Layout pass: text is measured first and then drawn.
+enum class LayoutPass { Measure, Draw };
 
 /// Fills pages from top to bottom.
 class PdfWriter {
@@ -49,37 +49,37 @@ class PdfWriter {
  private:
   void end_page() {
     const double y = PdfSheet::kHeight - kBorder;
-    sheet_.put_text(instructions_.title, kBorder, y, kInside, kText);
-    sheet_.put_text(std::to_string(++page_), kBorder, y, kInside, kNumber);
+    sheet_.draw_text(instructions_.title, kBorder, y, kInside, kText);
+    sheet_.draw_text(std::to_string(++page_), kBorder, y, kInside, kNumber);
   }
   void begin_page() {
     end_page();
     sheet_.next_page();
     y_ = kBorder;
   }
-  /// Makes room for so much.
-  void need(double height) {
+  /// Begins a new page if less than `height` is left on this one.
+  void reserve(double height) {
     if (y_ > kBorder && y_ + height > kBottom) begin_page();
   }
-  void put(const std::string& text, const TextStyle& style) {
-    need(sheet_.text_height(text, kInside, style));
-    y_ += sheet_.put_text(text, kBorder, y_, kInside, style);
+  void write_text(const std::string& text, const TextStyle& style) {
+    reserve(sheet_.text_height(text, kInside, style));
+    y_ += sheet_.draw_text(text, kBorder, y_, kInside, style);
   }
 
   void write_cover() {
-    put(instructions_.title, kTitle);
+    write_text(instructions_.title, kTitle);
     y_ += kGap / 2;
-    put(summary_text(instructions_), kText);
+    write_text(summary_text(instructions_), kText);
     y_ += kGap;
-    y_ += sheet_.put_picture(instructions_.cover, kBorder, y_, kInside) + kGap;
+    y_ += sheet_.draw_image(instructions_.cover, kBorder, y_, kInside) + kGap;
     if (!instructions_.tools.empty()) {
-      put("Tools", kHeading);
-      for (const std::string& tool : instructions_.tools) put(tool, kText);
+      write_text("Tools", kHeading);
+      for (const std::string& tool : instructions_.tools) write_text(tool, kText);
       y_ += kGap;
     }
     write_parts();
     y_ += kGap / 2;
-    put(kInstructionsFooter, kText);
+    write_text(kInstructionsFooter, kText);
     if (page_ == 0)
       begin_page();
     else
@@ -87,42 +87,42 @@ class PdfWriter {
   }
 
   void write_parts() {
-    put("Parts", kHeading);
-    write_head();
+    write_text("Parts", kHeading);
+    write_header();
     for (std::size_t i = 0; i < instructions_.parts.size(); ++i) {
       const PartsLine& line = instructions_.parts[i];
       std::string steps;
       for (const std::size_t step : line.steps) steps += (steps.empty() ? "" : ", ") + std::to_string(step);
       const std::string cells[] = {std::to_string(i + 1), line.name, std::to_string(line.count), size_text(line.size),
-                                   steps.empty() ? "stays" : steps};
+                                   steps.empty() ? "base" : steps};
       double height = 0;
       for (std::size_t k = 0; k < std::size(kColumns); ++k)
         height = std::max(height, sheet_.text_height(cells[k], kColumns[k].width, kText));
       if (y_ + height > kBottom) {
         begin_page();
-        write_head();
+        write_header();
       }
-      for (std::size_t k = 0; k < std::size(kColumns); ++k) put_cell(kColumns[k], cells[k], kText);
+      for (std::size_t k = 0; k < std::size(kColumns); ++k) draw_cell(kColumns[k], cells[k], kText);
       y_ += height + 2;
     }
   }
-  void write_head() {
-    for (const Column& column : kColumns) put_cell(column, column.head, kSmallHeading);
+  void write_header() {
+    for (const Column& column : kColumns) draw_cell(column, column.head, kSmallHeading);
     y_ += sheet_.text_height("Item", kInside, kSmallHeading) + 2;
-    sheet_.put_line(kBorder, y_, kBorder + kInside, y_, 0.7);
+    sheet_.draw_line(kBorder, y_, kBorder + kInside, y_, 0.7);
     y_ += 3;
   }
-  void put_cell(const Column& column, const std::string& text, TextStyle style) {
+  void draw_cell(const Column& column, const std::string& text, TextStyle style) {
     style.right = column.right;
-    sheet_.put_text(text, kBorder + column.x, y_, column.width, style);
+    sheet_.draw_text(text, kBorder + column.x, y_, column.width, style);
   }
 
-  /// The text beside a step's picture, from `y` down. @return its height
-  double step_text(const Instruction& step, double y, Ink ink) {
-    const double x = kBorder + kPictureWidth + kGap, first = y;
+  /// Lays out the text beside a step's picture, from `y` down. @return its height
+  double write_step_text(const Instruction& step, double y, LayoutPass pass) {
+    const double x = kBorder + kPictureWidth + kGap, top = y;
     const auto add = [&](const std::string& text, const TextStyle& style) {
-      y += ink == Ink::Put ? sheet_.put_text(text, x, y, kTextWidth, style)
-                           : sheet_.text_height(text, kTextWidth, style);
+      y += pass == LayoutPass::Draw ? sheet_.draw_text(text, x, y, kTextWidth, style)
+                                    : sheet_.text_height(text, kTextWidth, style);
     };
     if (step.parts.size() > 1) {
       add("Parts", kSmallHeading);
@@ -140,10 +140,10 @@ class PdfWriter {
     if (step.overview) {
       const double width = kOverviewShare * kTextWidth;
       y += 6;
-      if (ink == Ink::Put) sheet_.put_picture(*step.overview, x, y, width);
+      if (pass == LayoutPass::Draw) sheet_.draw_image(*step.overview, x, y, width);
       y += width * step.overview->height / step.overview->width;
     }
-    return y - first;
+    return y - top;
   }
 
   void write_step(std::size_t index) {
@@ -151,22 +151,22 @@ class PdfWriter {
     const std::string title = std::to_string(index + 1) + "   " + step.title;
     const double head = 6 + sheet_.text_height(title, kTitleWidth, kHeading) + 6;
     const double picture = kPictureWidth * step.picture.height / step.picture.width;
-    const double body = std::max(picture, step_text(step, 0, Ink::Measured));
-    need(head + body);
-    sheet_.put_line(kBorder, y_, kBorder + kInside, y_, 1.2);
-    sheet_.put_text(title, kBorder, y_ + 6, kTitleWidth, kHeading);
+    const double body = std::max(picture, write_step_text(step, 0, LayoutPass::Measure));
+    reserve(head + body);
+    sheet_.draw_line(kBorder, y_, kBorder + kInside, y_, 1.2);
+    sheet_.draw_text(title, kBorder, y_ + 6, kTitleWidth, kHeading);
     if (step.parts.size() == 1)
-      sheet_.put_text("item " + std::to_string(step.parts[0].item + 1), kBorder, y_ + 8, kInside, kNumber);
+      sheet_.draw_text("item " + std::to_string(step.parts[0].item + 1), kBorder, y_ + 8, kInside, kNumber);
     y_ += head;
-    sheet_.put_picture(step.picture, kBorder, y_, kPictureWidth);
-    step_text(step, y_, Ink::Put);
+    sheet_.draw_image(step.picture, kBorder, y_, kPictureWidth);
+    write_step_text(step, y_, LayoutPass::Draw);
     y_ += body + kGap;
   }
 
   const WorkInstructions& instructions_;
   PdfSheet sheet_;
   double y_ = kBorder;
-  std::size_t page_ = 0;  // that are done
+  std::size_t page_ = 0;  // number of finished pages
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace dismantle {
 
-/// Work instructions as a PDF for A4 paper: a cover with the parts list, then the steps, as many a page as there is
-/// room for. Text is in the machine's sans-serif font, other scripts in whatever fonts it has for them. Same input and
-/// fonts, same bytes. Errors: Failed where the PDF could not be made.
+/// Work instructions as a PDF for A4 paper: a cover with the parts list, then the steps, as many per page as fit. Uses
+/// the system's sans-serif font and its fallback fonts. Deterministic for the same fonts. Errors: Failed if cairo
+/// reports an error.
 Result<std::string> instructions_pdf(const WorkInstructions& instructions);
 
 }  // namespace dismantle

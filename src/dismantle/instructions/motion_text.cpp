@@ -12,22 +12,23 @@ namespace dismantle {
 
 namespace {
 
-/// Directions are the same within this sine.
+/// Directions that differ by a smaller sine count as equal.
 constexpr double kSameDirection = 0.02;
-/// A screw turns where it does so by more, in all [rad].
+/// Minimum angle of a screw motion; smaller ones count as translations [rad].
 constexpr double kMinTurn = 1e-4;
-/// Ways of more legs are not told one by one.
+/// Maximum number of legs that are described one by one.
 constexpr std::size_t kMaxLegs = 4;
 
-Leg leg_of(const Pose& from, const Pose& to, const Vec3& middle) {
+Leg leg_of(const Pose& from, const Pose& to, const Vec3& center) {
   const Screw screw = screw_between(from, to);
   if (screw.angle > kMinTurn)
     return {screw.axis, dot(screw.velocity, screw.axis), screw.angle, screw_axis_point(screw)};
-  const Vec3 way = transform_from_pose(to) * middle - transform_from_pose(from) * middle;
-  return {normalized(way), length(way), 0, {}};
+  const Vec3 displacement = transform_from_pose(to) * center - transform_from_pose(from) * center;
+  return {normalized(displacement), length(displacement), 0, {}};
 }
 
-bool goes_on(const Leg& a, const Leg& b) {
+/// True if `b` continues `a` in the same direction or about the same axis.
+bool continues(const Leg& a, const Leg& b) {
   return (a.angle > 0) == (b.angle > 0) && length(a.direction - b.direction) < kSameDirection;
 }
 
@@ -37,34 +38,36 @@ std::string joined_with(const std::vector<std::string>& parts, const char* separ
   return text;
 }
 
-/// "4.5 times anticlockwise" or "by 30 degrees clockwise"; `outward` is the way's own sense along the axis.
-std::string turn_text(const Leg& leg, PathDirection direction) {
+/// "rotate 30 degrees clockwise", "unscrew 4.5 turns anticlockwise (seen from the side where it comes out), moving out
+/// 4.5 mm".
+std::string rotation_text(const Leg& leg, PathDirection direction) {
   const bool is_forward = direction == PathDirection::Forward;
   const bool anticlockwise = (leg.length >= 0) == is_forward;
   const double turns = leg.angle / kTurn;
-  const std::string amount =
-      turns >= 0.95 ? number_text(turns) + " times" : "by " + number_text(std::round(360 * turns)) + " degrees";
-  return "turn " + amount + (anticlockwise ? " anticlockwise" : " clockwise");
+  const std::string amount = turns >= 0.95 ? number_text(turns) : number_text(std::round(360 * turns));
+  std::string text = !is_screwing(leg) ? "rotate " : is_forward ? "unscrew " : "screw in ";
+  text += amount + (turns < 0.95 ? " degrees" : amount == "1" ? " turn" : " turns");
+  text += anticlockwise ? " anticlockwise" : " clockwise";
+  text += is_forward ? " (seen from the side where it comes out)" : " (seen from the side where it goes in)";
+  if (std::abs(leg.length) > 0)
+    text += (is_forward ? ", moving out " : ", moving in ") + number_text(std::abs(leg.length)) + " mm";
+  return text;
 }
 
-std::string leg_text(const Leg& leg, PathDirection direction, bool tells_length) {
+std::string leg_text(const Leg& leg, PathDirection direction, bool with_length) {
+  if (leg.angle > 0) return rotation_text(leg, direction);
   const Vec3 towards = direction == PathDirection::Forward ? leg.direction : -leg.direction;
-  if (leg.angle > 0) {
-    std::string text = turn_text(leg, direction) + " (seen from where it comes out";
-    if (std::abs(leg.length) > 0) text += ", " + number_text(std::abs(leg.length)) + " mm along the axis";
-    return text + ")";
-  }
-  return "straight " + direction_words(towards) + (tells_length ? ", " + number_text(leg.length) + " mm" : "");
+  return "straight " + direction_words(towards) + (with_length ? " by " + number_text(leg.length) + " mm" : "");
 }
 
 }  // namespace
 
-std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& middle) {
+std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& center) {
   std::vector<Leg> legs;
   for (std::size_t i = 1; i < removal.poses.size(); ++i) {
-    const Leg leg = leg_of(removal.poses[i - 1], removal.poses[i], middle);
+    const Leg leg = leg_of(removal.poses[i - 1], removal.poses[i], center);
     if (leg.angle == 0 && leg.length == 0) continue;
-    if (legs.empty() || !goes_on(legs.back(), leg)) {
+    if (legs.empty() || !continues(legs.back(), leg)) {
       legs.push_back(leg);
     } else {
       legs.back().length += leg.length;
@@ -86,15 +89,15 @@ std::string direction_words(const Vec3& unit) {
 }
 
 std::string motion_text(const std::vector<Leg>& legs, PathDirection direction) {
-  if (legs.empty()) return "It stays where it is.";
+  if (legs.empty()) return "No motion.";
   if (legs.size() > kMaxLegs) {
     double length = 0, angle = 0;
     for (const Leg& leg : legs) {
       length += std::abs(leg.length);
       angle += leg.angle;
     }
-    return "Along the arrow: " + number_text(length) + " mm in all, turning by " +
-           number_text(std::round(360 * angle / kTurn)) + " degrees in all.";
+    return "Follow the arrow: path length " + number_text(length) + " mm, total rotation " +
+           number_text(std::round(360 * angle / kTurn)) + " degrees.";
   }
   std::vector<std::string> parts;
   parts.reserve(legs.size());

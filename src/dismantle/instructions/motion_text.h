@@ -8,28 +8,30 @@
 
 namespace dismantle {
 
-/// A stretch of a way that is gone in one go: straight on, or turning about one axis while going along it.
+/// A section of a removal path: a translation, or a screw motion about one axis.
 struct Leg {
-  Vec3 direction;     ///< Unit: straight on, or of the axis in the sense in which it turns.
-  double length = 0;  ///< Along `direction`; below 0 against it [mm].
-  double angle = 0;   ///< [rad]; 0 where it goes straight.
-  Vec3 axis_point;    ///< On the axis, where it turns [mm].
+  Vec3 direction;     ///< Unit vector: of the translation, or of the axis so that the rotation is positive.
+  double length = 0;  ///< Translation along `direction`; negative if against it [mm].
+  double angle = 0;   ///< Rotation [rad]; 0 for a translation.
+  Vec3 axis_point;    ///< A point on the axis of a screw motion [mm].
 };
 
-/// The legs of a removal's way. What goes on in one direction, or about one axis, is one leg.
-std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& middle);
+/// The legs of a removal path. Successive motions in one direction or about one axis are merged.
+/// @param center of the assembled set [mm]
+std::vector<Leg> legs_of(const RemovalMove& removal, const Vec3& center);
 
-/// A leg that turns by at least half a turn while it goes along its axis: out of, or into, a thread.
+/// True for a screw motion of at least half a turn with a translation, as out of or into a thread.
 bool is_screwing(const Leg& leg);
 
-/// "up", "down", "along +X" for the axes, z being up; else "along the arrow".
+/// "up", "down" or "along +X" for a direction along an axis, z being up; otherwise "along the arrow".
 std::string direction_words(const Vec3& unit);
 
-/// The way in the sense of `direction` as a sentence: "Turn 4.5 times anticlockwise (seen from where it comes out),
-/// then straight up." Ways of many legs are told by their lengths.
+/// Describes the motion in the given direction as a sentence: "Unscrew 4.5 turns anticlockwise (seen from the side
+/// where it comes out), moving out 4.5 mm, then straight up." A path of many legs is summarised by its length and
+/// rotation.
 std::string motion_text(const std::vector<Leg>& legs, PathDirection direction);
 
-/// A number with three digits, for people.
+/// A number with three significant digits, for display.
 std::string number_text(double value);
 
 }  // namespace dismantle

@@ -9,7 +9,7 @@
 #include <vector>
 
 #ifdef __SANITIZE_ADDRESS__
-/// What fontconfig keeps of its configuration counts as leaked.
+/// fontconfig never frees its configuration, which LeakSanitizer would report.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\n";
 }
@@ -19,8 +19,8 @@ namespace dismantle {
 
 namespace {
 
-/// A PDF has a time of making; the same input gives the same bytes, so it is always this one.
-constexpr const char* kNoTime = "2000-01-01T00:00:00Z";
+/// A constant creation time, so that the same input gives the same bytes.
+constexpr const char* kCreationTime = "2000-01-01T00:00:00Z";
 
 struct Release {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -47,7 +47,7 @@ std::string valid_utf8(const std::string& text) {
 
 }  // namespace
 
-struct PdfSheet::Body {
+struct PdfSheet::Impl {
   std::string file;
   Owned<cairo_surface_t> surface;
   Owned<cairo_t> cairo;
@@ -69,41 +69,41 @@ struct PdfSheet::Body {
   }
 };
 
-PdfSheet::PdfSheet(const std::string& title) : body_(std::make_unique<Body>()) {
-  body_->surface.reset(cairo_pdf_surface_create_for_stream(append, &body_->file, kWidth, kHeight));
-  cairo_pdf_surface_set_metadata(body_->surface.get(), CAIRO_PDF_METADATA_TITLE, valid_utf8(title).c_str());
-  cairo_pdf_surface_set_metadata(body_->surface.get(), CAIRO_PDF_METADATA_CREATOR, "dismantle");
-  cairo_pdf_surface_set_metadata(body_->surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, kNoTime);
-  body_->cairo.reset(cairo_create(body_->surface.get()));
+PdfSheet::PdfSheet(const std::string& title) : impl_(std::make_unique<Impl>()) {
+  impl_->surface.reset(cairo_pdf_surface_create_for_stream(append, &impl_->file, kWidth, kHeight));
+  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_TITLE, valid_utf8(title).c_str());
+  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_CREATOR, "dismantle");
+  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, kCreationTime);
+  impl_->cairo.reset(cairo_create(impl_->surface.get()));
 }
 
 PdfSheet::~PdfSheet() = default;
 
 void PdfSheet::next_page() {
-  cairo_show_page(body_->cairo.get());
+  cairo_show_page(impl_->cairo.get());
 }
 
 double PdfSheet::text_height(const std::string& text, double width, const TextStyle& style) const {
   int height = 0;
-  pango_layout_get_size(body_->layout(text, width, style).get(), nullptr, &height);
+  pango_layout_get_size(impl_->layout(text, width, style).get(), nullptr, &height);
   return static_cast<double>(height) / PANGO_SCALE;
 }
 
-double PdfSheet::put_text(const std::string& text, double x, double y, double width, const TextStyle& style) {
-  const Owned<PangoLayout> layout = body_->layout(text, width, style);
-  cairo_set_source_rgb(body_->cairo.get(), 0.1, 0.13, 0.18);
-  cairo_move_to(body_->cairo.get(), x, y);
-  pango_cairo_show_layout(body_->cairo.get(), layout.get());
+double PdfSheet::draw_text(const std::string& text, double x, double y, double width, const TextStyle& style) {
+  const Owned<PangoLayout> layout = impl_->layout(text, width, style);
+  cairo_set_source_rgb(impl_->cairo.get(), 0.1, 0.13, 0.18);
+  cairo_move_to(impl_->cairo.get(), x, y);
+  pango_cairo_show_layout(impl_->cairo.get(), layout.get());
   int height = 0;
   pango_layout_get_size(layout.get(), nullptr, &height);
   return static_cast<double>(height) / PANGO_SCALE;
 }
 
-double PdfSheet::put_picture(const Image& image, double x, double y, double width) {
+double PdfSheet::draw_image(const Image& image, double x, double y, double width) {
   const double scale = width / image.width, height = image.height * scale;
   const Owned<cairo_surface_t> picture(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
   unsigned char* const bytes = cairo_image_surface_get_data(picture.get());
-  if (bytes == nullptr) return height;  // finish() tells
+  if (bytes == nullptr) return height;  // finish() reports the error
   const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(picture.get()));
   cairo_surface_flush(picture.get());
   for (int row = 0; row < image.height; ++row) {
@@ -115,7 +115,7 @@ double PdfSheet::put_picture(const Image& image, double x, double y, double widt
   }
   cairo_surface_mark_dirty(picture.get());
 
-  cairo_t* const cairo = body_->cairo.get();
+  cairo_t* const cairo = impl_->cairo.get();
   cairo_save(cairo);
   cairo_translate(cairo, x, y);
   cairo_scale(cairo, scale, scale);
@@ -129,8 +129,8 @@ double PdfSheet::put_picture(const Image& image, double x, double y, double widt
   return height;
 }
 
-void PdfSheet::put_line(double x0, double y0, double x1, double y1, double line_width) {
-  cairo_t* const cairo = body_->cairo.get();
+void PdfSheet::draw_line(double x0, double y0, double x1, double y1, double line_width) {
+  cairo_t* const cairo = impl_->cairo.get();
   cairo_set_source_rgb(cairo, 0.1, 0.13, 0.18);
   cairo_set_line_width(cairo, line_width);
   cairo_move_to(cairo, x0, y0);
@@ -139,14 +139,14 @@ void PdfSheet::put_line(double x0, double y0, double x1, double y1, double line_
 }
 
 Result<std::string> PdfSheet::finish() {
-  cairo_show_page(body_->cairo.get());
-  const cairo_status_t drawn = cairo_status(body_->cairo.get());
-  cairo_surface_finish(body_->surface.get());
-  const cairo_status_t status = drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(body_->surface.get());
+  cairo_show_page(impl_->cairo.get());
+  const cairo_status_t drawn = cairo_status(impl_->cairo.get());
+  cairo_surface_finish(impl_->surface.get());
+  const cairo_status_t status = drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(impl_->surface.get());
   if (status != CAIRO_STATUS_SUCCESS)
-    return Error{ErrorKind::Failed, std::string("the PDF could not be made (") + cairo_status_to_string(status) +
+    return Error{ErrorKind::Failed, std::string("the PDF could not be written (") + cairo_status_to_string(status) +
                                         "); write an .html instead"};
-  return std::move(body_->file);
+  return std::move(impl_->file);
 }
 
 }  // namespace dismantle

@@ -9,37 +9,40 @@
 
 namespace dismantle {
 
-/// How a piece of text looks.
+/// Style of a text.
 struct TextStyle {
-  double size = 9;  ///< [pt]
-  bool bold = false;
-  bool right = false;  ///< Flush with the right border.
+  double size = 9;     ///< [pt]
+  bool bold = false;   ///< Bold instead of regular weight.
+  bool right = false;  ///< Right-aligned.
 };
 
-/// Pages of A4 paper that text and pictures are put on. Places are in points (1/72 inch) from the upper left corner.
+/// A PDF document with A4 pages, drawn with cairo and Pango. Positions are in points (1/72 inch) from the upper left
+/// corner.
 class PdfSheet {
  public:
-  static constexpr double kWidth = 595, kHeight = 842;  ///< [pt]
+  static constexpr double kWidth = 595;   ///< [pt]
+  static constexpr double kHeight = 842;  ///< [pt]
 
-  /// @param title of the document
+  /// Begins a document with one empty page. @param title of the document
   explicit PdfSheet(const std::string& title);
   ~PdfSheet();
 
-  /// Ends the page, and begins another one.
+  /// Ends the page and begins the next one.
   void next_page();
-  /// How high text is that is broken to a width [pt]. UTF-8; what is not shows as U+FFFD.
+  /// Height of a text wrapped to a width [pt]. UTF-8; invalid bytes appear as U+FFFD.
   double text_height(const std::string& text, double width, const TextStyle& style = {}) const;
-  /// Puts text, broken to a width. @return its height [pt]
-  double put_text(const std::string& text, double x, double y, double width, const TextStyle& style = {});
-  /// Puts a picture in a frame. @return its height [pt]
-  double put_picture(const Image& image, double x, double y, double width);
-  void put_line(double x0, double y0, double x1, double y1, double line_width);
-  /// The whole file; nothing can be put any more. Errors: Failed.
+  /// Draws a text wrapped to a width. @return its height [pt]
+  double draw_text(const std::string& text, double x, double y, double width, const TextStyle& style = {});
+  /// Draws an image with a frame. @return its height [pt]
+  double draw_image(const Image& image, double x, double y, double width);
+  /// Draws a line from (x0, y0) to (x1, y1).
+  void draw_line(double x0, double y0, double x1, double y1, double line_width);
+  /// Ends the document. @return the file's bytes; nothing can be drawn afterwards. Errors: Failed.
   Result<std::string> finish();
 
  private:
-  struct Body;
-  std::unique_ptr<Body> body_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace dismantle

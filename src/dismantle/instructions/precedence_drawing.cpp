@@ -13,49 +13,49 @@ namespace dismantle {
 namespace {
 
 // All in pixels.
-constexpr double kBoxWidth = 215, kBoxHeight = 30, kAcross = 70, kBetween = 12, kPassing = 6, kBorder = 20;
-/// Orders are swept so often.
+constexpr double kBoxWidth = 215, kBoxHeight = 30, kRankGap = 70, kNodeGap = 12, kDummyHeight = 6, kBorder = 20;
+/// Number of ordering sweeps in each direction.
 constexpr int kSweeps = 8;
-/// A box has room for so many letters.
-constexpr std::size_t kLetters = 20;
+/// Maximum number of characters in a box.
+constexpr std::size_t kMaxCharacters = 20;
 
-/// A step, or where an edge passes a rank.
-struct Place {
+/// A node of the layout: a step, or a dummy node where an edge crosses a rank.
+struct Node {
   std::uint32_t rank = 0;
   bool is_step = true;
-  std::vector<std::size_t> left, right;  ///< The places that it is joined with in the ranks beside it.
-  double y = 0;                          ///< Of its middle.
-  double height() const { return is_step ? kBoxHeight : kPassing; }
+  std::vector<std::size_t> left, right;  ///< Adjacent nodes in the previous and the next rank.
+  double y = 0;                          ///< Of its centre.
+  double height() const { return is_step ? kBoxHeight : kDummyHeight; }
 };
 
-/// Lays places out.
-class Layers {
+/// Orders and positions the nodes.
+class LayeredLayout {
  public:
-  explicit Layers(const PrecedenceGraph& graph) {
+  explicit LayeredLayout(const PrecedenceGraph& graph) {
     for (const std::uint32_t rank : graph.ranks) add(rank, true);
     for (std::uint32_t k = 0; k < graph.before.size(); ++k)
       for (const std::uint32_t j : graph.before[k]) add_edge(j, k);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      order(&Place::left);
-      order(&Place::right);
+      order(&Node::left);
+      order(&Node::right);
     }
   }
 
   PrecedenceDrawing drawing(std::size_t step_count) const {
     PrecedenceDrawing drawing;
     double bottom = 0;
-    for (const Place& place : places_) bottom = std::max(bottom, place.y + place.height() / 2);
+    for (const Node& node : nodes_) bottom = std::max(bottom, node.y + node.height() / 2);
     for (std::size_t rank = 0; rank < ranks_.size(); ++rank)
-      drawing.middles.push_back(kBorder + kBoxWidth / 2 + static_cast<double>(rank) * (kBoxWidth + kAcross));
+      drawing.centers.push_back(kBorder + kBoxWidth / 2 + static_cast<double>(rank) * (kBoxWidth + kRankGap));
     for (std::size_t k = 0; k < step_count; ++k)
-      drawing.boxes.push_back({drawing.middles[places_[k].rank] - kBoxWidth / 2,
-                               kBorder + places_[k].y - kBoxHeight / 2, kBoxWidth, kBoxHeight});
+      drawing.boxes.push_back({drawing.centers[nodes_[k].rank] - kBoxWidth / 2, kBorder + nodes_[k].y - kBoxHeight / 2,
+                               kBoxWidth, kBoxHeight});
     for (const auto& [from, to, through] : edges_) {
       drawing.edges.push_back({from, to, {}});
-      for (const std::size_t place : through) drawing.edges.back().ys.push_back(kBorder + places_[place].y);
+      for (const std::size_t node : through) drawing.edges.back().ys.push_back(kBorder + nodes_[node].y);
     }
     const auto count = static_cast<double>(ranks_.size());
-    drawing.width = 2 * kBorder + count * kBoxWidth + std::max(0.0, count - 1) * kAcross;
+    drawing.width = 2 * kBorder + count * kBoxWidth + std::max(0.0, count - 1) * kRankGap;
     drawing.height = 2 * kBorder + bottom;
     return drawing;
   }
@@ -68,57 +68,57 @@ class Layers {
 
   std::size_t add(std::uint32_t rank, bool is_step) {
     if (ranks_.size() <= rank) ranks_.resize(rank + 1);
-    ranks_[rank].push_back(places_.size());
-    places_.push_back({rank, is_step, {}, {}, 0});
-    return places_.size() - 1;
+    ranks_[rank].push_back(nodes_.size());
+    nodes_.push_back({rank, is_step, {}, {}, 0});
+    return nodes_.size() - 1;
   }
 
   void add_edge(std::uint32_t from, std::uint32_t to) {
     Edge edge{from, to, {from}};
-    for (std::uint32_t rank = places_[from].rank + 1; rank < places_[to].rank; ++rank)
+    for (std::uint32_t rank = nodes_[from].rank + 1; rank < nodes_[to].rank; ++rank)
       edge.through.push_back(add(rank, false));
     edge.through.push_back(to);
     for (std::size_t i = 1; i < edge.through.size(); ++i) {
-      places_[edge.through[i - 1]].right.push_back(edge.through[i]);
-      places_[edge.through[i]].left.push_back(edge.through[i - 1]);
+      nodes_[edge.through[i - 1]].right.push_back(edge.through[i]);
+      nodes_[edge.through[i]].left.push_back(edge.through[i - 1]);
     }
     edges_.push_back(std::move(edge));
   }
 
-  /// Puts each rank in the order of the mean height of what its places are joined with on one side.
-  void order(std::vector<std::size_t> Place::*side) {
+  /// Orders the nodes of each rank by the mean position of their neighbours on one side.
+  void order(std::vector<std::size_t> Node::*side) {
     for (std::vector<std::size_t>& rank : ranks_) {
       std::vector<std::pair<double, std::size_t>> wanted;
       for (const std::size_t p : rank) {
-        const std::vector<std::size_t>& joined = places_[p].*side;
+        const std::vector<std::size_t>& joined = nodes_[p].*side;
         double sum = 0;
-        for (const std::size_t other : joined) sum += places_[other].y;
-        wanted.emplace_back(joined.empty() ? places_[p].y : sum / static_cast<double>(joined.size()), p);
+        for (const std::size_t other : joined) sum += nodes_[other].y;
+        wanted.emplace_back(joined.empty() ? nodes_[p].y : sum / static_cast<double>(joined.size()), p);
       }
       std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
       for (std::size_t i = 0; i < wanted.size(); ++i) rank[i] = wanted[i].second;
-      spread(rank, wanted);
+      separate(rank, wanted);
     }
-    if (side == &Place::left) return;
+    if (side == &Node::left) return;
     double top = 0;
-    for (const Place& place : places_) top = std::min(top, place.y - place.height() / 2);
-    for (Place& place : places_) place.y -= top;
+    for (const Node& node : nodes_) top = std::min(top, node.y - node.height() / 2);
+    for (Node& node : nodes_) node.y -= top;
   }
 
-  /// Gives the places of a rank, in their order, heights near what they want, without overlap.
-  void spread(const std::vector<std::size_t>& rank, const std::vector<std::pair<double, std::size_t>>& wanted) {
+  /// Positions the nodes of a rank, in order, near their wanted positions without overlap.
+  void separate(const std::vector<std::size_t>& rank, const std::vector<std::pair<double, std::size_t>>& wanted) {
     double bottom = -1e300, excess = 0;
     for (std::size_t i = 0; i < rank.size(); ++i) {
-      Place& place = places_[rank[i]];
-      place.y = std::max(wanted[i].first, bottom + place.height() / 2);
-      excess += place.y - wanted[i].first;
-      bottom = place.y + place.height() / 2 + kBetween;
+      Node& node = nodes_[rank[i]];
+      node.y = std::max(wanted[i].first, bottom + node.height() / 2);
+      excess += node.y - wanted[i].first;
+      bottom = node.y + node.height() / 2 + kNodeGap;
     }
-    for (const std::size_t p : rank) places_[p].y -= excess / static_cast<double>(rank.size());
+    for (const std::size_t p : rank) nodes_[p].y -= excess / static_cast<double>(rank.size());
   }
 
-  std::vector<Place> places_;                    // the steps come first
-  std::vector<std::vector<std::size_t>> ranks_;  // from above
+  std::vector<Node> nodes_;                      // steps first, then dummy nodes
+  std::vector<std::vector<std::size_t>> ranks_;  // top to bottom
   std::vector<Edge> edges_;
 };
 
@@ -128,23 +128,23 @@ std::string number(double value) {
   return text;
 }
 
-/// Of UTF-8, at most so many letters.
+/// At most kMaxCharacters characters of a UTF-8 text, then an ellipsis.
 std::string shortened(const std::string& text) {
-  std::size_t letters = 0;
+  std::size_t characters = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
-    if (++letters > kLetters) return text.substr(0, i) + "\u2026";
+    if (++characters > kMaxCharacters) return text.substr(0, i) + "\u2026";
   }
   return text;
 }
 
 std::string edge_path(const PrecedenceDrawing& drawing, const PrecedenceDrawing::Edge& edge, std::uint32_t rank) {
-  double x = drawing.middles[rank] + kBoxWidth / 2, y = edge.ys[0];
+  double x = drawing.centers[rank] + kBoxWidth / 2, y = edge.ys[0];
   std::string path = "M" + number(x) + " " + number(y);
   for (std::size_t i = 1; i < edge.ys.size(); ++i) {
-    const double middle = drawing.middles[rank + i], half = kBoxWidth / 2;
+    const double middle = drawing.centers[rank + i], half = kBoxWidth / 2;
     const double next = middle - half;
-    path += " C" + number(x + kAcross / 2) + " " + number(y) + " " + number(next - kAcross / 2) + " " +
+    path += " C" + number(x + kRankGap / 2) + " " + number(y) + " " + number(next - kRankGap / 2) + " " +
             number(edge.ys[i]) + " " + number(next) + " " + number(edge.ys[i]);
     x = middle + half;
     y = edge.ys[i];
@@ -163,14 +163,14 @@ std::string box_svg(const StepBox& box, std::uint32_t step, const std::string& n
 }  // namespace
 
 PrecedenceDrawing draw_precedence(const PrecedenceGraph& graph) {
-  return Layers(graph).drawing(graph.ranks.size());
+  return LayeredLayout(graph).drawing(graph.ranks.size());
 }
 
 std::string precedence_svg(const Assembly& assembly, const Plan& plan, const PrecedenceGraph& graph) {
   const PrecedenceDrawing drawing = draw_precedence(graph);
   const std::string width = number(drawing.width), height = number(drawing.height);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
-                    "\" viewBox=\"0 0 " + width + " " + height + "\">\n<title>Precedence of the steps for " +
+                    "\" viewBox=\"0 0 " + width + " " + height + "\">\n<title>Precedence graph of " +
                     html_escaped(assembly.source_file) +
                     "</title>\n<style>rect{fill:#fff;stroke:#1c2430}path{fill:none;stroke:#5c6675;stroke-width:1.3}"
                     "text{font:13px system-ui,sans-serif;fill:#1c2430}.n{font-weight:bold}"

@@ -16,14 +16,14 @@ std::vector<std::string> names_of(const Assembly& assembly, const std::vector<Co
   return names;
 }
 
-/// Numbers from 1, as people count steps.
+/// Step numbers, counted from 1.
 JsonValue step_numbers(const std::vector<std::uint32_t>& steps) {
   JsonValue numbers = JsonValue::array();
   for (const std::uint32_t step : steps) numbers.push_back(step + 1);
   return numbers;
 }
 
-/// The steps of one rank, rank by rank.
+/// The steps grouped by rank.
 std::vector<std::vector<std::uint32_t>> steps_by_rank(const PrecedenceGraph& graph) {
   std::vector<std::vector<std::uint32_t>> by_rank;
   for (std::uint32_t k = 0; k < graph.ranks.size(); ++k) {
@@ -37,7 +37,7 @@ std::string node_text(std::uint32_t step) {
   return "s" + std::to_string(step + 1);
 }
 
-/// The bodies that a plan takes apart, as a tree: what is taken out of each in order, and what is left of it.
+/// The tree of bodies that a plan disassembles: the parts removed from each, in order, and the components left of it.
 JsonValue body_json(const Assembly& assembly, const Plan& plan, std::uint32_t body) {
   std::vector<ComponentId> left;
   if (body == PlanStep::kWhole) {

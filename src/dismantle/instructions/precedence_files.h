@@ -7,14 +7,14 @@
 
 namespace dismantle {
 
-/// What a step takes away, for people: "bolt", or "lid and 2 more".
+/// Label of a step: the components that it removes, as "bolt" or "lid and 2 more".
 std::string step_text(const Assembly& assembly, const PlanStep& step);
 
-/// The graph for Graphviz: a node a step, an edge from each to those that need it gone; steps of one rank side by side,
-/// edges from a body to its parts dashed.
+/// The graph in DOT for Graphviz: one node per step, edges from each step to those that require it; nodes grouped by
+/// rank, edges from a body to its parts dashed.
 std::string precedence_dot(const Assembly& assembly, const Plan& plan, const PrecedenceGraph& graph);
 
-/// The graph as JSON, with the tree of subassemblies: docs/formats.md, "Precedence graph".
+/// The graph and the tree of subassemblies as JSON: docs/formats.md, "Precedence graph".
 std::string precedence_json(const Assembly& assembly, const Plan& plan, const PrecedenceGraph& graph);
 
 }  // namespace dismantle

@@ -8,33 +8,33 @@
 
 namespace dismantle {
 
-/// How near a removal comes to what it is taken from.
+/// Contact and clearance of a moving set along its removal path.
 struct PathClearance {
-  double touching = 0;  ///< It touches something until it has gone so far [mm]; all of the way where it never leaves.
-  ComponentId touched;  ///< What it touches last; invalid where it touches nothing.
-  /// After that, the least clearance where something else than what it touched last is nearest [mm]; infinite where
-  /// nothing comes nearer than kNearShare of the set's size.
-  double least = std::numeric_limits<double>::infinity();
-  ComponentId nearest;  ///< To which; invalid where there is nothing.
+  double contact_length = 0;  ///< Path length up to the last contact [mm].
+  ComponentId last_contact;   ///< Component of the last contact; invalid without contact.
+  /// Minimum distance to components other than `last_contact` after the last contact [mm]; infinite if none comes
+  /// closer than kMaxClearanceShare of the set's size.
+  double min_distance = std::numeric_limits<double>::infinity();
+  ComponentId nearest;  ///< Component at that distance; invalid if there is none.
 };
 
-/// Asks an engine what the removals of a timeline meet, and what they leave without support.
+/// Evaluates removals with a collision engine: contact, clearance and components left unsupported.
 class RemovalFacts {
  public:
   /// The assembly and the pairs must outlive this.
   RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options);
 
-  /// Exact at places along the way, some kWayPieces for each screw; nothing is told in between. Embedded pairs, and
-  /// what earlier steps have put aside, do not count.
+  /// Contact and clearance, exact at kClearanceSamples poses per screw motion and not evaluated between them. Ignores
+  /// embedded pairs and the components that earlier steps have removed.
   PathClearance clearance(const WorkStep& step, const RemovalMove& removal);
-  /// What nothing holds from below once a step's sets are gone, though something did before: it could fall straight
-  /// down by kFall of its size. What is in a fit or embedded with anything that is left holds by that. z is up.
-  /// @param ground never falls
-  std::vector<ComponentId> left_unsupported(const WorkStep& step, ComponentId ground);
+  /// Components that lose their support by a step: afterwards, but not before, they can translate down (-z) by
+  /// kFallShare of their size. Components in a fit or embedded pair with a remaining one count as held.
+  /// @param ground component that never falls
+  std::vector<ComponentId> unsupported_after(const WorkStep& step, ComponentId ground);
 
  private:
-  std::vector<Pose> with_gone(Span<const Pose> poses, Span<const ComponentId> gone) const;
-  bool can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> gone);
+  std::vector<Pose> with_removed(Span<const Pose> poses, Span<const ComponentId> removed) const;
+  bool can_fall(ComponentId c, Span<const Pose> poses, Span<const ComponentId> removed);
   std::vector<ComponentId> neighbours(Span<const ComponentId> set) const;
 
   const Assembly& assembly_;
@@ -42,11 +42,14 @@ class RemovalFacts {
   CertificateEngine engine_;
 };
 
-inline constexpr int kWayPieces = 12;
-inline constexpr double kFall = 0.1;
-inline constexpr double kNearShare = 0.2;
+/// Samples per screw motion at which clearances are measured.
+inline constexpr int kClearanceSamples = 12;
+/// Translation downwards that counts as a fall, as a fraction of a component's size.
+inline constexpr double kFallShare = 0.1;
+/// Largest clearance that is reported, as a fraction of the size of the moving set.
+inline constexpr double kMaxClearanceShare = 0.2;
 
-/// The components that stay: those that no step moves, the largest first.
-std::vector<ComponentId> staying_components(const Assembly& assembly, Span<const WorkStep> steps);
+/// The components that no step moves, the largest first.
+std::vector<ComponentId> stationary_components(const Assembly& assembly, Span<const WorkStep> steps);
 
 }  // namespace dismantle

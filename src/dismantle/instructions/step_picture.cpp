@@ -20,34 +20,34 @@ namespace {
 constexpr Color kMovingColor{0.95f, 0.55f, 0.10f};
 constexpr Color kGhostColor{0.95f, 0.55f, 0.10f, 0.30f};
 constexpr Color kArrowColor{0.05f, 0.35f, 0.65f};
-constexpr int kWayPieces = 24;
-/// A set is shown where it is past the boxes of all components around it by this share of its own size, but no further
-/// than so many of its sizes from home, unless that is less than the share of the surroundings; and no nearer than the
-/// share of its size, or its arrow would not be seen.
-constexpr double kPast = 0.35, kMaxSizes = 3, kMinReach = 0.25, kMinSizes = 0.8;
-/// The place where it is past them is found by so many halvings of a screw.
+constexpr int kPathSamples = 24;
+/// The path is shown up to where the set has cleared the boxes of all surrounding components by kMargin of its size,
+/// but no further than the larger of kMaxSizes of its size and kMinReach of the size of the surroundings, and no less
+/// than kMinSizes of its size, so that the arrow is visible.
+constexpr double kMargin = 0.35, kMaxSizes = 3, kMinReach = 0.25, kMinSizes = 0.8;
+/// Number of bisections of a screw motion that locate the end of the section shown.
 constexpr int kHalvings = 24;
-/// A close picture shows this share more around what moves, and at least this share of the surroundings.
-constexpr double kAround = 0.35, kMinRegion = 0.15;
-/// One that would show more than this share of the surroundings shows all of them.
-constexpr double kAlmostAll = 0.6;
-/// Arrows have this share of the picture's diagonal as radius, but are so many radii long; ways shorter than so many of
-/// the share have none.
-constexpr double kArrowRadius = 0.006, kSlimmest = 7, kShortestWay = 1;
-/// Samples along a pixel's side: on paper pixels are small.
+/// Margin of a close picture around the moving set, and its minimum size as a fraction of the surroundings.
+constexpr double kRegionMargin = 0.35, kMinRegion = 0.15;
+/// A region larger than this fraction of the surroundings is extended to all of them.
+constexpr double kMaxRegion = 0.6;
+/// Radius of arrows as a fraction of the picture's diagonal; the minimum ratio of length to radius of an arrow; and the
+/// minimum path length, in radii, that gets an arrow.
+constexpr double kArrowRadius = 0.006, kMinArrowLength = 7, kMinPathLength = 1;
+/// Samples along each side of a pixel; printed pixels are small.
 constexpr int kSamples = 2;
-/// Views are judged in pictures of so many pixels.
-constexpr int kJudgedWidth = 120, kJudgedHeight = 90;
-/// What counts for a view: how much of the set is seen, of its other end, how long its way looks; views from below, and
-/// others than the last, count less.
-constexpr double kSeenWorth = 1, kEndWorth = 0.4, kWayWorth = 0.6, kBelowCost = 0.3, kChangeCost = 0.15;
-/// A set of which less is seen, of what could be, is shown through what hides it.
-constexpr double kMinSeen = 0.12;
-constexpr float kSeeThrough = 0.25f;
-/// An arrow around an axis turns by no more [rad].
+/// Size of the images in which views are compared [pixels].
+constexpr int kViewWidth = 120, kViewHeight = 90;
+/// Score of a view: visibility of the set, of its ghost, and apparent length of the path; views from below and views
+/// other than the last one are penalised.
+constexpr double kSetWeight = 1, kGhostWeight = 0.4, kPathWeight = 0.6, kBelowPenalty = 0.3, kChangePenalty = 0.15;
+/// Below this visible fraction of the set, the surroundings become transparent.
+constexpr double kMinVisible = 0.12;
+constexpr float kTransparentOpacity = 0.25f;
+/// Maximum angle of an arrow around an axis [rad].
 constexpr double kMaxTurn = 4.7;
 
-/// Views from around, 30 degrees from above and 25 from below, and from the top.
+/// Eight views around z from 30 degrees above, eight from 25 degrees below, and one from the top.
 std::vector<Vec3> candidate_views() {
   std::vector<Vec3> views;
   views.reserve(17);
@@ -59,23 +59,24 @@ std::vector<Vec3> candidate_views() {
   return views;
 }
 
-/// What of a removal's way a picture shows: from home to the first place where it is seen to be out.
-/// @param around boxes of the components around it
-std::vector<PathPose> shown_way(const Assembly& assembly, const RemovalMove& removal, const std::vector<Aabb>& around) {
-  const Vec3 middle = bounds_of(assembly, removal.components).center();
-  std::vector<PathPose> places = poses_along(removal, middle, removal.poses.size() > kWayPieces ? 1 : kWayPieces);
+/// The section of a removal path that a picture shows: from the start to where the set has cleared its surroundings.
+/// @param around boxes of the surrounding components
+std::vector<PathPose> shown_path(const Assembly& assembly, const RemovalMove& removal,
+                                 const std::vector<Aabb>& around) {
+  const Vec3 center = bounds_of(assembly, removal.components).center();
+  std::vector<PathPose> path = poses_along(removal, center, removal.poses.size() > kPathSamples ? 1 : kPathSamples);
   Aabb all;
   for (const Aabb& box : around) all.extend(box);
   const double size = diagonal(bounds_of(assembly, removal.components));
-  const double most = std::max(kMaxSizes * size, kMinReach * diagonal(all));
-  const auto is_out = [&](const PathPose& place) {
-    if (place.distance >= most) return true;
-    const Aabb own = inflated(bounds_of(assembly, removal.components, place.pose), kPast * size / 2);
-    return place.distance >= kMinSizes * size &&
+  const double max_distance = std::max(kMaxSizes * size, kMinReach * diagonal(all));
+  const auto is_out = [&](const PathPose& sample) {
+    if (sample.distance >= max_distance) return true;
+    const Aabb own = inflated(bounds_of(assembly, removal.components, sample.pose), kMargin * size / 2);
+    return sample.distance >= kMinSizes * size &&
            std::none_of(around.begin(), around.end(), [&](const Aabb& box) { return overlaps(own, box); });
   };
-  const auto out = std::find_if(places.begin(), places.end(), is_out);
-  if (out == places.end() || out == places.begin()) return places;
+  const auto out = std::find_if(path.begin(), path.end(), is_out);
+  if (out == path.end() || out == path.begin()) return path;
 
   PathPose before = out[-1];
   for (int i = 0; i < kHalvings; ++i) {
@@ -83,33 +84,33 @@ std::vector<PathPose> shown_way(const Assembly& assembly, const RemovalMove& rem
     const PathPose half{pose, (before.distance + out->distance) / 2};
     (is_out(half) ? *out : before) = half;
   }
-  places.erase(out + 1, places.end());
-  return places;
+  path.erase(out + 1, path.end());
+  return path;
 }
 
-/// The way of the set's middle.
-std::vector<Vec3> line_of(const std::vector<PathPose>& places, const Vec3& middle) {
+/// The path of the centre of the set, without repeated points.
+std::vector<Vec3> line_of(const std::vector<PathPose>& path, const Vec3& center) {
   std::vector<Vec3> line;
-  for (const PathPose& place : places) {
-    const Vec3 point = transform_from_pose(place.pose) * middle;
+  for (const PathPose& sample : path) {
+    const Vec3 point = transform_from_pose(sample.pose) * center;
     if (line.empty() || length(point - line.back()) > 0) line.push_back(point);
   }
   return line;
 }
 
-/// An arc around the axis of a leg that turns, at the set's outer end, in the sense in which it is gone.
+/// An arc around the axis of a screw motion, around the set's box, in the sense of the rotation.
 std::vector<Vec3> arc_of(const Leg& leg, const Aabb& box, PathDirection direction) {
   const Vec3 axis = leg.direction;
   const double turn = std::min(leg.angle, kMaxTurn);
-  const Vec3 middle = leg.axis_point + dot(box.center() - leg.axis_point, axis) * axis;
+  const Vec3 center = leg.axis_point + dot(box.center() - leg.axis_point, axis) * axis;
   const Vec3 across = normalized(cross(axis, std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
   double radius = 0;
-  for (const Vec3& corner : corners_of(box)) radius = std::max(radius, length(cross(axis, corner - middle)));
+  for (const Vec3& corner : corners_of(box)) radius = std::max(radius, length(cross(axis, corner - center)));
   std::vector<Vec3> arc;
-  arc.reserve(kWayPieces + 1);
-  for (int i = 0; i <= kWayPieces; ++i) {
-    const double angle = turn * i / kWayPieces;
-    arc.push_back(middle + 0.9 * radius * (std::cos(angle) * across + std::sin(angle) * cross(axis, across)));
+  arc.reserve(kPathSamples + 1);
+  for (int i = 0; i <= kPathSamples; ++i) {
+    const double angle = turn * i / kPathSamples;
+    arc.push_back(center + 0.9 * radius * (std::cos(angle) * across + std::sin(angle) * cross(axis, across)));
   }
   if (direction == PathDirection::Reversed) std::reverse(arc.begin(), arc.end());
   return arc;
@@ -117,16 +118,16 @@ std::vector<Vec3> arc_of(const Leg& leg, const Aabb& box, PathDirection directio
 
 }  // namespace
 
-/// What a step's pictures show.
-struct StepPictureTaker::Subject {
-  RenderScene scene;                     ///< The surroundings, what moves, and ghosts.
-  std::vector<std::size_t> moving;       ///< Items.
-  std::vector<std::size_t> ghosts;       ///< Items.
-  std::vector<std::vector<Vec3>> lines;  ///< Of the arrows.
-  Aabb region, surroundings;
+/// The contents of a step's pictures.
+struct StepPictureRenderer::Subject {
+  RenderScene scene;                     ///< Surroundings, moving set and ghosts.
+  std::vector<std::size_t> moving;       ///< Items of the moving set.
+  std::vector<std::size_t> ghosts;       ///< Items of its ghosts.
+  std::vector<std::vector<Vec3>> lines;  ///< Polylines of the arrows.
+  Aabb region, surroundings;             ///< What the close picture and the overview show.
 };
 
-StepPictureTaker::StepPictureTaker(const Assembly& assembly, int width, int height, const Executor& executor)
+StepPictureRenderer::StepPictureRenderer(const Assembly& assembly, int width, int height, const Executor& executor)
     : assembly_(assembly), scene_(make_scene(assembly)) {
   options_.width = width;
   options_.height = height;
@@ -134,13 +135,13 @@ StepPictureTaker::StepPictureTaker(const Assembly& assembly, int width, int heig
   options_.executor = executor;
 }
 
-Image StepPictureTaker::cover() const {
+Image StepPictureRenderer::cover() const {
   CameraFit fit;
   fit.aspect = static_cast<double>(options_.width) / options_.height;
   return render(scene_, fit_camera(item_points(scene_.items), fit), options_);
 }
 
-StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, PathDirection direction) const {
+StepPictureRenderer::Subject StepPictureRenderer::subject_of(const WorkStep& step, PathDirection direction) const {
   const bool is_forward = direction == PathDirection::Forward;
   Subject subject;
   std::vector<bool> moves(assembly_.components.size());
@@ -161,10 +162,10 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
   }
   for (const RemovalMove& removal : step.removals) {
     const Aabb home = bounds_of(assembly_, removal.components, removal.poses.front());
-    const Vec3 middle = bounds_of(assembly_, removal.components).center();
-    const std::vector<PathPose> way = shown_way(assembly_, removal, around);
-    const Pose from = is_forward ? way.front().pose : way.back().pose,
-               to = is_forward ? way.back().pose : way.front().pose;
+    const Vec3 center = bounds_of(assembly_, removal.components).center();
+    const std::vector<PathPose> path = shown_path(assembly_, removal, around);
+    const Pose from = is_forward ? path.front().pose : path.back().pose,
+               to = is_forward ? path.back().pose : path.front().pose;
     for (const ComponentId c : removal.components) {
       subject.moving.push_back(subject.scene.items.size());
       make_highlighted(add(c, from), kMovingColor);
@@ -172,73 +173,74 @@ StepPictureTaker::Subject StepPictureTaker::subject_of(const WorkStep& step, Pat
       add(c, to).color = kGhostColor;
     }
     subject.region.extend(home);
-    subject.region.extend(bounds_of(assembly_, removal.components, way.back().pose));
-    subject.lines.push_back(line_of(way, middle));
+    subject.region.extend(bounds_of(assembly_, removal.components, path.back().pose));
+    subject.lines.push_back(line_of(path, center));
     if (!is_forward) std::reverse(subject.lines.back().begin(), subject.lines.back().end());
-    for (const Leg& leg : legs_of(removal, middle))
+    for (const Leg& leg : legs_of(removal, center))
       if (is_screwing(leg))
-        subject.lines.push_back(arc_of(leg, bounds_of(assembly_, removal.components, way.back().pose), direction));
+        subject.lines.push_back(arc_of(leg, bounds_of(assembly_, removal.components, path.back().pose), direction));
   }
   subject.surroundings.extend(subject.region);
-  const double least = kMinRegion * diagonal(subject.surroundings);
-  subject.region =
-      inflated(subject.region, std::max(kAround * diagonal(subject.region), least - diagonal(subject.region)) / 2);
-  if (diagonal(subject.region) > kAlmostAll * diagonal(subject.surroundings)) subject.region = subject.surroundings;
+  const double min_size = kMinRegion * diagonal(subject.surroundings);
+  subject.region = inflated(
+      subject.region, std::max(kRegionMargin * diagonal(subject.region), min_size - diagonal(subject.region)) / 2);
+  if (diagonal(subject.region) > kMaxRegion * diagonal(subject.surroundings)) subject.region = subject.surroundings;
   return subject;
 }
 
-Vec3 StepPictureTaker::best_view(const Subject& subject) const {
+Vec3 StepPictureRenderer::best_view(const Subject& subject) const {
   const std::vector<Vec3> views = candidate_views();
-  std::vector<std::array<double, 3>> seen(views.size());  // pixels of what moves, of its ghosts, and the way's length
+  std::vector<std::array<double, 3>> visible(
+      views.size());  // area of the set, area of its ghosts, apparent path length
   RenderScene scene = subject.scene;
   for (const std::size_t i : subject.ghosts) scene.items[i].color.a = 1;
   options_.executor.for_each_heavy(views.size(), [&](std::size_t v) {
     CameraFit fit;
     fit.direction = views[v];
-    fit.aspect = static_cast<double>(kJudgedWidth) / kJudgedHeight;
+    fit.aspect = static_cast<double>(kViewWidth) / kViewHeight;
     const Camera camera = fit_camera(corners_of(subject.region), fit);
-    const std::vector<std::size_t> pixels = visible_pixels(scene, camera, kJudgedWidth, kJudgedHeight);
-    const double scale = camera.height * camera.height;  // pixels show more of the world in a larger picture
-    for (const std::size_t i : subject.moving) seen[v][0] += static_cast<double>(pixels[i]) * scale;
-    for (const std::size_t i : subject.ghosts) seen[v][1] += static_cast<double>(pixels[i]) * scale;
+    const std::vector<std::size_t> pixels = visible_pixels(scene, camera, kViewWidth, kViewHeight);
+    const double scale = camera.height * camera.height;  // proportional to the area of a pixel
+    for (const std::size_t i : subject.moving) visible[v][0] += static_cast<double>(pixels[i]) * scale;
+    for (const std::size_t i : subject.ghosts) visible[v][1] += static_cast<double>(pixels[i]) * scale;
     const std::vector<Vec3>& line = subject.lines.front();
-    const Vec3 way = line.back() - line.front();
-    seen[v][2] = length(way) > 0 ? length(cross(views[v], normalized(way))) : 0;
+    const Vec3 displacement = line.back() - line.front();
+    visible[v][2] = length(displacement) > 0 ? length(cross(views[v], normalized(displacement))) : 0;
   });
-  double most[2] = {1e-300, 1e-300};
-  for (const auto& s : seen)
-    for (const int k : {0, 1}) most[k] = std::max(most[k], s[k]);
+  double max_area[2] = {1e-300, 1e-300};
+  for (const auto& s : visible)
+    for (const int k : {0, 1}) max_area[k] = std::max(max_area[k], s[k]);
   std::size_t best = 0;
-  double best_worth = -1;
+  double best_score = -1;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const double worth = kSeenWorth * std::sqrt(seen[v][0] / most[0]) + kEndWorth * std::sqrt(seen[v][1] / most[1]) +
-                         kWayWorth * seen[v][2] - (views[v].z > 0 ? kBelowCost : 0) -
-                         (views[v] == last_view_ ? 0 : kChangeCost);
-    if (worth > best_worth) {
+    const double score = kSetWeight * std::sqrt(visible[v][0] / max_area[0]) +
+                         kGhostWeight * std::sqrt(visible[v][1] / max_area[1]) + kPathWeight * visible[v][2] -
+                         (views[v].z > 0 ? kBelowPenalty : 0) - (views[v] == last_view_ ? 0 : kChangePenalty);
+    if (score > best_score) {
       best = v;
-      best_worth = worth;
+      best_score = score;
     }
   }
   return views[best];
 }
 
-double StepPictureTaker::seen_share(const Subject& subject, const Vec3& view) const {
+double StepPictureRenderer::visible_share(const Subject& subject, const Vec3& view) const {
   CameraFit fit;
   fit.direction = view;
-  fit.aspect = static_cast<double>(kJudgedWidth) / kJudgedHeight;
+  fit.aspect = static_cast<double>(kViewWidth) / kViewHeight;
   const Camera camera = fit_camera(corners_of(subject.region), fit);
   RenderScene alone;
   for (const std::size_t i : subject.moving) alone.items.push_back(subject.scene.items[i]);
-  const std::vector<std::size_t> all = visible_pixels(subject.scene, camera, kJudgedWidth, kJudgedHeight);
-  const std::vector<std::size_t> most = visible_pixels(alone, camera, kJudgedWidth, kJudgedHeight);
-  std::size_t seen = 0;
-  for (const std::size_t i : subject.moving) seen += all[i];
-  const std::size_t could = std::accumulate(most.begin(), most.end(), std::size_t{0});
-  return could == 0 ? 0 : static_cast<double>(seen) / static_cast<double>(could);
+  const std::vector<std::size_t> in_scene = visible_pixels(subject.scene, camera, kViewWidth, kViewHeight);
+  const std::vector<std::size_t> unoccluded = visible_pixels(alone, camera, kViewWidth, kViewHeight);
+  std::size_t visible = 0;
+  for (const std::size_t i : subject.moving) visible += in_scene[i];
+  const std::size_t total = std::accumulate(unoccluded.begin(), unoccluded.end(), std::size_t{0});
+  return total == 0 ? 0 : static_cast<double>(visible) / static_cast<double>(total);
 }
 
-Image StepPictureTaker::take(const Subject& subject, const Vec3& view, const std::vector<Vec3>& points,
-                             int divisor) const {
+Image StepPictureRenderer::render_view(const Subject& subject, const Vec3& view, const std::vector<Vec3>& points,
+                                       int divisor) const {
   CameraFit fit;
   fit.direction = view;
   fit.aspect = static_cast<double>(options_.width) / options_.height;
@@ -246,10 +248,10 @@ Image StepPictureTaker::take(const Subject& subject, const Vec3& view, const std
   RenderScene scene = subject.scene;
   const double radius = kArrowRadius * std::hypot(1, fit.aspect) * camera.height;
   for (const std::vector<Vec3>& line : subject.lines) {
-    double way = 0;
-    for (std::size_t i = 1; i < line.size(); ++i) way += length(line[i] - line[i - 1]);
-    if (way > kShortestWay * radius)
-      scene.items.push_back(make_curved_arrow(line, std::min(radius, way / kSlimmest), kArrowColor));
+    double path_length = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) path_length += length(line[i] - line[i - 1]);
+    if (path_length > kMinPathLength * radius)
+      scene.items.push_back(make_curved_arrow(line, std::min(radius, path_length / kMinArrowLength), kArrowColor));
   }
   RenderOptions options = options_;
   options.width /= divisor;
@@ -257,15 +259,15 @@ Image StepPictureTaker::take(const Subject& subject, const Vec3& view, const std
   return render(scene, camera, options);
 }
 
-StepPictures StepPictureTaker::take(const WorkStep& step, PathDirection direction) {
+StepPictures StepPictureRenderer::render_step(const WorkStep& step, PathDirection direction) {
   Subject subject = subject_of(step, direction);
   StepPictures pictures;
   pictures.view = last_view_ = best_view(subject);
-  if (seen_share(subject, pictures.view) < kMinSeen)
-    for (std::size_t i = 0; i < subject.moving.front(); ++i) subject.scene.items[i].color.a = kSeeThrough;
-  const bool is_part = !(subject.region == subject.surroundings);
-  pictures.close = take(subject, pictures.view, corners_of(subject.region), 1);
-  if (is_part) pictures.overview = take(subject, pictures.view, corners_of(subject.surroundings), 3);
+  if (visible_share(subject, pictures.view) < kMinVisible)
+    for (std::size_t i = 0; i < subject.moving.front(); ++i) subject.scene.items[i].color.a = kTransparentOpacity;
+  const bool is_close_up = !(subject.region == subject.surroundings);
+  pictures.close = render_view(subject, pictures.view, corners_of(subject.region), 1);
+  if (is_close_up) pictures.overview = render_view(subject, pictures.view, corners_of(subject.surroundings), 3);
   return pictures;
 }
 

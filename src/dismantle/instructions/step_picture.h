@@ -11,32 +11,32 @@ namespace dismantle {
 
 /// The pictures of a step.
 struct StepPictures {
-  Image close;                    ///< What moves, its way, and what is around it.
-  std::optional<Image> overview;  ///< All that it is taken from, where `close` shows only a part.
-  Vec3 view;                      ///< In which direction both look; unit.
+  Image close;                    ///< The moving set, its path and its surroundings.
+  std::optional<Image> overview;  ///< All of the surroundings, if `close` shows only a part of them.
+  Vec3 view;                      ///< Viewing direction of both; unit vector.
 };
 
-/// Takes pictures of work steps: what moves in a colour of its own near where it belongs, a ghost on the other end of
-/// the stretch shown, arrows along the way and around axes that it turns about. What a set is taken from is shown,
-/// nothing that lies elsewhere; where that hides the set from all sides, it is looked through.
-class StepPictureTaker {
+/// Renders pictures of work steps: the moving set highlighted at the start of the path, a ghost of it at the end of the
+/// section shown, arrows along the path and around axes of rotation. Of the other components only the surroundings of
+/// the set are shown; they are transparent if they would hide the set from every side.
+class StepPictureRenderer {
  public:
-  /// The assembly must outlive this. @param width, height of the close picture [pixels]
-  StepPictureTaker(const Assembly& assembly, int width, int height, const Executor& executor);
+  /// `assembly` must outlive this. @param width, height of the close picture [pixels]
+  StepPictureRenderer(const Assembly& assembly, int width, int height, const Executor& executor);
 
   /// The whole assembly.
   Image cover() const;
-  /// Pictures of a step from the view that shows most of what moves and of its way; of views that are about as good the
-  /// one of the step before, so that a reader need not turn the assembly in mind.
-  StepPictures take(const WorkStep& step, PathDirection direction);
+  /// The pictures of a step, from the view that shows most of the moving set and of its path. The view of the previous
+  /// step is kept if no other is clearly better.
+  StepPictures render_step(const WorkStep& step, PathDirection direction);
 
  private:
   struct Subject;
   Subject subject_of(const WorkStep& step, PathDirection direction) const;
   Vec3 best_view(const Subject& subject) const;
-  /// How much of what could be seen of the moving set is.
-  double seen_share(const Subject& subject, const Vec3& view) const;
-  Image take(const Subject& subject, const Vec3& view, const std::vector<Vec3>& points, int divisor) const;
+  /// Visible fraction of the moving set's silhouette.
+  double visible_share(const Subject& subject, const Vec3& view) const;
+  Image render_view(const Subject& subject, const Vec3& view, const std::vector<Vec3>& points, int divisor) const;
 
   const Assembly& assembly_;
   RenderScene scene_;

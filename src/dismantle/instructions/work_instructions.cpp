@@ -4,9 +4,9 @@
 #include "dismantle/documents/bill_of_materials.h"
 #include "dismantle/features/thread_axes.h"
 #include "dismantle/instructions/hexagon_drives.h"
+#include "dismantle/instructions/motion_text.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
-#include "dismantle/instructions/motion_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,14 @@ namespace {
 
 using Kind = InstructionNote::Kind;
 
-/// A drive or a thread is of use to a motion along it, within this sine.
+/// Maximum sine of the angle between a motion and the axis of a drive or a thread that it uses.
 constexpr double kAlong = 0.02;
-/// Of more names, the rest is counted.
+/// Maximum number of names in a list; the rest is counted.
 constexpr std::size_t kMaxNames = 6;
-/// So much of the checksum tells versions apart.
+/// Number of digits of the checksum on the cover.
 constexpr std::size_t kChecksumDigits = 12;
 
-/// "a, b and c"; of many, the first and how many more.
+/// "a, b and c"; a long list ends with "and 3 more".
 std::string names_text(const std::vector<std::string>& names) {
   const std::size_t named = names.size() <= kMaxNames ? names.size() : kMaxNames - 1;
   std::string text;
@@ -39,35 +39,40 @@ std::string names_text(const std::vector<std::string>& names) {
 }
 
 std::string tool_text(const std::string& name, double size) {
-  return name + " " + number_text(size) + " mm";
+  return number_text(size) + " mm " + name;
+}
+
+/// "1 step", "2 steps".
+std::string count_text(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 constexpr const char* kTimes = " \u00d7 ";
 
-/// "4 x bolt", or "bolt" where it is one.
+/// "4 x bolt", or "bolt" for a single one.
 std::string counted_name(const WorkInstructions& instructions, const CountedPart& part) {
   const std::string& name = instructions.parts[part.item].name;
   return part.count > 1 ? std::to_string(part.count) + kTimes + name : name;
 }
 
-/// An overlap as drawn, of so many equal components that a step takes with as many others.
+/// Equal overlaps between components that a step moves and others, in the assembled state.
 struct CountedOverlap {
-  std::size_t own_line = 0, other_line = 0;  ///< Of the bill.
+  std::size_t own_line = 0, other_line = 0;  ///< Lines of the bill of materials.
   std::string depth;                         ///< [mm]
   PairState state = PairState::Fit;
-  std::vector<ComponentId> own, others;  ///< Each once.
+  std::vector<ComponentId> own, others;  ///< Without duplicates.
 
   bool is_like(const CountedOverlap& o) const {
     return own_line == o.own_line && other_line == o.other_line && depth == o.depth && state == o.state;
   }
 };
 
-/// Along which line a component is turned or pulled.
+/// True if an axis is parallel to the direction or the axis of a leg.
 bool lies_along(const Vec3& axis, const Leg& leg) {
   return length(cross(axis, leg.direction)) < kAlong;
 }
 
-/// Makes the steps' texts and takes their pictures.
+/// Writes the texts of the steps and renders their pictures.
 class Writer {
  public:
   Writer(const Assembly& assembly, const PairStates& pairs, const Timeline& timeline,
@@ -83,9 +88,9 @@ class Writer {
         pictures_(assembly, options.picture_width, options.picture_height, options.engine.executor) {
     for (std::size_t i = 0; i < bill_.size(); ++i)
       for (const ComponentId c : bill_[i].components) lines_[c.value] = i;
-    const std::vector<ComponentId> staying = staying_components(assembly, steps_);
-    if (!staying.empty()) ground_ = staying.front();
-    for (const ComponentId c : staying) result_.staying.push_back(assembly[c].name);
+    const std::vector<ComponentId> stationary = stationary_components(assembly, steps_);
+    if (!stationary.empty()) ground_ = stationary.front();
+    for (const ComponentId c : stationary) result_.stationary.push_back(assembly[c].name);
   }
 
   Result<WorkInstructions> write() {
@@ -98,7 +103,7 @@ class Writer {
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (!report_progress(options_.progress, "writing instructions",
                            static_cast<double>(i) / static_cast<double>(steps_.size())))
-        return Error{ErrorKind::Failed, "the instructions were not written (cancelled); start it again"};
+        return Error{ErrorKind::Failed, "the instructions were not written (cancelled); run it again"};
       add(steps_[i]);
     }
     for (const auto& [name, sizes] : tools_)
@@ -115,12 +120,12 @@ class Writer {
     const std::vector<Leg> legs = legs_of(first, bounds_of(assembly_, first.components).center());
     instruction.parts = counted(step);
     instruction.title = verb(step, legs) + " " + subject(step, instruction.parts);
-    note_way(step, legs, instruction);
+    note_motion(step, legs, instruction);
     note_tools(first, legs, instruction);
     note_warnings(step, legs, instruction);
     note_clearance(step, instruction);
     note_overlaps(step, instruction);
-    StepPictures pictures = pictures_.take(step, options_.direction);
+    StepPictures pictures = pictures_.render_step(step, options_.direction);
     instruction.picture = std::move(pictures.close);
     instruction.overview = std::move(pictures.overview);
     result_.steps.push_back(std::move(instruction));
@@ -141,7 +146,7 @@ class Writer {
     return parts;
   }
 
-  /// What is done: taken away, screwed, or only moved.
+  /// The verb of a step's title; "Move" if the set does not leave its surroundings.
   std::string verb(const WorkStep& step, const std::vector<Leg>& legs) const {
     const RemovalMove& removal = step.removals.front();
     Aabb around;
@@ -164,14 +169,14 @@ class Writer {
     return names_text(names) + " together";
   }
 
-  /// Of the only component of a removal that is of a line of the bill.
+  /// Name of the only component of a removal on a line of the bill of materials.
   const std::string& name_of_one(const RemovalMove& removal, std::size_t line) const {
     return assembly_[*std::find_if(removal.components.begin(), removal.components.end(),
                                    [&](ComponentId c) { return lines_[c.value] == line; })]
         .name;
   }
 
-  /// Of the node of the product tree that has these components and no others, if there is one.
+  /// Name of the node of the product tree that contains exactly these components, if there is one.
   std::optional<std::string> name_of_body(const std::vector<ComponentId>& components) const {
     std::vector<std::size_t> inside(assembly_.tree.size()), all(assembly_.tree.size());
     const auto count = [&](ComponentId c, std::vector<std::size_t>& counts) {
@@ -184,10 +189,12 @@ class Writer {
     return {};
   }
 
-  void note_way(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
+  void note_motion(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
     std::string text = motion_text(legs, options_.direction);
-    if (step.removals.size() > 1) text += " One after another, each the same way.";
-    instruction.notes.push_back({Kind::Way, text});
+    if (step.removals.size() > 1)
+      text += is_forward_ ? " Remove one at a time, all in the same direction."
+                          : " Mount one at a time, all in the same direction.";
+    instruction.notes.push_back({Kind::Motion, text});
   }
 
   void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
@@ -199,7 +206,7 @@ class Writer {
       if (!lies_along(turned * axis.direction, legs.front())) continue;
       for (const HexagonDrive& drive : hexagon_drives(*c.mesh, axis)) {
         const bool is_head = drive.kind == HexagonDrive::Kind::Head;
-        tools[is_head ? "Spanner" : "Hexagon key"].insert(std::stod(number_text(drive.across_flats)));
+        tools[is_head ? "spanner (wrench)" : "hex key"].insert(std::stod(number_text(drive.across_flats)));
       }
     }
     for (const auto& [name, sizes] : tools) {
@@ -214,11 +221,12 @@ class Writer {
     const std::vector<RevolutionAxis> axes = revolution_axes(c.mesh->vertices, c.mesh->faces);
     for (const ThreadAxis& thread : thread_axes(c.mesh->vertices, c.mesh->faces, axes)) {
       if (!lies_along(turned * thread.direction, legs.front())) continue;
-      std::string text = "Thread of " + number_text(2 * thread.max_radius) + " mm, " + number_text(std::abs(thread.lead)) +
-                         " mm a turn, " + (thread.lead > 0 ? "right" : "left") + "-handed.";
+      std::string text = std::string(thread.lead > 0 ? "Right" : "Left") + "-hand thread, diameter " +
+                         number_text(2 * thread.max_radius) + " mm, lead " + number_text(std::abs(thread.lead)) +
+                         " mm.";
       if (std::none_of(legs.begin(), legs.end(), is_screwing))
-        text += is_forward_ ? " The way shown does not turn: unscrew it first if it is engaged."
-                            : " The way shown does not turn: screw it in.";
+        text += is_forward_ ? " The rotation is not shown: unscrew first if engaged."
+                            : " The rotation is not shown: screw in.";
       instruction.notes.push_back({Kind::Warning, text});
     }
   }
@@ -226,65 +234,70 @@ class Writer {
   void note_warnings(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
     const auto warn = [&](const std::string& text) { instruction.notes.push_back({Kind::Warning, text}); };
     const std::size_t count = step.removals.front().components.size();
-    if (count > 1) warn("These " + std::to_string(count) + " go as one body: keep them together.");
+    if (count > 1) warn((is_forward_ ? "Remove these " : "Mount these ") + std::to_string(count) + " parts as a unit.");
     if (is_forward_ && !legs.empty() && legs.front().angle == 0 && direction_words(legs.front().direction) == "down")
-      warn("It comes out downwards: hold it.");
-    const std::vector<ComponentId> falling = facts_.left_unsupported(step, ground_);
+      warn("Comes out downwards: support it by hand.");
+    const std::vector<ComponentId> falling = facts_.unsupported_after(step, ground_);
     if (falling.empty()) return;
     std::vector<std::string> each;
     each.reserve(falling.size());
     for (const ComponentId c : falling) each.push_back(assembly_[c].name);
-    const std::string names = names_text(each);
-    warn(is_forward_ ? "Nothing holds " + names + " from below after this step: support it before."
-                     : "Nothing holds " + names + " from below before this step: support it until then.");
+    const std::string are = each.size() == 1 ? " is" : " are", them = each.size() == 1 ? "it" : "them";
+    warn(names_text(each) + are +
+         (is_forward_ ? " unsupported after this step. Support " + them + " first."
+                      : " unsupported before this step. Support " + them + " until the step is complete."));
   }
 
   void note_clearance(const WorkStep& step, Instruction& instruction) {
-    PathClearance least = facts_.clearance(step, step.removals.front());
+    PathClearance closest = facts_.clearance(step, step.removals.front());
     for (std::size_t i = 1; i < step.removals.size(); ++i) {
       const PathClearance other = facts_.clearance(step, step.removals[i]);
-      if (other.least < least.least) {
-        least.least = other.least;
-        least.nearest = other.nearest;
+      if (other.min_distance < closest.min_distance) {
+        closest.min_distance = other.min_distance;
+        closest.nearest = other.nearest;
       }
-      if (other.touching > least.touching) {
-        least.touching = other.touching;
-        least.touched = other.touched;
+      if (other.contact_length > closest.contact_length) {
+        closest.contact_length = other.contact_length;
+        closest.last_contact = other.last_contact;
       }
     }
     std::string text;
-    if (least.touched.valid() && least.touching > 0) {
-      text = "Slides on " + assembly_[least.touched].name +
-             (is_forward_ ? " for about the first " : " for about the last ") + number_text(least.touching) + " mm.";
-    } else if (least.touched.valid()) {
-      text = "Touches " + assembly_[least.touched].name + (is_forward_ ? " at the beginning." : " in the end.");
+    if (closest.last_contact.valid() && closest.contact_length > 0) {
+      text = "Slides along " + assembly_[closest.last_contact].name +
+             (is_forward_ ? " for about the first " : " for about the last ") + number_text(closest.contact_length) +
+             " mm.";
+    } else if (closest.last_contact.valid()) {
+      text = "Touches " + assembly_[closest.last_contact].name + (is_forward_ ? " at the start." : " at the end.");
     }
-    if (least.nearest.valid())
-      text += std::string(text.empty() ? "" : " ") + "Comes within " + number_text(least.least) + " mm of " +
-              assembly_[least.nearest].name + ".";
+    if (closest.nearest.valid())
+      text += std::string(text.empty() ? "" : " ") + "Minimum clearance to " + assembly_[closest.nearest].name + ": " +
+              number_text(closest.min_distance) + " mm.";
     if (!text.empty()) instruction.notes.push_back({Kind::Clearance, text});
   }
 
   void note_overlaps(const WorkStep& step, Instruction& instruction) const {
     const std::vector<CountedOverlap> overlaps = overlaps_of(step);
-    const std::size_t told = overlaps.size() <= kMaxNames ? overlaps.size() : kMaxNames - 1;
-    for (std::size_t i = 0; i < told; ++i) {
+    const std::size_t listed = overlaps.size() <= kMaxNames ? overlaps.size() : kMaxNames - 1;
+    for (std::size_t i = 0; i < listed; ++i) {
       const CountedOverlap& o = overlaps[i];
+      const std::string names =
+          overlapping_name(o.own, o.own_line) + " and " + overlapping_name(o.others, o.other_line);
       instruction.notes.push_back(
-          {Kind::Overlap, overlapping_name(o.own, o.own_line) + " in " + overlapping_name(o.others, o.other_line) +
-                              ", " + o.depth + " mm" +
-                              (o.state == PairState::Fit ? ": a close fit, a press fit or a thread."
-                                                         : ": overlaps as drawn, not checked until they are apart.")});
+          {Kind::Overlap, o.state == PairState::Fit
+                              ? names + " overlap by " + o.depth + " mm: close fit, press fit or thread."
+                              : "The CAD models of " + names + " interfere by " + o.depth +
+                                    " mm; collision between them is not checked while they overlap."});
     }
-    if (told < overlaps.size())
-      instruction.notes.push_back({Kind::Overlap, "And " + std::to_string(overlaps.size() - told) + " more."});
+    if (listed < overlaps.size())
+      instruction.notes.push_back(
+          {Kind::Overlap, "And " + std::to_string(overlaps.size() - listed) + " more overlaps."});
   }
 
   std::string overlapping_name(const std::vector<ComponentId>& components, std::size_t line) const {
     return components.size() == 1 ? assembly_[components[0]].name : counted_name(result_, {line, components.size()});
   }
 
-  /// Those that a step parts, equal ones counted.
+  /// The fits and embedded pairs that a step separates; equal ones are counted.
   std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
     std::vector<ComponentId> set;
     for (const RemovalMove& removal : step.removals)
@@ -315,11 +328,11 @@ class Writer {
   bool is_forward_;
   std::vector<WorkStep> steps_;
   std::vector<BillItem> bill_;
-  std::vector<std::size_t> lines_;  // of the bill, of each component
+  std::vector<std::size_t> lines_;  // line of the bill of materials of each component
   RemovalFacts facts_;
-  StepPictureTaker pictures_;
+  StepPictureRenderer pictures_;
   ComponentId ground_;
-  std::map<std::string, std::set<double>> tools_;  // and their sizes [mm]
+  std::map<std::string, std::set<double>> tools_;  // sizes [mm] of the tools by name
   WorkInstructions result_;
 };
 
@@ -328,22 +341,22 @@ class Writer {
 Result<WorkInstructions> work_instructions(const Assembly& assembly, const PairStates& pairs, const Timeline& timeline,
                                            const WorkInstructionsOptions& options) {
   if (timeline.moves().empty())
-    return Error{ErrorKind::Usage, "there are no steps to tell (the path has no moves); give a path that has some"};
+    return Error{ErrorKind::Usage, "there are no steps to describe (the path has no moves); give a path with moves"};
   return Writer(assembly, pairs, timeline, options).write();
 }
 
 const char* heading_of(InstructionNote::Kind kind) {
   switch (kind) {
-    case Kind::Way:
-      return "How";
+    case Kind::Motion:
+      return "Motion";
     case Kind::Tool:
       return "Tools";
     case Kind::Warning:
-      return "Take care";
+      return "Caution";
     case Kind::Clearance:
       return "Clearance";
     case Kind::Overlap:
-      return "Overlaps as drawn";
+      return "Interference in the CAD models";
   }
   return "";
 }
@@ -359,12 +372,9 @@ std::string size_text(const Vec3& size) {
 std::string summary_text(const WorkInstructions& instructions) {
   std::size_t components = 0;
   for (const PartsLine& line : instructions.parts) components += line.count;
-  std::string text = std::to_string(instructions.steps.size()) + " steps, " + std::to_string(components) +
-                     " components of " + std::to_string(instructions.parts.size()) + " kinds; " +
-                     std::to_string(instructions.staying.size()) +
-                     (instructions.staying.size() == 1 ? " stays where it is." : " stay where they are.") +
-                     " Made from " + instructions.assembly + ".";
-  return text;
+  return count_text(instructions.steps.size(), "step") + ", " + count_text(components, "component") + " of " +
+         count_text(instructions.parts.size(), "kind") + "; " +
+         count_text(instructions.stationary.size(), "base part") + ". Source: " + instructions.assembly + ".";
 }
 
 }  // namespace dismantle

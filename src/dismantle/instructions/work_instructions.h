@@ -14,77 +14,81 @@
 
 namespace dismantle {
 
-/// Equal components, counted.
+/// A number of equal components.
 struct CountedPart {
-  std::size_t item = 0;  ///< Of the parts list, from 0.
-  std::size_t count = 0;
+  std::size_t item = 0;   ///< Index into the parts list, from 0.
+  std::size_t count = 0;  ///< Number of components.
 };
 
 /// A line of the parts list.
 struct PartsLine {
-  std::string name;
-  std::size_t count = 0;
-  Vec3 size;                       ///< Of the box around it [mm].
-  std::vector<std::size_t> steps;  ///< In which some of them are handled, from 1.
+  std::string name;                ///< Name of the part.
+  std::size_t count = 0;           ///< Number of components.
+  Vec3 size;                       ///< Of the bounding box [mm].
+  std::vector<std::size_t> steps;  ///< Steps that handle some of them, from 1.
 };
 
-/// What is to be known about a step, as a sentence.
+/// A note of a step.
 struct InstructionNote {
-  enum class Kind { Way, Tool, Warning, Clearance, Overlap };
-  Kind kind = Kind::Way;
-  std::string text;
+  /// Subjects of notes, in the order in which they are listed.
+  enum class Kind { Motion, Tool, Warning, Clearance, Overlap };
+  Kind kind = Kind::Motion;  ///< Selects the heading.
+  std::string text;          ///< One or more sentences.
 };
 
-/// One step for the fitter.
+/// One step of the instructions.
 struct Instruction {
-  std::string title;  ///< "Unscrew 4 x bolt".
-  std::vector<CountedPart> parts;
+  std::string title;                   ///< "Unscrew 4 x bolt".
+  std::vector<CountedPart> parts;      ///< The components that move.
   std::vector<InstructionNote> notes;  ///< Ordered by kind.
-  Image picture;
-  std::optional<Image> overview;  ///< Where on the whole it is, if the picture shows only a part.
+  Image picture;                       ///< The moving components and their surroundings.
+  std::optional<Image> overview;       ///< All of the surroundings, if the picture shows only a part of them.
 };
 
-/// Work instructions: what a document of any form says.
+/// The content of work instructions, independent of the document format.
 struct WorkInstructions {
-  std::string title;     ///< "Disassembly of vice.step".
-  std::string assembly;  ///< Its file and the first digits of its checksum.
-  Image cover;
-  std::vector<PartsLine> parts;
-  std::vector<std::string> tools;    ///< All that are wanted, by kind and size.
-  std::vector<std::string> staying;  ///< Components that no step moves.
-  std::vector<Instruction> steps;
+  std::string title;                    ///< "Disassembly of vice.step".
+  std::string assembly;                 ///< Its file and the first digits of its checksum.
+  Image cover;                          ///< The assembled product.
+  std::vector<PartsLine> parts;         ///< The parts list.
+  std::vector<std::string> tools;       ///< All tools that are needed, by kind and size.
+  std::vector<std::string> stationary;  ///< Names of the components that no step moves.
+  std::vector<Instruction> steps;       ///< In the order in which they are carried out.
 };
 
+/// Options of work_instructions().
 struct WorkInstructionsOptions {
-  PathDirection direction = PathDirection::Forward;
-  std::string product;       ///< That titles name; empty: the assembly's file.
-  int picture_width = 960;   ///< [pixels]
-  int picture_height = 720;  ///< [pixels]
-  CertificateOptions engine;
-  ProgressCallback progress;
+  PathDirection direction = PathDirection::Forward;  ///< Disassembly, or reversed: assembly.
+  std::string product;                               ///< Product name in titles; empty: the assembly's file.
+  int picture_width = 960;                           ///< [pixels]
+  int picture_height = 720;                          ///< [pixels]
+  CertificateOptions engine;  ///< Options of the engine that measures clearances and checks support.
+  ProgressCallback progress;  ///< Reports and cancels.
 };
 
-/// Instructions for taking an assembly apart along a path, or together again. z is up. Tools and warnings are of the
-/// shapes and the motion alone: threads, hexagons, fits, what could fall. Same input, same result.
-/// @pre the timeline is of the assembly; pairs are its own
-/// Errors: Usage where the path has no moves, Failed where it was cancelled.
+/// Makes instructions for disassembling a product along a path, or for assembling it. z is up. Tools and warnings are
+/// derived from shapes and motions alone: threads, hexagons, fits, loss of support. Deterministic.
+/// @pre the timeline and the pairs belong to the assembly
+/// Errors: Usage if the path has no moves, Failed if cancelled.
 Result<WorkInstructions> work_instructions(const Assembly& assembly, const PairStates& pairs, const Timeline& timeline,
                                            const WorkInstructionsOptions& options = {});
 
-/// "Way", "Tools", ...: the heading of a kind of notes.
+/// The heading of a kind of notes: "Motion", "Tools", ...
 const char* heading_of(InstructionNote::Kind kind);
 
-/// "4 x bolt (item 7)", as the step's list of parts has it.
+/// An entry of a step's list of parts: "4 x bolt (item 7)".
 std::string part_text(const WorkInstructions& instructions, const CountedPart& part);
-/// "12 x 8 x 5", of a box [mm].
+/// The size of a box [mm]: "12 x 8 x 5".
 std::string size_text(const Vec3& size);
-/// How much there is to do, and of what file: for the cover.
+/// The summary on the cover: numbers of steps, components and kinds, and the source file.
 std::string summary_text(const WorkInstructions& instructions);
 
-/// What a document says of how the instructions were made.
+/// Footer of a document: basis and limits of the instructions.
 inline constexpr const char* kInstructionsFooter =
-    "Tools and warnings are derived from shapes and motions alone; up is +Z. Clearances are measured at places along "
-    "the way: between them it may come nearer. Friction, weight, glue and what is not drawn are not known. Written by "
-    "dismantle.";
+    "Tools and warnings are derived from shapes and motions alone; up is +Z. Clearances are measured at samples along "
+    "the "
+    "path and may be smaller in between. Friction, weight, adhesives and parts that are not modelled are not "
+    "considered. "
+    "Written by dismantle.";
 
 }  // namespace dismantle

@@ -12,16 +12,16 @@ namespace dismantle {
 
 namespace {
 
-/// Ways are parallel whose directions [sine], and whose turns [rad], differ by less.
+/// Removals are parallel if their directions [sine] and their total rotations [rad] differ by less.
 constexpr double kParallel = 0.02;
-/// Components stand to each other as assembled where their poses differ by no more [mm, quaternion].
+/// Tolerance of equal poses [mm, quaternion component].
 constexpr double kSamePose = 1e-5;
 
 bool same_pose(const Pose& a, const Pose& b) {
   return max_abs(a.position - b.position) <= kSamePose && 1 - std::abs(dot(a.rotation, b.rotation)) <= kSamePose;
 }
 
-/// The number of the bill's line of each component.
+/// Line of the bill of materials of each component.
 std::vector<std::size_t> kinds_of(const Assembly& assembly) {
   std::vector<std::size_t> kinds(assembly.components.size());
   const std::vector<BillItem> bill = bill_of_materials(assembly);
@@ -30,16 +30,16 @@ std::vector<std::size_t> kinds_of(const Assembly& assembly) {
   return kinds;
 }
 
-/// Where a way leads, and how much it turns in all.
+/// Overall direction and rotation of a removal.
 struct Course {
-  Vec3 direction;    ///< From the middle's home to its end; unit, or zero.
-  double angle = 0;  ///< [rad]
+  Vec3 direction;    ///< Of the displacement of the centre; unit vector, or zero.
+  double angle = 0;  ///< Total rotation [rad].
 };
 
 Course course_of(const Assembly& assembly, const RemovalMove& removal) {
-  const Vec3 middle = bounds_of(assembly, removal.components).center();
-  const Vec3 from = transform_from_pose(removal.poses.front()) * middle;
-  Course course{normalized(transform_from_pose(removal.poses.back()) * middle - from)};
+  const Vec3 center = bounds_of(assembly, removal.components).center();
+  const Vec3 from = transform_from_pose(removal.poses.front()) * center;
+  Course course{normalized(transform_from_pose(removal.poses.back()) * center - from)};
   for (std::size_t i = 1; i < removal.poses.size(); ++i)
     course.angle += screw_between(removal.poses[i - 1], removal.poses[i]).angle;
   return course;
@@ -90,19 +90,19 @@ std::vector<ComponentId> surroundings(const WorkStep& step, const RemovalMove& r
   return together.empty() ? others : together;
 }
 
-std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& middle, int pieces) {
-  DISMANTLE_EXPECT(pieces >= 1);
-  std::vector<PathPose> places{{removal.poses.front(), 0}};
+std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& center, int samples) {
+  DISMANTLE_EXPECT(samples >= 1);
+  std::vector<PathPose> path{{removal.poses.front(), 0}};
   for (std::size_t i = 1; i < removal.poses.size(); ++i) {
-    for (int k = 1; k <= pieces; ++k) {
-      // Contacts end near home: there the places are close.
-      const double share = i == 1 ? std::pow(static_cast<double>(k) / pieces, 2) : static_cast<double>(k) / pieces;
-      const Pose pose = k == pieces ? removal.poses[i] : pose_between(removal.poses[i - 1], removal.poses[i], share);
-      const Vec3 from = transform_from_pose(places.back().pose) * middle;
-      places.push_back({pose, places.back().distance + length(transform_from_pose(pose) * middle - from)});
+    for (int k = 1; k <= samples; ++k) {
+      // Contacts end near the initial pose: the samples are dense there.
+      const double share = i == 1 ? std::pow(static_cast<double>(k) / samples, 2) : static_cast<double>(k) / samples;
+      const Pose pose = k == samples ? removal.poses[i] : pose_between(removal.poses[i - 1], removal.poses[i], share);
+      const Vec3 from = transform_from_pose(path.back().pose) * center;
+      path.push_back({pose, path.back().distance + length(transform_from_pose(pose) * center - from)});
     }
   }
-  return places;
+  return path;
 }
 
 Aabb bounds_of(const Assembly& assembly, Span<const ComponentId> components, const Pose& pose) {

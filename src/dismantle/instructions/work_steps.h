@@ -7,40 +7,40 @@
 
 namespace dismantle {
 
-/// A set of components goes away from where it is, rigidly together.
+/// The removal of a set of components as one rigid body.
 struct RemovalMove {
-  std::vector<ComponentId> components;
-  /// From home to where it is put, each by one screw from the one before. At least one pose.
+  std::vector<ComponentId> components;  ///< The moving set.
+  /// From the initial to the final pose, joined by screw motions. At least one.
   std::vector<Pose> poses;
 };
 
-/// What a fitter does at a time: one removal, or several of equal components, one after another, along parallel ways.
+/// One step of the work instructions: one removal, or several removals of equal components along parallel paths.
 struct WorkStep {
-  std::vector<RemovalMove> removals;  ///< In the order of the path, whichever way it is gone.
-  std::vector<Pose> before;           ///< Where every component is before the first of them. Shape [component_count].
+  std::vector<RemovalMove> removals;  ///< In the order of disassembly, also for assembly.
+  std::vector<Pose> before;           ///< Poses of all components before the first removal. Shape [component_count].
 };
 
-/// The steps of a timeline in the order of `direction`; ways always lead away. Moves of one set that follow each other
-/// are one removal.
+/// Groups the moves of a timeline into steps, in the order of `direction`. Removals always lead away from the assembled
+/// state. Consecutive moves of one set are one removal.
 std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timeline, PathDirection direction);
 
-/// The components that stand to a removal's set as they are assembled with it, and of these the set's own are none:
-/// what it is taken from. Where there are none, all others.
+/// The surroundings of a removal: the components outside the moving set that are in their assembled pose relative to
+/// it; all other components if there are none.
 std::vector<ComponentId> surroundings(const WorkStep& step, const RemovalMove& removal);
 
-/// A pose on a way.
+/// A pose on a removal path.
 struct PathPose {
-  Pose pose;
-  double distance = 0;  ///< That the middle of the set has gone [mm].
+  Pose pose;            ///< Of the moving set.
+  double distance = 0;  ///< Path length of the centre of the set up to here [mm].
 };
 
-/// Places along a removal's way, close to each other at its beginning: the first is home, the last the end. A way cut
-/// into many screws has all their ends.
-/// @param middle of the assembled set [mm]
-/// @param pieces that each screw is cut into, at least 1
-std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& middle, int pieces);
+/// Samples a removal path, more densely at its beginning. Contains the first pose, the last one, and the end of every
+/// screw motion.
+/// @param center of the assembled set [mm]
+/// @param samples per screw motion, at least 1
+std::vector<PathPose> poses_along(const RemovalMove& removal, const Vec3& center, int samples);
 
-/// The box around a set at a pose [mm].
+/// Bounding box of a set at a pose [mm].
 Aabb bounds_of(const Assembly& assembly, Span<const ComponentId> components, const Pose& pose = {});
 
 }  // namespace dismantle
