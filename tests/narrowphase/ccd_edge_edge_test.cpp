@@ -41,8 +41,8 @@ TEST(CcdEdgeEdge, CountsTouchingAtTheStartTheEndAndEndPoints) {
 
 TEST(CcdEdgeEdge, DecidesParallelCollinearAndPointLikeEdges) {
   const Vec3 x{1, 0, 0}, z{0, 0, 1}, zero{};
-  const auto pair = [](Vec3 a0, Vec3 a1, Vec3 way, Vec3 b0, Vec3 b1) {
-    return EdgeEdgeMotion{{a0, a1}, {a0 + way, a1 + way}, {b0, b1}, {b0, b1}};
+  const auto pair = [](Vec3 a0, Vec3 a1, Vec3 displacement, Vec3 b0, Vec3 b1) {
+    return EdgeEdgeMotion{{a0, a1}, {a0 + displacement, a1 + displacement}, {b0, b1}, {b0, b1}};
   };
   EXPECT_TRUE(contact(pair(z, z + x, -2.0 * z, 0.5 * x, 3.0 * x)));
   EXPECT_FALSE(contact(pair(z, z + x, -0.9 * z, 0.5 * x, 3.0 * x)));

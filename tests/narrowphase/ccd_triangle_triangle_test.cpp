@@ -148,9 +148,9 @@ class RandomMotions {
   /// Motions of a triangle that start near `place`.
   TriangleMotion motion(Vec3 place) {
     const Triangle t = shifted(triangle(), place);
-    const Vec3 way = log_uniform(-3, 0.5) * direction();
+    const Vec3 displacement = log_uniform(-3, 0.5) * direction();
     const double turn = uniform(0, 1) < 0.5 ? 0 : log_uniform(-4, 0);
-    return {t, moved(t, {way, quat_about(direction(), turn)})};
+    return {t, moved(t, {displacement, quat_about(direction(), turn)})};
   }
 
  private:
@@ -206,12 +206,12 @@ TEST(CcdTriangleTriangle, IsTheSameWithTheTrianglesExchanged) {
   EXPECT_LE(other_way, 8);
 }
 
-/// The first contact of any triangle pair of two meshes, b moving by `way`.
-CcdResult sweep(const TriangleMesh& a, const TriangleMesh& b, Vec3 way, double allowed) {
+/// The first contact of any triangle pair of two meshes, b moving by `displacement`.
+CcdResult sweep(const TriangleMesh& a, const TriangleMesh& b, Vec3 displacement, double allowed) {
   CcdResult first;
   for (std::size_t i = 0; i < a.faces.size(); ++i)
     for (std::size_t j = 0; j < b.faces.size(); ++j) {
-      const CcdResult r = ccd_triangle_triangle(still(a.triangle(i)), moving(b.triangle(j), {}, way), allowed);
+      const CcdResult r = ccd_triangle_triangle(still(a.triangle(i)), moving(b.triangle(j), {}, displacement), allowed);
       if (r.status == CcdStatus::Contact && r.toi <= first.toi) first = r;
     }
   return first;

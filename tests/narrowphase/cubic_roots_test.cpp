@@ -23,9 +23,9 @@ BernsteinCubic cubic_of_roots(double lead, double r0, double r1, double r2) {
 }
 
 double nearest(const CubicRoots& roots, double t) {
-  double least = 1e9;
-  for (int i = 0; i < roots.count; ++i) least = std::min(least, std::abs(roots.time[i] - t));
-  return least;
+  double minimum = 1e9;
+  for (int i = 0; i < roots.count; ++i) minimum = std::min(minimum, std::abs(roots.time[i] - t));
+  return minimum;
 }
 
 TEST(CubicRoots, FindsThreeSimpleRootsInOrder) {

@@ -11,22 +11,23 @@ namespace dismantle {
 
 namespace {
 
-/// So many motions at a time: with them, what the lanes leave is still in the second-level cache when it is looked at
-/// again.
+/// Motions per chunk: few enough that those left undecided are still in the second-level cache when they are tested in
+/// double.
 constexpr std::uint32_t kChunk = 512;
 
 static_assert(sizeof(VertexFaceMotion) == kMotionDoubles * sizeof(double));
 static_assert(sizeof(EdgeEdgeMotion) == kMotionDoubles * sizeof(double));
 
-std::uint32_t left_by_lanes(const VertexFaceMotion* first, std::uint32_t count, std::uint32_t next, LaneCount lanes,
-                            std::uint32_t* undecided) {
+/// Writes the indices of the motions that the lanes cannot prove free to `undecided`; returns their number.
+std::uint32_t undecided_by_lanes(const VertexFaceMotion* first, std::uint32_t count, std::uint32_t next,
+                                 LaneCount lanes, std::uint32_t* undecided) {
   const double* numbers = &first->vertex_t0.x;
   return with_lanes(lanes,
                     [&](auto width) { return vertex_face_lanes_kernel<width>(numbers, count, next, undecided); });
 }
 
-std::uint32_t left_by_lanes(const EdgeEdgeMotion* first, std::uint32_t count, std::uint32_t next, LaneCount lanes,
-                            std::uint32_t* undecided) {
+std::uint32_t undecided_by_lanes(const EdgeEdgeMotion* first, std::uint32_t count, std::uint32_t next, LaneCount lanes,
+                                 std::uint32_t* undecided) {
   const double* numbers = &first->a_t0[0].x;
   return with_lanes(lanes, [&](auto width) { return edge_edge_lanes_kernel<width>(numbers, count, next, undecided); });
 }
@@ -48,7 +49,7 @@ CcdBatchResult decide(Span<const Motion> motions, LaneCount lanes) {
       return static_cast<std::uint32_t>(std::min<std::size_t>(kChunk, motions.size() - from));
     };
     const std::uint32_t count = up_to_chunk(start), next = up_to_chunk(start + count);
-    const std::uint32_t left = left_by_lanes(motions.data() + start, count, next, lanes, undecided);
+    const std::uint32_t left = undecided_by_lanes(motions.data() + start, count, next, lanes, undecided);
     result.decided_in_double += left;
     for (std::uint32_t i = 0; i < left; ++i) {
       const std::size_t query = start + undecided[i];

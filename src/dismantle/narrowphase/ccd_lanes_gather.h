@@ -7,40 +7,44 @@
 
 #include <cstddef>
 
-/// From motions in double, one after another in memory, to lanes of float: for lane kernels only (math/lanes.h).
+/// Conversion of motions in double to lanes of float, for lane kernels only (math/lanes.h).
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
+/// A vector in each lane.
 template <int kLanes>
 using LaneVec = Vec3T<Lanes<kLanes>>;
 
-/// Three of the four points of some motions, seen from the fourth at the same end: differences in double, rounded to
-/// float.
+/// Three of the four points of a motion in each lane, relative to the fourth at the same end: differences in double,
+/// rounded to float.
 template <int kLanes>
 struct RelativePoints {
-  LaneVec<kLanes> at[2][3];  ///< [end][point]
+  LaneVec<kLanes> at[2][3];  ///< Shape [end][point] [mm].
 };
 
-/// Motions that follow each other.
+/// Motions that are adjacent in memory, one per lane.
 struct ConsecutiveMotions {
-  const double* first;
+  const double* first;  ///< The motion of lane 0.
 
+  /// The motion of a lane.
   const double* operator[](int lane) const { return first + lane * kMotionDoubles; }
 };
 
-/// Motions of given numbers.
+/// Motions given by their indices, one per lane.
 struct ListedMotions {
-  const double* motions;
-  const std::uint32_t* numbers;  ///< One a lane.
+  const double* motions;         ///< All motions.
+  const std::uint32_t* indices;  ///< Of each lane.
 
-  const double* operator[](int lane) const { return motions + std::size_t{numbers[lane]} * kMotionDoubles; }
+  /// The motion of a lane.
+  const double* operator[](int lane) const { return motions + std::size_t{indices[lane]} * kMotionDoubles; }
 };
 
-/// The point that stands in rows kRow to kRow + 2 of every motion, less the one in kOrigin to kOrigin + 2.
+/// The point in rows kRow to kRow + 2 of every motion, relative to the one in kOrigin to kOrigin + 2.
 template <int kLanes, int kRow, int kOrigin>
 struct GatherPoint {
   static_assert(kLanes == 1);
 
+  /// Gathers the point of each lane.
   template <class Motions>
   static LaneVec<1> from(Motions motions) {
     const double* m = motions[0];
@@ -51,8 +55,10 @@ struct GatherPoint {
 
 #if defined(__x86_64__)
 
+/// 4 lanes.
 template <int kRow, int kOrigin>
 struct GatherPoint<4, kRow, kOrigin> {
+  /// Gathers the point of each lane.
   template <class Motions>
   static LaneVec<4> from(Motions motions) {
     const __m128 xy01 = _mm_movelh_ps(xy(motions[0]), xy(motions[1])),
@@ -72,8 +78,10 @@ struct GatherPoint<4, kRow, kOrigin> {
 
 #else
 
+/// 4 lanes.
 template <int kRow, int kOrigin>
 struct GatherPoint<4, kRow, kOrigin> {
+  /// Gathers the point of each lane.
   template <class Motions>
   static LaneVec<4> from(Motions motions) {
     float x[3][4];
@@ -88,11 +96,13 @@ struct GatherPoint<4, kRow, kOrigin> {
 
 #if defined(__AVX2__)
 
+/// 8 lanes.
 template <int kRow, int kOrigin>
 struct GatherPoint<8, kRow, kOrigin> {
+  /// Gathers the point of each lane.
   template <class Motions>
   static LaneVec<8> from(Motions motions) {
-    // Four rows of two motions a register, then four by four transposed in each half.
+    // Four rows of two motions in each register, then a 4x4 transposition in each half.
     const __m256 a = rows(motions[0], motions[4]), b = rows(motions[1], motions[5]);
     const __m256 c = rows(motions[2], motions[6]), d = rows(motions[3], motions[7]);
     const __m256d ab_low = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)),
@@ -107,7 +117,7 @@ struct GatherPoint<8, kRow, kOrigin> {
   }
 
  private:
-  /// Four rows are read; those of the last point begin one before it, to end with the motion.
+  /// Four rows are read. For the last point they begin one row earlier, so that they end with the motion.
   static constexpr int kBefore = kRow + 4 > kMotionDoubles ? 1 : 0;
   static_assert(kOrigin >= kBefore && kOrigin - kBefore + 4 <= kMotionDoubles);
 
@@ -123,8 +133,10 @@ struct GatherPoint<8, kRow, kOrigin> {
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 
+/// 16 lanes.
 template <int kRow, int kOrigin>
 struct GatherPoint<16, kRow, kOrigin> {
+  /// Gathers the point of each lane.
   template <class Motions>
   static LaneVec<16> from(Motions motions) {
     using Half = GatherPoint<8, kRow, kOrigin>;
@@ -145,9 +157,9 @@ struct GatherPoint<16, kRow, kOrigin> {
 
 #endif
 
-/// Where the points of a VertexFaceMotion stand: vertex_t0, vertex_t1, face_t0[3], face_t1[3]. All are seen from the
-/// vertex.
+/// Layout of a VertexFaceMotion: vertex_t0, vertex_t1, face_t0[3], face_t1[3].
 struct VertexFaceRows {
+  /// The corners of the face relative to the vertex.
   template <int kLanes, class Motions>
   static RelativePoints<kLanes> gather(Motions m) {
     return {
@@ -157,8 +169,9 @@ struct VertexFaceRows {
   }
 };
 
-/// Of an EdgeEdgeMotion: a_t0[2], a_t1[2], b_t0[2], b_t1[2]. a[1], b[0] and b[1] are seen from a[0].
+/// Layout of an EdgeEdgeMotion: a_t0[2], a_t1[2], b_t0[2], b_t1[2].
 struct EdgeEdgeRows {
+  /// a[1], b[0] and b[1] relative to a[0].
   template <int kLanes, class Motions>
   static RelativePoints<kLanes> gather(Motions m) {
     return {

@@ -9,29 +9,30 @@ namespace dismantle {
 
 namespace detail {
 
-/// What conservative_advancement needs to know about two triangles. All positions are relative to the first corner of A
-/// at that time.
+/// Two triangles for conservative_advancement(). Positions are relative to the first corner of A at the same time.
 class TrianglePair {
  public:
-  using Axes = FurthestAxis<3, 3>;
+  using Axes = FurthestAxis<3, 3>;  ///< The axes tried.
 
+  /// @param allowed penetration that is allowed [mm], >= 0
   DISMANTLE_HOST_DEVICE TrianglePair(const TriangleMotion& a, const TriangleMotion& b, double allowed)
       : hulls_(a.t0.corner, a.t1.corner, b.t0.corner, b.t1.corner), allowed_(allowed) {}
 
+  /// The triangles' relative motion.
   DISMANTLE_HOST_DEVICE const RelativeHulls<3, 3>& hulls() const { return hulls_; }
 
-  /// The caller's axis, and the faces' normals: they decide most pairs that slide or rest on each other.
+  /// Tries the caller's axis and the faces' normals, which decide most pairs that slide or rest on each other.
   DISMANTLE_HOST_DEVICE bool start(Axes& best) const {
     if (length_squared(best.axis()) > 0) best.consider(best.axis());
     if (best.end() >= 1) return true;
     const Triangles now = triangles_at(0);
-    best.consider_both_ways(normal_unscaled(now.a));
+    best.consider_both_signs(normal_unscaled(now.a));
     if (best.end() >= 1) return true;
-    best.consider_both_ways(normal_unscaled(now.b));
+    best.consider_both_signs(normal_unscaled(now.b));
     return best.end() >= 1;
   }
 
-  /// From the closest of the 6 vertex-face and 9 edge-edge pairs; of no use where the triangles intersect.
+  /// The axis between the closest of the 6 vertex-face and 9 edge-edge pairs; useless where the triangles intersect.
   DISMANTLE_HOST_DEVICE AxisGuess guess(double t) const {
     const Triangles now = triangles_at(t);
     Nearest nearest(now, closest_points_vertex_face(now.a[0], now.b).point_b - now.a[0]);
@@ -51,11 +52,12 @@ class TrianglePair {
     return {nearest.between, false};
   }
 
+  /// No other certificate than axes.
   DISMANTLE_HOST_DEVICE double advance(double t) const { return t; }
 
-  /// Newton's method stalls where the best axis turns while the hulls near each other: this foresees the axis at the
-  /// time at which the last two steps' axes and gaps, drawn out linearly, meet contact.
-  DISMANTLE_HOST_DEVICE void look_ahead(Axes& best, double t) {
+  /// Tries the axis at the time of contact that follows from the last two steps' axes and gaps by linear extrapolation.
+  /// Newton's method alone stalls where the best axis turns while the hulls approach each other.
+  DISMANTLE_HOST_DEVICE void extrapolate(Axes& best, double t) {
     const Step now = step_at(best.axis(), t);
     if (best.end() > t && now.time > last_.time && last_.gap > now.gap) {
       const double run = now.time - last_.time;
@@ -66,9 +68,9 @@ class TrianglePair {
     last_ = now;
   }
 
-  /// The 17 axes of which one separates any two triangles that are apart (and 11 of which give their depth): 2 face
-  /// normals, 9 crosses of edges, 6 normals of edges within a face's plane; for triangles without area also the normals
-  /// of their edges.
+  /// Tries the 17 axes of which one separates any two triangles that are apart (and 11 of which give their depth): 2
+  /// face normals, 9 cross products of edges, 6 normals of edges within a face's plane; for triangles without area also
+  /// the normals of their edges.
   DISMANTLE_HOST_DEVICE void consider_all(Axes& best, double t) const {
     const Triangles now = triangles_at(t);
     const Vec3 normal_a = normal_unscaled(now.a), normal_b = normal_unscaled(now.b);
@@ -91,7 +93,7 @@ class TrianglePair {
   struct Triangles {
     Triangle a, b;
   };
-  /// The corners of a triangle along an axis.
+  /// The projections of a triangle's corners on an axis.
   struct Projection {
     double at[3];
 
@@ -101,8 +103,8 @@ class TrianglePair {
     DISMANTLE_HOST_DEVICE double low() const { return low(0, 1) < at[2] ? low(0, 1) : at[2]; }
     DISMANTLE_HOST_DEVICE double high() const { return high(0, 1) > at[2] ? high(0, 1) : at[2]; }
   };
-  /// The least distance found between two features, from A to B, and the corners along it: they tell which other
-  /// features cannot be nearer.
+  /// The shortest vector found between two features, from A to B, and the projections of the corners on it, which tell
+  /// which other features cannot be nearer.
   struct Nearest {
     Vec3 between;
     double square;
@@ -117,10 +119,10 @@ class TrianglePair {
       if (length_squared(w) < square) *this = Nearest(now, w);
     }
   };
-  /// More than what rounding does to projections that only decide what is tried.
+  /// More than the relative rounding of projections that only decide which axes are tried.
   static constexpr double kGuessRounding = 0x1p-30;
 
-  /// The axis of a step, of unit length, and by how much it separates beyond the allowance.
+  /// The unit axis of a step, and the gap along it plus the allowance.
   struct Step {
     double time = -1, gap = 0;
     Vec3 axis;
@@ -133,16 +135,16 @@ class TrianglePair {
     return now;
   }
 
-  /// Looks at an axis unless the triangles clearly overlap along it both ways, as along most of those of a contact.
+  /// Tries an axis unless the triangles clearly overlap along it in both directions, as along most axes at a contact.
   DISMANTLE_HOST_DEVICE void consider_if_apart(Axes& best, const Triangles& now, Vec3 w) const {
     const Projection a(now.a, w), b(now.b, w);
     const double forth = b.low() - a.high(), back = a.low() - b.high();
     const double slack = allowed_ > 0 ? allowed_ * norm_one(w) : 0;
     const double rounding = kGuessRounding * ((a.high() - a.low()) + (b.high() - b.low()));
-    if ((forth > back ? forth : back) + slack >= -rounding) best.consider_both_ways(w);
+    if ((forth > back ? forth : back) + slack >= -rounding) best.consider_both_signs(w);
   }
 
-  /// A direction across `along`: its cross product with the coordinate axis that it is least along.
+  /// A direction perpendicular to `along`: its cross product with the coordinate axis of its smallest coordinate.
   DISMANTLE_HOST_DEVICE static Vec3 some_normal(Vec3 along) {
     const Vec3 size = absolute(along);
     if (size.x <= size.y && size.x <= size.z) return {0, along.z, -along.y};
@@ -153,13 +155,13 @@ class TrianglePair {
   DISMANTLE_HOST_DEVICE Step step_at(Vec3 w, double t) const {
     const Triangles now = triangles_at(t);
     const Vec3 unit = normalized(w);
-    double least = dot(unit, now.b[0]), most = dot(unit, now.a[0]);
+    double min_b = dot(unit, now.b[0]), max_a = dot(unit, now.a[0]);
     for (int i = 1; i < 3; ++i) {
       const double b = dot(unit, now.b[i]), a = dot(unit, now.a[i]);
-      least = b < least ? b : least;
-      most = a > most ? a : most;
+      min_b = b < min_b ? b : min_b;
+      max_a = a > max_a ? a : max_a;
     }
-    return {t, least - most + allowed_, unit};
+    return {t, min_b - max_a + allowed_, unit};
   }
 
   RelativeHulls<3, 3> hulls_;
@@ -169,9 +171,9 @@ class TrianglePair {
 
 }  // namespace detail
 
-/// As ccd_triangle_triangle(a, b, allowed), trying `hint` first (from a to b, any length; zero for none) and giving the
-/// axis that it ended on, for the pair's next motion. Where the hint has used part of the allowance at the start, it is
-/// only left for an axis within a right angle of it, so that faces of open sheets, which have no thickness, do not pass
+/// As ccd_triangle_triangle(a, b, allowed), but tries `hint` first (from a to b, any length; zero for none) and returns
+/// the last axis, the hint for the pair's next motion. A hint that has used part of the allowance at the start is only
+/// left for an axis within a right angle of it, so that faces of open sheets, which have no thickness, do not pass
 /// through each other from one motion to the next.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
                                                                  double allowed, Vec3 hint,
@@ -181,8 +183,8 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleM
   return conservative_advancement(pair, detail::TrianglePair::Axes(pair.hulls(), allowed, hint), limits);
 }
 
-/// As ccd_triangle_triangle(a, b, allowed, hint) for faces of closed solids: only an axis that the outward normals
-/// allow (at the start of the motion) may use the allowance.
+/// As ccd_triangle_triangle(a, b, allowed, hint), for faces of closed solids: only an axis that the outward normals at
+/// the start of the motion allow may use the allowance.
 DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
                                                                  double allowed, Vec3 hint,
                                                                  const OutwardNormals& normals,
@@ -194,16 +196,17 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleM
   return conservative_advancement(pair, axes, limits);
 }
 
-/// The certified test of a whole triangle pair (docs/design/0001-certified-ccd.md): conservative advancement along a
-/// separating axis. Linear vertex paths. With depth = the least translation that parts the triangles (0 where they are
-/// apart):
-///   1. Free is certain: at no instant are the triangles deeper in each other than `allowed`, despite rounding.
-///   2. Contact: the motion is certainly allowed on [0, toi]; toi is 0 where they are too deep at the start.
+/// The certified continuous test of a triangle pair with linear vertex paths: conservative advancement along separating
+/// axes. The depth of two triangles is the length of the shortest translation that separates them, 0 where they are
+/// apart.
+///   1. Free is certain: at no time is the depth above `allowed`, despite rounding.
+///   2. Contact: the depth is certainly at most `allowed` on [0, toi]; toi is 0 where it is above at the start.
 ///   3. With allowed = 0, touching counts as contact (closed sets).
 /// No false negative by proof: docs/design/0001-certified-ccd.md.
-/// At toi the triangles are as deep as is allowed, often to the last bit: positions that are rounded anew there can be
-/// too deep, and then every motion on is Contact at 0. Who goes on from a contact keeps a little back (a millionth of
-/// the motion is plenty).
+///
+/// At toi the depth is `allowed`, often to the last bit. Positions that are rounded again there may be too deep, and
+/// then every further motion is Contact at 0: a caller that goes on from a contact stops a little earlier (a millionth
+/// of the motion suffices).
 /// @param allowed penetration that is allowed [mm], >= 0
 DISMANTLE_HOST_DEVICE inline CcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
                                                              double allowed) {

@@ -5,15 +5,17 @@
 
 namespace dismantle {
 
-/// A point of one feature and a point of another, as near to each other as rounding lets them be found. *Inexact*: good
-/// for a direction to try or a test with a tolerance, never for a proof.
+/// The closest points of two features, up to rounding. *Inexact*: good for an axis to try or a test with a tolerance,
+/// never for a proof.
 struct ClosestPoints {
-  Vec3 point_a, point_b;  ///< [mm]
-  bool interior = false;  ///< Both points are inside their features, on no border.
+  Vec3 point_a;           ///< On the first feature [mm].
+  Vec3 point_b;           ///< On the second feature [mm].
+  bool interior = false;  ///< Both points are in the interiors of their features.
 };
 
-/// The point itself (`point_a`) and the point of the closed triangle nearest to it (`point_b`). Zero-area triangles are
-/// taken as the segment or point that they are. (Ericson, Real-Time Collision Detection, 5.1.5.)
+/// The point itself (`point_a`) and the nearest point of the closed triangle (`point_b`). Zero-area triangles are taken
+/// as the segment or point that they are (Ericson, Real-Time Collision Detection, 5.1.5). The fast one: on slivers it
+/// may be off by more than rounding, where closest_point_of_triangle() is not.
 DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, const Triangle& face) {
   const Vec3 ab = face[1] - face[0], ac = face[2] - face[0], ap = p - face[0], bp = p - face[1], cp = p - face[2];
   const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp);
@@ -21,7 +23,7 @@ DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, co
   const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
   const double along = d4 - d3, back = d5 - d6;
 
-  // The weights of the second and third corner. One way out keeps them in registers.
+  // The weights of the second and third corner. A single return keeps them in registers.
   double weight_b = 0, weight_c = 0;
   bool interior = false;
   if (d1 <= 0 && d2 <= 0) {
@@ -47,14 +49,51 @@ DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_vertex_face(Vec3 p, co
 
 namespace detail {
 
+/// The nearest point of the segment a-b; exactly an end where that is the nearest.
+DISMANTLE_HOST_DEVICE inline Vec3 closest_point_of_segment(Vec3 a, Vec3 b, Vec3 p) {
+  const Vec3 ab = b - a;
+  const double along = dot(p - a, ab), whole = dot(ab, ab);
+  if (!(along > 0)) return a;
+  return along >= whole ? b : a + (along / whole) * ab;
+}
+
+}  // namespace detail
+
+/// The point of a closed triangle that is nearest to `p`. Robust for slivers and degenerate triangles, unlike
+/// closest_points_vertex_face(), and slower: the point is one of the triangle and the nearest one, both up to rounding.
+/// For other triangles the two differ in the last bits only.
+DISMANTLE_HOST_DEVICE inline Vec3 closest_point_of_triangle(const Triangle& t, Vec3 p) {
+  Vec3 best = detail::closest_point_of_segment(t[0], t[1], p);
+  double best_squared = length_squared(p - best);
+  const auto consider = [&](Vec3 q) {
+    const double squared = length_squared(p - q);
+    if (squared >= best_squared) return;
+    best_squared = squared;
+    best = q;
+  };
+  consider(detail::closest_point_of_segment(t[1], t[2], p));
+  consider(detail::closest_point_of_segment(t[2], t[0], p));
+
+  const Vec3 n = normal_unscaled(t);
+  const double weight[3] = {dot(n, cross(t[2] - t[1], p - t[1])), dot(n, cross(t[0] - t[2], p - t[2])),
+                            dot(n, cross(t[1] - t[0], p - t[0]))};
+  const double sum = weight[0] + weight[1] + weight[2];
+  if (weight[0] > 0 && weight[1] > 0 && weight[2] > 0)
+    consider(t[0] + (weight[1] / sum) * (t[1] - t[0]) + (weight[2] / sum) * (t[2] - t[0]));
+  return best;
+}
+
+namespace detail {
+
+/// `s` clamped to [0, 1]; 0 where it is not a number.
 DISMANTLE_HOST_DEVICE inline double clamped_to_unit(double s) {
   return s > 0 ? (s < 1 ? s : 1) : 0;
 }
 
 }  // namespace detail
 
-/// The nearest points of two closed segments; of parallel ones one of the pairs, of zero-length ones the point.
-/// (Ericson, Real-Time Collision Detection, 5.1.9.)
+/// The closest points of two closed segments; one of the closest pairs where they are parallel, the point itself where
+/// a length is zero (Ericson, Real-Time Collision Detection, 5.1.9).
 DISMANTLE_HOST_DEVICE inline ClosestPoints closest_points_edge_edge(const Vec3 (&a)[2], const Vec3 (&b)[2]) {
   const Vec3 along_a = a[1] - a[0], along_b = b[1] - b[0], between = a[0] - b[0];
   const double aa = length_squared(along_a), bb = length_squared(along_b);

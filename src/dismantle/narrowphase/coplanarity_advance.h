@@ -6,30 +6,32 @@
 
 namespace dismantle {
 
-/// The rounding of restricting a cubic to a part of [0, 1] and that to its beginning, relative to its largest
-/// coefficient: twice six weighted means, three deep, each off by at most 3 u (docs/design/0001-certified-ccd.md).
+/// The error bound of restricting a cubic to [t, 1] and the result to its beginning, relative to the largest
+/// coefficient: twice six weighted means, three deep, each with an error of at most 3 u
+/// (docs/design/0001-certified-ccd.md).
 inline constexpr double kRestrictionError = 24 * kUnitRoundoff;
 
 namespace detail {
 
-/// How many times a control polygon is cut; convergence to a simple root is quadratic.
+/// Largest number of cuts of a control polygon; convergence to a simple root is quadratic.
 inline constexpr int kClippingLimit = 12;
 
-/// A cut that gains less than this is the last.
+/// A cut that advances by less than this is the last.
 inline constexpr double kClippingMinProgress = 0x1p-27;
 
-/// How far before the root that it expects a first cut is made, as a part of the way.
+/// Position of the first cut relative to the expected root.
 inline constexpr double kBeforeRoot = 1 - 0x1p-34;
 
-/// The Bernstein coefficients of a cubic, times the sign of the first, less the error bound: while the polynomial that
-/// they make is positive, the exact one has no root.
+/// The Bernstein coefficients of a cubic, times the sign of the first, less the error bound: the exact cubic has no
+/// root where the polynomial of these is positive.
 struct CubicHeights {
-  double at[4];
+  double at[4];  ///< The coefficients.
 
+  /// True if the polynomial is positive on all of [0, 1].
   DISMANTLE_HOST_DEVICE bool all_positive() const { return at[0] > 0 && at[1] > 0 && at[2] > 0 && at[3] > 0; }
 };
 
-/// Of the cubic on [t, 1], by de Casteljau's rule.
+/// The heights of a cubic on [t, 1], by de Casteljau's algorithm. @param error the error bound
 DISMANTLE_HOST_DEVICE inline CubicHeights heights_of_rest(const double (&c)[4], double t, double error) {
   const double s = 1 - t;
   const double c01 = s * c[0] + t * c[1], c12 = s * c[1] + t * c[2], c23 = s * c[2] + t * c[3];
@@ -39,7 +41,7 @@ DISMANTLE_HOST_DEVICE inline CubicHeights heights_of_rest(const double (&c)[4], 
   return {{sign * start - error, sign * c123 - error, sign * c23 - error, sign * c[3] - error}};
 }
 
-/// True where the polynomial is positive on [0, x], by the coefficients of that part.
+/// True if the polynomial is positive on [0, x], by its coefficients on that interval.
 DISMANTLE_HOST_DEVICE inline bool positive_until(const CubicHeights& h, double x) {
   const double s = 1 - x;
   const double c01 = s * h.at[0] + x * h.at[1], c12 = s * h.at[1] + x * h.at[2], c23 = s * h.at[2] + x * h.at[3];
@@ -47,7 +49,7 @@ DISMANTLE_HOST_DEVICE inline bool positive_until(const CubicHeights& h, double x
   return h.at[0] > 0 && c01 > 0 && c012 > 0 && s * c012 + x * c123 > 0;
 }
 
-/// Where the first root is expected: two steps of Laguerre's method to the right, from 0. A guess, perhaps not finite.
+/// An estimate of the first root, perhaps not finite: two steps of Laguerre's method to the right, from 0.
 DISMANTLE_HOST_DEVICE inline double expected_root(const CubicHeights& h) {
   using std::sqrt;
   const double a1 = 3 * (h.at[1] - h.at[0]), a2 = 3 * ((h.at[2] - h.at[1]) - (h.at[1] - h.at[0]));
@@ -62,8 +64,9 @@ DISMANTLE_HOST_DEVICE inline double expected_root(const CubicHeights& h) {
   return x;
 }
 
-/// The part of [0, 1] from 0 on in which the convex hull of the control points is positive: 0 where the first is not, 1
-/// where all are. The hull reaches zero where the first of the lines from a point above to a later one below does.
+/// The end of the interval from 0 on in which the convex hull of the control points is positive: 0 where the first is
+/// not, 1 where all are. The hull reaches zero where the first of the lines from a point above to a later one below
+/// does.
 DISMANTLE_HOST_DEVICE inline double clipped(const CubicHeights& h) {
   if (!(h.at[0] > 0)) return 0;
   constexpr double kNoCrossing = 4;
@@ -80,17 +83,17 @@ DISMANTLE_HOST_DEVICE inline double clipped(const CubicHeights& h) {
   return advance > 0 ? advance * (kRoundDown / 3) : 0;
 }
 
-/// `part` of the rest of the motion after `t`, certainly not too late.
+/// The time after `part` of the rest [t, 1] of the motion, certainly rounded down.
 DISMANTLE_HOST_DEVICE inline double time_after(double t, double part) {
   return (t + (1 - t) * part * kRoundDown) * kRoundDown;
 }
 
 }  // namespace detail
 
-/// The largest time that it finds up to which, from `t` on, the four points are certainly never in one plane (so that
-/// their features do not meet): `t` itself where they cannot be told from coplanar there, 1 where they never are. First
-/// up to just before a root that it only guesses and need not be one; failing that by cutting the control polygon again
-/// and again (Bezier clipping).
+/// A time up to which, from `t` on, the four points of a cubic are certainly never coplanar, so that their features do
+/// not meet: `t` itself where rounding cannot exclude coplanarity there, 1 where they never are coplanar. The first
+/// candidate is a time just before an estimated root; where that fails, the control polygon is cut repeatedly (Bezier
+/// clipping).
 DISMANTLE_HOST_DEVICE inline double coplanarity_advance(const BernsteinCubic& cubic, double t) {
   const double error = cubic.error + kRestrictionError * largest_coefficient(cubic);
   detail::CubicHeights rest = detail::heights_of_rest(cubic.c, t, error);

@@ -5,12 +5,13 @@
 
 namespace dismantle {
 
-/// A cubic on [0, 1] by its Bernstein coefficients: sum of B_k(t) c[k], B = (1-t)^3, 3(1-t)^2 t, 3(1-t) t^2, t^3.
+/// A cubic on [0, 1] in Bernstein form: the sum of B_k(t) c[k] with B = (1-t)^3, 3(1-t)^2 t, 3(1-t) t^2, t^3.
 struct BernsteinCubic {
-  double c[4] = {};
-  double error = 0;  ///< Every coefficient is within this of the exact one that the doubles of the input give.
+  double c[4] = {};  ///< The coefficients.
+  double error = 0;  ///< Error bound of every coefficient, against exact arithmetic on the doubles of the input.
 };
 
+/// The largest absolute value of a coefficient.
 DISMANTLE_HOST_DEVICE inline double largest_coefficient(const BernsteinCubic& cubic) {
   double largest = 0;
   for (const double c : cubic.c) {
@@ -20,9 +21,9 @@ DISMANTLE_HOST_DEVICE inline double largest_coefficient(const BernsteinCubic& cu
   return largest;
 }
 
-/// The relative rounding error of one coefficient of coplanarity_cubic: with P, Q, R the largest coordinates of the
+/// The relative error bound of a coefficient of coplanarity_cubic(): with P, Q, R the largest coordinates of the
 /// three differences, each is an average of at most three triple products of differences. A triple product of rounded
-/// differences is off by at most (7 + 56u)u times the sum of the absolute values of its six terms (Shewchuk 1997,
+/// differences has an error of at most (7 + 56u)u times the sum of the absolute values of its six terms (Shewchuk 1997,
 /// orient3d), which is at most 6 P Q R; the averages add less than 5 roundings. Hence 13 * 6 u < 80 u; 96 u is stated.
 inline constexpr double kCoplanarityRelativeError = 96 * 0x1p-53;
 
@@ -42,19 +43,19 @@ DISMANTLE_HOST_DEVICE inline BernsteinCubic coplanarity_cubic(const Vec3 (&p)[2]
     const double xy = m.x > m.y ? m.x : m.y;
     return xy > m.z ? xy : m.z;
   };
-  // The last term stands for products that underflow.
+  // The last term covers products that underflow.
   cubic.error = kCoplanarityRelativeError * (largest(p) * largest(q) * largest(r)) + 0x1p-1020 * (largest(r) + 1);
   return cubic;
 }
 
-/// Zero exactly where the vertex is in the plane of the face: six times the signed volume of the four points.
+/// Six times the signed volume of the four points over time: zero exactly where the vertex is in the plane of the face.
 DISMANTLE_HOST_DEVICE inline BernsteinCubic coplanarity_cubic(const VertexFaceMotion& m) {
   return coplanarity_cubic({m.face_t0[1] - m.face_t0[0], m.face_t1[1] - m.face_t1[0]},
                            {m.face_t0[2] - m.face_t0[0], m.face_t1[2] - m.face_t1[0]},
                            {m.vertex_t0 - m.face_t0[0], m.vertex_t1 - m.face_t1[0]});
 }
 
-/// Zero exactly where the four end points are in one plane.
+/// Six times the signed volume of the four end points over time: zero exactly where they are coplanar.
 DISMANTLE_HOST_DEVICE inline BernsteinCubic coplanarity_cubic(const EdgeEdgeMotion& m) {
   return coplanarity_cubic({m.a_t0[1] - m.a_t0[0], m.a_t1[1] - m.a_t1[0]},
                            {m.b_t0[1] - m.b_t0[0], m.b_t1[1] - m.b_t1[0]},

@@ -6,36 +6,37 @@
 
 namespace dismantle {
 
-/// Times in [0, 1], ascending.
+/// A list of times in [0, 1], ascending.
 template <int kCapacity>
 struct TimeList {
-  double time[kCapacity] = {};
-  int count = 0;
+  double time[kCapacity] = {};  ///< The times; the first `count` are used.
+  int count = 0;                ///< Number of times.
 
   /// Inserts `t` in order; drops it where it is outside [0, 1] or not a number. @pre count < kCapacity
   DISMANTLE_HOST_DEVICE void insert(double t) {
     if (!(t >= 0 && t <= 1)) return;
     DISMANTLE_EXPECT(count < kCapacity);
-    int place = count++;
-    for (; place > 0 && time[place - 1] > t; --place) time[place] = time[place - 1];
-    time[place] = t;
+    int index = count++;
+    for (; index > 0 && time[index - 1] > t; --index) time[index] = time[index - 1];
+    time[index] = t;
   }
 };
 
-/// Up to four nodes (both ends, two turning points) and three crossings between them.
+/// The roots of a cubic: at most four nodes (both ends, two turning points) and three crossings between them.
 using CubicRoots = TimeList<7>;
 
-/// The rounding of evaluating a cubic or quadratic in Bernstein form, and of the place of its turning points, relative
+/// The error bound of the values of a cubic or quadratic in Bernstein form, at its rounded turning points too, relative
 /// to the largest coefficient.
 inline constexpr double kCubicValueError = 32 * 0x1p-53;
 
+/// The value of a cubic at `t`.
 DISMANTLE_HOST_DEVICE inline double value_at(const BernsteinCubic& cubic, double t) {
   const double s = 1 - t;
   return ((cubic.c[0] * s + 3 * cubic.c[1] * t) * s + 3 * cubic.c[2] * (t * t)) * s + cubic.c[3] * (t * t * t);
 }
 
-/// The roots of q0 (1-t)^2 + 2 q1 (1-t) t + q2 t^2 in [0, 1]. A negative discriminant counts as zero: instead of losing
-/// a double root by rounding, the list may hold a time that is none.
+/// The roots of q0 (1-t)^2 + 2 q1 (1-t) t + q2 t^2 in [0, 1]. A negative discriminant counts as zero, so that no
+/// double root is lost by rounding: the list may hold a time that is no root.
 DISMANTLE_HOST_DEVICE inline TimeList<2> quadratic_roots(double q0, double q1, double q2) {
   using std::sqrt;
   const double a = (q0 - q1) + (q2 - q1), half_b = q1 - q0;
@@ -50,9 +51,9 @@ DISMANTLE_HOST_DEVICE inline TimeList<2> quadratic_roots(double q0, double q1, d
 
 namespace detail {
 
-/// The crossing in [low, high], where the values have opposite signs, by regula falsi that halves the value of an end
-/// which stays (the Illinois rule) and takes a bisection now and then: to where the value is lost in rounding, or to
-/// the last bit.
+/// The root in [low, high], at whose ends the values have opposite signs: regula falsi that halves the value of an end
+/// which stays (the Illinois rule), with a bisection every eighth step, until the value is below its rounding error or
+/// to the last bit.
 DISMANTLE_HOST_DEVICE inline double crossing_between(const BernsteinCubic& cubic, double low, double high) {
   const double lost = kCubicValueError / 16 * largest_coefficient(cubic);
   double at_low = value_at(cubic, low), at_high = value_at(cubic, high);

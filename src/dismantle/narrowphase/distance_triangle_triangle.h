@@ -7,17 +7,18 @@
 
 namespace dismantle {
 
-/// The closest points of two triangles.
+/// The distance and the closest points of two triangles.
 struct TriangleDistance {
-  double distance = 0;  ///< 0 where they intersect [mm].
-  Vec3 point_a, point_b;
+  double distance = 0;  ///< 0 where they intersect or touch [mm].
+  Vec3 point_a;         ///< On the first triangle [mm].
+  Vec3 point_b;         ///< On the second triangle [mm].
 };
 
-/// The error of a distance relative to the largest coordinate difference M of the six corners. Only points of the
-/// triangles are considered, so a distance is never too small by more than rounding. It is too large by what the
-/// nearest of them misses: for edges at an angle of sine s >= 2^-8 the place is off by less than 32u M / s^2 along
-/// them, which parts them by less than 32u M / s = 2^-40 M; for more nearly parallel ones the crossing is off by
-/// sqrt(3) kCrossDirectionError M / s < 2^-41 M / s, which parts them by 2^-41 M; for faces by roundings of M alone.
+/// The error bound of a distance relative to the largest coordinate difference M of the six corners. Only points of the
+/// triangles are considered, so that a distance is never too small by more than rounding. It is too large by the error
+/// of the closest points: for edges at an angle of sine s >= 2^-8 these are off by less than 32u M / s^2 along the
+/// edges, which adds less than 32u M / s = 2^-40 M to the distance; for more nearly parallel ones the crossing is off
+/// by sqrt(3) kCrossDirectionError M / s < 2^-41 M / s, which adds 2^-41 M; for faces the error is rounding of M alone.
 inline constexpr double kDistanceRelativeError = 0x1p-38;
 
 namespace detail {
@@ -26,11 +27,13 @@ namespace detail {
 /// would lose more than half of its digits.
 inline constexpr double kParallelSineSquared = 0x1p-16;
 
-/// The nearest pair of points so far.
-struct LeastDistance {
-  double squared = -1;  ///< Negative before the first pair.
-  Vec3 point_a, point_b;
+/// The nearest pair of points found.
+struct NearestPair {
+  double squared = -1;  ///< Squared distance; negative before the first pair.
+  Vec3 point_a;         ///< On the first triangle.
+  Vec3 point_b;         ///< On the second triangle.
 
+  /// Keeps the pair where it is nearer.
   DISMANTLE_HOST_DEVICE void consider(Vec3 of_a, Vec3 of_b) {
     const double d = length_squared(of_b - of_a);
     if (squared >= 0 && d >= squared) return;
@@ -40,49 +43,53 @@ struct LeastDistance {
   }
 };
 
-/// The point of the segment from `from` along `along` that is nearest to p.
+/// The nearest point to `p` of the segment from `from` to `from + along`.
 DISMANTLE_HOST_DEVICE inline Vec3 nearest_on_segment(Vec3 p, Vec3 from, Vec3 along) {
   const double squared = length_squared(along);
   return squared > 0 ? from + clamped_to_unit(dot(p - from, along) / squared) * along : from;
 }
 
-/// Nearly parallel or zero-length edges: the four ends, and the crossing, whose place along the edges is as uncertain
-/// as it matters little. Every pair considered is of points on the edges: none can be too near.
-DISMANTLE_HOST_DEVICE inline void consider_parallel_edges(LeastDistance& least, const Vec3 (&a)[2],
+/// Considers nearly parallel or zero-length edges: the four ends, and the crossing, whose position along the edges is
+/// as uncertain as it matters little. All points considered are on the edges, so that no pair can be too near.
+DISMANTLE_HOST_DEVICE inline void consider_parallel_edges(NearestPair& nearest, const Vec3 (&a)[2],
                                                           const Vec3 (&b)[2]) {
   const Vec3 along_a = a[1] - a[0], along_b = b[1] - b[0];
   for (int i = 0; i < 2; ++i) {
-    least.consider(a[i], nearest_on_segment(a[i], b[0], along_b));
-    least.consider(nearest_on_segment(b[i], a[0], along_a), b[i]);
+    nearest.consider(a[i], nearest_on_segment(a[i], b[0], along_b));
+    nearest.consider(nearest_on_segment(b[i], a[0], along_a), b[i]);
   }
   const Vec3 n = cross_direction(a[0], a[1], b[0], b[1]);
-  const Vec3 across_b = cross(along_b, n);  // The plane through edge b and n cuts edge a in the place sought.
+  const Vec3 across_b = cross(along_b, n);  // The plane through edge b and n cuts edge a in the crossing.
   const double slope = dot(along_a, across_b);
   if (slope == 0) return;
   const Vec3 start = a[0] + clamped_to_unit(dot(b[0] - a[0], across_b) / slope) * along_a;
   const Vec3 on_b = nearest_on_segment(start, b[0], along_b);
-  least.consider(nearest_on_segment(on_b, a[0], along_a), on_b);
+  nearest.consider(nearest_on_segment(on_b, a[0], along_a), on_b);
 }
 
-DISMANTLE_HOST_DEVICE inline void consider_edge_pair(LeastDistance& least, const Vec3 (&a)[2], const Vec3 (&b)[2]) {
+/// Considers the closest points of two edges.
+DISMANTLE_HOST_DEVICE inline void consider_edge_pair(NearestPair& nearest, const Vec3 (&a)[2], const Vec3 (&b)[2]) {
   const Vec3 along_a = a[1] - a[0], along_b = b[1] - b[0];
   const double aa = length_squared(along_a), bb = length_squared(along_b), ab = dot(along_a, along_b);
   if (aa * bb - ab * ab > kParallelSineSquared * (aa * bb)) {
     const ClosestPoints closest = closest_points_edge_edge(a, b);
-    least.consider(closest.point_a, closest.point_b);
+    nearest.consider(closest.point_a, closest.point_b);
   } else {
-    consider_parallel_edges(least, a, b);
+    consider_parallel_edges(nearest, a, b);
   }
 }
 
-/// A triangle as its sections across the longest edge. However thin it is, and with no normal, the section through the
-/// place of a point along that edge holds the foot of the point on the plane, if that is inside.
+/// A triangle as its sections perpendicular to the longest edge. However thin it is, and without its normal, the
+/// section at the position of a point along that edge contains the foot of the point, if the foot is in the triangle.
 struct FaceSections {
-  Vec3 from, to, apex;  ///< The ends of the longest edge, and the corner opposite.
-  double apex_at = 0;   ///< Its place along the edge, 0 to 1.
-  double longest_squared = 0;
+  Vec3 from;                   ///< Begin of the longest edge.
+  Vec3 to;                     ///< End of the longest edge.
+  Vec3 apex;                   ///< The opposite corner.
+  double apex_at = 0;          ///< Position of the apex along the edge, 0 to 1.
+  double longest_squared = 0;  ///< Squared length of the edge.
 };
 
+/// The sections of a triangle.
 DISMANTLE_HOST_DEVICE inline FaceSections face_sections(const Triangle& t) {
   FaceSections f;
   for (int i = 0; i < 3; ++i) {
@@ -98,7 +105,7 @@ DISMANTLE_HOST_DEVICE inline FaceSections face_sections(const Triangle& t) {
   return f;
 }
 
-/// A point of the face: the foot of p, if that is inside; else some point.
+/// The foot of `p` on the face if it is in the face, else some point of the face.
 DISMANTLE_HOST_DEVICE inline Vec3 foot_on_face(Vec3 p, const FaceSections& f) {
   if (!(f.longest_squared > 0)) return f.from;
   const Vec3 edge = f.to - f.from;
@@ -110,8 +117,8 @@ DISMANTLE_HOST_DEVICE inline Vec3 foot_on_face(Vec3 p, const FaceSections& f) {
   return nearest_on_segment(p, lower, end + part * (f.apex - end) - lower);
 }
 
-/// The points of edges of `edges` in the plane of `face`, with the points of the face by them; `edges` is a, or b where
-/// `face` is a.
+/// Calls consider(point of the edge, nearest point of the face) for every edge of `edges` that crosses the plane of
+/// `face`.
 template <class Consider>
 DISMANTLE_HOST_DEVICE void for_piercing(const Triangle& edges, const Triangle& face, const Consider& consider) {
   const Vec3 normal = cross_direction(face[0], face[1], face[0], face[2]);
@@ -125,20 +132,20 @@ DISMANTLE_HOST_DEVICE void for_piercing(const Triangle& edges, const Triangle& f
   }
 }
 
-/// About a local origin; `intersecting` is known.
-DISMANTLE_HOST_DEVICE inline LeastDistance nearest_points(const Triangle& a, const Triangle& b, bool intersecting) {
-  LeastDistance least;
+/// The nearest points of two triangles about a local origin.
+DISMANTLE_HOST_DEVICE inline NearestPair nearest_points(const Triangle& a, const Triangle& b, bool intersecting) {
+  NearestPair nearest;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) consider_edge_pair(least, {a[i], a[(i + 1) % 3]}, {b[j], b[(j + 1) % 3]});
+    for (int j = 0; j < 3; ++j) consider_edge_pair(nearest, {a[i], a[(i + 1) % 3]}, {b[j], b[(j + 1) % 3]});
   const FaceSections face_a = face_sections(a), face_b = face_sections(b);
   for (int i = 0; i < 3; ++i) {
-    least.consider(a[i], foot_on_face(a[i], face_b));
-    least.consider(foot_on_face(b[i], face_a), b[i]);
+    nearest.consider(a[i], foot_on_face(a[i], face_b));
+    nearest.consider(foot_on_face(b[i], face_a), b[i]);
   }
-  if (!intersecting) return least;
-  for_piercing(a, b, [&least](Vec3 of_a, Vec3 of_b) { least.consider(of_a, of_b); });
-  for_piercing(b, a, [&least](Vec3 of_b, Vec3 of_a) { least.consider(of_a, of_b); });
-  return least;
+  if (!intersecting) return nearest;
+  for_piercing(a, b, [&nearest](Vec3 of_a, Vec3 of_b) { nearest.consider(of_a, of_b); });
+  for_piercing(b, a, [&nearest](Vec3 of_b, Vec3 of_a) { nearest.consider(of_a, of_b); });
+  return nearest;
 }
 
 }  // namespace detail
@@ -151,10 +158,10 @@ DISMANTLE_HOST_DEVICE inline LeastDistance nearest_points(const Triangle& a, con
 DISMANTLE_HOST_DEVICE inline TriangleDistance distance_triangle_triangle(const Triangle& a, const Triangle& b) {
   const bool intersecting = intersect_triangle_triangle(a, b);
   const Vec3 origin = a[0];
-  const detail::LeastDistance least = detail::nearest_points(
+  const detail::NearestPair nearest = detail::nearest_points(
       {{Vec3{}, a[1] - origin, a[2] - origin}}, {{b[0] - origin, b[1] - origin, b[2] - origin}}, intersecting);
   using std::sqrt;
-  return {intersecting ? 0 : sqrt(least.squared), origin + least.point_a, origin + least.point_b};
+  return {intersecting ? 0 : sqrt(nearest.squared), origin + nearest.point_a, origin + nearest.point_b};
 }
 
 }  // namespace dismantle

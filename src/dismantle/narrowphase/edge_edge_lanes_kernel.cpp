@@ -4,12 +4,12 @@
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// An edge from the origin to the first point, and one from the second to the third.
+/// An edge from the origin to the first point and one from the second to the third, for undecided_motions().
 struct EdgeEdgeLanes {
   using Rows = EdgeEdgeRows;
 
-  /// Between the closest points of the edges, halfway through the motion (Ericson, Real-Time Collision Detection,
-  /// 5.1.9; by one more projection in place of its cases).
+  /// The axis between the closest points of the edges halfway through the motion (Ericson, Real-Time Collision
+  /// Detection, 5.1.9, with one more projection in place of its cases).
   template <int N>
   static LaneVec<N> guess(const RelativePoints<N>& points) {
     using L = Lanes<N>;
@@ -31,7 +31,7 @@ struct EdgeEdgeLanes {
   }
 
  private:
-  /// 0 for what is not a number, as where edges are parallel or without length.
+  /// `x` clamped to [0, 1]; 0 for NaN, which parallel and zero-length edges give.
   template <int N>
   static Lanes<N> clamped(Lanes<N> x) {
     return min(max(x, Lanes<N>(0)), Lanes<N>(1));

@@ -7,6 +7,7 @@ namespace dismantle {
 
 namespace detail {
 
+/// The extent of a motion, as kInsideTolerance defines it [mm].
 DISMANTLE_HOST_DEVICE inline double largest_difference(const EdgeEdgeMotion& m) {
   double largest = 0;
   const Vec3 differences[6] = {m.a_t0[1] - m.a_t0[0], m.b_t0[0] - m.a_t0[0], m.b_t0[1] - m.a_t0[0],
@@ -15,6 +16,7 @@ DISMANTLE_HOST_DEVICE inline double largest_difference(const EdgeEdgeMotion& m) 
   return largest;
 }
 
+/// The times at which features that stay coplanar can begin to meet.
 DISMANTLE_HOST_DEVICE inline CoplanarTimes coplanar_times(const EdgeEdgeMotion& m) {
   CoplanarTimes times;
   times.insert(0);
@@ -31,7 +33,7 @@ DISMANTLE_HOST_DEVICE inline CoplanarTimes coplanar_times(const EdgeEdgeMotion& 
 
 }  // namespace detail
 
-/// As elementary_edge_edge(motion), for a caller that has the coplanarity cubic already (from the filter).
+/// As elementary_edge_edge(motion), for a caller that has computed the coplanarity cubic for the filter.
 DISMANTLE_HOST_DEVICE inline CcdResult elementary_edge_edge(const EdgeEdgeMotion& m, const BernsteinCubic& cubic) {
   const auto distance_at = [&m](double t) {
     const Vec3 a[2] = {detail::mixed(m.a_t0[0], m.a_t1[0], t), detail::mixed(m.a_t0[1], m.a_t1[1], t)};
@@ -45,9 +47,9 @@ DISMANTLE_HOST_DEVICE inline CcdResult elementary_edge_edge(const EdgeEdgeMotion
 }
 
 /// The paper's elementary test of two edges (Provot 1997; Bridson, Fedkiw, Anderson 2002; Du et al. 2015, section 4.3):
-/// the roots of the coplanarity cubic in order, at each whether the segments meet, within kInsideTolerance. Linear
-/// vertex paths; touching counts. *Not certain*, as elementary_vertex_face; parallel edges and edges that are in one
-/// plane all the time are tested where they can begin to meet.
+/// the first root of the coplanarity cubic at which the segments meet within kInsideTolerance. Linear vertex paths;
+/// touching counts. *Not certain*, as elementary_vertex_face(). Edges that are coplanar all the time, parallel ones
+/// too, are tested where they can begin to meet.
 DISMANTLE_HOST_DEVICE inline CcdResult elementary_edge_edge(const EdgeEdgeMotion& motion) {
   return elementary_edge_edge(motion, coplanarity_cubic(motion));
 }

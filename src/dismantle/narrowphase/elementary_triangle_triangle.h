@@ -10,24 +10,26 @@
 
 namespace dismantle {
 
-/// A moving triangle and which of its features it stands for (bits as representative_features gives them: 0-2 its
-/// corners, 3-5 its edges from corner k to corner (k+1)%3). Its face is always its own.
+/// A moving triangle and the features that it represents.
 struct ElementaryTriangle {
-  TriangleMotion motion;
+  TriangleMotion motion;  ///< Its corners.
+  /// Bits as of representative_features(): 0 to 2 its corners, 3 to 5 its edges from corner k to corner (k+1)%3. It
+  /// always represents its face.
   std::uint8_t features = kAllFeatures;
 
-  static constexpr std::uint8_t kAllFeatures = 0x3f;
+  static constexpr std::uint8_t kAllFeatures = 0x3f;  ///< All corners and edges.
 };
 
-/// The first contact of a triangle pair, and what it cost to find.
+/// The first contact of a triangle pair, and the cost of the test.
 struct ElementaryPairResult {
-  CcdResult ccd;             ///< `iterations`: roots looked at.
+  CcdResult ccd;             ///< `iterations` counts roots tested.
   int filtered = 0;          ///< Feature pairs that the non-penetration filter decided.
   int elementary_tests = 0;  ///< Feature pairs that needed the elementary test itself.
 };
 
 namespace detail {
 
+/// Adds the result of an elementary test.
 DISMANTLE_HOST_DEVICE inline void add_test(ElementaryPairResult& total, const CcdResult& test) {
   ++total.elementary_tests;
   total.ccd.iterations += test.iterations;
@@ -36,6 +38,7 @@ DISMANTLE_HOST_DEVICE inline void add_test(ElementaryPairResult& total, const Cc
   total.ccd.status = CcdStatus::Contact;
 }
 
+/// Adds the tests of the corners that `a` represents against a face.
 DISMANTLE_HOST_DEVICE inline void add_vertices_against_face(ElementaryPairResult& total, const ElementaryTriangle& a,
                                                             const TriangleMotion& face) {
   for (int i = 0; i < 3; ++i) {
@@ -50,6 +53,7 @@ DISMANTLE_HOST_DEVICE inline void add_vertices_against_face(ElementaryPairResult
   }
 }
 
+/// Adds the tests of edge `i` of `a` against the edges that `b` represents.
 DISMANTLE_HOST_DEVICE inline void add_edge_against_edges(ElementaryPairResult& total, const TriangleMotion& a, int i,
                                                          const ElementaryTriangle& b) {
   const int i_end = (i + 1) % 3;
@@ -72,9 +76,9 @@ DISMANTLE_HOST_DEVICE inline void add_edge_against_edges(ElementaryPairResult& t
 }  // namespace detail
 
 /// The paper's continuous test of a triangle pair (Du et al. 2015, section 4.3): up to 6 vertex-face and 9 edge-edge
-/// tests, only of the features that the triangles stand for, each behind the deforming non-penetration filter. Linear
-/// vertex paths; touching counts; as (un)certain as the elementary tests. Triangles that intersect at the start without
-/// any feature pair meeting later are *not* noticed: such pairs are the discrete test's.
+/// tests of the features that the triangles represent, each after the deforming non-penetration filter. Linear vertex
+/// paths; touching counts. *Not certain*, as the elementary tests. Triangles that intersect at the start and of which
+/// no feature pair meets later are *not* detected: the discrete test finds them.
 DISMANTLE_HOST_DEVICE inline ElementaryPairResult elementary_triangle_triangle(const ElementaryTriangle& a,
                                                                                const ElementaryTriangle& b) {
   ElementaryPairResult total;
@@ -85,14 +89,14 @@ DISMANTLE_HOST_DEVICE inline ElementaryPairResult elementary_triangle_triangle(c
   return total;
 }
 
-/// What rounding can add to a distance that an elementary test measures, relative to the largest coordinate: positions
-/// and closest points of the test are a dozen operations away from the input.
+/// The rounding of a distance that an elementary test measures, relative to the largest coordinate: its positions and
+/// closest points are a dozen operations away from the input.
 inline constexpr double kElementaryDistanceRounding = 64 * kUnitRoundoff;
 
 /// The continuous separating axis test before the elementary ones (Tang et al. 2011, which Du et al. 2015 names among
-/// its low-level culls): true only where the normal of one of the faces at the start keeps the triangles, during the
-/// whole motion, further apart than any elementary test takes for touching. Guarantee: elementary_triangle_triangle is
-/// Free then, rounding included. False says nothing.
+/// its low-level culls): true only if along the normal of one of the faces at the start the triangles are, during the
+/// whole motion, further apart than any elementary test accepts as touching. elementary_triangle_triangle() is
+/// certainly Free then, rounding included. False proves nothing.
 DISMANTLE_HOST_DEVICE inline bool elementary_apart(const TriangleMotion& a, const TriangleMotion& b) {
   const RelativeHulls<3, 3> hulls(a.t0.corner, a.t1.corner, b.t0.corner, b.t1.corner);
   const Vec3 reach = max(hulls.reach[0], hulls.reach[1]);

@@ -7,6 +7,7 @@ namespace dismantle {
 
 namespace detail {
 
+/// The extent of a motion, as kInsideTolerance defines it [mm].
 DISMANTLE_HOST_DEVICE inline double largest_difference(const VertexFaceMotion& m) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
@@ -17,6 +18,7 @@ DISMANTLE_HOST_DEVICE inline double largest_difference(const VertexFaceMotion& m
   return largest;
 }
 
+/// The times at which features that stay coplanar can begin to meet.
 DISMANTLE_HOST_DEVICE inline CoplanarTimes coplanar_times(const VertexFaceMotion& m) {
   CoplanarTimes times;
   times.insert(0);
@@ -33,7 +35,7 @@ DISMANTLE_HOST_DEVICE inline CoplanarTimes coplanar_times(const VertexFaceMotion
 
 }  // namespace detail
 
-/// As elementary_vertex_face(motion), for a caller that has the coplanarity cubic already (from the filter).
+/// As elementary_vertex_face(motion), for a caller that has computed the coplanarity cubic for the filter.
 DISMANTLE_HOST_DEVICE inline CcdResult elementary_vertex_face(const VertexFaceMotion& m, const BernsteinCubic& cubic) {
   const auto distance_at = [&m](double t) {
     const Triangle face{detail::mixed(m.face_t0[0], m.face_t1[0], t), detail::mixed(m.face_t0[1], m.face_t1[1], t),
@@ -47,10 +49,9 @@ DISMANTLE_HOST_DEVICE inline CcdResult elementary_vertex_face(const VertexFaceMo
 }
 
 /// The paper's elementary test of a vertex against a face (Provot 1997; Bridson, Fedkiw, Anderson 2002; Du et al. 2015,
-/// section 4.3): the roots of the coplanarity cubic in order, at each whether the vertex is in the face, within
-/// kInsideTolerance. Linear vertex paths; touching counts. *Not certain*: rounding can lose a contact or report a near
-/// miss; `toi` is the root, to rounding. Points that are in one plane all the time are tested where they can begin to
-/// meet.
+/// section 4.3): the first root of the coplanarity cubic at which the vertex is in the face within kInsideTolerance.
+/// Linear vertex paths; touching counts. *Not certain*: rounding can lose a contact or report a near miss; `toi` is the
+/// root up to rounding. Points that are coplanar all the time are tested where they can begin to meet.
 DISMANTLE_HOST_DEVICE inline CcdResult elementary_vertex_face(const VertexFaceMotion& motion) {
   return elementary_vertex_face(motion, coplanarity_cubic(motion));
 }

@@ -7,17 +7,17 @@
 
 namespace dismantle::detail {
 
-// The intersection of closed triangles that share a plane or have no area: segments and points are triangles too. All
-// answers are exact.
+// The intersection of closed triangles that are coplanar or have no area, such as segments and points. All results are
+// exact.
 
-/// `p` without its coordinate `dropped`.
+/// `p` without the coordinate `dropped`.
 DISMANTLE_HOST_DEVICE inline Vec2 projected(Vec3 p, int dropped) {
   return dropped == 0 ? Vec2{p.y, p.z} : (dropped == 1 ? Vec2{p.z, p.x} : Vec2{p.x, p.y});
 }
 
-/// The coordinate whose dropping leaves a, b, c not on one line; -1 where they are on one line.
+/// A coordinate without which a, b, c are not collinear; -1 where they are collinear.
 DISMANTLE_HOST_DEVICE inline int faithful_projection(Vec3 a, Vec3 b, Vec3 c) {
-  // The largest normal coordinate first: nearly always the filter decides it.
+  // The largest coordinate of the normal first: the floating-point filter nearly always decides it.
   const Vec3 n = magnitude(cross(b - a, c - a));
   const int first = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
   for (int i = 0; i < 3; ++i) {
@@ -27,9 +27,9 @@ DISMANTLE_HOST_DEVICE inline int faithful_projection(Vec3 a, Vec3 b, Vec3 c) {
   return -1;
 }
 
-/// True where an edge of `t` has all of `other` strictly on its outer side, projected. For two sets in one plane, not
-/// in one line, such an edge of one of them exists where they share no point: it is the edge of their Minkowski
-/// difference that faces the origin. An edge without a third corner beside it has two outer sides.
+/// True if an edge of `t` has all of `other` strictly on its outer side. Of two coplanar, not collinear sets without a
+/// common point one has such an edge: the edge of their Minkowski difference that faces the origin. An edge on whose
+/// line the third corner is has two outer sides.
 DISMANTLE_HOST_DEVICE inline bool edge_separates(const Vec2 (&t)[3], const Vec2 (&other)[3]) {
   for (int i = 0; i < 3; ++i) {
     const Vec2 from = t[i], to = t[(i + 1) % 3];
@@ -40,24 +40,26 @@ DISMANTLE_HOST_DEVICE inline bool edge_separates(const Vec2 (&t)[3], const Vec2 
   return false;
 }
 
-/// @pre all six points are in one plane, on which dropping the coordinate is one-to-one
+/// True if two coplanar triangles share a point. @pre dropping the coordinate is one-to-one on their plane
 DISMANTLE_HOST_DEVICE inline bool intersect_projected(const Triangle& a, const Triangle& b, int dropped) {
   const Vec2 p[3] = {projected(a[0], dropped), projected(a[1], dropped), projected(a[2], dropped)};
   const Vec2 q[3] = {projected(b[0], dropped), projected(b[1], dropped), projected(b[2], dropped)};
   return !edge_separates(p, q) && !edge_separates(q, p);
 }
 
+/// The bounding box of a triangle.
 DISMANTLE_HOST_DEVICE inline Aabb box_of(const Triangle& t) {
   return {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))};
 }
 
-/// Segment p-q against a triangle with area. @pre face_projection is the face's faithful_projection
+/// True if the segment p-q and a triangle with area share a point. @pre face_projection is the face's
+/// faithful_projection
 DISMANTLE_HOST_DEVICE inline bool intersect_segment_face(Vec3 p, Vec3 q, const Triangle& face, int face_projection) {
   const OrientedPlane plane = oriented_plane(face[0], face[1], face[2]);
   const int side_p = side_of_plane(plane, p), side_q = side_of_plane(plane, q);
   if (side_p == 0 && side_q == 0) return intersect_projected({{p, q, q}}, face, face_projection);
   if (side_p == side_q) return false;
-  // The line goes through the plane in one point: on the inner side of all three edges, or of none, seen along it.
+  // The line crosses the plane in one point: on the same side of all three edges if that is in the face.
   int turns[2] = {0, 0};
   for (int i = 0; i < 3; ++i) {
     const int side = orient3d_sign(p, q, face[i], face[(i + 1) % 3]);
@@ -67,7 +69,7 @@ DISMANTLE_HOST_DEVICE inline bool intersect_segment_face(Vec3 p, Vec3 q, const T
   return turns[0] == 0 || turns[1] == 0;
 }
 
-/// A triangle without area is the union of its edges.
+/// As intersect_flat(), for `edges` without area: it is the union of its edges.
 DISMANTLE_HOST_DEVICE inline bool intersect_edges_face(const Triangle& edges, const Triangle& face,
                                                        int face_projection) {
   for (int i = 0; i < 3; ++i)
@@ -75,12 +77,12 @@ DISMANTLE_HOST_DEVICE inline bool intersect_edges_face(const Triangle& edges, co
   return false;
 }
 
-/// Two triangles without area.
+/// As intersect_flat(), for two triangles without area.
 DISMANTLE_HOST_DEVICE inline bool intersect_lines(const Triangle& a, const Triangle& b) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (orient3d_sign(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]) != 0) return false;
-  // All in one plane. Some point of one beside the line of the other shows a faithful projection.
+  // All are coplanar. A point of one beside the line of the other gives a faithful projection.
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const int of_a = faithful_projection(a[i], a[(i + 1) % 3], b[j]);
@@ -89,12 +91,12 @@ DISMANTLE_HOST_DEVICE inline bool intersect_lines(const Triangle& a, const Trian
       if (of_b >= 0) return intersect_projected(a, b, of_b);
     }
   }
-  // All on one line: intervals of it share a point where their boxes do.
+  // All are collinear: the intervals share a point if their boxes do.
   return true;
 }
 
-/// Apart from the code of the crossing case, which is to stay small. @pre the triangles share a plane, or one of them
-/// has no area
+/// True if two triangles share a point. Not inlined, to keep the code of the crossing case small. @pre the triangles
+/// are coplanar, or one of them has no area
 [[gnu::noinline]] DISMANTLE_HOST_DEVICE inline bool intersect_flat(const Triangle& a, const Triangle& b) {
   if (!overlaps(box_of(a), box_of(b))) return false;
   const int projection_a = faithful_projection(a[0], a[1], a[2]);

@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-/// How the planes and point sets of two closed triangles lie to each other.
+/// The relation of two closed triangles.
 enum class TriangleRelation {
   Apart,     ///< No common point.
   Flat,      ///< A common point; coplanar, or one triangle has no area.
@@ -14,44 +14,44 @@ enum class TriangleRelation {
 
 namespace detail {
 
-/// A triangle seen from another's plane: `apex` is alone on its side or on the plane, the other two corners are not on
-/// that side. `above`: the apex's side is the one that the plane's normal points to (a corner in the plane counts as
-/// either).
+/// The corner of a triangle that is alone on its side of another triangle's plane, or on the plane; the other two
+/// corners are not on that side.
 struct LoneCorner {
-  int apex = 0;
-  bool above = false;
+  int apex = 0;        ///< The corner.
+  bool above = false;  ///< Its side is that of the plane's normal; a corner in the plane counts as either.
 };
 
-/// @pre the signs are neither all positive, all negative nor all zero
+/// The lone corner by the sides of the corners. @pre the signs are neither all positive, all negative nor all zero
 DISMANTLE_HOST_DEVICE inline LoneCorner lone_corner(const int (&side)[3]) {
   // A corner in the plane counts as below where another is above, else as above: then one or two are above.
   const bool any_above = (side[0] > 0) | (side[1] > 0) | (side[2] > 0);
-  const int least = any_above ? 1 : 0;
-  const bool up[3] = {side[0] >= least, side[1] >= least, side[2] >= least};
+  const int threshold = any_above ? 1 : 0;
+  const bool up[3] = {side[0] >= threshold, side[1] >= threshold, side[2] >= threshold};
   const bool above = up[0] + up[1] + up[2] == 1;
   return {up[0] == above ? 0 : (up[1] == above ? 1 : 2), above};
 }
 
-/// A triangle's corners from `first` on, in its order or, where `reversed`, against it.
+/// A triangle's corners from `first` on, in its order or, if `reversed`, in the opposite one.
 DISMANTLE_HOST_DEVICE inline Triangle rotated(const Triangle& t, int first, bool reversed) {
   const int next = first == 2 ? 0 : first + 1, last = first == 0 ? 2 : first - 1;
   return {{t[first], t[reversed ? last : next], t[reversed ? next : last]}};
 }
 
-/// The sides of a triangle's corners; true where all are strictly on one.
+/// Computes the sides of a triangle's corners; true if all are strictly on one side.
 DISMANTLE_HOST_DEVICE inline bool on_one_side(const OrientedPlane& plane, const Triangle& t, int (&side)[3]) {
   for (int i = 0; i < 3; ++i) side[i] = side_of_plane(plane, t[i]);
   const int sum = side[0] + side[1] + side[2];
   return sum * sum == 9;
 }
 
+/// True if all corners are in the plane.
 DISMANTLE_HOST_DEVICE inline bool all_zero(const int (&side)[3]) {
   return (side[0] | side[1] | side[2]) == 0;
 }
 
 }  // namespace detail
 
-/// As intersect_triangle_triangle, and exact as that is, telling the kinds of intersection apart.
+/// The relation of two triangles; exact, as intersect_triangle_triangle().
 DISMANTLE_HOST_DEVICE inline TriangleRelation relation_triangle_triangle(const Triangle& a, const Triangle& b) {
   int side_a[3], side_b[3];
   if (detail::on_one_side(oriented_plane(b[0], b[1], b[2]), a, side_a)) return TriangleRelation::Apart;
@@ -68,7 +68,7 @@ DISMANTLE_HOST_DEVICE inline TriangleRelation relation_triangle_triangle(const T
   return meet ? TriangleRelation::Crossing : TriangleRelation::Apart;
 }
 
-/// True where the closed triangles share a point (touching counts). Exact for every finite double input, degenerate
+/// True if the closed triangles share a point (touching counts). Exact for every finite double input, degenerate
 /// triangles included: Devillers and Guigue's orientation signs (INRIA RR-4488; Du et al. 2015, algorithm 2) with the
 /// coplanar case, the signs by a floating-point filter and then by exact arithmetic.
 DISMANTLE_HOST_DEVICE inline bool intersect_triangle_triangle(const Triangle& a, const Triangle& b) {

@@ -6,9 +6,9 @@
 namespace dismantle {
 
 /// The deforming non-penetration filter (Tang, Manocha, Tong, "Fast continuous collision detection using deforming
-/// non-penetration filters", I3D 2010; Du et al. 2015, section 4.3): a cubic whose Bernstein coefficients are all of
-/// one sign has no root in [0, 1]. True only if the four exact coefficients certainly have one strict sign: the points
-/// are then never in one plane, so there is no contact. False says nothing.
+/// non-penetration filters", I3D 2010; Du et al. 2015, section 4.3): a cubic whose Bernstein coefficients all have one
+/// sign has no root in [0, 1]. True only if the four exact coefficients certainly have one strict sign: the points are
+/// then never coplanar, and there is no contact. False proves nothing.
 DISMANTLE_HOST_DEVICE inline bool certainly_never_coplanar(const BernsteinCubic& cubic) {
   const double e = cubic.error;
   const bool above = cubic.c[0] > e && cubic.c[1] > e && cubic.c[2] > e && cubic.c[3] > e;
@@ -16,12 +16,12 @@ DISMANTLE_HOST_DEVICE inline bool certainly_never_coplanar(const BernsteinCubic&
   return above || below;
 }
 
-/// True where the filter proves that the vertex and the face do not meet during the motion.
+/// True if the filter proves that the vertex and the face do not meet during the motion.
 DISMANTLE_HOST_DEVICE inline bool nonpenetration_filter(const VertexFaceMotion& motion) {
   return certainly_never_coplanar(coplanarity_cubic(motion));
 }
 
-/// True where the filter proves that the edges do not meet during the motion.
+/// True if the filter proves that the edges do not meet during the motion.
 DISMANTLE_HOST_DEVICE inline bool nonpenetration_filter(const EdgeEdgeMotion& motion) {
   return certainly_never_coplanar(coplanarity_cubic(motion));
 }

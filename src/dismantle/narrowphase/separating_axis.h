@@ -5,48 +5,53 @@
 
 namespace dismantle {
 
-/// Half the distance from 1 to the next double: the unit roundoff.
+/// The unit roundoff u: half the distance from 1 to the next double.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
-/// The error bound of a projected gap, in units of u * (|w_x| M_x + |w_y| M_y + |w_z| M_z), M the largest coordinates
-/// relative to the local origin. docs/design/0001-certified-ccd.md derives 10 u + O(u^2); the rest is margin for the
-/// rounding of the bound itself.
+/// The error bound of a projected gap on an axis w, in units of |w_x| M_x + |w_y| M_y + |w_z| M_z, M being the largest
+/// coordinates relative to the local origin. docs/design/0001-certified-ccd.md derives 10 u + O(u^2); the rest is
+/// margin for the rounding of the bound itself.
 inline constexpr double kGapErrorFactor = 12 * kUnitRoundoff;
 
-/// Stands for all products of a projection that underflow (each is off by at most 2^-1075).
+/// Covers all products of a projection that underflow (each has an error of at most 2^-1075).
 inline constexpr double kUnderflowError = 0x1p-1022;
 
-/// Every short chain of products, quotients and roots here is off by at most 8 u relatively; scaling by these rounds it
-/// down or up for certain.
+///@{ Factors that certainly round down or up: every short chain of products, quotients and roots here has a relative
+/// error of at most 8 u.
 inline constexpr double kRoundDown = 1 - 16 * kUnitRoundoff;
 inline constexpr double kRoundUp = 1 + 16 * kUnitRoundoff;
+///@}
 
-/// The relative error of the mean of two gaps is below 4 u of the mean of their sizes.
+/// The error bound of a weighted mean of two gaps, relative to that of their sizes; 4 u is the derived bound.
 inline constexpr double kMeanError = 8 * kUnitRoundoff;
 
-/// Where error bounds and allowances are below this nothing can overflow.
+/// Nothing overflows where error bounds and allowances are below this.
 inline constexpr double kLargestBound = 0x1p900;
 
-/// The absolute value; exact, and unlike a comparison with zero it takes no branch.
+/// The absolute value; exact, and without a branch, unlike a comparison with zero.
 DISMANTLE_HOST_DEVICE inline double absolute(double x) {
   using std::fabs;
   return fabs(x);
 }
 
+/// The absolute value of each coordinate.
 DISMANTLE_HOST_DEVICE inline Vec3 absolute(Vec3 v) {
   return {absolute(v.x), absolute(v.y), absolute(v.z)};
 }
 
-/// Two convex hulls of points that move linearly, seen from the first point of A, which stays at the origin: at either
-/// end its position is taken off all others. A difference of doubles is off by at most u relatively, so unlike a common
-/// origin this costs no accuracy however far out the points are.
+/// Two convex hulls A and B of points that move linearly, relative to the first point of A at the same time. A
+/// difference of doubles has a relative error of at most u, so that unlike a common origin this costs no accuracy
+/// however far out the points are.
 template <int kCountA, int kCountB>
 struct RelativeHulls {
+  ///@{ Number of points.
   static constexpr int kA = kCountA, kB = kCountB;
-  Vec3 a[2][kCountA];  ///< [end][point]; point 0 is zero.
-  Vec3 b[2][kCountB];  ///< [end][point]
-  Vec3 reach[2];       ///< The largest absolute value of each coordinate at that end.
+  ///@}
+  Vec3 a[2][kCountA];  ///< Points of A [mm], shape [end][point]; point 0 is zero.
+  Vec3 b[2][kCountB];  ///< Points of B [mm], shape [end][point].
+  Vec3 reach[2];       ///< Largest absolute value of each coordinate [mm], shape [end].
 
+  /// Takes the positions at the beginning (t0) and the end (t1) of the motion [mm].
   /// @pre each argument points to as many finite positions as its hull has points.
   DISMANTLE_HOST_DEVICE RelativeHulls(const Vec3* a_t0, const Vec3* a_t1, const Vec3* b_t0, const Vec3* b_t1) {
     for (int i = 1; i < kCountA; ++i) {
@@ -72,15 +77,22 @@ DISMANTLE_HOST_DEVICE inline double length_rounded(Vec3 w, bool down) {
   return sqrt(square) * (down ? kRoundDown : kRoundUp);
 }
 
-/// The hulls' projections on an axis at both ends, and what has to be added to a difference so that, where it is
-/// positive, the exact gap certainly exceeds -allowed * |axis| (with a negative `allowed`: a distance that is asked
-/// for).
+/// The projections of two hulls on an axis w at both ends of a motion. Below, "separates" means that the exact gap from
+/// A to B along w exceeds -allowed * |w|: the hulls overlap by less than `allowed` along it, or for a negative
+/// `allowed` are more than that apart.
+///   1. gap(end) > 0: w certainly separates at that end, despite rounding.
+///   2. separates_throughout(): w certainly separates during the whole motion.
+///   3. separates_until(now) >= now: w certainly separates from `now` up to the time returned.
+///   4. Nothing is claimed where coordinates overflow: 2 gives false and 3 gives -1 then.
 template <int kCountA, int kCountB>
 struct AxisProjections {
+  ///@{ Projections of the points, shape [end][point].
   double a[2][kCountA], b[2][kCountB];
-  double margin[2];
-  bool usable;  ///< Nothing overflowed. Where false nothing is proved.
+  ///@}
+  double margin[2];  ///< The allowance less the error bound, shape [end]: added to every difference.
+  bool usable;       ///< True if nothing overflowed.
 
+  /// @param w the axis, of any length; @param allowed [mm]
   DISMANTLE_HOST_DEVICE AxisProjections(const RelativeHulls<kCountA, kCountB>& hulls, Vec3 w, double allowed) {
     const double allowance = allowed == 0 ? 0 : allowed * length_rounded(w, allowed > 0);
     const Vec3 size = absolute(w);
@@ -95,9 +107,9 @@ struct AxisProjections {
     usable = bound[0] < kLargestBound && bound[1] < kLargestBound && absolute(allowance) < kLargestBound;
   }
 
-  /// The certified gap at an end, with B on the side that the axis points to; > 0 is proof.
-  DISMANTLE_HOST_DEVICE double gap(int end) const { return (least(b[end]) - most(a[end])) + margin[end]; }
-  /// Turns the axis round.
+  /// The gap at an end, less the error bound and plus the allowance (property 1), times |w|.
+  DISMANTLE_HOST_DEVICE double gap(int end) const { return (min_of(b[end]) - max_of(a[end])) + margin[end]; }
+  /// Reverses the axis.
   DISMANTLE_HOST_DEVICE void turn() {
     for (int end = 0; end < 2; ++end) {
       for (double& x : a[end]) x = -x;
@@ -105,13 +117,13 @@ struct AxisProjections {
     }
   }
 
-  /// True where the axis certainly separates during the whole motion.
+  /// True if the axis certainly separates during the whole motion (property 2).
   DISMANTLE_HOST_DEVICE bool separates_throughout() const { return usable && gap(0) > 0 && gap(1) > 0; }
 
-  /// Until when the axis certainly separates, from `now` on; -1 where it does not at `now`. Every projected difference
-  /// of a point of B and one of A is linear in time, so each lasts until a time in closed form.
+  /// The time up to which the axis certainly separates from `now` on (property 3); -1 where it does not at `now`. Every
+  /// projected difference of a point of B and one of A is linear in time, so that its zero has a closed form.
   DISMANTLE_HOST_DEVICE double separates_until(double now) const {
-    // Most axes that are only tried end here; of few points all differences cost less.
+    // Most axes that are tried end here; with few points computing all differences costs less.
     if constexpr (kCountA * kCountB > 4)
       if (!(rounded_gap_at(now) > 0)) return -1;
     double min_now = kLargestBound, min_at_end = kLargestBound, until = 1;
@@ -130,7 +142,7 @@ struct AxisProjections {
   }
 
  private:
-  /// The certified gap at `now` but for rounding: of no use as a proof.
+  /// The gap at `now` without a bound of its rounding: no proof.
   DISMANTLE_HOST_DEVICE double rounded_gap_at(double now) const {
     double min_b = kLargestBound, max_a = -kLargestBound;
     for (int j = 0; j < kCountB; ++j) {
@@ -145,13 +157,13 @@ struct AxisProjections {
   }
 
   template <int kCount>
-  DISMANTLE_HOST_DEVICE static double least(const double (&x)[kCount]) {
+  DISMANTLE_HOST_DEVICE static double min_of(const double (&x)[kCount]) {
     double m = x[0];
     for (int i = 1; i < kCount; ++i) m = x[i] < m ? x[i] : m;
     return m;
   }
   template <int kCount>
-  DISMANTLE_HOST_DEVICE static double most(const double (&x)[kCount]) {
+  DISMANTLE_HOST_DEVICE static double max_of(const double (&x)[kCount]) {
     double m = x[0];
     for (int i = 1; i < kCount; ++i) m = x[i] > m ? x[i] : m;
     return m;

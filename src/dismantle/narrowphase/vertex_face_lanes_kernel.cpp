@@ -4,11 +4,11 @@
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// A vertex at the origin and a face.
+/// A vertex at the origin and a face, for undecided_motions().
 struct VertexFaceLanes {
   using Rows = VertexFaceRows;
 
-  /// From the vertex to the closest point of the face, halfway through the motion and at twice the distance (Ericson,
+  /// The axis from the vertex to the closest point of the face halfway through the motion, twice as long (Ericson,
   /// Real-Time Collision Detection, 5.1.5).
   template <int N>
   static LaneVec<N> guess(const RelativePoints<N>& points) {
@@ -39,17 +39,17 @@ struct VertexFaceLanes {
 
   template <int N>
   static LaneGap<N> gap(const RelativePoints<N>& points, LaneVec<N> axis, LaneVec<N> reach) {
-    LaneGap<N> seen;
-    seen.difference = points.at[0][0];
-    seen.gap = dot(axis, seen.difference);
+    LaneGap<N> found;
+    found.difference = points.at[0][0];
+    found.gap = dot(axis, found.difference);
     for (int k = 1; k < 6; ++k) {
       const LaneVec<N>& corner = points.at[k / 3][k % 3];
       const Lanes<N> projected = dot(axis, corner);
-      seen.difference = select(projected < seen.gap, corner, seen.difference);
-      seen.gap = min(projected, seen.gap);
+      found.difference = select(projected < found.gap, corner, found.difference);
+      found.gap = min(projected, found.gap);
     }
-    seen.error = gap_error(axis, reach);
-    return seen;
+    found.error = gap_error(axis, reach);
+    return found;
   }
 };
 

@@ -2,6 +2,7 @@
 #include "dismantle/simplify/surface_tree.h"
 
 #include "dismantle/bvh/bvh_build.h"
+#include "dismantle/narrowphase/closest_points.h"
 
 #include <algorithm>
 #include <array>
@@ -10,43 +11,16 @@ namespace dismantle {
 
 namespace {
 
-Vec3 closest_point_of_segment(Vec3 a, Vec3 b, Vec3 p) {
-  const Vec3 ab = b - a;
-  const double along = dot(p - a, ab), whole = dot(ab, ab);
-  if (!(along > 0)) return a;
-  return along >= whole ? b : a + (along / whole) * ab;
-}
-
-// A way down leaves one sibling a level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the triangles.
+// Descending leaves one sibling per level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the triangles.
 constexpr std::size_t kStackSize = kBvhHeuristicDepth + 34;
 
+/// Squared distance from a point to a box.
 double distance_squared(const Aabb& box, Vec3 p) {
   const Vec3 outside = max(max(box.lower - p, p - box.upper), Vec3{});
   return dot(outside, outside);
 }
 
 }  // namespace
-
-Vec3 closest_point_of_triangle(const Triangle& t, Vec3 p) {
-  Vec3 best = closest_point_of_segment(t[0], t[1], p);
-  double best_squared = length_squared(p - best);
-  const auto consider = [&](Vec3 q) {
-    const double squared = length_squared(p - q);
-    if (squared >= best_squared) return;
-    best_squared = squared;
-    best = q;
-  };
-  consider(closest_point_of_segment(t[1], t[2], p));
-  consider(closest_point_of_segment(t[2], t[0], p));
-
-  const Vec3 n = normal_unscaled(t);
-  const double weight[3] = {dot(n, cross(t[2] - t[1], p - t[1])), dot(n, cross(t[0] - t[2], p - t[2])),
-                            dot(n, cross(t[1] - t[0], p - t[0]))};
-  const double sum = weight[0] + weight[1] + weight[2];
-  if (weight[0] > 0 && weight[1] > 0 && weight[2] > 0)
-    consider(t[0] + (weight[1] / sum) * (t[1] - t[0]) + (weight[2] / sum) * (t[2] - t[0]));
-  return best;
-}
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh, const Executor& executor) {
   DISMANTLE_EXPECT(!mesh.faces.empty());
@@ -100,7 +74,7 @@ MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint) const {
     if (left.squared > right.squared) std::swap(left, right);
     DISMANTLE_EXPECT(waiting + 2 <= stack.size());
     stack[waiting++] = right;
-    stack[waiting++] = left;  // the nearer one is looked at first
+    stack[waiting++] = left;  // the nearer one is visited first
   }
   return {std::sqrt(best_squared), best_face};
 }

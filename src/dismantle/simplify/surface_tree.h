@@ -10,25 +10,23 @@
 
 namespace dismantle {
 
-/// The point of a triangle that is nearest to `point`. Robust for slivers and degenerate triangles: the point returned
-/// is always one of the triangle, up to rounding, and nearest to within rounding.
-Vec3 closest_point_of_triangle(const Triangle& triangle, Vec3 point);
-
-/// Distance from a point to a mesh, and a triangle at that distance.
+/// Distance of a point from a mesh and a triangle at that distance.
 struct MeshDistance {
   double distance = 0;     ///< [mm]
-  std::uint32_t face = 0;  ///< Of the mesh.
+  std::uint32_t face = 0;  ///< The triangle.
 };
 
-/// Answers how far points are from a mesh. Keeps a copy of its triangles.
+/// Distances of points from a mesh in its own frame, by branch and bound over a BVH of boxes in double. Keeps a copy of
+/// its triangles.
 class SurfaceTree {
  public:
-  /// @pre the mesh has a triangle
+  /// Builds the tree; the same one on every executor. @pre the mesh has a triangle
   explicit SurfaceTree(const TriangleMesh& mesh, const Executor& executor = {});
 
-  /// The distance from `point` to the mesh: to the point of its triangles that is nearest, exact up to rounding.
-  /// @param hint a triangle that may be near: the better it is, the sooner the answer
+  /// The distance from `point` to the mesh, exact up to the rounding of closest_point_of_triangle().
+  /// @param hint a triangle to start from: the nearer, the fewer nodes are visited
   MeshDistance distance(Vec3 point, std::uint32_t hint = 0) const;
+  /// A triangle of the mesh.
   const Triangle& triangle(std::uint32_t face) const { return triangles_[face]; }
   /// The distance from `point` to one triangle [mm].
   double distance_to_face(Vec3 point, std::uint32_t face) const;
