@@ -9,9 +9,10 @@ namespace dismantle {
 /// Geometric Predicates", 1997. Needs IEEE doubles rounded to nearest even and no contraction. Everything here is exact
 /// as long as no operation overflows and no product has a bit below 2^-1074: see each function's @pre.
 
-/// `high` is the double nearest to the exact result, `high + low` the exact result.
+/// The exact result of an operation as a sum of two doubles.
 struct TwoTerms {
-  double high = 0, low = 0;
+  double high = 0;  ///< The double nearest to the result.
+  double low = 0;   ///< The rest.
 };
 
 /// a + b exactly (Knuth; Shewchuk, theorem 7). @pre the sum does not overflow
@@ -53,13 +54,15 @@ DISMANTLE_HOST_DEVICE inline TwoTerms two_product(double a, double b) {
 template <int kCapacity>
 struct Expansion {
   double term[kCapacity];  ///< The first `size` are set.
-  int size = 0;
+  int size = 0;            ///< Number of terms; 0 for the value 0.
 
+  /// Adds a term of larger magnitude than all others, unless it is 0.
   DISMANTLE_HOST_DEVICE void append_if_nonzero(double t) {
     if (t != 0) term[size++] = t;
   }
+  /// -1, 0 or 1; exact.
   DISMANTLE_HOST_DEVICE int sign() const { return size == 0 ? 0 : (term[size - 1] > 0 ? 1 : -1); }
-  /// The value within 2u, relative (Shewchuk, section 2.8).
+  /// The value with a relative error of at most 2u, u = 2^-53 (Shewchuk, section 2.8).
   DISMANTLE_HOST_DEVICE double estimate() const {
     double sum = 0;
     for (int i = 0; i < size; ++i) sum += term[i];
@@ -67,6 +70,7 @@ struct Expansion {
   }
 };
 
+/// The same number as an expansion.
 DISMANTLE_HOST_DEVICE inline Expansion<2> expansion_of(TwoTerms t) {
   Expansion<2> e;
   e.append_if_nonzero(t.low);
@@ -74,6 +78,7 @@ DISMANTLE_HOST_DEVICE inline Expansion<2> expansion_of(TwoTerms t) {
   return e;
 }
 
+/// Exact.
 template <int kCapacity>
 DISMANTLE_HOST_DEVICE Expansion<kCapacity> operator-(Expansion<kCapacity> e) {
   for (int i = 0; i < e.size; ++i) e.term[i] = -e.term[i];

@@ -8,18 +8,22 @@
 
 namespace dismantle {
 
-/// How many lanes a kernel works in (math/lanes.h). One is the scalar reference.
-enum class LaneCount : int { One = 1, Four = 4, Eight = 8, Sixteen = 16 };
+/// The number of lanes of a kernel (math/lanes.h).
+enum class LaneCount : int {
+  One = 1,       ///< The scalar reference, on every machine.
+  Four = 4,      ///< On every machine.
+  Eight = 8,     ///< With AVX2.
+  Sixteen = 16,  ///< With AVX-512 (F, BW, DQ and VL).
+};
 
-/// The counts that this machine can run, from the least to the greatest: One and Four always, Eight with AVX2, Sixteen
-/// with AVX-512 (F, BW, DQ and VL).
+/// The counts that this machine can run, in ascending order.
 Span<const LaneCount> lane_counts();
 
-/// The greatest of lane_counts().
+/// The largest of lane_counts().
 LaneCount widest_lanes();
 
 /// Calls `call` with the count as a constant (std::integral_constant<int, 8>, which converts to int in constant
-/// expressions), so that it can name the kernel of that width; gives what that gives.
+/// expressions), so that it can name the kernel of that width. @return the result of the call
 /// @pre `count` is one of lane_counts()
 template <class Call>
 decltype(auto) with_lanes(LaneCount count, Call&& call) {

@@ -8,9 +8,9 @@
 #include <immintrin.h>
 #endif
 
-/// What math/lanes.h is made of: a register of floats, a mask, and their operations, one struct a count.
+/// The operations that math/lanes.h is built on: a register of floats, a mask and their operations, one struct a count.
 
-/// The namespace of lanes and kernels, of another name for each set of instructions that a source is compiled for.
+/// The namespace of lanes and kernels, named after the instructions that a source is compiled for.
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define DISMANTLE_LANES_ISA lanes_avx512
 #elif defined(__AVX2__)
@@ -22,9 +22,10 @@
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// The compiler's vectors of four, on any machine.
+/// Four floats in the compiler's vectors, on any machine.
 struct PortableLaneOperations {
-  static constexpr int kCount = 4;
+  static constexpr int kCount = 4;  ///< Lanes.
+  ///@{ A register, a mask and the operations on them, lane by lane; Lanes and LaneMask say what they do.
   typedef float Register __attribute__((vector_size(16)));
   typedef int Mask __attribute__((vector_size(16)));
 
@@ -58,14 +59,17 @@ struct PortableLaneOperations {
     for (int i = 0; i < kCount; ++i) all |= (static_cast<unsigned>(m[i]) & 1u) << i;
     return all;
   }
+  ///@}
 };
 
+/// The operations of the machine on kCount floats, with the members of PortableLaneOperations.
 template <int kCount>
 struct LaneOperations;
 
-/// A float: the one count that device code has, too.
+/// One float: the only count that device code has, too.
 template <>
 struct LaneOperations<1> {
+  ///@{ As PortableLaneOperations.
   using Register = float;
   using Mask = bool;
 
@@ -113,11 +117,12 @@ struct LaneOperations<1> {
   DISMANTLE_HOST_DEVICE static unsigned bits(Mask m) {
     return m ? 1u : 0u;
   }
+  ///@}
 };
 
 #if defined(__x86_64__)
 
-/// SSE2, which every x86-64 has.
+/// Four floats with SSE2, which every x86-64 has.
 template <>
 struct LaneOperations<4> {
   using Register = __m128;
@@ -142,6 +147,7 @@ struct LaneOperations<4> {
 
 #else
 
+/// Four floats on other machines.
 template <>
 struct LaneOperations<4> : PortableLaneOperations {};
 
@@ -149,6 +155,7 @@ struct LaneOperations<4> : PortableLaneOperations {};
 
 #if defined(__AVX2__)
 
+/// Eight floats with AVX2.
 template <>
 struct LaneOperations<8> {
   using Register = __m256;
@@ -175,11 +182,12 @@ struct LaneOperations<8> {
 
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 
+/// Sixteen floats with AVX-512.
 template <>
 struct LaneOperations<16> {
   using Register = __m512;
   using Mask = __mmask16;
-  /// The unmasked intrinsics of GCC 12 read a register that nothing has set, and its warning says so.
+  /// All lanes: the unmasked intrinsics of GCC 12 read an uninitialized register, with a warning.
   static constexpr Mask kAll = 0xffff;
 
   static Register load(const float* from) { return _mm512_loadu_ps(from); }

@@ -7,22 +7,29 @@
 
 namespace dismantle {
 
-/// A rotation as a unit quaternion [w, x, y, z].
+/// A rotation as a unit quaternion [w, x, y, z]; the identity by default.
 struct Quat {
-  double w = 1, x = 0, y = 0, z = 0;
+  double w = 1;  ///< Real part.
+  double x = 0;  ///< Coefficient of i.
+  double y = 0;  ///< Coefficient of j.
+  double z = 0;  ///< Coefficient of k.
 
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
+  /// The Hamilton product: the rotation `a` after `b`.
   DISMANTLE_HOST_DEVICE friend constexpr Quat operator*(const Quat& a, const Quat& b) {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
   }
+  /// The same rotation with all signs changed.
   DISMANTLE_HOST_DEVICE friend constexpr Quat operator-(const Quat& q) { return {-q.w, -q.x, -q.y, -q.z}; }
 };
 
+/// The inverse rotation of a unit quaternion.
 DISMANTLE_HOST_DEVICE constexpr Quat conjugate(const Quat& q) {
   return {q.w, -q.x, -q.y, -q.z};
 }
 
+/// The inner product of the four coefficients.
 DISMANTLE_HOST_DEVICE constexpr double dot(const Quat& a, const Quat& b) {
   return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -11,6 +11,14 @@ Vec3 along_axis(const Screw& screw, Vec3 v) {
   return dot(v, screw.axis) * screw.axis;
 }
 
+/// The pose at time `s` of a body that starts at `start`.
+Pose moved_by(const Screw& screw, double s, const Pose& start) {
+  const Pose moved = screw_at(screw, s);
+  // The reference is the image of the assembly's origin, so its path is the position itself.
+  const Vec3 position = moved.position + mat3_from_quat(moved.rotation) * start.position;
+  return {position, normalized(moved.rotation * start.rotation)};
+}
+
 }  // namespace
 
 Screw screw_between(const Pose& start, const Pose& end) {
@@ -51,11 +59,7 @@ Pose screw_at(const Screw& screw, double s) {
 Pose pose_between(const Pose& start, const Pose& end, double s) {
   if (s <= 0) return start;
   if (s >= 1) return end;
-  const Screw screw = screw_between(start, end);
-  const Pose moved = screw_at(screw, s);
-  // The reference is the image of the assembly's origin, so its path is the position itself.
-  const Vec3 position = moved.position + mat3_from_quat(moved.rotation) * start.position;
-  return {position, normalized(moved.rotation * start.rotation)};
+  return moved_by(screw_between(start, end), s, start);
 }
 
 Vec3 screw_axis_point(const Screw& screw) {
@@ -77,6 +81,18 @@ double screw_path_length(const Screw& screw, double rho) {
 
 double screw_chord_deviation(const Screw& screw, double rho) {
   return rho * screw.angle * screw.angle / 8;
+}
+
+Pose ScrewMotion::at(double s) const {
+  if (s <= 0) return start;
+  if (s >= 1) return end;
+  return moved_by(screw, s, start);
+}
+
+ScrewMotion screw_motion(const Pose& start, const Pose& end, Vec3 center, double radius) {
+  const Screw screw = screw_between(start, end);
+  const double rho = screw_radius(screw, center, radius);
+  return {start, end, screw, screw_chord_deviation(screw, rho), screw_path_length(screw, rho)};
 }
 
 }  // namespace dismantle

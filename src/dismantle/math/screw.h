@@ -5,43 +5,58 @@
 
 namespace dismantle {
 
-/// The one screw motion (constant twist, rotation angle at most pi) that takes a body from pose `start` to pose `end`.
-/// It is kept as the twist at a reference point, not as an axis in space: a nearly pure translation has its axis
-/// almost at infinity, where coordinates lose all their digits. World frame; lengths in mm, angles in rad.
+/// A screw motion (constant twist, rotation angle at most pi) over the time s from 0 to 1. It is kept as the twist at a
+/// reference point, not as an axis in space: the axis of a nearly pure translation is almost at infinity, where
+/// coordinates lose all their digits. World frame.
 struct Screw {
-  Vec3 reference;    ///< The point that the twist is given at: where the assembly's origin is at s = 0.
-  Vec3 velocity;     ///< Velocity of the reference point at s = 0 [mm per unit of s].
-  Vec3 axis;         ///< Unit direction of the rotation axis; zero where nothing rotates.
-  double angle = 0;  ///< Rotation over the whole motion, in [0, pi].
+  Vec3 reference;    ///< Point that the twist refers to: the position of the assembly's origin at s = 0 [mm].
+  Vec3 velocity;     ///< Of the reference point at s = 0 [mm per unit of s].
+  Vec3 axis;         ///< Unit direction of the rotation axis; zero for a translation.
+  double angle = 0;  ///< Rotation over the whole motion, in [0, pi] [rad].
 };
 
-/// The screw from pose `start` to pose `end`. Below kScrewMinimumAngle a rotation counts as none: its arc over a lever
-/// of 1e5 mm is under 1e-7 mm. The two poses' rotations may have either sign.
+/// The screw motion that takes a body from pose `start` to pose `end`. Rotations below kScrewMinimumAngle count as
+/// none: their arc at a radius of 1e5 mm is below 1e-7 mm. The signs of the rotations' quaternions do not matter.
 Screw screw_between(const Pose& start, const Pose& end);
 
-/// Rotations under this angle [rad] are treated by screw_between as pure translation.
+/// Rotations below this angle are treated by screw_between as pure translation [rad].
 inline constexpr double kScrewMinimumAngle = 1e-12;
 
-/// The rigid motion that the screw has made at time `s`, to be applied after the start pose: x(s) = screw_at(screw, s)
-/// * x(0).
+/// The rigid motion of the screw up to time `s`, to be applied after the start pose: x(s) = screw_at(screw, s) * x(0).
 Pose screw_at(const Screw& screw, double s);
 
-/// The pose at time `s` of a body that goes by the one screw from `start` to `end`; exactly `start` at 0 and `end`
+/// The pose at time `s` of a body that moves along the screw from `start` to `end`; exactly `start` at 0 and `end`
 /// at 1.
 Pose pose_between(const Pose& start, const Pose& end, double s);
 
 /// A point on the rotation axis. @pre screw.angle > 0
 Vec3 screw_axis_point(const Screw& screw);
 
-/// The largest distance from the screw's axis that a point of the sphere (center, radius) has; 0 where nothing rotates
-/// [mm].
+/// The largest distance of a point of the sphere (center, radius) from the screw's axis [mm]; 0 for a translation.
 double screw_radius(const Screw& screw, Vec3 center, double radius);
 
-/// An upper bound of the path length of any point within `rho` of the axis, over the whole motion [mm].
+/// An upper bound of the path length over the whole motion of any point within `rho` [mm] of the axis [mm].
 double screw_path_length(const Screw& screw, double rho);
 
-/// An upper bound of the distance, at equal times, between a point's arc and its chord (the linear path), for a point
-/// within `rho` of the axis: rho angle^2 / 8 (docs/design/0000-overview.md) [mm].
+/// An upper bound of the distance, at equal times, between a point's arc and its chord (the linear path), for any point
+/// within `rho` [mm] of the axis: rho angle^2 / 8 (docs/design/0000-overview.md) [mm].
 double screw_chord_deviation(const Screw& screw, double rho);
+
+/// The motion of a rigid body from one pose to another by one screw, with bounds for all its points: made once by
+/// screw_motion(), so that these are not computed again for everyone who needs them.
+struct ScrewMotion {
+  Pose start;              ///< Pose at s = 0 [mm, world].
+  Pose end;                ///< Pose at s = 1.
+  Screw screw;             ///< As screw_between(start, end).
+  double deviation = 0;    ///< Upper bound of the distance between any point's arc and its chord at equal times [mm].
+  double path_length = 0;  ///< Upper bound of the path length of any point [mm].
+
+  /// The pose at time `s`, as pose_between(start, end, s).
+  Pose at(double s) const;
+};
+
+/// The motion of a body that lies inside a sphere.
+/// @param center, radius the sphere, with the body at `start` [mm, world]
+ScrewMotion screw_motion(const Pose& start, const Pose& end, Vec3 center, double radius);
 
 }  // namespace dismantle

@@ -6,20 +6,20 @@
 #include <cmath>
 #include <limits>
 
-/// From double to float32 and back.
+/// Conversions between double and float32.
 namespace dismantle {
 
-/// Each coordinate rounded to nearest.
+/// The vector in float32, each coordinate rounded to nearest.
 inline Vec3f to_float(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Exact.
+/// The vector in double; exact.
 inline Vec3 to_double(Vec3f v) {
   return {v.x, v.y, v.z};
 }
 
-/// A float that is no less than x, at most two units in the last place above it.
+/// A float that is not less than x, and at most two units in the last place above it.
 inline float rounded_up(double x) {
   const auto f = static_cast<float>(x);
   return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());

@@ -9,14 +9,14 @@
 
 namespace dismantle {
 
-/// A finite double taken apart: value = sign * mantissa * 2^exponent.
+/// The parts of a finite double: value = sign * mantissa * 2^exponent.
 struct DoubleParts {
   std::uint64_t mantissa = 0;  ///< Below 2^53.
   int exponent = 0;            ///< -1074 to 971.
   int sign = 0;                ///< -1, 0 or 1.
 };
 
-/// @pre x is finite
+/// Splits a double into its parts. @pre x is finite
 DISMANTLE_HOST_DEVICE inline DoubleParts parts_of(double x) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &x, sizeof bits);
@@ -30,13 +30,13 @@ DISMANTLE_HOST_DEVICE inline DoubleParts parts_of(double x) {
   return parts;
 }
 
-/// An integer of up to 32 kLimbs bits and a sign; its arithmetic is exact. Slow: the last resort where doubles overflow
-/// or underflow.
+/// An integer of up to 32 kLimbs bits and a sign, with exact arithmetic. It is slow: for cases in which doubles
+/// overflow or underflow.
 template <int kLimbs>
 struct WideInteger {
   std::uint32_t limb[kLimbs];  ///< The first `size` are set, lowest first; the last of them is not 0.
-  int size = 0;
-  int sign = 0;  ///< -1, 0 or 1; 0 exactly where size is 0.
+  int size = 0;                ///< Number of limbs.
+  int sign = 0;                ///< -1, 0 or 1; 0 exactly if size is 0.
 
   /// Drops leading zeros.
   DISMANTLE_HOST_DEVICE void trim() {
@@ -45,8 +45,8 @@ struct WideInteger {
   }
 };
 
-/// x / 2^unit_exponent. @pre x is finite; unit_exponent <= parts_of(x).exponent; the quotient has at most 32 kLimbs
-/// bits
+/// The integer x / 2^unit_exponent. @pre x is finite; unit_exponent <= parts_of(x).exponent; the quotient has at most
+/// 32 kLimbs bits
 template <int kLimbs>
 DISMANTLE_HOST_DEVICE WideInteger<kLimbs> wide_integer_of(double x, int unit_exponent) {
   const DoubleParts parts = parts_of(x);
@@ -65,7 +65,7 @@ DISMANTLE_HOST_DEVICE WideInteger<kLimbs> wide_integer_of(double x, int unit_exp
 
 namespace detail {
 
-/// Sign of |a| - |b|.
+/// The sign of |a| - |b|.
 template <int kA, int kB>
 DISMANTLE_HOST_DEVICE int compare_magnitudes(const WideInteger<kA>& a, const WideInteger<kB>& b) {
   if (a.size != b.size) return a.size > b.size ? 1 : -1;
@@ -74,7 +74,7 @@ DISMANTLE_HOST_DEVICE int compare_magnitudes(const WideInteger<kA>& a, const Wid
   return 0;
 }
 
-/// |a| + |b| or, where `b_sign` is -1, |a| - |b| (@pre |a| >= |b|); the sign is a's.
+/// |a| + b_sign |b| with the sign of a. @param b_sign 1 or -1; if -1, @pre |a| >= |b|
 template <int kLimbs>
 DISMANTLE_HOST_DEVICE WideInteger<kLimbs> add_magnitudes(const WideInteger<kLimbs>& a, const WideInteger<kLimbs>& b,
                                                          int b_sign) {
@@ -95,13 +95,14 @@ DISMANTLE_HOST_DEVICE WideInteger<kLimbs> add_magnitudes(const WideInteger<kLimb
 
 }  // namespace detail
 
+/// The negative.
 template <int kLimbs>
 DISMANTLE_HOST_DEVICE WideInteger<kLimbs> operator-(WideInteger<kLimbs> a) {
   a.sign = -a.sign;
   return a;
 }
 
-/// @pre the sum has at most 32 kLimbs bits
+/// The sum. @pre it has at most 32 kLimbs bits
 template <int kLimbs>
 DISMANTLE_HOST_DEVICE WideInteger<kLimbs> operator+(const WideInteger<kLimbs>& a, const WideInteger<kLimbs>& b) {
   if (a.sign == 0) return b;
@@ -110,11 +111,13 @@ DISMANTLE_HOST_DEVICE WideInteger<kLimbs> operator+(const WideInteger<kLimbs>& a
   return detail::compare_magnitudes(a, b) >= 0 ? detail::add_magnitudes(a, b, -1) : detail::add_magnitudes(b, a, -1);
 }
 
+/// The difference. @pre it has at most 32 kLimbs bits
 template <int kLimbs>
 DISMANTLE_HOST_DEVICE WideInteger<kLimbs> operator-(const WideInteger<kLimbs>& a, const WideInteger<kLimbs>& b) {
   return a + -b;
 }
 
+/// The product.
 template <int kA, int kB>
 DISMANTLE_HOST_DEVICE WideInteger<kA + kB> operator*(const WideInteger<kA>& a, const WideInteger<kB>& b) {
   WideInteger<kA + kB> product;
