@@ -43,7 +43,7 @@ StepTest certificates_test(const scenes::OneStep& step) {
   engine.jump({poses, 2});
   const ComponentId moving(1);
   engine.grab({&moving, 1});
-  const FirstContact first = engine.first_contacts({&step.target, 1})[0];
+  const FirstContact first = engine.first_contact(step.target);
   return {first.free, first.toi};
 }
 

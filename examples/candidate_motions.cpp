@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A batch of candidate motions from one state, as a planner asks for: which ways may this component leave?
-//   candidate_motions ASSEMBLY COMPONENT [MM]     how far each candidate goes; without: its own size
-#include "dismantle/certificates/certificate_engine.h"
+// Many candidate motions from one state: in which directions can this component be removed?
+//   candidate_motions ASSEMBLY COMPONENT [MM]     length of each motion; without: the size of the component
+#include "dismantle/candidates/motion_batch.h"
 #include "dismantle/engine/classify_pairs.h"
 #include "dismantle/loading/load_assembly.h"
 
@@ -43,15 +43,15 @@ int main(int argc, char** argv) {
   }
 
   const PairStates states = classify_pairs(*assembly, {}).value();
-  CertificateEngine engine(*assembly, states);
-  engine.grab({&*component, 1});
+  const ChosenMotionBatch chosen = make_motion_batch(*assembly, states, Executor(), DeviceChoice::Auto);
+  chosen.batch->set_state(std::vector<Pose>(assembly->components.size()), {&*component, 1});
 
-  // One target a candidate; each is one screw from where the component is. Nothing moves.
+  // One target for each candidate, which is one screw from the assembled pose. Nothing moves.
   const double distance = argc == 4 ? std::atof(argv[3]) : diagonal(assembled_bounds((*assembly)[*component]));
   const std::vector<Vec3> directions = cube_directions();
   std::vector<Pose> targets;
   for (const Vec3& direction : directions) targets.push_back({distance * direction, {}});
-  const std::vector<FirstContact> found = engine.first_contacts(targets);
+  const std::vector<FirstContact> found = chosen.batch->screw_contacts(targets);
 
   for (std::size_t k = 0; k < found.size(); ++k) {
     std::printf("(%5.2f, %5.2f, %5.2f): ", directions[k].x, directions[k].y, directions[k].z);

@@ -13,7 +13,9 @@ namespace {
 class Engine {
  public:
   Engine(const CheckedHolder& states, int threads)
-      : states_(states), engine_(*states->assembly, states->pairs, {executor_of(threads), widest_lanes()}) {}
+      : states_(states),
+        executor_(executor_of(threads)),
+        engine_(*states->assembly, states->pairs, {executor_, widest_lanes()}) {}
 
   const Assembly& assembly() const { return *states_->assembly; }
 
@@ -55,7 +57,11 @@ class Engine {
     const Turn turn(mutex_, kName);
     check_held();
     const Poses poses(targets);
-    return without_gil([&] { return engine_.first_contacts(poses.span()); });
+    std::vector<FirstContact> found(poses.span().size());
+    without_gil([&] {
+      executor_.for_each_heavy(found.size(), [&](std::size_t i) { found[i] = engine_.first_contact(poses.span()[i]); });
+    });
+    return found;
   }
 
   Clearance clearance() {
@@ -82,6 +88,7 @@ class Engine {
   }
 
   CheckedHolder states_;
+  Executor executor_;
   CertificateEngine engine_;
   std::mutex mutex_;
 };

@@ -27,9 +27,9 @@ PairStates states_of(const Assembly& assembly) {
 }
 
 /// An engine with one moving component.
-struct Held {
-  Held(const Assembly& assembly, const PairStates& states, std::uint32_t component,
-       const CertificateOptions& options = {})
+struct Grabbed {
+  Grabbed(const Assembly& assembly, const PairStates& states, std::uint32_t component,
+          const CertificateOptions& options = {})
       : engine(assembly, states, options) {
     const ComponentId id(component);
     engine.grab({&id, 1});
@@ -45,16 +45,16 @@ Assembly block_and_floor() {
 TEST(CertificateEngine, StopsIfTheWholeStepIsNotFree) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   const StepResult r = h.engine.step({{0, 0, -3}, {}}, ResponseKind::Stop);
   EXPECT_EQ(r.pose, Pose{});
-  EXPECT_FALSE(r.contacts.empty());
+  EXPECT_FALSE(r.blocking_pairs.empty());
 }
 
 TEST(CertificateEngine, TouchesWithinTheTolerance) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   const StepResult r = h.engine.step({{0, 0, -3}, {}}, ResponseKind::Touch);
   EXPECT_NEAR(r.pose.position.z, -1, kTolerance);
   EXPECT_EQ(r.pose.position.x, 0);
@@ -63,14 +63,14 @@ TEST(CertificateEngine, TouchesWithinTheTolerance) {
 TEST(CertificateEngine, SlidesAlongTheFloorAndNamesItsContacts) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   StepResult r;
   for (int step = 1; step <= 10; ++step) r = h.engine.step({{1.0 * step, 0, -3}, {}}, ResponseKind::Slide);
   EXPECT_NEAR(r.pose.position.x, 10, 0.05);
   EXPECT_NEAR(r.pose.position.z, -1, kTolerance);
   EXPECT_FALSE(r.reached);
-  ASSERT_FALSE(r.touching.empty());
-  for (const ContactPoint& c : r.touching) {
+  ASSERT_FALSE(r.contact_points.empty());
+  for (const ContactPoint& c : r.contact_points) {
     EXPECT_EQ(c.moving, ComponentId(0));
     EXPECT_EQ(c.fixed, ComponentId(1));
     EXPECT_NEAR(c.normal.z, 1, 1e-6);
@@ -90,7 +90,7 @@ TEST(CertificateEngine, SlidesAWholeCylinderAlongItsBoreAsOne) {
   const Assembly assembly = shaft_in_bush(0.005);
   const PairStates states = states_of(assembly);
   for (const std::uint32_t moving : {0u, 1u}) {
-    Held h(assembly, states, moving);
+    Grabbed h(assembly, states, moving);
     std::mt19937_64 random(8);
     std::size_t looked_at = 0;
     for (int step = 1; step <= 30; ++step) {
@@ -100,10 +100,10 @@ TEST(CertificateEngine, SlidesAWholeCylinderAlongItsBoreAsOne) {
       EXPECT_NEAR(r.pose.position.z, 0.2 * step, 0.02) << step;
       EXPECT_LT(std::hypot(r.pose.position.x, r.pose.position.y), 0.005 + kTolerance) << step;
       if (step <= 4) continue;  // the cylinder is found from its triangles first
-      looked_at += r.sizes.elementary_tests;
-      ASSERT_FALSE(r.contacts.empty());
-      ASSERT_FALSE(r.touching.empty());
-      for (const ContactPoint& c : r.touching) {
+      looked_at += r.cost.tests;
+      ASSERT_FALSE(r.blocking_pairs.empty());
+      ASSERT_FALSE(r.contact_points.empty());
+      for (const ContactPoint& c : r.contact_points) {
         EXPECT_EQ(c.moving, ComponentId(moving));
         EXPECT_NEAR(std::hypot(c.point.x, c.point.y), 5, 3 * kTolerance);
         const double outwards = (c.point.x * c.normal.x + c.point.y * c.normal.y) / 5;
@@ -121,12 +121,12 @@ TEST(CertificateEngine, ReachesPosesThatTrianglesAllowAndTheirCylindersDoNot) {
   // Corners of the shaft in corners of the bore: there is less room up to the bore's flats.
   const Assembly assembly = shaft_in_bush(0.004);
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   h.engine.step({{0.2, 0, 0}, {}}, ResponseKind::Slide);
   int allowed = 0;
   for (double off = 0.006; off < 0.016; off += 0.0005) {
     const Pose target{{off, 0, 0}, {}};
-    Held fresh(assembly, states, 0);
+    Grabbed fresh(assembly, states, 0);
     if (!fresh.engine.step(target, ResponseKind::Stop).reached) continue;
     ++allowed;
     EXPECT_TRUE(h.engine.step(target, ResponseKind::Slide).reached) << off;
@@ -148,7 +148,7 @@ TEST(CertificateEngine, LeavesABoreThatIsOpenToOneSide) {
   const Assembly assembly =
       scenes::assembly({component("shaft", tube(4.99, 0, 0, 30, sides)), component("seat", std::move(seat))});
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   for (int step = 1; step <= 22; ++step)
     h.engine.step({{0.1 * (step % 3), 0.1 * (step % 2), 0.5 * step}, {}}, ResponseKind::Slide);
   ASSERT_GT(h.engine.poses()[0].position.z, 10.5) << "out of the ring";
@@ -160,21 +160,21 @@ TEST(CertificateEngine, LeavesABoreThatIsOpenToOneSide) {
 TEST(CertificateEngine, StaysAtRestWithoutMotion) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   const Pose target{{3, 1, -4}, quat_about({1, 0, 0}, 0.05)};
   for (int step = 0; step < 50; ++step) h.engine.step(target, ResponseKind::Slide);
   const Pose resting = h.engine.poses()[0];
   for (int step = 0; step < 10; ++step) {
     const StepResult r = h.engine.step(target, ResponseKind::Slide);
     EXPECT_EQ(r.pose, resting);
-    EXPECT_TRUE(r.way.empty());
+    EXPECT_TRUE(r.poses.empty());
   }
 }
 
 TEST(CertificateEngine, LeavesAContact) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   h.engine.step({{0, 0, -3}, {}}, ResponseKind::Slide);
   const Pose up{{0, 2, 5}, quat_about({0, 1, 0}, 0.3)};
   EXPECT_TRUE(h.engine.step(up, ResponseKind::Slide).reached);
@@ -185,18 +185,17 @@ TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
   std::mt19937_64 seed(11);
   const Assembly assembly = scenes::random_assembly(seed, 12, 6);
   const PairStates states = states_of(assembly);
-  std::vector<std::vector<Pose>> ways;
   const auto play = [&](const CertificateOptions& options) {
     std::mt19937_64 random(12);
-    std::vector<Pose> way;
+    std::vector<Pose> poses;
     CertificateEngine engine(assembly, states, options);
     for (std::uint32_t c = 0; c < 4; ++c) {
       const ComponentId id(c);
       engine.grab({&id, 1});
       for (int step = 0; step < 12; ++step)
-        way.push_back(engine.step(scenes::random_pose(random, 4, 1), ResponseKind::Slide).pose);
+        poses.push_back(engine.step(scenes::random_pose(random, 4, 1), ResponseKind::Slide).pose);
     }
-    return way;
+    return poses;
   };
   const std::vector<Pose> first = play({});
   for (const Executor& executor : all_executors()) EXPECT_EQ(play({executor, widest_lanes()}), first);
@@ -207,10 +206,10 @@ TEST(CertificateEngine, AnyFrontGivesTheSameFirstContact) {
   std::mt19937_64 random(21);
   const Assembly assembly = scenes::random_assembly(random, 14, 5);
   const PairStates states = states_of(assembly);
-  Held used(assembly, states, 0);
+  Grabbed used(assembly, states, 0);
   for (int step = 0; step < 60; ++step) {
     const Pose target = scenes::random_pose(random, 6, 0.5);
-    Held fresh(assembly, states, 0);
+    Grabbed fresh(assembly, states, 0);
     fresh.engine.jump(used.engine.poses());
     const ComponentId id(0);
     fresh.engine.grab({&id, 1});
@@ -225,15 +224,15 @@ TEST(CertificateEngine, MeasuresTheClearanceExactly) {
   const Assembly assembly = scenes::random_assembly(random, 8, 8);
   const PairStates states = states_of(assembly);
   for (std::uint32_t c = 0; c < 8; ++c) {
-    Held h(assembly, states, c);
+    Grabbed h(assembly, states, c);
     const AssemblySurface surface = make_assembly_surface(assembly, Executor());
-    double least = 1e9;
+    double minimum = 1e9;
     for (std::uint32_t k = 0; k < 8; ++k)
       if (k != c && !(states.find(ComponentId(c), ComponentId(k)) &&
                       states.find(ComponentId(c), ComponentId(k))->state == PairState::Embedded))
-        least = std::min(least, surface_distance(surface, ComponentId(c), ComponentId(k), 1e9));
+        minimum = std::min(minimum, surface_distance(surface, ComponentId(c), ComponentId(k), 1e9));
     const Clearance clearance = h.engine.clearance();
-    EXPECT_NEAR(clearance.distance, least, 1e-9);
+    EXPECT_NEAR(clearance.distance, minimum, 1e-9);
     EXPECT_NEAR(length(clearance.point_moving - clearance.point_fixed), clearance.distance, 1e-9);
     EXPECT_FALSE(h.engine.clearance(clearance.distance).fixed.valid()) << "nothing is nearer";
     EXPECT_EQ(h.engine.clearance(clearance.distance + 0.1).fixed, clearance.fixed);
@@ -247,7 +246,7 @@ TEST(CertificateEngine, NamesTheFirstOfEquallyNearComponents) {
        component("wedge", scenes::moved(box({-4, -4, -1}, {4, 4, 1}), {{0, 9.8, 0}, quat_about({0, 0, 1}, 0.8)})),
        component("other post", box({4, -1, -1}, {9, 1, 1}))});
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   EXPECT_EQ(h.engine.clearance().distance, 3);
   EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
   const Pose aside{{0, 0, 1}, {}};
@@ -258,7 +257,7 @@ TEST(CertificateEngine, NamesTheFirstOfEquallyNearComponents) {
 TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   const StepResult r = h.engine.step({{1, 2, 3}, quat_about({0, 0, 1}, 0.2)}, ResponseKind::Slide);
   ASSERT_TRUE(r.reached);
   EXPECT_GT(r.clearance, 0.5);
@@ -270,7 +269,7 @@ TEST(CertificateEngine, NeverOverstatesTheClearance) {
   const Assembly assembly =
       scenes::assembly({component("peg", tube(4.95, 0, 0, 20, 24)), component("block", tube(12, 5, 0, 20, 24))});
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   std::mt19937_64 random(3);
   for (int step = 0; step < 60; ++step) {
     const Pose target = scenes::random_pose(random, 0.1, 0.01) * Pose{{0, 0, 0.1 * step}, {}};
@@ -279,13 +278,13 @@ TEST(CertificateEngine, NeverOverstatesTheClearance) {
   }
 }
 
-TEST(CertificateEngine, FindsTheFirstContactOfEachCandidate) {
+TEST(CertificateEngine, FindsTheFirstContactOfAMotionWithoutMoving) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   const std::vector<Pose> targets = {{{0, 0, 5}, {}}, {{0, 0, -4}, {}}, {{200, 0, 0}, {}}, {{5, 0, -2}, {}}};
-  const std::vector<FirstContact> found = h.engine.first_contacts(targets);
-  ASSERT_EQ(found.size(), 4u);
+  std::vector<FirstContact> found;
+  for (const Pose& target : targets) found.push_back(h.engine.first_contact(target));
   EXPECT_TRUE(found[0].free);
   EXPECT_TRUE(found[2].free);
   EXPECT_NEAR(found[1].toi, 0.25, 0.01);
@@ -299,27 +298,27 @@ TEST(CertificateEngine, TellsHowFarTheMovingSetCanGoStraightFromAnyState) {
   const PairStates states = states_of(assembly);
   std::mt19937_64 random(8);
   int free = 0, blocked = 0;
-  for (int place = 0; place < 40; ++place) {
-    Held h(assembly, states, 0);
+  for (int trial = 0; trial < 40; ++trial) {
+    Grabbed h(assembly, states, 0);
     const Pose all = scenes::random_pose(random, 300, 3);
     h.engine.jump(std::vector<Pose>{all * Pose{{0, 0, 3}, quat_about({0, 0, 1}, 0.2)}, all});
     const ComponentId block(0);
     h.engine.grab({&block, 1});
-    std::vector<Vec3> ways;
+    std::vector<Vec3> displacements;
     std::vector<Pose> targets;
     for (int i = 0; i < 10; ++i) {
-      ways.push_back(scenes::random_vector(random, 30));
-      targets.push_back({h.engine.poses()[0].position + ways.back(), h.engine.poses()[0].rotation});
+      displacements.push_back(scenes::random_vector(random, 30));
+      targets.push_back({h.engine.poses()[0].position + displacements.back(), h.engine.poses()[0].rotation});
     }
-    const std::vector<FirstContact> straight = h.engine.straight_contacts(ways);
-    const std::vector<FirstContact> first = h.engine.first_contacts(targets);
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      ASSERT_EQ(straight[i].free, first[i].free) << place << ' ' << i;
+    const std::vector<FirstContact> straight = h.engine.straight_contacts(displacements);
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+      const FirstContact first = h.engine.first_contact(targets[i]);
+      ASSERT_EQ(straight[i].free, first.free) << trial << ' ' << i;
       (straight[i].free ? free : blocked) += 1;
-      const double off = (first[i].toi - straight[i].toi) * length(ways[i]);
-      EXPECT_LE(std::abs(off), 8 * states.tolerance) << place << ' ' << i;
+      const double off = (first.toi - straight[i].toi) * length(displacements[i]);
+      EXPECT_LE(std::abs(off), 8 * states.tolerance) << trial << ' ' << i;
       if (!straight[i].free) {
-        EXPECT_EQ(straight[i].fixed, first[i].fixed);
+        EXPECT_EQ(straight[i].fixed, first.fixed);
       }
     }
   }
@@ -330,7 +329,7 @@ TEST(CertificateEngine, TellsHowFarTheMovingSetCanGoStraightFromAnyState) {
 TEST(CertificateEngine, ReportsTheContactsWithinReach) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   EXPECT_TRUE(h.engine.contacts(0.9).empty());
   const std::vector<ContactPoint> near = h.engine.contacts(1.1);
   ASSERT_FALSE(near.empty());
@@ -345,7 +344,7 @@ TEST(CertificateEngine, ExemptsAnEmbeddedPairUntilItIsApart) {
   classify.tolerance = kTolerance;
   classify.fit = 0.05;
   const PairStates states = *classify_pairs(assembly, classify);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   ASSERT_EQ(h.engine.embedded_pairs().size(), 1u);
   for (int step = 1; step <= 30; ++step) h.engine.step({{0, 0, 0.5 * step}, {}}, ResponseKind::Slide);
   EXPECT_TRUE(h.engine.embedded_pairs().empty());
@@ -361,7 +360,7 @@ TEST(CertificateEngine, KeepsOpenSheetsApart) {
   const TriangleMesh high{{{-3, -3, 1}, {3, -3, 1}, {0, 3, 1}}, {{{0, 1, 2}}}};
   const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 0);
+  Grabbed h(assembly, states, 0);
   for (int step = 0; step < 400; ++step) h.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
   EXPECT_GE(h.engine.poses()[0].position.z, -1 - kTolerance);
   const ComponentId other(1);
@@ -377,7 +376,7 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
     const TriangleMesh high{{{-3, -3, gap}, {3, -3, gap}, {0, 3, gap}}, {{{0, 2, 1}}}};
     const Assembly assembly = scenes::assembly({component("high", high), component("low", low)});
     const PairStates states = states_of(assembly);
-    Held down(assembly, states, 0), up(assembly, states, 0);
+    Grabbed down(assembly, states, 0), up(assembly, states, 0);
     for (int step = 1; step <= 40; ++step) {
       down.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
       up.engine.step({{0.1 * step, 0, 0.0005 * step}, {}}, ResponseKind::Slide);
@@ -393,7 +392,7 @@ TEST(CertificateEngine, DoesNotDependOnTheOrientationOfTheAssembly) {
   for (Component& c : turned.components) c.assembly_from_mesh = transform_from_pose(turn) * c.assembly_from_mesh;
   const Assembly straight = block_and_floor();
   const PairStates states = states_of(straight), turned_states = states_of(turned);
-  Held a(straight, states, 0), b(turned, turned_states, 0);
+  Grabbed a(straight, states, 0), b(turned, turned_states, 0);
   for (int step = 1; step <= 8; ++step) {
     const Pose target{{0.5 * step, 0.2, -0.5 * step}, quat_about({0, 0, 1}, 0.01 * step)};
     const Pose by_a = a.engine.step(target, ResponseKind::Slide).pose;
@@ -408,7 +407,7 @@ TEST(CertificateEngine, FindsTheStraightContactOfOneComponentAfterAnyMotion) {
       {component("block", box({0, 0, 1}, {10, 10, 11})), component("near", box({4, 4, 20}, {6, 6, 22})),
        component("far", box({0, 0, 31}, {10, 10, 32})), component("aside", box({20, 0, 0}, {30, 10, 40}))});
   const PairStates states = states_of(assembly);
-  Held h(assembly, states, 1);
+  Grabbed h(assembly, states, 1);
   h.engine.step({{100, 0, 0}, {}}, ResponseKind::Stop);
   const ComponentId block(0), near(1), far(2), aside(3);
   const auto first = h.engine.straight_contact(block, near, {0, 0, 500}, StraightSearch::First);

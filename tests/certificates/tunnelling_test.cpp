@@ -51,13 +51,12 @@ void expect_right(const OneStep& step) {
   SCOPED_TRACE(step.name);
   const Assembly assembly = assembly_of(step);
   const double error = allowed_error(step);
-  const std::vector<FirstContact> first = engine_for(assembly, step)->first_contacts({&step.target, 1});
-  ASSERT_EQ(first.size(), 1u);
-  EXPECT_EQ(first[0].free, step.free);
+  const FirstContact first = engine_for(assembly, step)->first_contact(step.target);
+  EXPECT_EQ(first.free, step.free);
   if (!step.free) {
-    EXPECT_NEAR(first[0].toi, step.toi, error);
-    EXPECT_EQ(first[0].moving, ComponentId(1));
-    EXPECT_EQ(first[0].fixed, ComponentId(0));
+    EXPECT_NEAR(first.toi, step.toi, error);
+    EXPECT_EQ(first.moving, ComponentId(1));
+    EXPECT_EQ(first.fixed, ComponentId(0));
   }
   for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
     SCOPED_TRACE(name_of(response));
@@ -72,7 +71,7 @@ void expect_right(const OneStep& step) {
       EXPECT_LT(off, 5 * kTolerance)
           << "the corner of a long part moves up to four times as far as the point that touches";
     }
-    expect_audited(step, result.way);
+    expect_audited(step, result.poses);
   }
 }
 

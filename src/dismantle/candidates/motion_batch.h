@@ -1,44 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/streams/choose_streams_backend.h"
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/pair_state.h"
+#include "dismantle/assembly/path.h"
+#include "dismantle/core/result.h"
+#include "dismantle/core/span.h"
+#include "dismantle/engine/contact.h"
+#include "dismantle/engine/device_choice.h"
+#include "dismantle/exec/executor.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace dismantle {
 
-/// Many candidate motions of one rigid set from one state, each by itself: what a planner asks for. A candidate is one
-/// thread's work, on the CPU or a CUDA device: the same bits on both, whatever the threads and the other candidates.
-/// (CertificateEngine::first_contacts answers the same from certificates, on the CPU only.)
+/// First contacts of many candidate motions of one rigid set from one state, independent of each other. One thread
+/// computes one candidate, on the CPU or on a CUDA device, with the same bits for every device, number of threads and
+/// order of the candidates.
 ///
-/// Guarantee: at no instant before a candidate's `toi` are two triangles deeper in each other than their pair is
-/// allowed (docs/guarantee.md, first rule); this holds for the true screw. Embedded pairs are free all the way.
+/// Guarantee: at no instant before the `toi` of a candidate are two triangles deeper in each other than their pair is
+/// allowed (docs/guarantee.md, first rule); this holds for the true screw. Embedded pairs are free all the way. The
+/// rule for vertices is left to MotionEngine::step().
 class MotionBatch {
  public:
   virtual ~MotionBatch() = default;
 
-  /// Where everything is, one pose a component, and which of them go their candidates' ways as one.
+  /// Sets the pose of every component, shape [component_count], and the components that move as one body.
   /// @pre `moving` is not empty, without repeats, all at one pose
   virtual void set_state(Span<const Pose> poses, Span<const ComponentId> moving) = 0;
-  /// The first contacts of straight ways from there [mm]. @pre set_state was called
-  virtual std::vector<FirstContact> straight_contacts(Span<const Vec3> ways) = 0;
-  /// The first contacts of screws from there to these poses of the set. @pre set_state was called
+  /// The first contacts of translations from that state [mm, world]. @pre set_state was called
+  virtual std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) = 0;
+  /// The first contacts of the screws from that state to these poses of the set. @pre set_state was called
   virtual std::vector<FirstContact> screw_contacts(Span<const Pose> targets) = 0;
 };
 
+/// A batch and the device that it runs on.
 struct ChosenMotionBatch {
   std::unique_ptr<MotionBatch> batch;
-  std::string device;  ///< As in ChosenStreamsBackend.
-  std::string why;
+  std::string device;  ///< "cpu", or the CUDA device's name.
+  std::string why;     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
 };
 
-/// Candidates of an assembly, which must outlive the batch. Auto takes a CUDA device wherever there is one.
+/// Makes a batch for an assembly, which must outlive it. DeviceChoice::Auto takes a CUDA device if there is one.
 ChosenMotionBatch make_motion_batch(const Assembly& assembly, const PairStates& pairs, const Executor& executor,
                                     DeviceChoice choice);
 
-/// On the CUDA device. Errors: as make_cuda_streams_backend.
+/// Makes a batch on the CUDA device. Errors: Failed with the reason alone if there is none, this build has no CUDA, or
+/// the assembly does not fit into its memory.
 Result<std::unique_ptr<MotionBatch>> make_cuda_motion_batch(const Assembly& assembly, const PairStates& pairs,
                                                             const Executor& executor);
 

@@ -82,7 +82,7 @@ bool RemovalFacts::can_fall(ComponentId c, Span<const Pose> poses, Span<const Co
   engine_.grab({&c, 1});
   Pose fallen = now[c.value];
   fallen.position.z -= kFallShare * diagonal(bounds_at(assembly_[c], fallen));
-  return engine_.first_contacts({&fallen, 1})[0].free;
+  return engine_.first_contact(fallen).free;
 }
 
 std::vector<ComponentId> RemovalFacts::unsupported_after(const WorkStep& step, ComponentId ground) {
