@@ -24,10 +24,10 @@ std::string_view name_of(PairState state) {
 
 const ComponentPair* PairStates::find(ComponentId a, ComponentId b) const {
   if (b < a) std::swap(a, b);
-  const auto place = std::lower_bound(
+  const auto found = std::lower_bound(
       pairs.begin(), pairs.end(), std::pair(a, b),
       [](const ComponentPair& p, const auto& key) { return p.a != key.first ? p.a < key.first : p.b < key.second; });
-  return place != pairs.end() && place->a == a && place->b == b ? &*place : nullptr;
+  return found != pairs.end() && found->a == a && found->b == b ? &*found : nullptr;
 }
 
 }  // namespace dismantle

@@ -9,70 +9,71 @@
 
 namespace dismantle {
 
-/// A pose at a time [s] of a move. Between two frames the set follows the one screw motion (math/screw.h).
+/// A pose at a time of a move. Between two frames the moving set follows the screw motion between them (math/screw.h).
 struct Frame {
-  double time = 0;
-  Pose pose;
+  double time = 0;  ///< Time of the move [s].
+  Pose pose;        ///< Of the moving set, relative to the assembled state.
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// One move of a path: the named components go rigidly together through the frames; everything else stands still.
+/// One move of a path: the moving set goes rigidly through the frames; all other components stand still.
 struct Move {
-  std::string label;
-  std::vector<std::string> components;
-  std::vector<Frame> frames;
+  std::string label;                    ///< A name for people.
+  std::vector<std::string> components;  ///< Names of the moving set.
+  std::vector<Frame> frames;            ///< In the order of time.
   friend bool operator==(const Move&, const Move&) = default;
 };
 
-/// A pair that is allowed more penetration than the tolerance. For Embedded the allowance is infinite until they part.
+/// A pair that is allowed more penetration than the tolerance.
 struct PathPair {
+  ///@{ Names of the components.
   std::string a, b;
+  ///@}
   PairState state = PairState::Fit;  ///< Fit or Embedded.
-  double allowed_penetration = 0;    ///< [mm]
+  double allowed_penetration = 0;    ///< Depth allowed at any time [mm]; infinite for Embedded, until the pair parts.
   friend bool operator==(const PathPair&, const PathPair&) = default;
 };
 
-/// What a session records and a planner returns: docs/formats.md, `*.path.json`.
+/// The moves that a session recorded or a planner found: docs/formats.md, `*.path.json`.
 struct Path {
-  std::string assembly_file;
-  std::string assembly_sha256;
-  std::vector<std::string> components;
-  double tolerance = 0;  ///< [mm]
-  std::vector<PathPair> pairs;
-  std::vector<Move> moves;
-  std::vector<std::string> removed;
+  std::string assembly_file;            ///< Assembly::source_file.
+  std::string assembly_sha256;          ///< Assembly::source_sha256.
+  std::vector<std::string> components;  ///< Names of all components of the assembly.
+  double tolerance = 0;                 ///< Depth allowed for all pairs that are not listed [mm].
+  std::vector<PathPair> pairs;          ///< Pairs with another allowance.
+  std::vector<Move> moves;              ///< In order.
+  std::vector<std::string> removed;     ///< Names of the components that are removed in the end.
   friend bool operator==(const Path&, const Path&) = default;
 };
 
-/// The frames of a move the other way, from its last one at time 0 to its first.
+/// The frames of a move in reverse, from its last one at time 0 to its first.
 std::vector<Frame> reversed(std::vector<Frame> frames);
 
-/// A path and then its way back, move by move from the last, so that every component ends where it began: how an
-/// assembly that a path takes apart is put together again. The labels of the way back end in ", reversed"; nothing is
-/// removed in the end.
+/// A path followed by its reverse, move by move from the last, so that every component ends where it began: the
+/// disassembly and the assembly. Labels of reversed moves end in ", reversed"; no component is removed in the end.
 Path there_and_back(Path path);
 
-/// How a motion goes on at contact.
+/// The response of a motion to contact.
 enum class ResponseKind {
-  Stop,   ///< Back to the last collision-free pose (Du et al. 2015).
-  Touch,  ///< Up to the first contact.
-  Slide,  ///< On along the contact.
+  Stop,   ///< Returns to the last collision-free pose (Du et al. 2015).
+  Touch,  ///< Ends at the first contact.
+  Slide,  ///< Continues along the contact.
 };
 
-/// "stop", "touch", "slide": as files and the command line have it.
+/// The name of a response in files and on the command line: "stop", "touch" or "slide".
 std::string_view name_of(ResponseKind response);
 
-/// Where the hand wants the components to be at each time; one simulation step a target. docs/formats.md,
-/// `*.motion.json`.
+/// The target poses of a moving set over time, one simulation step for each.
 struct MotionMove {
-  std::vector<std::string> components;
-  std::vector<Frame> targets;
+  std::vector<std::string> components;  ///< Names of the moving set.
+  std::vector<Frame> targets;           ///< In the order of time.
   friend bool operator==(const MotionMove&, const MotionMove&) = default;
 };
 
+/// Targets of one moving set after another: docs/formats.md, `*.motion.json`.
 struct Motion {
-  ResponseKind response = ResponseKind::Slide;
-  std::vector<MotionMove> moves;
+  ResponseKind response = ResponseKind::Slide;  ///< At contact.
+  std::vector<MotionMove> moves;                ///< In order.
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 

@@ -11,18 +11,18 @@ namespace dismantle {
 
 namespace {
 
-// A border's edge counts as a plane across its triangle, so that the border keeps its shape.
+// Weight of the plane through a border edge perpendicular to its triangle, which keeps the border's shape.
 constexpr double kBorderWeight = 10;
-// Cosine of the angle by which a triangle's normal may turn in one collapse.
-constexpr double kLargestTurn = 0.2;
-// A triangle whose height is below this part of its longest side is no triangle any more, where it was one before.
-constexpr double kThinnest = 1e-3;
+// Cosine of the largest angle by which a triangle's normal may turn in one collapse.
+constexpr double kMinTurnCosine = 0.2;
+// A collapse may not make a triangle's height fall below this part of its longest side.
+constexpr double kMinThickness = 1e-3;
 
 bool contains(const Face& face, std::uint32_t vertex) {
   return face.v[0] == vertex || face.v[1] == vertex || face.v[2] == vertex;
 }
 
-/// Height over the longest side, by the longest side.
+/// Height over the longest side relative to that side.
 double thickness(const Triangle& t) {
   const double longest =
       std::max({length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
@@ -64,7 +64,7 @@ void EdgeCollapse::add_face_quadrics() {
   }
 }
 
-/// Finds borders and non-manifold edges: a half edge without its one opposite.
+/// Finds borders and non-manifold edges, and adds the planes of the borders.
 void EdgeCollapse::add_edge_quadrics() {
   for_each_edge(sorted_half_edges(faces_), [&](const HalfEdge* first, const HalfEdge* last) {
     const std::uint32_t ends[2] = {first->low, first->high};
@@ -105,8 +105,8 @@ bool EdgeCollapse::keeps_topology(std::uint32_t from, std::uint32_t to) const {
       for (const std::uint32_t v : faces_[f].v)
         if (v != from && v != to) opposite.push_back(v);
   std::sort(opposite.begin(), opposite.end());
-  const std::size_t wanted = on_border_[from] ? 1 : 2;  // a border vertex moves along its border only
-  if (opposite.size() != wanted || face_count_ <= 4) return false;
+  const std::size_t required = on_border_[from] ? 1 : 2;  // a border vertex moves along its border only
+  if (opposite.size() != required || face_count_ <= 4) return false;
 
   const std::vector<std::uint32_t> a = neighbours(from), b = neighbours(to);
   std::vector<std::uint32_t> common;
@@ -125,9 +125,9 @@ bool EdgeCollapse::keeps_shape(std::uint32_t from, std::uint32_t to) const {
     const Vec3 n = normal_unscaled(before), m = normal_unscaled(after);
     const Triangle exact{{original_[moved.v[0]], original_[moved.v[1]], original_[moved.v[2]]}};
     if (normal_unscaled(exact) == Vec3{} || m == Vec3{}) return false;
-    if (dot(n, m) < kLargestTurn * length(n) * length(m)) return false;
+    if (dot(n, m) < kMinTurnCosine * length(n) * length(m)) return false;
     const double thickness_after = thickness(after);
-    if (thickness_after < kThinnest && thickness_after < thickness(before)) return false;
+    if (thickness_after < kMinThickness && thickness_after < thickness(before)) return false;
   }
   return true;
 }

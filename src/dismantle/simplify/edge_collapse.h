@@ -12,27 +12,29 @@
 
 namespace dismantle {
 
-/// Collapses the edges of a mesh one after another, the one with the least quadric error first (QSlim: Garland and
-/// Heckbert, "Surface simplification using quadric error metrics", 1997; each plane counts fully, so that the error is
-/// no less than the distance to any plane that was merged). An edge is collapsed onto one of its ends: vertices stay
-/// vertices of the original, and flat faces stay exactly flat. Properties:
-///   1. The topology stays: an edge is collapsed only where its ends' common neighbours are those of its own triangles
-///      (the link condition). A closed, consistently oriented mesh stays one.
+/// Collapses the edges of a mesh one after another, the one with the smallest quadric error first (QSlim: Garland and
+/// Heckbert, "Surface simplification using quadric error metrics", 1997; each plane has weight 1, so that the error is
+/// no less than the distance to any plane that was merged). An edge is collapsed onto one of its ends: vertices remain
+/// vertices of the original, and flat faces remain exactly flat.
+///   1. The topology is kept: an edge is collapsed only if its ends' common neighbours are those of its own triangles
+///      (the link condition). A closed, consistently oriented mesh remains one.
 ///   2. No triangle becomes degenerate or turns its normal by more than about 80 degrees in one collapse.
-///   3. Vertices of non-manifold edges do not move; borders of open meshes stay borders.
-/// Same input, same collapses.
+///   3. Vertices of non-manifold edges do not move; borders of open meshes remain borders.
+///   4. The collapses depend on the mesh alone.
 class EdgeCollapse {
  public:
+  /// Computes the quadrics and the cost of every edge.
   explicit EdgeCollapse(const TriangleMesh& mesh);
 
+  /// Number of faces of the mesh in its current state.
   std::size_t face_count() const { return face_count_; }
-  /// The largest quadric error of all collapses so far [mm].
+  /// Largest quadric error of all collapses so far [mm].
   double error() const { return error_; }
 
-  /// Makes the next collapse; false where none is possible any more with an error of at most `error_limit` [mm].
+  /// Performs the next collapse; false if none with an error of at most `error_limit` [mm] is possible.
   bool step(double error_limit = std::numeric_limits<double>::infinity());
 
-  /// The mesh as it is now, without unused vertices.
+  /// The mesh in its current state, without unused vertices.
   TriangleMesh mesh() const;
 
  private:
@@ -58,7 +60,7 @@ class EdgeCollapse {
   Triangle triangle(const Face& face) const;
 
   std::vector<Vec3> original_;   // vertices as given
-  std::vector<Vec3> positions_;  // about the box's middle, where quadrics keep their digits
+  std::vector<Vec3> positions_;  // about the box's centre, where quadrics lose the fewest digits
   std::vector<Face> faces_;
   std::vector<bool> face_alive_;
   std::vector<std::vector<std::uint32_t>> faces_of_;  // of each vertex

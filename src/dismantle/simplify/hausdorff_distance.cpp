@@ -13,7 +13,7 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-/// A convex part of a triangle of the one surface, and a bound of its points' distance to the other.
+/// A convex part of a triangle of one surface, and a bound of its points' distance from the other surface.
 struct Piece {
   Polygon corners;
   double upper = 0;
@@ -24,15 +24,15 @@ struct FartherFirst {
   bool operator()(const Piece& a, const Piece& b) const { return a.upper < b.upper; }
 };
 
-// A cut that takes off less than this part of a piece's size is none.
-constexpr double kThinnestCut = 1e-9;
+// Smallest part of a piece's size that a cut has to separate.
+constexpr double kMinCut = 1e-9;
 
-/// The parts of a convex polygon on the two sides of a plane, and how far they reach from it.
+/// The parts of a convex polygon on the two sides of a plane, and their extents from it.
 struct CutPolygon {
   Polygon within, beyond;
   double reach_within = 0, reach_beyond = 0;
 
-  bool proper(double size) const { return std::min(reach_within, reach_beyond) > kThinnestCut * size; }
+  bool proper(double size) const { return std::min(reach_within, reach_beyond) > kMinCut * size; }
 };
 
 /// @param normal unit length; `within` is dot(normal, x) <= offset
@@ -67,10 +67,10 @@ class TriangleSearch {
 
   DistanceBounds run(const Triangle& triangle, std::uint32_t nearby) {
     push({triangle[0], triangle[1], triangle[2]}, nearby);
-    for (std::size_t count = 1; count < options_.pieces && pieces_.top().upper > wanted(); ++count) {
+    for (std::size_t count = 1; count < options_.pieces && pieces_.top().upper > goal(); ++count) {
       const Piece worst = pieces_.top();
       measure(farthest_corner(worst), worst.face);
-      if (worst.upper <= wanted()) break;  // the bound is reached
+      if (worst.upper <= goal()) break;  // the bound is reached
       pieces_.pop();
       divide(worst);
     }
@@ -78,7 +78,8 @@ class TriangleSearch {
   }
 
  private:
-  double wanted() const { return lower_ + std::max(absolute_gap_, options_.relative_gap * lower_); }
+  /// The upper bound at which the search ends.
+  double goal() const { return lower_ + std::max(absolute_gap_, options_.relative_gap * lower_); }
 
   MeshDistance measure(Vec3 point, std::uint32_t nearby) {
     const MeshDistance d = tree_.distance(point, nearby);
@@ -103,7 +104,7 @@ class TriangleSearch {
     if (corners.empty()) return;
     Piece piece{std::move(corners), 0, nearby};
     piece.upper = bound_by_face(piece.corners, nearby);
-    if (piece.upper > wanted()) {
+    if (piece.upper > goal()) {
       const Vec3 middle = centroid_of(piece.corners);
       const MeshDistance d = measure(middle, nearby);
       double radius = 0;
@@ -114,8 +115,8 @@ class TriangleSearch {
     pieces_.push(std::move(piece));
   }
 
-  /// Cuts a piece along the sides of the triangle below its middle, so that the part above that triangle is bounded as
-  /// well as can be; across its middle, where that cuts nothing off.
+  /// Cuts a piece along the sides of the triangle below its centroid, so that the part above that triangle is bounded
+  /// tightly; through its centroid where that separates nothing.
   void divide(const Piece& piece) {
     const Triangle& below = tree_.triangle(piece.face);
     const Vec3 up = normal_unscaled(below);

@@ -5,13 +5,16 @@
 
 namespace dismantle {
 
-/// The sum of squared distances to planes as a quadratic function of the point (Garland and Heckbert 1997):
-/// x^T A x + 2 b.x + c, A symmetric. Lengths in mm.
+/// A sum of squared distances to planes as a quadratic function of the point x [mm]: x^T A x + 2 b.x + c, A symmetric
+/// (Garland and Heckbert 1997).
 struct Quadric {
+  ///@{ Elements of A.
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  Vec3 b;
-  double c = 0;
+  ///@}
+  Vec3 b;        ///< The linear term [mm].
+  double c = 0;  ///< The constant [mm^2].
 
+  /// Adds the planes of another quadric.
   Quadric& operator+=(const Quadric& q) {
     xx += q.xx;
     xy += q.xy;
@@ -32,7 +35,7 @@ inline Quadric plane_quadric(Vec3 n, Vec3 point, double weight) {
           weight * n.y * n.z, weight * n.z * n.z, (weight * d) * n,   weight * d * d};
 }
 
-/// The quadric's value at a point [mm^2]; not below 0, whatever rounding says.
+/// The quadric's value at a point [mm^2]; negative values, which rounding can give, count as 0.
 inline double evaluate(const Quadric& q, Vec3 p) {
   const double value = p.x * (q.xx * p.x + 2 * q.xy * p.y + 2 * q.xz * p.z) + p.y * (q.yy * p.y + 2 * q.yz * p.z) +
                        q.zz * p.z * p.z + 2 * dot(q.b, p) + q.c;

@@ -13,11 +13,11 @@ namespace dismantle {
 
 namespace {
 
-// The search for the error: from this part of the assembly's size to all of it, by so many halvings of the exponent.
+// The search for the error: bisection of its logarithm, from this part of the assembly's size to all of it.
 constexpr double kMinError = 1e-6;
 constexpr int kErrorSteps = 40;
 
-/// A mesh, how often it occurs, and what becomes of it.
+/// A mesh, the number of its instances, and its simplification.
 struct SharedMesh {
   std::shared_ptr<const TriangleMesh> original;
   std::size_t instances = 0;
@@ -28,7 +28,7 @@ struct SharedMesh {
   DistanceBounds error;
 };
 
-/// The meshes of an assembly, each once, and which one each component has.
+/// The meshes of an assembly, each once, and the mesh of each component.
 struct MeshTable {
   std::vector<SharedMesh> meshes;
   std::vector<std::size_t> of_component;
@@ -36,9 +36,9 @@ struct MeshTable {
 
 MeshTable collect_meshes(const Assembly& assembly) {
   MeshTable table;
-  std::unordered_map<const TriangleMesh*, std::size_t> place;
+  std::unordered_map<const TriangleMesh*, std::size_t> index_of;
   for (const Component& c : assembly.components) {
-    const auto [found, is_new] = place.try_emplace(c.mesh.get(), table.meshes.size());
+    const auto [found, is_new] = index_of.try_emplace(c.mesh.get(), table.meshes.size());
     if (is_new) table.meshes.push_back({c.mesh, 0, 0, diagonal(bounds(*c.mesh)), {}, *c.mesh, {}});
     ++table.meshes[found->second].instances;
     table.of_component.push_back(found->second);
@@ -50,9 +50,9 @@ std::size_t original_count(const SharedMesh& m) {
   return m.original->faces.size();
 }
 
-/// How many triangles each mesh has where collapses stop at an error that belongs to an error of the whole assembly:
-/// smaller meshes get smaller errors, by the square root of their size, or small parts would lose their shape while
-/// large ones do not change. Shape [mesh_count].
+/// Number of triangles of each mesh at an error of the whole assembly, shape [mesh_count]. A mesh's own error is in
+/// proportion to the square root of its size: with one error for all, small parts would lose their shape before large
+/// ones change.
 std::vector<std::size_t> counts_at(const std::vector<SharedMesh>& meshes, double relative_error, double size,
                                    std::size_t minimum) {
   std::vector<std::size_t> counts;
@@ -60,8 +60,8 @@ std::vector<std::size_t> counts_at(const std::vector<SharedMesh>& meshes, double
     const double error = relative_error * std::sqrt(m.size * size);
     const auto past = std::upper_bound(m.curve.begin(), m.curve.end(), error,
                                        [](double e, const SimplificationStep& step) { return e < step.error; });
-    const std::size_t least = std::min(minimum, original_count(m));
-    counts.push_back(std::max(least, std::prev(past)->triangles));  // the first step's error is 0
+    const std::size_t min_count = std::min(minimum, original_count(m));
+    counts.push_back(std::max(min_count, std::prev(past)->triangles));  // the first step's error is 0
   }
   return counts;
 }
@@ -72,16 +72,17 @@ std::size_t total_of(const std::vector<SharedMesh>& meshes, const std::vector<st
   return total;
 }
 
-/// Sets the targets so that the total is `budget`, by searching for the error that gives it.
+/// Sets the targets so that the total is `budget`, by a search for the error that gives it.
 void share_budget(std::vector<SharedMesh>& meshes, std::size_t budget, double size, std::size_t minimum) {
-  std::vector<std::size_t> above, below = counts_at(meshes, 1, size, minimum);  // the budget, and not above it
+  // Counts whose total is at most the budget, and above it.
+  std::vector<std::size_t> above, below = counts_at(meshes, 1, size, minimum);
   for (const SharedMesh& m : meshes) above.push_back(original_count(m));
-  double least = std::log(kMinError), largest = 0;
+  double lower = std::log(kMinError), upper = 0;
   for (int step = 0; step < kErrorSteps; ++step) {
-    const double middle = (least + largest) / 2;
+    const double middle = (lower + upper) / 2;
     std::vector<std::size_t> counts = counts_at(meshes, std::exp(middle), size, minimum);
     const bool fits = total_of(meshes, counts) <= budget;
-    (fits ? largest : least) = middle;
+    (fits ? upper : lower) = middle;
     (fits ? below : above) = std::move(counts);
   }
   const auto low = static_cast<double>(total_of(meshes, below)), high = static_cast<double>(total_of(meshes, above));

@@ -9,9 +9,9 @@ namespace dismantle {
 
 namespace {
 
-// A solid that keeps less than this part of its volume has lost its shape.
+// Smallest part of its volume that a solid has to keep.
 constexpr double kMinVolume = 0.5;
-// By how much the goal grows for each further try.
+// Factor by which the goal grows in each further attempt.
 constexpr double kBackOff = 1.3;
 
 TriangleMesh collapsed(const TriangleMesh& mesh, const SimplifyGoal& goal) {

@@ -9,28 +9,27 @@
 
 namespace dismantle {
 
-/// When simplify_mesh stops: at whichever comes first.
+/// The goal of simplify_mesh(): it stops at whichever is reached first.
 struct SimplifyGoal {
-  std::size_t triangles = 0;                               ///< So few triangles.
-  double error = std::numeric_limits<double>::infinity();  ///< The next collapse's quadric error would be larger [mm].
+  std::size_t triangles = 0;                               ///< Number of triangles.
+  double error = std::numeric_limits<double>::infinity();  ///< Largest quadric error of a collapse [mm].
 };
 
-/// Fewer triangles by edge collapses in the order of the quadric error metric: the paper's QSlim step, with the
-/// properties of EdgeCollapse. How far the surface moved is what hausdorff_distance tells; the quadric error is an
-/// estimate.
+/// Simplifies a mesh by edge collapses in the order of the quadric error metric: the paper's QSlim step, with the
+/// properties of EdgeCollapse. The quadric error is an estimate of the change; hausdorff_distance() bounds it.
 ///
-/// A closed, consistently oriented mesh of positive volume keeps at least half of it, or less is collapsed. The count
-/// may stay above the goal for that reason, or because topology forbids more collapses. Gives the mesh itself where it
+/// A closed, consistently oriented mesh of positive volume keeps at least half of it: the count remains above the goal
+/// where fewer triangles would lose more, or where topology forbids more collapses. Returns the mesh itself where it
 /// has no more triangles than the goal.
 TriangleMesh simplify_mesh(const TriangleMesh& mesh, const SimplifyGoal& goal);
 
-/// What simplify_mesh has to give for a mesh: so many triangles at that quadric error.
+/// The state of a mesh after a number of collapses.
 struct SimplificationStep {
-  std::size_t triangles = 0;
-  double error = 0;  ///< [mm]
+  std::size_t triangles = 0;  ///< Number of triangles.
+  double error = 0;           ///< Largest quadric error so far [mm].
 };
 
-/// The triangles and the error after each collapse, from the whole mesh to the end: triangles fall, errors do not.
+/// The states from the whole mesh to the last possible collapse: numbers of triangles decrease, errors do not.
 std::vector<SimplificationStep> simplification_curve(const TriangleMesh& mesh);
 
 }  // namespace dismantle
