@@ -38,7 +38,7 @@ struct Split {
   int bin = 0;  // bins below this one go left
 };
 
-/// Which bin of `range` a coordinate falls into.
+/// The bin that a coordinate falls into.
 int bin_of(double value, double low, double scale) {
   const int bin = static_cast<int>((value - low) * scale);
   return std::clamp(bin, 0, kBinCount - 1);
@@ -115,7 +115,7 @@ class Builder {
     return best;
   }
 
-  /// Takes the cheapest split of these bins if it beats `best`.
+  /// Replaces `best` by the cheapest split of these bins if that is cheaper.
   static void improve(Split& best, const Bin (&bins)[kBinCount], int axis) {
     double right_cost[kBinCount];
     Aabb box;
@@ -151,7 +151,7 @@ class Builder {
   NodeIndex leaf_count_;
 };
 
-/// Builds all component subtrees: large ones are split level by level until their parts are worth one task each.
+/// Builds all component subtrees: large ones are split level by level until their parts are small enough for one task.
 void build_components(const Builder& builder, std::vector<Subtree> open, const Executor& executor) {
   while (!open.empty()) {
     std::vector<std::pair<Subtree, Subtree>> halves(open.size());
@@ -203,7 +203,7 @@ void build_top(Bvh& bvh, Span<const Aabb> triangle_boxes) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   std::vector<BvhChildren> top(count - 1);
-  // Built as a tree of its own, with `count` leaves, then its indices are moved to where its nodes are in ours.
+  // Built as a separate tree with `count` leaves, whose indices are then mapped to those of the hierarchy.
   Builder(boxes, order, top, count).build({0, count, count, 0});
   const auto moved = [&](NodeIndex node) { return node < count ? roots[order[node]] : bvh.top_begin + (node - count); };
   for (NodeIndex i = 0; i < count - 1; ++i)

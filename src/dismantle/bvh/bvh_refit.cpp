@@ -15,7 +15,7 @@ struct PlanMaker {
   BvhRefitPlan& plan;
   std::uint32_t component;
 
-  /// Leaves below a node whose leaves start at `leaf_begin`: post-order puts the subtree's inner nodes right before it.
+  /// Cuts one subtree; in post-order its inner nodes come right before its root.
   void cut(NodeIndex leaf_begin, NodeIndex leaf_end, NodeIndex inner_begin) {
     const NodeIndex leaves = leaf_end - leaf_begin;
     if (leaves <= kLeavesPerBlock) {
@@ -52,7 +52,7 @@ void bvh_refit(const Bvh& bvh, const BvhRefitPlan& plan, const BvhRefitInput& in
                Span<Kdop16> bounds, const Executor& executor) {
   DISMANTLE_EXPECT(bounds.size() == bvh.node_count());
   DISMANTLE_EXPECT(input.margin >= 0);
-  // Margins round up, too.
+  // Rounded up, as all bounds.
   const float margin = static_cast<float>(input.margin * (1 + 1e-6));
   const BvhRefitLeafKernel leaf_kernel{input.vertices_t0, input.vertices_t1, input.faces, bounds, margin};
   const BvhRefitNodeKernel node_kernel{BvhView(bvh), bounds};

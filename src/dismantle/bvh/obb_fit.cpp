@@ -22,7 +22,7 @@ Triangle triangle_of(Span<const Vec3> vertices, const Face& f) {
   return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
 }
 
-/// Some unit direction across the unit vector `n`.
+/// A unit vector perpendicular to the unit vector `n`.
 Vec3 across(Vec3 n) {
   const Vec3 other = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z)
                          ? Vec3{1, 0, 0}
@@ -104,7 +104,7 @@ void for_each_vertex(Span<const Vec3> vertices, Span<const Face> faces, Span<con
     for (const std::uint32_t v : faces[f].v) visit(vertices[v]);
 }
 
-/// The rounding of coordinates in the box's own axes, relative to their size: some tens of double roundings.
+/// Bounds the rounding of coordinates along the box's axes, relative to their size: some tens of double roundings.
 constexpr double kCoordinateMargin = 0x1p-46;
 
 }  // namespace
@@ -132,7 +132,7 @@ Obb obb_fit(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::u
       middle.x * to_double(box.axis[0]) + middle.y * to_double(box.axis[1]) + middle.z * to_double(box.third_axis());
   box.center = to_float(center);
 
-  // Where the rounded center is in the same coordinates: all the rest is the distance from there.
+  // The rounded center in the same coordinates; half lengths are the distances from it.
   const Vec3 c = dual * to_double(box.center);
   const Vec3 half = max(upper - c, c - lower);
   const double margin = kCoordinateMargin * (reach + max_abs(center));

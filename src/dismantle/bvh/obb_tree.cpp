@@ -89,7 +89,7 @@ class Builder {
     const Vec3 axis = normalized(sum);
     double cosine = 1;
     for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normals_[f]));
-    // Between w and the axis there may be the angle that is left by the widest normal.
+    // The angle between w and the axis may be what is left by the widest normal.
     const double left = std::acos(NormalCone::kMinAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
     return {to_float(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
   }
@@ -103,8 +103,8 @@ class Builder {
     bool before(std::uint32_t f) const { return dot(axis, (*of)[f]) < border; }
   };
 
-  /// Sorts the range into two by the cut whose halves are thinnest; where none makes them much thinner, at the mean
-  /// of the centroids along the box's longest axis.
+  /// Partitions the range by the cut whose halves are thinnest; if none makes them much thinner, at the mean of the
+  /// centroids along the box's longest axis.
   std::uint32_t split(const Range& range, const Obb& box) {
     if (!parts_.empty() && parts_[order_[range.begin]] != parts_[order_[range.end - 1]]) return between_parts(range);
     const Vec3 axes[3] = {to_double(box.axis[0]), to_double(box.axis[1]), to_double(box.third_axis())};
@@ -126,7 +126,7 @@ class Builder {
     return apply(range, best);
   }
 
-  /// Between the parts of a range, which has several and is in their order, where it is next to the middle.
+  /// The border between two parts that is nearest to the middle of a range, which is sorted by part and has several.
   std::uint32_t between_parts(const Range& range) const {
     const auto part = [this](std::uint32_t i) { return parts_[order_[i]]; };
     std::uint32_t middle = range.begin + range.size() / 2;
@@ -141,7 +141,7 @@ class Builder {
     return {&centroids_, axis, sum / range.size()};
   }
 
-  /// Two thirds of the way from the smallest to the largest: separates one end of a shaft from its side and other end.
+  /// The cut by normals at two thirds between the extremes: separates one end of a shaft from its side and other end.
   Cut by_normals(const Range& range, Vec3 axis) const {
     double low = 1, high = -1;
     for_samples(range, [&](std::uint32_t f) {
@@ -152,8 +152,8 @@ class Builder {
     return {&normals_, axis, low + (high - low) * (2.0 / 3)};
   }
 
-  /// The mean thickness of a cut's two sides, by triangles; huge where one side is empty. No side is thinner than
-  /// `floor`: what is flat is flat.
+  /// The mean thickness of a cut's two sides, weighted by triangles; infinite if one side is empty.
+  /// @param floor sides count as at least so thick [mm]
   double thickness(const Range& range, const Cut& cut, double floor) const {
     SurfaceMoments moments[2];
     std::size_t count[2] = {0, 0};
@@ -168,15 +168,15 @@ class Builder {
     return sum / static_cast<double>(count[0] + count[1]);
   }
 
-  /// The triangles of a range, of a large one an even choice.
+  /// Visits the triangles of a range; of a large one an evenly spaced sample.
   template <class Visit>
   void for_samples(const Range& range, Visit visit) const {
     const std::uint32_t stride = 1 + range.size() / kMaxSamples;
     for (std::uint32_t i = range.begin; i < range.end; i += stride) visit(order_[i]);
   }
 
-  /// At the median of the cut's numbers where it would leave one side with next to nothing and they are positions. Ties
-  /// are broken by index, so the result is unique.
+  /// Partitions the range by a cut. If one side were nearly empty, it is cut at the median of the centroids instead;
+  /// ties are broken by index, so the result is unique. @return the first position of the second half
   std::uint32_t apply(const Range& range, const Cut& cut) {
     const auto begin = order_.begin() + range.begin, end = order_.begin() + range.end;
     auto middle = std::partition(begin, end, [&](std::uint32_t f) { return cut.before(f); });
@@ -191,11 +191,11 @@ class Builder {
     return static_cast<std::uint32_t>(middle - order_.begin());
   }
 
-  /// Boxes count as at least so thick, of their radius.
+  /// Boxes count as at least so thick, relative to their radius.
   static constexpr float kThin = 1e-3f;
-  /// A cut other than along the longest axis is taken where it makes the halves thinner than this share of that one's.
+  /// A cut other than along the longest axis is taken if it makes the halves thinner than this share of that one's.
   static constexpr double kThinner = 0.7;
-  /// Thinner than this, of the longest half edge, is flat.
+  /// Boxes thinner than this are flat, relative to the longest half edge.
   static constexpr double kFlat = 1e-4;
   static constexpr std::uint32_t kMaxSamples = 1024;
   static constexpr std::ptrdiff_t kMinShare = 64;
@@ -262,7 +262,7 @@ const char* obb_tree_fault(const ObbTree& tree, Span<const Vec3> vertices, Span<
     if ((node.parent == ObbNode::kNone) != (n == 0)) return "wrong root";
     if (!node.leaf()) {
       for (const std::uint32_t c : {node.child, node.child + 1})
-        if (c >= tree.nodes.size() || tree.nodes[c].parent != n) return "a child that does not know its parent";
+        if (c >= tree.nodes.size() || tree.nodes[c].parent != n) return "a child with a different parent";
       continue;
     }
     if (node.child >= faces.size() || seen[node.child]) return "a triangle in two leaves";

@@ -13,21 +13,21 @@ namespace dismantle {
 
 namespace {
 
-/// What a distance from the axis may be off by, relative to the coordinates.
+/// Bounds the rounding of a distance from the axis, relative to the coordinates.
 constexpr double kRounding = 1e-13;
 /// The cosine of 45 degrees.
 constexpr double kFacing = 0.70710678;
-/// A face lies across the axis where what its unit normal has across it is at most this long: it is seen edge-on by
-/// every axis that leads away (OutwardNormals::kMinCosine).
+/// A face lies across the axis if the part of its unit normal perpendicular to the axis is at most this long. Every
+/// axis that leads away sees it edge-on (OutwardNormals::kMinCosine).
 constexpr double kAcross = 0.04;
 
-/// A corner about an axis.
+/// A corner in coordinates about an axis.
 struct Corner {
   Vec3 across;       // from the axis
   double along = 0;  // from the axis' point
 };
 
-/// The least distance of the triangle, seen along the axis, from it.
+/// The distance of the triangle from the axis, in the projection along it.
 double min_distance(const Corner (&c)[3], Vec3 axis) {
   double sides[3], nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
@@ -41,12 +41,12 @@ double min_distance(const Corner (&c)[3], Vec3 axis) {
 }
 
 constexpr double kHalfTurn = 3.14159265358979;
-/// A third of the deviation is what prisms lack; the rest is for what rounding takes.
+/// Prisms lack a third of the deviation; the rest is for rounding.
 constexpr double kWallShare = 0.4;
-/// What the angles of a sector may be off by [rad].
+/// Bounds the error of a sector's angles [rad].
 constexpr double kAngleRounding = 1e-6;
 
-/// Directions around an axis: those within `half` of `center` [rad].
+/// A sector of directions about an axis: those within `half` of `center` [rad].
 struct Sector {
   double center = 0, half = kHalfTurn;
 };
@@ -64,14 +64,14 @@ void set_sector(RadialBounds& node, const Sector& sector, const AxisFrame& axis)
   node.sine = half < kHalfTurn ? static_cast<float>(std::sin(half)) : 0;
 }
 
-/// Of a triangle that does not have the axis in it.
+/// The sector of a triangle that the axis does not pass through.
 Sector sector_of(const Corner (&corners)[3], const AxisFrame& axis) {
   Sector sector{axis.angle(corners[0].across), 0};
   for (int i = 1; i < 3; ++i) sector = both(sector, {axis.angle(corners[i].across), 0});
   return sector;
 }
 
-/// What does not lie across the axis.
+/// The faces of a node that do not lie across the axis.
 struct Wall {
   float min_radius = std::numeric_limits<float>::infinity(), max_radius = 0;  // distances [mm]
   double area = 0;                                                            // [mm^2]
@@ -82,8 +82,8 @@ Wall both(const Wall& x, const Wall& y) {
 }
 
 /// RadialBounds::radial_deviation of a node with this wall. A prism of n sides and radius r has 1 - pi^2 / 6n^2 of the
-/// cylinder's area, and distances that differ by r pi^2 / 2n^2: what has less area than that has gaps, what has more
-/// than the cylinder is not one.
+/// cylinder's area, and distances that differ by r pi^2 / 2n^2: with less area it has gaps, with more than that of the
+/// cylinder it is none.
 float radial_deviation_of(const Wall& wall, const RadialBounds& node) {
   const double deviation = static_cast<double>(wall.max_radius) - static_cast<double>(wall.min_radius);
   const double height = static_cast<double>(node.end) - static_cast<double>(node.begin);

@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-/// What coordinates about an axis may be off by, relative to the size of what they are made of.
+/// Bounds the rounding of coordinates about an axis, relative to the coordinates that they are computed from.
 constexpr double kRounding = 1e-13;
 /// Directions within this [cosine] are the same.
 constexpr double kSameDirection = 0.9998;
@@ -31,8 +31,8 @@ ThreadBounds unknown() {
   return node;
 }
 
-/// A triangle about an axis: its corners in its coordinates, and how far its other points may be off what lies between
-/// the corners'.
+/// A triangle in a thread's frame: the coordinates of its corners, and bounds on how far those of its other points
+/// deviate from linear interpolation between the corners.
 class ThreadTriangle {
  public:
   ThreadTriangle(const ThreadFrame& frame, const Triangle& triangle) : frame_(&frame) {
@@ -50,7 +50,7 @@ class ThreadTriangle {
       turned += angle_between(p, q);
     }
     rounding_ = kRounding * size;
-    // Around the axis, or too near it for angles to be told.
+    // Around the axis, or too near it for angles to be accurate.
     known_ = min_radius_ > 1e3 * rounding_ && std::abs(turned) < 1;
     if (!known_) return;
     rounding_ *= 1 + std::abs(frame.lead) / min_radius_;
@@ -65,7 +65,7 @@ class ThreadTriangle {
     bend();
   }
 
-  /// Nothing is known of one around the axis, or nearly on it.
+  /// False for a triangle around the axis or nearly on it, which cannot be bounded.
   bool known() const { return known_; }
 
   ThreadBounds node() const {
@@ -92,10 +92,11 @@ class ThreadTriangle {
  private:
   double angle_between(Vec3 p, Vec3 q) const { return std::atan2(dot(frame_->axis.direction, cross(p, q)), dot(p, q)); }
 
-  /// The distance from the axis is convex: over the triangle it is less than what lies between the corners', by at most
-  /// a sixth of what its second derivative, (the step around the axis)^2 / distance, is for the longest side. The lift
-  /// is off by as much of its own, 2 (the step around) (the step outwards) / distance^2 times the lead a radian. Steps
-  /// are taken at the middle of the triangle's sector; elsewhere in it they are turned by half the sector at most.
+  /// Bounds the deviation from linear interpolation. The distance from the axis is convex: over the triangle it is
+  /// below the interpolated one by at most a sixth of its second derivative for the longest side, (the step around the
+  /// axis)^2 / distance. The axial offset deviates by a sixth of its own second derivative, 2 (the step around) (the
+  /// step outwards) / distance^2 times the lead per radian. Steps are taken at the middle of the triangle's sector;
+  /// elsewhere in it they are turned by at most half the sector.
   void bend() {
     const auto [low, high] = std::minmax({angle_[0], angle_[1], angle_[2]});
     const double sine = std::sin(std::min((high - low) / 2, kTurn / 4));

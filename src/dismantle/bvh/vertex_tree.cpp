@@ -11,16 +11,16 @@ namespace dismantle {
 
 namespace {
 
-/// Nodes of at most so many vertices are built by one task with all that is below them.
+/// Subtrees of at most so many vertices are built by one task.
 constexpr std::uint32_t kTaskVertices = 4096;
-/// What the length of a difference of doubles may be off by, relative to it and to the coordinates.
+/// Bounds the rounding of the length of a difference, relative to it and to the coordinates.
 constexpr double kLengthRounding = 1e-15;
 
 class Builder {
  public:
   Builder(VertexTree& tree, Span<const Vec3> vertices) : tree_(tree), vertices_(vertices) {}
 
-  /// Fits the node's sphere and parts its vertices between its halves. @pre !node.leaf()
+  /// Fits the node's sphere and partitions its vertices between its halves. @pre !node.leaf()
   void split(const VertexNode& node) const {
     const auto begin = tree_.order.begin() + node.begin, end = tree_.order.begin() + node.end;
     Aabb box;

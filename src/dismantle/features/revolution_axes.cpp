@@ -19,13 +19,14 @@ namespace dismantle {
 namespace {
 
 constexpr double kQuarterTurn = 1.5707963;
-/// Faces that meet at less [sine] are taken for one plane; at more [cosine] for a corner.
+/// Faces that meet at a smaller sine are coplanar; those that meet at a smaller cosine form a corner.
 constexpr double kMinSine = 1e-4;
 constexpr double kMinCosine = 0.5;
-/// Axes agree whose directions and places are in one cell of that size; places as a share of the box's diagonal.
+/// Axes agree if their directions and positions are in one cell of these sizes; positions relative to the box's
+/// diagonal.
 constexpr double kSameDirection = 1e-3;
 constexpr double kSamePlace = 1e-4;
-/// Where cells begin: not at places that models are fond of.
+/// The origin of cells, so that round coordinates are not at their borders.
 constexpr double kCellOffset = 0.3819660113;
 
 using Cell = std::array<std::int64_t, 6>;
@@ -34,7 +35,7 @@ std::int64_t cell_at(double x, double size) {
   return static_cast<std::int64_t>(std::floor(x / size + kCellOffset));
 }
 
-/// The one of both signs whose largest coordinate is positive.
+/// The vector with the sign that makes its largest coordinate positive.
 Vec3 of_one_sign(Vec3 v) {
   const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
   const double largest = x >= y && x >= z ? v.x : y >= z ? v.y : v.z;
@@ -52,7 +53,7 @@ Vec3 normal_of(Span<const Vec3> vertices, const Face& f) {
   return normalized(normal_unscaled(Triangle{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}}));
 }
 
-/// The axis of which the edge of two faces is a ruling; a turn of zero where there is none.
+/// The axis of the cylinder that the edge of two faces is a ruling of; with zero turn if there is none.
 RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair, Vec3 middle) {
   RevolutionAxis axis;
   const Face &a = faces[pair.face[0]], &b = faces[pair.face[1]];
@@ -62,7 +63,7 @@ RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const 
   const Vec3 from = vertices[pair.edge[0]];
   axis.direction = of_one_sign(normalized(vertices[pair.edge[1]] - from));
   const auto across = [&](Vec3 v) { return v - dot(v, axis.direction) * axis.direction; };
-  // The center of the circle through the edge and the two opposite corners, seen along the edge.
+  // The centre of the circle through the edge and the two opposite corners, in the projection along the edge.
   const Vec3 p = across(opposite(vertices, a, pair.edge) - from), q = across(opposite(vertices, b, pair.edge) - from);
   const Vec3 normal = cross(p, q);
   const double square = length_squared(normal);
@@ -73,14 +74,15 @@ RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const 
   return axis;
 }
 
-/// A cylinder's corners are at one distance from its axis to this share of it.
+/// Relative difference between the distances from the axis of a cylinder's corners, at most.
 constexpr double kOneDistance = 1e-3;
-/// And its faces' normals lead away from the axis, or to it, with at least this cosine.
+/// Cosine between the normal of a cylinder's face and the direction away from the axis, or to it, at least.
 constexpr double kLeadsAway = 0.8;
-/// Cylinders of fewer faces are left alone.
+/// Cylinders of fewer faces get no part.
 constexpr std::size_t kMinOfCylinder = 12;
 
-/// A face of a cylinder: the mean distance of its corners from the axis, negative where its normal leads to it [mm].
+/// The mean distance from the axis of the corners of a cylinder's face, negative if its normal points to the axis [mm];
+/// nothing for other faces.
 std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& triangle) {
   double distances[3];
   Vec3 away;
@@ -98,7 +100,7 @@ std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& 
   return facing > 0 ? mean : -mean;
 }
 
-/// Faces that belong together.
+/// A union-find structure over faces.
 class Groups {
  public:
   explicit Groups(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
@@ -112,12 +114,12 @@ class Groups {
   std::vector<std::uint32_t> of_;
 };
 
-/// What a group of faces is as a cylinder.
+/// The extent of a group of faces as a cylinder.
 struct CylinderExtent {
   double area = 0, distance = 0;
   double begin = std::numeric_limits<double>::infinity(), end = -begin;
   std::size_t count = 0;
-  /// The angle that it goes around, were it of one length all around [rad].
+  /// The angle that it goes around if its length is the same all around [rad].
   double turn() const { return area / (distance * (end - begin)); }
 };
 

@@ -18,40 +18,41 @@ namespace dismantle {
 
 namespace {
 
-/// An edge is along a helix where its ends' distances from the axis differ by no more than this share of them,
+/// Relative difference between the distances from the axis of the ends of an edge along a helix, at most.
 constexpr double kSameDistance = 2e-3;
-/// the angle between them is between these [rad],
+/// Range of the angle between the ends of such an edge [rad].
 constexpr double kMinAngle = 1e-3, kMaxAngle = 1.3;
-/// and the lead that it has is between these shares of the distance.
+/// Range of the lead of such an edge, relative to the distance from the axis.
 constexpr double kMinLead = 0.03, kMaxLead = 6;
-/// Leads agree that differ by no more than this share.
+/// Leads with a smaller relative difference agree.
 constexpr double kSameLead = 1e-3;
-/// Threads mate whose leads differ by no more than this share, and whose axes are no more at an angle than this [sine],
-/// and no further apart than this share of the lead.
+/// Mating threads: largest relative difference of the leads, sine between the axes, and distance between the axes
+/// relative to the lead.
 constexpr double kMatingLead = 5e-3, kMatingSine = 0.02, kMatingShare = 0.25;
-/// So many axes of a mesh are looked at, those with the longest turns,
+/// Axes of a mesh that are examined, at most: those with the largest turns.
 constexpr std::size_t kMaxAxes = 16;
-/// and so many leads of each, those with the longest edges [rad],
+/// Leads of each axis that are examined, at most: those with the longest edges.
 constexpr std::size_t kMaxLeads = 3;
-/// if these are at least a turn long, and this share of all such edges.
+/// Smallest total angle of the edges of a lead [rad], and smallest share of that of all edges along helices.
 constexpr double kMinTurn = kTurn, kMinShare = 0.05;
-/// No more than so many edges are looked at, of all axes together: an even choice of them.
+/// Edges that are examined for all axes together, at most: an evenly spaced sample of them.
 constexpr std::size_t kMaxEdges = 4'000'000;
 
-/// A mesh without edges along helices may have a thread if it has so many faces. Its fit is made with no more than so
-/// many of the curved places,
-constexpr std::size_t kFewestFaces = 400, kMaxSamples = 40'000;
-/// its lead sought no further from the fit's than this share of it, in steps for which so many parts of a turn add up
-/// along the thread; with no more than so many faces at first, and then with more, so often a third closer.
+/// Remeshed threads: smallest number of faces of the mesh, and largest number of samples for the fit.
+constexpr std::size_t kMinFaces = 400, kMaxSamples = 40'000;
+/// Range of the search for their lead about that of the fit, relative to it, and its step in turns over the whole
+/// thread.
 constexpr double kLeadRange = 0.12, kLeadStep = 0.05;
+/// Faces used by that search, and by the refinement of its best lead, at most.
 constexpr std::size_t kMaxScanned = 2000, kMaxFitted = 10'000;
-constexpr int kCloser = 20;
+/// Steps of the refinement; each takes a third off the interval.
+constexpr int kRefinements = 20;
 
 /// Edges along helices of one lead.
 struct Helices {
   double turn = 0;  ///< The sum of their angles [rad].
-  double lead = 0;  ///< The same, each times its lead; in the end the mean lead.
-  /// Where they are.
+  double lead = 0;  ///< The sum of leads weighted by the angles; the mean lead when finished.
+  /// Extent along the axis and distances from it [mm].
   double begin = std::numeric_limits<double>::infinity(), end = -begin, min_radius = begin, max_radius = 0;
 
   void add(const Helices& other) {
@@ -62,7 +63,7 @@ struct Helices {
     min_radius = std::min(min_radius, other.min_radius);
     max_radius = std::max(max_radius, other.max_radius);
   }
-  /// Whether a face may be of the thread that these are edges of.
+  /// True if a face may be of the thread that these are edges of.
   bool reach(const ProfileFace& face) const {
     const double play = std::abs(lead) / 4;
     const AxisCoordinates& at = face.centroid;
@@ -71,7 +72,7 @@ struct Helices {
   }
 };
 
-/// The edges of the mesh along helices about the axis by their leads, those of the longest edges first.
+/// The edges of the mesh along helices about the axis, grouped by lead, sorted by descending total angle.
 std::vector<Helices> helices(const AxisFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
                              std::size_t stride) {
   std::map<std::int64_t, Helices> cells;
@@ -131,10 +132,10 @@ std::optional<ThreadProfile> best_profile(Span<const Vec3> vertices, Span<const 
   return best;
 }
 
-/// How much area of possible flanks agrees about its place in the profile with one lead or another.
+/// The area of possible flanks that agrees about its offset in the profile, as a function of the lead.
 class Agreement {
  public:
-  /// @param count of the faces at most that are looked at, an even choice
+  /// @param count of the faces to use, at most: an evenly spaced sample
   Agreement(const std::vector<ProfileFace>& faces, std::size_t count) {
     const std::size_t stride = 1 + faces.size() / count;
     std::array<FacesOfDirection, kProfileDirections> directions;
@@ -163,14 +164,14 @@ class Agreement {
  private:
   struct Seen {
     std::size_t direction;
-    double offset;                // where its plane of the profile meets the axis, angle 0 [mm]
-    std::complex<double> turned;  // its area, turned back by its angle
+    double offset;                // of its plane: where that meets the axis at angle 0 [mm]
+    std::complex<double> turned;  // its area, rotated by minus its angle
   };
   std::vector<Seen> seen_;
 };
 
-/// The lead near a rough one with which the most area agrees. The peak is narrow: few faces tell about where it is.
-/// @param turns how many turns the thread has
+/// The lead near a rough one with which the most area agrees. The peak is narrow: it is located with few faces and
+/// refined with more. @param turns of the thread
 double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double turns) {
   const Agreement few(faces, kMaxScanned), many(faces, kMaxFitted);
   const double step = kLeadStep / std::max(1.0, turns);
@@ -182,7 +183,7 @@ double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double
     best = rough * (1 + off);
   }
   double low = best * (1 - step), high = best * (1 + step);
-  for (int i = 0; i < kCloser; ++i) {
+  for (int i = 0; i < kRefinements; ++i) {
     const double x = low + (high - low) / 3, y = high - (high - low) / 3;
     if (many.area(x) < many.area(y)) {
       low = x;
@@ -193,10 +194,9 @@ double sharpest_lead(const std::vector<ProfileFace>& faces, double rough, double
   return (low + high) / 2;
 }
 
-/// The thread of a mesh that was cut anew, which has no edges along helices: its surface tells the axis, and about how
-/// far it leads.
-std::optional<ThreadProfile> recut_profile(Span<const Vec3> vertices, Span<const Face> faces) {
-  if (faces.size() < kFewestFaces) return std::nullopt;
+/// The thread of a remeshed surface, which has no edges along helices: a fit gives the axis and roughly the lead.
+std::optional<ThreadProfile> remeshed_profile(Span<const Vec3> vertices, Span<const Face> faces) {
+  if (faces.size() < kMinFaces) return std::nullopt;
   const std::optional<ThreadAxis> rough = fit_thread(curved_samples(vertices, faces, kMaxSamples));
   if (!rough) return std::nullopt;
   const AxisFrame frame(rough->point, rough->direction);
@@ -223,7 +223,8 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
     if (const std::optional<ThreadProfile> profile = best_profile(vertices, faces, axes[i], stride))
       threads.push_back(profile->thread);
   if (threads.empty())
-    if (const std::optional<ThreadProfile> profile = recut_profile(vertices, faces)) threads.push_back(profile->thread);
+    if (const std::optional<ThreadProfile> profile = remeshed_profile(vertices, faces))
+      threads.push_back(profile->thread);
   return threads;
 }
 

@@ -17,25 +17,25 @@ namespace {
 
 /// Faces that meet at a larger cosine are parts of one smooth surface.
 constexpr double kSmooth = 0.85;
-/// And at a cosine above this of one plane.
+/// Faces that meet at a larger cosine are coplanar.
 constexpr double kFlat = 1 - 1e-7;
-/// No two faces meet at a larger one: nothing is too flat.
+/// Above every cosine: no faces count as coplanar.
 constexpr double kAnyCosine = 2;
-/// Fewer pieces are no thread.
-constexpr std::size_t kFewestSamples = 24;
-/// The fit is done anew so often, each time with less weight for what does not go along itself by the last one: the
-/// velocities along the normals that halve a weight, as shares of the whole velocity. Where a seat and a flank differ
-/// by the slope of the thread, one in twenty, the last ones tell them apart.
+/// Fewer samples are not fitted.
+constexpr std::size_t kMinSamples = 24;
+/// Scales of the iteratively reweighted fit: the share of the velocity along the normal that halves a sample's weight.
+/// The last ones separate a seat from a flank, which may differ only by the slope of the thread, one in twenty.
 constexpr double kOff[] = {1, 0.3, 0.3, 0.1, 0.1, 0.1, 0.05, 0.05, 0.05, 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.01};
-/// What is off by less belongs to the thread, and so much of all must.
+/// Samples with a smaller share are on the thread; at least kMinShare of the area must be.
 constexpr double kOnThread = 0.03;
 constexpr double kMinShare = 0.4;
-/// Flanks, whose normals lie between these parts along the axis, tell the rise; so much of all must be flanks.
+/// Range of the axial component of a flank's normal. Flanks determine the rise; at least kMinFlanks of the area must be
+/// flanks.
 constexpr double kFlank[] = {0.1, 0.995};
 constexpr double kMinFlanks = 0.2;
-/// The rise of a thread is between these shares of its radius.
+/// Range of the rise of a thread per radian, relative to its radius.
 constexpr double kRise[] = {0.01, 3};
-/// What is added to keep a shift along a plain bore, which costs nothing, out of it.
+/// Regularisation against translations along a plain bore, which cost nothing.
 constexpr double kRidge = 1e-9;
 
 /// Sums of outer products.
@@ -57,7 +57,7 @@ Mat3 inverse_of(const Mat3& a) {
   return transposed({{bc / d, ca / d, ab / d}});
 }
 
-/// The unit vector of a symmetric matrix' least eigenvalue: the power iteration of its inverse.
+/// The unit eigenvector of a symmetric matrix' smallest eigenvalue, by inverse iteration.
 Vec3 min_direction(Mat3 a, double ridge) {
   for (int i = 0; i < 3; ++i) a.row[i][i] += ridge;
   const Mat3 inverse = inverse_of(a);
@@ -75,7 +75,7 @@ struct Twist {
   Vec3 v, w;
 };
 
-/// The twist of unit turn with the least velocities along the normals.
+/// The twist with a unit angular velocity and the smallest velocities along the normals.
 Twist min_twist(const Moments& sums) {
   Mat3 nn = sums.nn;
   const double trace = nn.row[0].x + nn.row[1].y + nn.row[2].z;
@@ -88,7 +88,7 @@ Twist min_twist(const Moments& sums) {
   return {-(v_from_w * w), w};
 }
 
-/// A sample about the middle of all, in units of their size.
+/// A sample relative to the centroid of all, in units of their size.
 struct Centred {
   Vec3 point, normal, moment;
   double weight;
@@ -100,7 +100,7 @@ double off(const Centred& s, const Twist& t) {
   return speed > 0 ? std::abs(dot(s.normal, velocity)) / speed : 0;
 }
 
-/// Whether what a twist takes along itself is a thread.
+/// True if the samples that a twist moves along the surface make up a thread.
 bool is_thread(const std::vector<Centred>& samples, const Twist& twist, double rise, double radius) {
   double on = 0, flanks = 0, all = 0;
   for (const Centred& s : samples) {
@@ -114,8 +114,8 @@ bool is_thread(const std::vector<Centred>& samples, const Twist& twist, double r
   return on > kMinShare * all && flanks > kMinFlanks * all && slope > kRise[0] && slope < kRise[1];
 }
 
-/// Where the samples that are on the thread are.
-void add_extent(ThreadAxis& thread, Span<const SurfaceSample> samples, const std::vector<Centred>& centred,
+/// Sets the extent of the thread to that of the samples on it.
+void set_extent(ThreadAxis& thread, Span<const SurfaceSample> samples, const std::vector<Centred>& centred,
                 const Twist& twist) {
   const AxisFrame frame(thread.point, thread.direction);
   thread.begin = thread.min_radius = std::numeric_limits<double>::infinity();
@@ -134,7 +134,7 @@ Triangle triangle_of(Span<const Vec3> vertices, const Face& face) {
   return {{vertices[face.v[0]], vertices[face.v[1]], vertices[face.v[2]]}};
 }
 
-/// The place at an edge between two faces; none where they meet at a corner, or with a cosine above `flat`.
+/// The sample at an edge between two faces; none if they form a corner, or meet at a cosine above `flat`.
 std::optional<SurfaceSample> sample_of(Span<const Vec3> vertices, Span<const Face> faces, const NeighbouringFaces& pair,
                                        double flat) {
   const Vec3 a = 0.5 * normal_unscaled(triangle_of(vertices, faces[pair.face[0]]));
@@ -172,7 +172,7 @@ std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples) {
     middle += s.area * s.point;
     area += s.area;
   }
-  if (samples.size() < kFewestSamples || !(area > 0)) return std::nullopt;
+  if (samples.size() < kMinSamples || !(area > 0)) return std::nullopt;
   middle = middle / area;
   for (const SurfaceSample& s : samples) square += s.area * length_squared(s.point - middle) / area;
   const double size = std::sqrt(square);
@@ -201,7 +201,7 @@ std::optional<ThreadAxis> fit_thread(Span<const SurfaceSample> samples) {
   thread.point = middle + size * foot;
   thread.direction = twist.w;
   thread.lead = kTurn * size * rise;
-  add_extent(thread, samples, centred, twist);
+  set_extent(thread, samples, centred, twist);
   return thread;
 }
 

@@ -12,13 +12,12 @@ namespace dismantle {
 
 namespace {
 
-/// A face is of a flank where its normal is no further from the flank's [cosine].
+/// Smallest cosine between the normal of a face and that of its flank.
 constexpr double kOfFlank = 0.85;
-/// A face is of a crest or a root where the lifts of its corners are no further from theirs, in profiles.
+/// Largest difference between the axial offset of a corner and that of its crest or root, in periods.
 constexpr double kOfBand = 0.25;
 
-/// The distance from the axis that parts those of crests from those of roots: as far from the mean of the ones as of
-/// the others.
+/// The distance from the axis that separates crests from roots: midway between the means of the two (2-means).
 double between_crest_and_root(const std::vector<double>& distances) {
   const auto [nearest, furthest] = std::minmax_element(distances.begin(), distances.end());
   if (nearest == distances.end()) return 0;
@@ -49,7 +48,7 @@ std::size_t part_of(const ThreadAxis& thread, const ProfileFace& face) {
     if (flank.normal.radial * face.normal.radial + flank.normal.axial * face.normal.axial < kOfFlank) continue;
     if (on_flank(flank, face, thread.lead, period)) return 1 + i;
   }
-  // Crests and roots face the way that both flanks lean to; those of a square thread may face either.
+  // Crests and roots face in the radial direction that the flanks lean to; those of a square thread may face either.
   const double radial = face.normal.radial, sum = thread.radial_sum();
   return std::abs(radial) < kOfFlank || radial * sum < 0 ? 0 : thread.flanks.size() + 1;
 }
@@ -92,7 +91,7 @@ std::vector<std::uint8_t> thread_parts(Span<const Vec3> vertices, Span<const Fac
         const double off = corner.axial_offset(thread.lead) / period - std::arg(phase_sums[outer]) / kTurn;
         return std::abs(off - std::round(off)) <= kOfBand;
       };
-      // What goes on as a plain cylinder is none.
+      // A face that extends beyond the band is of a plain cylinder.
       if (std::all_of(std::begin(face.corner), std::end(face.corner), in_band))
         parts[f] = static_cast<std::uint8_t>(first + thread.flanks.size() + (outer ? 2 : 1));
     }

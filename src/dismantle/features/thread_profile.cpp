@@ -10,25 +10,25 @@ namespace dismantle {
 
 namespace {
 
-/// A flank takes no more than this many directions of the profile.
+/// Directions of the profile that one flank takes, at most.
 constexpr int kMaxOfFlank = 6;
-/// What has less than this share of the area of the largest flank is none.
+/// Smallest area of a flank, relative to the largest one.
 constexpr double kMinOfLargest = 0.1;
-/// The least share of the normal along the axis that a flank has.
+/// Smallest axial component of a flank's normal.
 constexpr double kMinAxial = 0.15;
-/// How well the faces of a flank agree about its place: 1 for all at one, 0 for all over the profile.
+/// Smallest agreement of a flank's faces about its offset: 1 if all have the same, 0 if they are all over the profile.
 constexpr double kMinAgreement = 0.75;
-/// How little they agree about the angle around the axis.
+/// Largest agreement of a flank's faces about the angle: flanks go around the axis.
 constexpr double kMaxOneSided = 0.3;
-/// Faces of which the centroid is no further off a flank, in profiles, tell where it is.
-constexpr double kNearPlace = 0.12;
-/// The corners of a face of a flank are no further off it, in profiles.
-constexpr double kOfPlace = 0.02;
+/// Largest distance from a flank of the centroids that it is fitted to, in periods.
+constexpr double kNearOffset = 0.12;
+/// Largest distance from a flank of the corners of its faces, in periods.
+constexpr double kSameOffset = 0.02;
 constexpr int kMaxStarts = 4;
-/// Another lead or number of starts is taken where flanks have so many times the area with it.
+/// Another lead or number of starts is preferred if the flanks have so many times the area.
 constexpr double kMuchMore = 1.5;
 
-AxisCoordinates place_of(const AxisFrame& frame, Vec3 p) {
+AxisCoordinates coordinates_of(const AxisFrame& frame, Vec3 p) {
   const Vec3 across = frame.across(p);
   return {length(across), frame.angle(across), frame.along(p)};
 }
@@ -39,18 +39,18 @@ double along(ProfileDirection normal, const AxisCoordinates& at, double lead) {
   return normal.radial * at.distance + normal.axial * at.axial_offset(lead);
 }
 
-/// How far the place is off the flank, in profiles: between minus and plus a half.
-double profiles_off(const ThreadAxis::Flank& flank, const AxisCoordinates& at, double lead, double period) {
+/// The distance of a point from the flank, in periods: between -0.5 and 0.5.
+double periods_off(const ThreadAxis::Flank& flank, const AxisCoordinates& at, double lead, double period) {
   const double off = (along(flank.normal, at, lead) - flank.offset) / (flank.normal.axial * period);
   return off - std::round(off);
 }
 
-/// The turn that a place along a normal is in the profile.
+/// An offset along a normal as a phase of the profile, a turn per period.
 std::complex<double> phase(ProfileDirection normal, double offset, double period) {
   return std::polar(1.0, kTurn * offset / (normal.axial * period));
 }
 
-/// The runs of directions in which the faces agree about their place.
+/// The runs of adjacent directions in which the faces agree about their offset.
 std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   std::vector<std::vector<std::size_t>> runs;
   double all = 0;
@@ -79,16 +79,16 @@ std::vector<std::vector<std::size_t>> agreeing(const Directions& directions) {
   return runs;
 }
 
-/// The line in the profile that the corners of the flank's faces are nearest to, for the one that is roughly known.
+/// The line in the profile plane that fits the corners of the flank's faces best, near a rough one.
 ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const ProfileFace*>& faces, double lead,
                          double period) {
-  // About the rough line: how far off it, and how far along it.
+  // Moments of the coordinates across and along the rough line.
   double sum_off = 0, sum_far = 0, off_off = 0, far_far = 0, off_far = 0, count = 0;
   for (const ProfileFace* face : faces) {
-    if (std::abs(profiles_off(rough, face->centroid, lead, period)) > kNearPlace) continue;
+    if (std::abs(periods_off(rough, face->centroid, lead, period)) > kNearOffset) continue;
     for (const AxisCoordinates& at : face->corner) {
-      const double off = profiles_off(rough, at, lead, period) * rough.normal.axial * period;
-      // On the line it is where its lift is: off = radial * distance + lift * (lift - that of the period) - place.
+      const double off = periods_off(rough, at, lead, period) * rough.normal.axial * period;
+      // The axial offset follows from off = normal.radial * distance + normal.axial * axial - offset, in one period.
       const double axial = (off + rough.offset - rough.normal.radial * at.distance) / rough.normal.axial;
       const double far = rough.normal.axial * at.distance - rough.normal.radial * axial;
       sum_off += off;
@@ -112,7 +112,7 @@ ThreadAxis::Flank fitted(const ThreadAxis::Flank& rough, const std::vector<const
   return flank;
 }
 
-/// @param faces that may be flanks
+/// Sorts faces by the direction of their normals. @param faces that may be flanks
 Directions by_direction(const std::vector<ProfileFace>& faces, double lead, double period) {
   Directions directions;
   for (const ProfileFace& face : faces) {
@@ -130,7 +130,7 @@ Directions by_direction(const std::vector<ProfileFace>& faces, double lead, doub
   return directions;
 }
 
-/// The directions of a run taken together.
+/// The sum over the directions of a run.
 FacesOfDirection sum_of(const Directions& directions, const std::vector<std::size_t>& run) {
   FacesOfDirection sum;
   for (const std::size_t i : run) {
@@ -143,7 +143,7 @@ FacesOfDirection sum_of(const Directions& directions, const std::vector<std::siz
   return sum;
 }
 
-/// The flank that the faces of one direction are of.
+/// The flank that faces of one direction are on.
 ThreadAxis::Flank flank_of(const FacesOfDirection& d, double lead, double period) {
   ThreadAxis::Flank flank{d.normal(), 0};
   std::complex<double> sum;
@@ -153,7 +153,7 @@ ThreadAxis::Flank flank_of(const FacesOfDirection& d, double lead, double period
   return fitted(flank, d.faces, lead, period);
 }
 
-/// Makes the thread as long and as deep as the faces on its flank.
+/// Extends the thread to the faces on its flank.
 void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vector<const ProfileFace*>& faces,
             double period) {
   for (const ProfileFace* face : faces) {
@@ -167,7 +167,7 @@ void extend(ThreadAxis& thread, const ThreadAxis::Flank& flank, const std::vecto
   }
 }
 
-/// @param faces that may be flanks
+/// The thread that faces have with a lead and a number of starts. @param faces that may be flanks
 std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, const RevolutionAxis& axis, double lead,
                                         int starts) {
   const double period = std::abs(lead) / starts;
@@ -180,16 +180,16 @@ std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, c
   thread.starts = starts;
   thread.begin = thread.min_radius = std::numeric_limits<double>::infinity();
   thread.end = -thread.begin;
-  bool leads_on = false, leads_back = false;
+  bool has_forward = false, has_backward = false;
   for (const std::vector<std::size_t>& run : agreeing(directions)) {
     const FacesOfDirection sum = sum_of(directions, run);
     const ThreadAxis::Flank flank = flank_of(sum, lead, period);
     extend(thread, flank, sum.faces, period);
     thread.flanks.push_back(flank);
     found.area += sum.area;
-    (flank.normal.axial > 0 ? leads_on : leads_back) = true;
+    (flank.normal.axial > 0 ? has_forward : has_backward) = true;
   }
-  if (!leads_on || !leads_back || thread.min_radius > thread.max_radius) return std::nullopt;
+  if (!has_forward || !has_backward || thread.min_radius > thread.max_radius) return std::nullopt;
   return found;
 }
 
@@ -198,8 +198,8 @@ std::optional<ThreadProfile> profile_of(const std::vector<ProfileFace>& faces, c
 ProfileFace profile_face(const AxisFrame& frame, const Triangle& t) {
   ProfileFace face;
   const Vec3 normal = normal_unscaled(t), centroid = (t[0] + t[1] + t[2]) / 3;
-  face.centroid = place_of(frame, centroid);
-  for (int i = 0; i < 3; ++i) face.corner[i] = place_of(frame, t[i]);
+  face.centroid = coordinates_of(frame, centroid);
+  for (int i = 0; i < 3; ++i) face.corner[i] = coordinates_of(frame, t[i]);
   face.area = length(normal) / 2;
   if (!(face.area > 0) || !(face.centroid.distance > 0)) return face;
   const double radial = dot(normal, frame.across(centroid)) / face.centroid.distance;
@@ -215,7 +215,7 @@ bool may_be_flank(const ProfileFace& face) {
 
 bool on_flank(const ThreadAxis::Flank& flank, const ProfileFace& face, double lead, double period) {
   return std::all_of(std::begin(face.corner), std::end(face.corner), [&](const AxisCoordinates& corner) {
-    return std::abs(profiles_off(flank, corner, lead, period)) <= kOfPlace;
+    return std::abs(periods_off(flank, corner, lead, period)) <= kSameOffset;
   });
 }
 

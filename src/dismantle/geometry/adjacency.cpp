@@ -9,15 +9,15 @@ namespace dismantle {
 
 namespace {
 
-/// An edge where the surface ends, in the direction in which its faces run along it.
+/// An edge at which the surface may end, in the direction that its faces run along it.
 struct Rim {
   Vec3 from, to;
 };
 
-/// How far the two sides of a crack may be apart, as a share of the mesh's diagonal: what rounding of coordinates and
-/// slivers left out leave open.
+/// Largest distance between the two sides of a crack, relative to the mesh's diagonal: as rounded coordinates and
+/// missing slivers leave it.
 constexpr double kCrackWidth = 1e-4;
-/// So many rims are looked at; a mesh with more is open.
+/// Rims that are compared, at most; all of more count as open.
 constexpr std::size_t kMaxRims = 20000;
 
 double distance_to_segment(Vec3 p, const Rim& rim) {
@@ -26,7 +26,7 @@ double distance_to_segment(Vec3 p, const Rim& rim) {
   return length(p - (rim.from + t * along));
 }
 
-/// The rims that no others run along the other way.
+/// The number of rims that no others run along in the opposite direction.
 std::size_t count_open(std::vector<Rim> rims, double width) {
   if (rims.size() > kMaxRims) return rims.size();
   const auto lowest = [](const Rim& r) { return std::min(r.from.x, r.to.x); };

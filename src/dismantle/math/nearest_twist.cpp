@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kSize = 6;
 
-/// A half-space is taken up where it is violated by more than this [of |wanted|, unit normals].
+/// A half-space is added to the active set if it is violated by more than this, relative to |wanted| for unit normals.
 constexpr double kViolation = 1e-12;
-/// A unit normal whose part outside the span of the active ones is shorter than this depends on them. Where no active
-/// row pushes against such a one, it is violated by at most kDependent |x|: its bound, like theirs, is at most 0.
+/// A unit normal is dependent on the active ones if its part outside their span is shorter than this. If its part in
+/// the span has no positive weights, it is violated by at most kDependent |x|: its bound, like theirs, is at most 0.
 constexpr double kDependent = 0.25 * kNearestTwistSlack;
-/// Shares of an active normal in another unit normal that are smaller are rounding.
+/// Smaller weights of an active normal in another unit normal are rounding.
 constexpr double kWeightNoise = 1e-13;
 
 struct Vec6 {
@@ -34,7 +34,7 @@ Vec6 advanced(Vec6 a, double t, const Vec6& b) {
   return a;
 }
 
-/// The length, without over- or underflow on the way.
+/// The length, without intermediate overflow or underflow.
 double safe_length(const double (&v)[kSize]) {
   double largest = 0;
   for (const double c : v) largest = std::fmax(largest, std::fabs(c));
@@ -44,7 +44,7 @@ double safe_length(const double (&v)[kSize]) {
   return largest * std::sqrt(sum);
 }
 
-/// A half-space with unit normal and its bound as a share of |wanted|.
+/// A half-space with a unit normal and its bound relative to |wanted|.
 struct Row {
   Vec6 normal;
   double bound = 0;
@@ -59,7 +59,7 @@ Row scaled_row(const HalfSpace& half_space, double scale) {
   return row;
 }
 
-/// The active rows: which they are, what they push with, and N = Q R of their unit normals.
+/// The active rows: their indices, their multipliers, and the factors N = Q R of their unit normals.
 class ActiveSet {
  public:
   int count() const { return count_; }
@@ -70,7 +70,7 @@ class ActiveSet {
     return false;
   }
 
-  /// How a unit normal stands to the span of the active ones.
+  /// A unit normal split by the span of the active ones.
   struct Split {
     Vec6 outside;                ///< Its part orthogonal to the span.
     double length = 0;           ///< Of that part; 0 where the normal counts as dependent.
@@ -81,7 +81,7 @@ class ActiveSet {
   Split split(const Vec6& normal) const {
     Split s;
     s.outside = normal;
-    // The second pass takes off what the first one's rounding left in the span.
+    // The second pass removes what the rounding of the first one left in the span.
     for (int pass = 0; pass < 2; ++pass) {
       for (int k = 0; k < count_; ++k) {
         const double d = dot(q_[k], s.outside);
@@ -99,7 +99,7 @@ class ActiveSet {
     return s;
   }
 
-  /// The active row that is the first to push with nothing left when the entering one's multiplier grows.
+  /// The active row whose multiplier is the first to reach 0 when that of the entering one grows.
   struct Blocking {
     int index = -1;
     double step = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ class ActiveSet {
     return first;
   }
 
-  void push(double step, const Split& s) {
+  void advance(double step, const Split& s) {
     for (int k = 0; k < count_; ++k) multipliers_[k] = std::fmax(0.0, multipliers_[k] - step * s.weights[k]);
   }
 
@@ -130,14 +130,14 @@ class ActiveSet {
     ++count_;
   }
 
-  /// Takes the k-th row out; the ones after it are orthogonalised anew.
+  /// Removes the k-th row and orthogonalises those after it again.
   void drop(int k) {
     const int last = count_;
     count_ = k;
     for (int j = k + 1; j < last; ++j) {
       const Row row{normals_[j], 0};
       const Split s = split(row.normal);
-      // Of fewer rows a row is no less independent, but rounding may see it on either side of the limit.
+      // With fewer rows a row is not less independent, but rounding may put it on either side of the limit.
       if (s.length > 0) add(rows_[j], row, multipliers_[j], s);
     }
   }
@@ -170,8 +170,8 @@ class Search {
       const Violated worst = max_violated();
       if (worst.index < 0) break;
       const int before = result.iterations;
-      if (take_up(worst.index, result.iterations)) continue;
-      // Dependent and next to nothing, at once: then nothing else is violated by more either.
+      if (activate(worst.index, result.iterations)) continue;
+      // Dependent and hardly violated, at the first try: no other row is violated by more.
       result.nearest = result.iterations == before + 1 && worst.distance <= 2 * kDependent;
       break;
     }
@@ -185,7 +185,7 @@ class Search {
   }
 
  private:
-  /// Among equals the first.
+  /// The half-space that x violates most; of equal ones the first.
   Violated max_violated() const {
     Violated worst;
     double worst_squared = 0;
@@ -209,8 +209,8 @@ class Search {
     return worst;
   }
 
-  /// Makes a violated row active, letting others go where they would have to pull. False where it cannot be.
-  bool take_up(int index, int& iterations) {
+  /// Makes a violated row active and drops rows whose multipliers would become negative. False if that is impossible.
+  bool activate(int index, int& iterations) {
     const Row row = scaled_row(half_spaces_[static_cast<std::size_t>(index)], scale_);
     double multiplier = 0;
     while (iterations < kNearestTwistIterations) {
@@ -224,7 +224,7 @@ class Search {
       if (blocking.index < 0 && !(split.length > 0)) return false;
       const double step = std::fmin(full, blocking.step);
       if (split.length > 0) x_ = advanced(x_, step, split.outside);
-      active_.push(step, split);
+      active_.advance(step, split);
       multiplier += step;
       if (full <= blocking.step) {
         active_.add(index, row, multiplier, split);
@@ -235,19 +235,19 @@ class Search {
     return false;
   }
 
-  /// The largest share of x that is in every half-space: 0 is in all of them, and they are convex.
+  /// The largest share of x that is in every half-space. They are convex and contain 0.
   double feasible_share() const {
     double share = 1;
     for (const HalfSpace& h : half_spaces_) {
       const Row row = scaled_row(h, scale_);
       const double value = dot(row.normal, x_);
-      const double least = row.bound - kNearestTwistSlack / 2;
-      if (value < least) share = std::fmin(share, least / value);
+      const double limit = row.bound - kNearestTwistSlack / 2;
+      if (value < limit) share = std::fmin(share, limit / value);
     }
     return share;
   }
 
-  /// The share of x that is nearest to the wanted twist: less than 1 only where rounding led the search astray.
+  /// The share of x that is nearest to the wanted twist: below 1 only by rounding.
   double nearest_share() const {
     Vec6 wanted;
     for (int i = 0; i < kSize; ++i) wanted.v[i] = wanted_[i] / scale_;
