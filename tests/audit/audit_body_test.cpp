@@ -22,15 +22,15 @@ TEST(DistanceToTriangle, IsTheMinimumOverItsPoints) {
   for (int i = 0; i < 200; ++i) {
     const Triangle t{{random_point(random, 1), random_point(random, 1), random_point(random, 1)}};
     const Vec3 point = random_point(random, 2);
-    double least = 1e300;
+    double minimum = 1e300;
     constexpr int kSteps = 100;
     for (int j = 0; j <= kSteps; ++j)
       for (int k = 0; j + k <= kSteps; ++k)
-        least = std::min(least, length(point - (t[0] + (double(j) / kSteps) * (t[1] - t[0]) +
-                                                (double(k) / kSteps) * (t[2] - t[0]))));
+        minimum = std::min(minimum, length(point - (t[0] + (double(j) / kSteps) * (t[1] - t[0]) +
+                                                    (double(k) / kSteps) * (t[2] - t[0]))));
     const double distance = distance_to_triangle(t, point);
-    EXPECT_LE(distance, least + 1e-12);
-    EXPECT_GE(distance, least - 0.05);
+    EXPECT_LE(distance, minimum + 1e-12);
+    EXPECT_GE(distance, minimum - 0.05);
   }
 }
 
@@ -46,12 +46,12 @@ TEST(AuditBody, FindsTheSameClosestTriangleAsBruteForce) {
   const AuditBody body(scenes::component("tube", scenes::tube(5, 3, -4, 4, 40, 6)));
   for (int i = 0; i < 500; ++i) {
     const Vec3 point = random_point(random, 8);
-    double least = 1e300;
+    double minimum = 1e300;
     for (std::uint32_t f = 0; f < 40 * 6 * 4 + 160; ++f)
-      least = std::min(least, distance_to_triangle(body.triangle(f), point));
+      minimum = std::min(minimum, distance_to_triangle(body.triangle(f), point));
     const SurfacePoint closest = body.closest(point);
-    EXPECT_EQ(closest.distance, least);
-    EXPECT_EQ(distance_to_triangle(body.triangle(closest.face), point), least);
+    EXPECT_EQ(closest.distance, minimum);
+    EXPECT_EQ(distance_to_triangle(body.triangle(closest.face), point), minimum);
   }
 }
 

@@ -86,12 +86,12 @@ Deepest look_densely(const TriangleMesh& fixed, const TriangleMesh& moving, cons
   return deepest;
 }
 
-std::vector<Pose> random_poses(std::mt19937_64& random, double way, double angle) {
+std::vector<Pose> random_poses(std::mt19937_64& random, double distance, double angle) {
   std::normal_distribution<double> normal;
   std::vector<Pose> poses = {Pose{}};
   for (int k = 0; k < 3; ++k) {
     const Vec3 axis = normalized(Vec3{normal(random), normal(random), normal(random)});
-    const Pose step{way * Vec3{normal(random), normal(random), normal(random)},
+    const Pose step{distance * Vec3{normal(random), normal(random), normal(random)},
                     quat_about(axis, angle * normal(random))};
     poses.push_back(step * poses.back());
   }

@@ -50,16 +50,16 @@ double distance_to_box(const BoxNode& box, Vec3 point) {
 
 /// The minimum distance of a corner of one box from the other box, at 41 instants.
 double sampled_distance(const RelativeMotion& motion, const BoxNode& a, const BoxNode& b) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (int step = 0; step <= 40; ++step) {
     const RigidTransform a_from_b = motion.at(step / 40.0);
     const RigidTransform b_from_a = inverse(a_from_b);
     for (int k = 0; k < 8; ++k) {
-      least = std::min(least, distance_to_box(a, a_from_b * corner(b, k)));
-      least = std::min(least, distance_to_box(b, b_from_a * corner(a, k)));
+      minimum = std::min(minimum, distance_to_box(a, a_from_b * corner(b, k)));
+      minimum = std::min(minimum, distance_to_box(b, b_from_a * corner(a, k)));
     }
   }
-  return least;
+  return minimum;
 }
 
 TEST(Interval, ClearanceIsNeverMoreThanTheDistance) {

@@ -176,20 +176,20 @@ TEST(Arc, UnionsContainBothAndGapsAreTheShorterArc) {
     const Arc p = make_arc(low, low + 0.2 * std::fabs(uniform(random)), kCircle);
     const Arc q = make_arc(other, other + 0.2 * std::fabs(uniform(random)), kCircle);
     const Arc both = united(p, q, kCircle);
-    double least = 1e300;
+    double minimum = 1e300;
     for (int k = 0; k <= 50; ++k) {
       const double in_p = p.low + p.width * k / 50, in_q = q.low + q.width * k / 50;
       EXPECT_LE(gap(both, make_arc(in_p, in_p, kCircle), kCircle), 1e-12);
       EXPECT_LE(gap(both, make_arc(in_q, in_q, kCircle), kCircle), 1e-12);
       for (int m = 0; m <= 50; ++m) {
         const double apart = std::fabs(std::remainder(in_p - (q.low + q.width * m / 50), kCircle));
-        least = std::min(least, apart);
+        minimum = std::min(minimum, apart);
       }
     }
     if (gap(p, q, kCircle) > 0) {
-      EXPECT_NEAR(gap(p, q, kCircle), least, 1e-9);
+      EXPECT_NEAR(gap(p, q, kCircle), minimum, 1e-9);
     }
-    if (least > 0.2) {
+    if (minimum > 0.2) {
       EXPECT_GT(gap(p, q, kCircle), 0);
     }
   }

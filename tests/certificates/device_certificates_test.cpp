@@ -28,13 +28,13 @@ const Device kDevices[] = {{"Serial", Executor()},
                            {"Threads3", Executor(ExecutorKind::Threads, 3)},
                            {"Cuda", std::nullopt}};
 
-/// How much a device was asked.
-struct Asked {
-  std::size_t sweeps = 0, failing = 0, answered = 0;
-  std::size_t tests = 0;         ///< Elementary tests that it answered,
-  std::size_t tests_taken = 0;   ///< those of them that steps asked for,
-  std::size_t tests_wanted = 0;  ///< and all that steps asked for.
-  std::size_t parents = 0;       ///< Pairs of nodes that it separated for merging.
+/// Counts of a device's queries.
+struct QueryCounts {
+  std::size_t sweeps = 0, failing = 0, decided = 0;
+  std::size_t tests = 0;         ///< Elementary tests evaluated by the device.
+  std::size_t tests_taken = 0;   ///< Of these, those that steps used.
+  std::size_t tests_wanted = 0;  ///< All that steps needed.
+  std::size_t parents = 0;       ///< Pairs of nodes queried for merging.
 };
 
 /// Expects the result of the host for the same faces, bit for bit.
@@ -51,41 +51,42 @@ void expect_same_leaf(const TrianglePairResult& found, const TrianglePairResult&
 /// Counts queries, and checks results that no sweep uses.
 class CountedDevice final : public FrontDevice {
  public:
-  CountedDevice(std::unique_ptr<FrontDevice> device, Asked& asked) : device_(std::move(device)), asked_(asked) {}
+  CountedDevice(std::unique_ptr<FrontDevice> device, QueryCounts& counts)
+      : device_(std::move(device)), counts_(counts) {}
   FrontResults ask(Span<const FrontQuery> fronts, bool to_the_end) override {
-    const FrontResults answers = device_->ask(fronts, to_the_end);
-    ++asked_.sweeps;
+    const FrontResults results = device_->ask(fronts, to_the_end);
+    ++counts_.sweeps;
     std::size_t part = 0;
-    for (const FrontQuery& asked : fronts)
-      for (std::size_t p = 0; p < asked.front->part_count(); ++p) count(answers.parts[part++], answers.leaves, asked);
-    return answers;
+    for (const FrontQuery& query : fronts)
+      for (std::size_t p = 0; p < query.front->part_count(); ++p) count(results.parts[part++], results.leaves, query);
+    return results;
   }
   Span<const NodeSeparation> separate(Span<const FrontQuery> fronts, Span<const MergeCandidate> pairs) override {
-    asked_.parents += pairs.size();
+    counts_.parents += pairs.size();
     return device_->separate(fronts, pairs);
   }
 
  private:
-  void count(const PartResults& part, Span<const TrianglePairResult> leaves, const FrontQuery& asked) {
+  void count(const PartResults& part, Span<const TrianglePairResult> leaves, const FrontQuery& query) {
     std::vector<std::uint32_t> left = part.roots;
-    asked_.failing += left.size();
-    for (const std::uint32_t root : left) asked_.answered += part.answers[root].kind != PairResult::None ? 1 : 0;
+    counts_.failing += left.size();
+    for (const std::uint32_t root : left) counts_.decided += part.answers[root].kind != PairResult::None ? 1 : 0;
     while (!left.empty()) {
-      const PairResult& answer = part.answers[left.back()];
+      const PairResult& result = part.answers[left.back()];
       left.pop_back();
-      if (answer.first_child != PairResult::kNone)
-        left.insert(left.end(), {answer.first_child, answer.first_child + 1});
-      if (answer.leaf == PairResult::kNone) continue;
-      ++asked_.tests;
-      if (asked.front->trees().sides == SideRule::Memory) continue;  // its hint is unknown
-      const TrianglePairResult& found = leaves[answer.leaf];
-      const Vec3 hint = to_double(answer.separation.certificate.axis);
-      expect_same_leaf(found, asked.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
+      if (result.first_child != PairResult::kNone)
+        left.insert(left.end(), {result.first_child, result.first_child + 1});
+      if (result.leaf == PairResult::kNone) continue;
+      ++counts_.tests;
+      if (query.front->trees().sides == SideRule::Memory) continue;  // its hint is unknown
+      const TrianglePairResult& found = leaves[result.leaf];
+      const Vec3 hint = to_double(result.separation.certificate.axis);
+      expect_same_leaf(found, query.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
     }
   }
 
   std::unique_ptr<FrontDevice> device_;
-  Asked& asked_;
+  QueryCounts& counts_;
 };
 
 class DeviceCertificates : public testing::TestWithParam<Device> {
@@ -96,42 +97,42 @@ class DeviceCertificates : public testing::TestWithParam<Device> {
     if (!cuda) GTEST_SKIP() << "nothing runs on CUDA: " << cuda.error().message;
   }
 
-  std::unique_ptr<FrontDevice> device(Asked& asked) const {
+  std::unique_ptr<FrontDevice> device(QueryCounts& counts) const {
     auto device = GetParam().emulated_by ? make_emulated_front_device(*GetParam().emulated_by, 1)
                                          : std::move(make_cuda_front_device(1).value());
-    return std::make_unique<CountedDevice>(std::move(device), asked);
+    return std::make_unique<CountedDevice>(std::move(device), counts);
   }
 
   /// Plays a motion on the CPU and with the device, and expects equal steps.
-  Asked expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t min_pairs = 0) {
+  QueryCounts expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t min_pairs = 0) {
     const PairStates states = states_of(assembly, tolerance);
-    Asked asked;
+    QueryCounts counts;
     CertificateEngine plain(assembly, states);
-    CertificateEngine engine(assembly, states, {}, {device(asked), min_pairs});
+    CertificateEngine engine(assembly, states, {}, {device(counts), min_pairs});
     const PlayedMotion expected = play_motion(assembly, states, motion, plain).value();
     const PlayedMotion played = play_motion(assembly, states, motion, engine).value();
     EXPECT_EQ(played.steps.size(), expected.steps.size());
     for (std::size_t k = 0; k < played.steps.size() && !HasFailure(); ++k) {
       SCOPED_TRACE(k);
       expect_same_step(played.steps[k].result, expected.steps[k].result);
-      EXPECT_EQ(expected.steps[k].result.sizes.answered_tests, 0u);
-      asked.tests_taken += played.steps[k].result.sizes.answered_tests;
-      asked.tests_wanted += played.steps[k].result.sizes.elementary_tests;
+      EXPECT_EQ(expected.steps[k].result.cost.device_tests, 0u);
+      counts.tests_taken += played.steps[k].result.cost.device_tests;
+      counts.tests_wanted += played.steps[k].result.cost.tests;
     }
-    return asked;
+    return counts;
   }
 
  private:
   static void expect_same_step(const StepResult& step, const StepResult& expected) {
     EXPECT_EQ(step.pose, expected.pose);
     EXPECT_EQ(step.reached, expected.reached);
-    EXPECT_EQ(step.way, expected.way);
-    EXPECT_EQ(step.contacts, expected.contacts);
-    EXPECT_EQ(step.touching, expected.touching);
+    EXPECT_EQ(step.poses, expected.poses);
+    EXPECT_EQ(step.blocking_pairs, expected.blocking_pairs);
+    EXPECT_EQ(step.contact_points, expected.contact_points);
     EXPECT_EQ(step.sweeps, expected.sweeps);
     EXPECT_EQ(step.clearance, expected.clearance);
-    EXPECT_EQ(step.sizes.front, expected.sizes.front);
-    EXPECT_EQ(step.sizes.elementary_tests, expected.sizes.elementary_tests);
+    EXPECT_EQ(step.cost.pairs, expected.cost.pairs);
+    EXPECT_EQ(step.cost.tests, expected.cost.tests);
   }
 };
 
@@ -144,22 +145,22 @@ INSTANTIATE_TEST_SUITE_P(On, DeviceCertificates, testing::ValuesIn(kDevices), na
 TEST_P(DeviceCertificates, PullPegsOutLikeTheCpu) {
   for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
     const SlideScene peg = peg_in_hole(48, 0.01);
-    const Asked asked = expect_same(peg.assembly, 0.005, motion_of(peg, pull(Hand(peg, {}), 30), response));
-    EXPECT_GT(asked.sweeps, 5u);
-    EXPECT_GT(asked.failing, 50u);
-    EXPECT_GT(asked.answered, 0u);
-    EXPECT_GT(asked.tests, 1000u);
-    EXPECT_GT(asked.tests_taken, 0u);
+    const QueryCounts counts = expect_same(peg.assembly, 0.005, motion_of(peg, pull(Hand(peg, {}), 30), response));
+    EXPECT_GT(counts.sweeps, 5u);
+    EXPECT_GT(counts.failing, 50u);
+    EXPECT_GT(counts.decided, 0u);
+    EXPECT_GT(counts.tests, 1000u);
+    EXPECT_GT(counts.tests_taken, 0u);
     // The host evaluates what comes after a contact, and pairs at which sweeps stop early.
-    EXPECT_LT(asked.tests_taken, asked.tests_wanted);
+    EXPECT_LT(counts.tests_taken, counts.tests_wanted);
   }
 }
 
 TEST_P(DeviceCertificates, PullKeysAndCornersLikeTheCpu) {
   for (const SlideScene& scene : {key_in_slot(0.01, {0, 1, 0}), part_in_corner(), press_fit_pin(24, 0.02)}) {
-    const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
-    EXPECT_GT(asked.failing, 50u);
-    EXPECT_GT(asked.tests, 0u);
+    const QueryCounts counts = expect_same(scene.assembly, 0.01, motion_of(scene, pull(Hand(scene, {}), 15)));
+    EXPECT_GT(counts.failing, 50u);
+    EXPECT_GT(counts.tests, 0u);
   }
 }
 
@@ -168,9 +169,9 @@ TEST_P(DeviceCertificates, RollGearsApartLikeTheCpu) {
   const SlideScene scene = meshing_gears(pair);
   std::vector<Pose> targets;
   for (int k = 1; k <= 25; ++k) targets.push_back(pair.rolled(0.01 * k, 0.2 * k));
-  const Asked asked = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
-  EXPECT_GT(asked.answered, 1000u);
-  EXPECT_GT(asked.parents, 100u);
+  const QueryCounts counts = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
+  EXPECT_GT(counts.decided, 1000u);
+  EXPECT_GT(counts.parents, 100u);
 }
 
 TEST_P(DeviceCertificates, ScrewBoltsOutLikeTheCpu) {
@@ -178,7 +179,7 @@ TEST_P(DeviceCertificates, ScrewBoltsOutLikeTheCpu) {
   Hand hand(bolt, {0.5, 0.05, 0.01, 4});
   std::vector<Pose> targets;
   for (int k = 1; k <= 15; ++k) targets.push_back(hand.trembling(unscrewed(0.2 * k)));
-  EXPECT_GT(expect_same(bolt.assembly, 0.01, motion_of(bolt, targets)).answered, 1000u);
+  EXPECT_GT(expect_same(bolt.assembly, 0.01, motion_of(bolt, targets)).decided, 1000u);
 }
 
 TEST_P(DeviceCertificates, QueryTheDeviceForLargeFrontsOnly) {
@@ -187,8 +188,8 @@ TEST_P(DeviceCertificates, QueryTheDeviceForLargeFrontsOnly) {
   std::vector<Pose> targets;
   for (int k = 1; k <= 10; ++k) targets.push_back(pair.rolled(0.01 * k));
   const Motion motion = motion_of(scene, targets);
-  const Asked always = expect_same(scene.assembly, 0.01, motion);
-  const Asked sometimes = expect_same(scene.assembly, 0.01, motion, 300);
+  const QueryCounts always = expect_same(scene.assembly, 0.01, motion);
+  const QueryCounts sometimes = expect_same(scene.assembly, 0.01, motion, 300);
   EXPECT_GT(sometimes.sweeps, 0u);
   EXPECT_LT(sometimes.sweeps, always.sweeps);
   EXPECT_EQ(expect_same(scene.assembly, 0.01, motion, 1'000'000'000).sweeps, 0u);
@@ -202,7 +203,7 @@ TEST_P(DeviceCertificates, PlayTheMicroscopesMotionLikeTheCpu) {
     if (move.targets.size() > 12) move.targets.resize(12);
   for (const ResponseKind response : {ResponseKind::Touch, ResponseKind::Slide}) {
     motion.response = response;
-    EXPECT_GT(expect_same(assembly, 0.01, motion).answered, 1000u);
+    EXPECT_GT(expect_same(assembly, 0.01, motion).decided, 1000u);
   }
 }
 

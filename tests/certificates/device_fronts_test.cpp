@@ -102,11 +102,11 @@ std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>&
 
 /// Merges by a device's results. @return the number of pairs queried
 std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
-  const FrontQuery asked{&front, &linear};
+  const FrontQuery query{&front, &linear};
   std::vector<std::vector<Siblings>> siblings;
   for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
   const std::vector<MergeCandidate> parents = parents_of(siblings);
-  const Span<const NodeSeparation> found = device.separate(Span<const FrontQuery>(&asked, 1), parents);
+  const Span<const NodeSeparation> found = device.separate(Span<const FrontQuery>(&query, 1), parents);
   std::size_t begin = 0;
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     const std::size_t count = siblings[part].size();
@@ -120,15 +120,15 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
-  Span<const PartResults> answers;
-  const FrontQuery asked{&front, &linear};
+  Span<const PartResults> results;
+  const FrontQuery query{&front, &linear};
   if (device) {
     swept.parents = merge_by(*device, front, linear);
-    answers = device->ask(Span<const FrontQuery>(&asked, 1), to_the_end).parts;
+    results = device->ask(Span<const FrontQuery>(&query, 1), to_the_end).parts;
   }
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     if (!device) front.merge_part(part, linear, kernels);
-    add(swept, front.sweep_part(part, linear, kernels, triangle_pair_test(swept), device ? &answers[part] : nullptr));
+    add(swept, front.sweep_part(part, linear, kernels, triangle_pair_test(swept), device ? &results[part] : nullptr));
   }
   front.end_sweep(linear, free_of(swept));
   return swept;
@@ -196,19 +196,19 @@ TEST_P(DeviceFronts, LeaveNothingToTheHostInAnExhaustiveQuery) {
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
-  const FrontQuery asked{&front, &linear};
-  const Span<const PartResults> answers = device_->ask(Span<const FrontQuery>(&asked, 1), true).parts;
-  ASSERT_EQ(answers.size(), 1u);
-  ASSERT_EQ(answers[0].roots.size(), 1u);
+  const FrontQuery query{&front, &linear};
+  const Span<const PartResults> results = device_->ask(Span<const FrontQuery>(&query, 1), true).parts;
+  ASSERT_EQ(results.size(), 1u);
+  ASSERT_EQ(results[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
-  std::vector<std::uint32_t> left = answers[0].roots;
+  std::vector<std::uint32_t> left = results[0].roots;
   while (!left.empty()) {
-    const PairResult& answer = answers[0].answers[left.back()];
+    const PairResult& result = results[0].answers[left.back()];
     left.pop_back();
-    ++of_kind[answer.kind];
-    if (answer.kind != PairResult::Split) continue;
-    ASSERT_NE(answer.first_child, PairResult::kNone);
-    left.insert(left.end(), {answer.first_child, answer.first_child + 1});
+    ++of_kind[result.kind];
+    if (result.kind != PairResult::Split) continue;
+    ASSERT_NE(result.first_child, PairResult::kNone);
+    left.insert(left.end(), {result.first_child, result.first_child + 1});
   }
   EXPECT_EQ(of_kind[PairResult::None], 0u);
   EXPECT_GT(of_kind[PairResult::Boxes], 100u);
@@ -253,9 +253,9 @@ TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreQueriedTogether) {
       motion.allowed = kAllowed;
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
-    const FrontQuery asked[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartResults> answers = device_->ask(Span<const FrontQuery>(asked, 2), true).parts;
-    ASSERT_EQ(answers.size(), in_bore.part_count() + to_box.part_count());
+    const FrontQuery queries[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
+    const Span<const PartResults> results = device_->ask(Span<const FrontQuery>(queries, 2), true).parts;
+    ASSERT_EQ(results.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {
       CertificateFront expected = *fronts[f];
@@ -263,7 +263,7 @@ TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreQueriedTogether) {
       const FrontKernels kernels = front_kernels(widest_lanes());
       for (std::size_t p = 0; p < fronts[f]->part_count(); ++p, ++part) {
         add(wanted, expected.sweep_part(p, sweeps[f], kernels, triangle_pair_test(wanted)));
-        add(found, fronts[f]->sweep_part(p, sweeps[f], kernels, triangle_pair_test(found), &answers[part]));
+        add(found, fronts[f]->sweep_part(p, sweeps[f], kernels, triangle_pair_test(found), &results[part]));
       }
       EXPECT_EQ(found, wanted);
       expect_same_fronts(*fronts[f], expected);

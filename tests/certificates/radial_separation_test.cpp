@@ -45,12 +45,12 @@ class TrueGaps {
     for (std::vector<double>& row : known_) row.assign(fixed.tree.nodes.size(), kUnknown);
   }
 
-  double least(std::uint32_t m, std::uint32_t f) {
+  double minimum(std::uint32_t m, std::uint32_t f) {
     double& gap = known_[m][f];
     if (gap != kUnknown) return gap;
     const ObbNode &a = moving_.tree.nodes[m], &b = fixed_.tree.nodes[f];
-    if (!a.leaf()) return gap = std::min(least(a.child, f), least(a.child + 1, f));
-    if (!b.leaf()) return gap = std::min(least(m, b.child), least(m, b.child + 1));
+    if (!a.leaf()) return gap = std::min(minimum(a.child, f), minimum(a.child + 1, f));
+    if (!b.leaf()) return gap = std::min(minimum(m, b.child), minimum(m, b.child + 1));
     double found = 1e9;
     for (const double time : {0.0, 0.3, 0.5, 1.0})
       found = std::min(found, true_gap(at(pose_between(start_, end_, time), moving_.mesh.triangle(a.child)),
@@ -80,7 +80,7 @@ int expect_true(const Body& moving, const Body& fixed, const Pose& start, const 
       for (std::uint32_t f = 0; f < fixed.tree.nodes.size(); ++f) {
         const double claimed = sweep.gap(m, f, -0.2).gap;
         claims += claimed > -0.2;
-        EXPECT_GE(gaps.least(m, f), claimed - arcs - 1e-6) << m << ' ' << f;
+        EXPECT_GE(gaps.minimum(m, f), claimed - arcs - 1e-6) << m << ' ' << f;
       }
   return claims;
 }

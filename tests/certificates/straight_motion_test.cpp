@@ -16,15 +16,15 @@ using scenes::Solid;
 /// The minimum distance of all triangles at some positions of the motion.
 double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
   constexpr int kPlaces = 16;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= kPlaces; ++k)
     for (std::uint32_t a = 0; a < moving.solid.faces.size(); ++a) {
       Triangle moved = moving.solid.triangle(a);
       for (Vec3& p : moved.corner) p = moving.at * p + k / static_cast<double>(kPlaces) * moving.way;
       for (std::uint32_t b = 0; b < fixed.faces.size(); ++b)
-        least = std::min(least, distance_triangle_triangle(moved, fixed.triangle(b)).distance);
+        minimum = std::min(minimum, distance_triangle_triangle(moved, fixed.triangle(b)).distance);
     }
-  return least;
+  return minimum;
 }
 
 /// Both results for a motion are true, and most motions have one.

@@ -51,13 +51,13 @@ LinearSweep sweep_between(const Pose& start, const Pose& end) {
 
 /// The minimum gap along the axis at both ends, in double.
 double gap_along(Vec3 w, const TriangleF& a, const TriangleF& b, const Pose& start, const Pose& end) {
-  double least = 1e300, most = -1e300;
+  double minimum = 1e300, maximum = -1e300;
   for (int k = 0; k < 3; ++k) {
-    least = std::min(least, dot(w, to_double(b.corner[k])));
+    minimum = std::min(minimum, dot(w, to_double(b.corner[k])));
     for (const Pose& pose : {start, end})
-      most = std::max(most, dot(w, transform_from_pose(pose) * to_double(a.corner[k])));
+      maximum = std::max(maximum, dot(w, transform_from_pose(pose) * to_double(a.corner[k])));
   }
-  return least - most;
+  return minimum - maximum;
 }
 
 TEST(TriangleKernels, GapsAreTrueWithinTheirError) {

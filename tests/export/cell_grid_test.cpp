@@ -49,9 +49,9 @@ TEST(CellGrid, HasAValidSurfaceAroundAnyMarkedCells) {
     EXPECT_EQ(faults.boundary + faults.nonmanifold + faults.misoriented, 0u) << round;
     EXPECT_GT(signed_volume(mesh), 0) << round;
     for (const Vec3& p : mesh.vertices) {
-      double least = 1e300;
-      for (const Vec3& q : points) least = std::min(least, length(p - q));
-      EXPECT_LE(least, 1.5 * std::sqrt(3) * 0.9 + 1e-9) << round;
+      double minimum = 1e300;
+      for (const Vec3& q : points) minimum = std::min(minimum, length(p - q));
+      EXPECT_LE(minimum, 1.5 * std::sqrt(3) * 0.9 + 1e-9) << round;
     }
   }
 }

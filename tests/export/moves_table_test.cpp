@@ -120,18 +120,18 @@ TEST(MovesTable, MissesNoFrameNearerThanThoseMeasured) {
   const PairStates states = *classify_pairs(a, {});
   const auto found = move_clearances(a, states, timeline);
 
-  MoveClearance least{1e30, 0, {}};
+  MoveClearance minimum{1e30, 0, {}};
   CertificateEngine engine(a, states);
   for (const Frame& frame : path.moves[0].frames) {
     engine.jump(std::vector<Pose>{frame.pose, {}, {}});
     engine.grab(std::vector<ComponentId>{ComponentId(0)});
     const Clearance now = engine.clearance();
-    if (now.distance < least.distance) least = {now.distance, frame.time, now.fixed};
+    if (now.distance < minimum.distance) minimum = {now.distance, frame.time, now.fixed};
   }
-  EXPECT_GT(least.time, 0) << "otherwise the test is void";
-  EXPECT_EQ(found->front().distance, least.distance);
-  EXPECT_EQ(found->front().time, least.time);
-  EXPECT_EQ(found->front().neighbour, least.neighbour);
+  EXPECT_GT(minimum.time, 0) << "otherwise the test is void";
+  EXPECT_EQ(found->front().distance, minimum.distance);
+  EXPECT_EQ(found->front().time, minimum.time);
+  EXPECT_EQ(found->front().neighbour, minimum.neighbour);
 }
 
 TEST(MovesTable, GivesNoClearanceIfThereIsNothingElse) {

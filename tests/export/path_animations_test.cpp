@@ -119,12 +119,12 @@ TEST(PathAnimations, StopWhenCancelled) {
   const Animated made;
   GlbOptions options;
   options.animations = path_animations(made.timeline);
-  int asked = 0;
-  options.progress = [&asked](std::string_view, double) { return ++asked < 3; };
+  int calls = 0;
+  options.progress = [&calls](std::string_view, double) { return ++calls < 3; };
   const Result<std::string> glb = glb_from_assembly(made.assembly, options);
   ASSERT_FALSE(glb.ok());
   EXPECT_EQ(glb.error().kind, ErrorKind::Failed);
-  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(calls, 3);
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kPoses = 24;
 
-TimelineMove move_of(std::vector<ComponentId> components, const std::vector<Pose>& way) {
+TimelineMove move_of(std::vector<ComponentId> components, const std::vector<Pose>& poses) {
   TimelineMove move;
   move.components = std::move(components);
-  for (std::size_t i = 0; i < way.size(); ++i) move.frames.push_back({static_cast<double>(i), way[i]});
+  for (std::size_t i = 0; i < poses.size(); ++i) move.frames.push_back({static_cast<double>(i), poses[i]});
   return move;
 }
 
@@ -61,12 +61,12 @@ void expect_swept(const Assembly& assembly, const TimelineMove& move, double tol
   const double between = screw_path_length(screw_between(poses[0], poses[1]), diagonal(bounds(swept->mesh)));
   for (std::size_t i = 0; i < swept->mesh.vertices.size(); i += 7) {
     const Vec3& p = swept->mesh.vertices[i];
-    double least = 1e300;
+    double minimum = 1e300;
     for (const Pose& pose : poses)
       for (const Solid& part : parts)
-        least = std::min(least,
-                         nearest_face(part.tree, inverse(transform_from_pose(pose)) * p, NearestFace::kNone).distance);
-    ASSERT_LE(least, swept->tolerance + between);
+        minimum = std::min(
+            minimum, nearest_face(part.tree, inverse(transform_from_pose(pose)) * p, NearestFace::kNone).distance);
+    ASSERT_LE(minimum, swept->tolerance + between);
   }
 }
 

@@ -36,10 +36,10 @@ RigidTransform at_time(const GlbKeys& keys, double time) {
 
 /// The largest distance of a point of a 50 mm mesh.
 double apart(const RigidTransform& a, const RigidTransform& b) {
-  double most = 0;
+  double maximum = 0;
   for (const Vec3& p : {Vec3{}, Vec3{50, 0, 0}, Vec3{0, 50, 0}, Vec3{0, 0, -50}})
-    most = std::max(most, length(a * p - b * p));
-  return most;
+    maximum = std::max(maximum, length(a * p - b * p));
+  return maximum;
 }
 
 TEST(GlbKeys, StoreEachFrameAsTheNearestFloats) {

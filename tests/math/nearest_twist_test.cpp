@@ -141,13 +141,13 @@ void expect_like_brute_force(Dice& dice, int problems, int rows_at_most, double 
     const double scale = length(wanted);
     ASSERT_TRUE(got.nearest) << "problem " << k;
     ASSERT_LE(violation(x, rows, scale), kNearestTwistSlack) << "problem " << k;
-    double least = scale;  // 0 is feasible
+    double minimum = scale;  // 0 is feasible
     for (const Vector& y : candidates(wanted, rows)) {
-      least = std::min(least, length(minus(wanted, y)));
+      minimum = std::min(minimum, length(minus(wanted, y)));
       // Optimality: no direction to a feasible point leads nearer.
       ASSERT_LE(dot(minus(wanted, x), minus(y, x)), accuracy * scale * scale) << "problem " << k;
     }
-    ASSERT_NEAR(length(minus(wanted, x)), least, accuracy * scale) << "problem " << k;
+    ASSERT_NEAR(length(minus(wanted, x)), minimum, accuracy * scale) << "problem " << k;
   }
 }
 

@@ -77,5 +77,18 @@ TEST(Screw, BoundsPathLengthAndChordDeviation) {
   }
 }
 
+TEST(ScrewMotion, HasThePosesAndTheBoundsOfItsScrewBitForBit) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 50; ++i) {
+    const Pose start = random_pose(random, 10), end = random_pose(random, 10);
+    const Vec3 center{3, -2, 5};
+    const ScrewMotion motion = screw_motion(start, end, center, 2);
+    const Screw screw = screw_between(start, end);
+    EXPECT_EQ(motion.deviation, screw_chord_deviation(screw, screw_radius(screw, center, 2)));
+    EXPECT_EQ(motion.path_length, screw_path_length(screw, screw_radius(screw, center, 2)));
+    for (const double s : {-0.5, 0.0, 0.3, 0.9, 1.0, 1.5}) EXPECT_EQ(motion.at(s), pose_between(start, end, s));
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

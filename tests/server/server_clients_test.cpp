@@ -26,9 +26,9 @@ class ServerPatience : public ServerScene {
 };
 
 TEST_F(ServerClients, LetsOneControlAndTheOthersWatch) {
-  Client first(door());
+  Client first(address());
   first.state();
-  Client second(door(), kOtherKey);
+  Client second(address(), kOtherKey);
   EXPECT_TRUE(first.event("control")["control"]);
   EXPECT_FALSE(second.event("control")["control"]);
   EXPECT_FALSE(second.command("hold", {{"components", {0}}})["ok"]);
@@ -45,9 +45,9 @@ TEST_F(ServerClients, LetsOneControlAndTheOthersWatch) {
 }
 
 TEST_F(ServerClients, HandsControlOverButNotInMidDrag) {
-  Client first(door());
+  Client first(address());
   first.state();
-  Client second(door(), kOtherKey);
+  Client second(address(), kOtherKey);
   second.state();
   hold(first, 0);
   EXPECT_FALSE(second.command("take_control")["ok"]);
@@ -63,13 +63,13 @@ TEST_F(ServerClients, KeepsADragForAClientThatComesBack) {
   Json lost_state;
   std::uint32_t grip = 0;
   {
-    Client client(door());
+    Client client(address());
     client.state();
     grip = hold(client, 0);
     drag(client, grip, {}, {-5, 0, 0}, 5);
     client.drop();
   }
-  Client client(door());
+  Client client(address());
   EXPECT_TRUE(client.event("control")["control"]);
   const Json state = client.state();
   EXPECT_EQ(state["hand"]["grip"], grip);
@@ -79,11 +79,11 @@ TEST_F(ServerClients, KeepsADragForAClientThatComesBack) {
 }
 
 TEST_F(ServerClients, GivesControlOnWhenItsClientStaysAway) {
-  Client watcher(door(), kOtherKey);
+  Client watcher(address(), kOtherKey);
   watcher.state();
   const auto lost_at = std::chrono::steady_clock::now();
   {
-    Client first(door());
+    Client first(address());
     first.state();
     ASSERT_TRUE(first.command("take_control")["ok"]);
     const std::uint32_t grip = hold(first, 0);
@@ -102,7 +102,7 @@ TEST_F(ServerClients, GivesControlOnWhenItsClientStaysAway) {
 TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
   std::uint64_t id = 0;
   {
-    Client client(door());
+    Client client(address());
     client.state();
     const std::uint32_t grip = hold(client, 0);
     drag(client, grip, {}, {-5, 0, 0}, 5);
@@ -112,7 +112,7 @@ TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
     id = client.give("undo");
     client.drop();  // its response is lost
   }
-  Client client(door());
+  Client client(address());
   client.state();
   client.set_last_id(id - 1);
   EXPECT_EQ(client.give("undo"), id);
@@ -124,9 +124,9 @@ TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
 }
 
 TEST_F(ServerClients, ReplacesASocketOfTheSameClient) {
-  Client old(door());
+  Client old(address());
   old.state();
-  Client fresh(door());
+  Client fresh(address());
   fresh.state();
   old.wait_for_end();
   EXPECT_TRUE(fresh.command("check")["ok"]);
@@ -134,9 +134,9 @@ TEST_F(ServerClients, ReplacesASocketOfTheSameClient) {
 }
 
 TEST_F(ServerPatience, PingsSilentClientsAndDropsThoseThatDoNotAnswer) {
-  Client listener(door());
+  Client listener(address());
   listener.state();
-  Client deaf(door(), kOtherKey);
+  Client deaf(address(), kOtherKey);
   deaf.state();
   listener.event_where("control", [](const Json& c) { return c["clients"] == 2; });
   listener.event_where("control", [](const Json& c) { return c["clients"] == 1; });  // `deaf` reads nothing meanwhile
@@ -148,7 +148,7 @@ TEST_F(ServerPatience, PingsSilentClientsAndDropsThoseThatDoNotAnswer) {
 }
 
 TEST_F(ServerClients, SaysGoodbyeWhenItStops) {
-  Client client(door());
+  Client client(address());
   client.state();
   server_.reset();
   client.wait_for_end();
@@ -156,7 +156,7 @@ TEST_F(ServerClients, SaysGoodbyeWhenItStops) {
 }
 
 TEST_F(ServerClients, StopsWhileThingsMoveAndLoad) {
-  Client client(door());
+  Client client(address());
   client.state();
   client.give("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}});
   client.give("open", {{"sample", "robot"}});

@@ -14,7 +14,7 @@ namespace dismantle::server {
 namespace {
 
 using testing_client::Client;
-using testing_client::Door;
+using testing_client::ServerAddress;
 
 /// `dismantle view` on block.obj.
 class ViewerProcess {
@@ -38,7 +38,7 @@ class ViewerProcess {
     close(ends[0]);
     const std::size_t colon = url.find(':', 7), mark = url.find("#token=");
     if (mark == std::string::npos) throw std::runtime_error("it printed no URL but: " + url);
-    door_ = {static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1))), url.substr(mark + 7)};
+    address_ = {static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1))), url.substr(mark + 7)};
   }
   ~ViewerProcess() {
     if (process_ > 0) end(SIGKILL);
@@ -46,7 +46,7 @@ class ViewerProcess {
   ViewerProcess(const ViewerProcess&) = delete;
   ViewerProcess& operator=(const ViewerProcess&) = delete;
 
-  const Door& door() const { return door_; }
+  const ServerAddress& address() const { return address_; }
   /// Sends a signal and waits. @return the exit code; 128 + the signal if that ended it
   int end(int signal) {
     kill(process_, signal);
@@ -58,7 +58,7 @@ class ViewerProcess {
 
  private:
   pid_t process_ = 0;
-  Door door_;
+  ServerAddress address_;
 };
 
 class ServerCrash : public ServerScene {
@@ -71,24 +71,24 @@ TEST_F(ServerCrash, ResumesAfterItWasKilledDuringADrag) {
   Json before;
   {
     ViewerProcess viewer = start_process();
-    Client client(viewer.door());
+    Client client(viewer.address());
     client.state();
     drag(client, hold(client, 1), {}, {0, 3, 0}, 3);
     client.command("release");
     drag(client, hold(client, 0), {}, {15, 7, 0}, 40);  // into the wall and along it, without release
     client.send_text(R"({"id": 90, "command": "check"})");
     client.answer(90);
-    before = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
+    before = Json::parse(testing_client::get(viewer.address(), "/api/path.json").body);
     EXPECT_EQ(viewer.end(SIGKILL), 128 + SIGKILL);
   }
   ViewerProcess viewer = start_process();
-  Client client(viewer.door());
+  Client client(viewer.address());
   const Json state = client.state();
   EXPECT_TRUE(state["resumed"]);
   EXPECT_TRUE(state["hand"].is_null());
   EXPECT_EQ(state["moves"].size(), 2u);
   // Everything that was acknowledged is restored, bit for bit.
-  const Json after = Json::parse(testing_client::get(viewer.door(), "/api/path.json").body);
+  const Json after = Json::parse(testing_client::get(viewer.address(), "/api/path.json").body);
   EXPECT_EQ(after, before);
   EXPECT_TRUE(client.command("undo")["ok"]);
   EXPECT_EQ(client.state()["components"][0], Json::object());
@@ -99,7 +99,7 @@ TEST_F(ServerCrash, ResumesAfterItWasKilledDuringADrag) {
 TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
   {
     ViewerProcess viewer = start_process();
-    Client client(viewer.door());
+    Client client(viewer.address());
     client.state();
     drag(client, hold(client, 0), {}, {-5, 0, 0}, 5);
     client.command("release");
@@ -109,7 +109,7 @@ TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
   }
   for (int run = 0; run < 2; ++run) {  // a run without changes does not lose it
     ViewerProcess viewer = start_process();
-    Client client(viewer.door());
+    Client client(viewer.address());
     const Json state = client.state();
     EXPECT_FALSE(state["resumed"]);
     EXPECT_TRUE(state["resumable"]);
@@ -125,7 +125,7 @@ TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
 
 TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
   ViewerProcess one = start_process(), two = start_process();
-  Client first(one.door()), second(two.door());
+  Client first(one.address()), second(two.address());
   first.state();
   second.state();
   drag(first, hold(first, 0), {}, {-5, 0, 0}, 5);
@@ -133,7 +133,7 @@ TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
   one.end(SIGKILL);
   two.end(SIGKILL);
   ViewerProcess again = start_process();
-  Client client(again.door());
+  Client client(again.address());
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
 }
 
@@ -143,7 +143,7 @@ TEST_F(ServerCrash, OpensAPathFileWithTheAssemblyBesideIt) {
   path.moves = {{"pull the block", {"block"}, {{0, {}}, {1, {{-5, 0, 0}, {}}}}}};
   ASSERT_TRUE(write_path(root() / "pull.path.json", path).ok());
   ViewerProcess viewer(root() / "pull.path.json", folder_ / "state");
-  Client client(viewer.door());
+  Client client(viewer.address());
   const Json state = client.event_where("state", [](const Json& s) { return !s["guide"].is_null(); });
   EXPECT_EQ(state["guide"]["name"], "pull.path.json");
   EXPECT_EQ(state["guide"]["moves"][0]["label"], "pull the block");

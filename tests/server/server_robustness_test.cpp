@@ -30,7 +30,7 @@ class ServerRobustness : public ServerScene {
 
   /// Expects that a new client can drag as usual.
   void expect_alive() const {
-    Client client(door(), "aaaaaaaaaaaaaaaabbbbbbbbbbbbbbbb");
+    Client client(address(), "aaaaaaaaaaaaaaaabbbbbbbbbbbbbbbb");
     ASSERT_EQ(client.status(), 101u);
     client.state();
     ASSERT_TRUE(client.command("take_control")["ok"]);
@@ -43,8 +43,8 @@ class ServerRobustness : public ServerScene {
 
   /// Uploads a file as the client in control, and waits for the result.
   Json upload(Client& client, const std::string& name, const std::string& bytes) const {
-    const HttpReply reply = request(door(), "POST", "/api/open?name=" + name,
-                                    {{"Authorization", "Bearer " + door().token}, {"X-Client", kClientKey}}, bytes);
+    const HttpReply reply = request(address(), "POST", "/api/open?name=" + name,
+                                    {{"Authorization", "Bearer " + address().token}, {"X-Client", kClientKey}}, bytes);
     EXPECT_EQ(reply.status, 202u) << reply.body;
     return end_of_job(client, Json::parse(reply.body).value("job", 0));
   }
@@ -65,7 +65,7 @@ TEST_F(ServerRobustness, AnswersAThousandMalformedFramesWithErrors) {
   std::mt19937 random(7);
   int errors = 0;
   for (int round = 0; round < 20; ++round) {
-    Client client(door(), kClientKey);
+    Client client(address(), kClientKey);
     client.state();
     for (int i = 0; i < 50; ++i) {  // fewer than the number at which the server closes a socket
       std::string bytes(random() % 200, '\0');
@@ -81,7 +81,7 @@ TEST_F(ServerRobustness, AnswersAThousandMalformedFramesWithErrors) {
 }
 
 TEST_F(ServerRobustness, ClosesTheSocketOfWhoSendsNothingElse) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   for (int i = 0; i < 100 && client.is_open(); ++i) client.send_text("{");
   client.wait_for_end();
@@ -89,7 +89,7 @@ TEST_F(ServerRobustness, ClosesTheSocketOfWhoSendsNothingElse) {
 }
 
 TEST_F(ServerRobustness, TakesJsonOfAnyKindForNoMoreThanItIs) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   for (const char* text :
        {"[]", "null", "7", "\"hold\"", "{}", "{\"id\":-1,\"command\":\"undo\"}", "{\"id\":1.5,\"command\":\"undo\"}",
@@ -120,7 +120,7 @@ TEST_F(ServerRobustness, TakesJsonOfAnyKindForNoMoreThanItIs) {
 }
 
 TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   try {
     client.send_text(std::string((1 << 20) + 1, ' '));
@@ -129,7 +129,7 @@ TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
   }
   client.wait_for_end();
   EXPECT_FALSE(client.is_open());
-  Client other(door(), kClientKey);
+  Client other(address(), kClientKey);
   other.state();
   std::string just_fits = "{\"id\":1000,\"command\":\"check\"}";
   just_fits.resize(1 << 20, ' ');
@@ -142,9 +142,9 @@ TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {
   fs::create_directories(root() / "many");
   for (int i = 1000; i < 1800; ++i)
     std::ofstream(root() / "many" / (std::to_string(i) + std::string(200, 'x') + ".obj"));
-  Client slow(door(), kClientKey);
+  Client slow(address(), kClientKey);
   slow.state();
-  Client watcher(door(), "cccccccccccccccccccccccccccccccc");
+  Client watcher(address(), "cccccccccccccccccccccccccccccccc");
   watcher.state();
   // Each gets a response; few of them are read, and the server must not keep them all.
   for (int i = 1; i <= 2000 && slow.is_open(); ++i)
@@ -154,7 +154,7 @@ TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {
 }
 
 TEST_F(ServerRobustness, OutlivesBrokenHttp) {
-  const std::string host = "Host: " + door().host() + "\r\n";
+  const std::string host = "Host: " + address().host() + "\r\n";
   for (const std::string& bytes :
        {std::string("\r\n\r\n"), std::string("GET\r\n\r\n"), std::string(100000, 'A'),
         "GET / HTTP/1.1\r\n" + host + "A: " + std::string(100000, 'x'), "GET / HTTP/9.9\r\n" + host + "\r\n",
@@ -162,18 +162,18 @@ TEST_F(ServerRobustness, OutlivesBrokenHttp) {
         "POST /api/open HTTP/1.1\r\n" + host + "Content-Length: 99999999999999999999\r\n\r\n",
         "GET / HTTP/1.1\r\n" + host + host + "\r\n", "GET http://evil/ HTTP/1.1\r\n" + host + "\r\n",
         std::string("\x16\x03\x01\x02\x00", 5)})
-    EXPECT_EQ(exchange(door(), bytes).find("HTTP/1.1 200"), std::string::npos) << bytes.substr(0, 60);
+    EXPECT_EQ(exchange(address(), bytes).find("HTTP/1.1 200"), std::string::npos) << bytes.substr(0, 60);
 }
 
 TEST_F(ServerRobustness, ServesNoMoreConnectionsThanItCan) {
   std::vector<std::unique_ptr<testing_client::SilentConnection>> silent;
-  for (int i = 0; i < 300; ++i) silent.push_back(std::make_unique<testing_client::SilentConnection>(door()));
-  EXPECT_THROW(request(door(), "GET", "/"), std::exception);
+  for (int i = 0; i < 300; ++i) silent.push_back(std::make_unique<testing_client::SilentConnection>(address()));
+  EXPECT_THROW(request(address(), "GET", "/"), std::exception);
   silent.clear();
   HttpReply reply;
   for (int tries = 0; tries < 100 && reply.status != 200; ++tries) {
     try {
-      reply = request(door(), "GET", "/");
+      reply = request(address(), "GET", "/");
     } catch (const std::exception&) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -186,7 +186,7 @@ TEST_F(ServerRobustness, LeavesNobodyOutsideItsFolders) {
   fs::create_symlink(secret, root() / "link.obj");
   fs::create_directory_symlink(folder_ / "secret", root() / "linked");
   fs::create_symlink("block.obj", root() / "alias.obj");
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   for (const std::string& file :
        {std::string("../secret/plan.obj"), std::string("link.obj"), std::string("linked/plan.obj"), secret.string(),
@@ -209,7 +209,7 @@ TEST_F(ServerRobustness, LeavesNobodyOutsideItsFolders) {
 }
 
 TEST_F(ServerRobustness, OpensAnUploadAndCleansUpBehindIt) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   const std::string obj = *read_file(root() / "block.obj", 1 << 20);
   EXPECT_EQ(upload(client, "uploaded%20parts.obj", obj)["status"], "done");
@@ -219,41 +219,41 @@ TEST_F(ServerRobustness, OpensAnUploadAndCleansUpBehindIt) {
 }
 
 TEST_F(ServerRobustness, TakesAnUploadOfMegabytes) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   const std::string obj = *read_file(root() / "block.obj", 1 << 20) + std::string(std::size_t{3} << 20, '\n');
   EXPECT_EQ(upload(client, "large.obj", obj)["status"], "done");
 }
 
 TEST_F(ServerRobustness, RefusesAnUploadThatIsTooLargeBeforeItHasCome) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
-  const std::string head = " HTTP/1.1\r\nHost: " + door().host() + "\r\nAuthorization: Bearer " + door().token +
+  const std::string head = " HTTP/1.1\r\nHost: " + address().host() + "\r\nAuthorization: Bearer " + address().token +
                            "\r\nX-Client: " + kClientKey + "\r\nContent-Length: ";
   for (const std::string target : {"/api/open?name=a.obj", "/api/guide?name=a.path.json"})
     for (const std::string length : {"1073741825", "9999999999999"}) {
       const std::string request = "POST " + target + head + length + "\r\n\r\nv 0 0 0";
-      EXPECT_EQ(testing_client::exchange(door(), request).substr(0, 12), "HTTP/1.1 413") << target << " " << length;
+      EXPECT_EQ(testing_client::exchange(address(), request).substr(0, 12), "HTTP/1.1 413") << target << " " << length;
     }
 }
 
 TEST_F(ServerRobustness, RefusesUploadsOfOthersAndWithoutAName) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
-  Headers headers{{"Authorization", "Bearer " + door().token}};
-  EXPECT_EQ(request(door(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
+  Headers headers{{"Authorization", "Bearer " + address().token}};
+  EXPECT_EQ(request(address(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
   headers["X-Client"] = "somebody";
-  EXPECT_EQ(request(door(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
+  EXPECT_EQ(request(address(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
   headers["X-Client"] = kClientKey;
-  EXPECT_EQ(request(door(), "POST", "/api/open", headers, "v").status, 400u);
-  EXPECT_EQ(request(door(), "POST", "/api/open?name=..", headers, "v").status, 400u);
-  EXPECT_EQ(request(door(), "POST", "/api/open?name=.bashrc", headers, "v").status, 400u);
-  EXPECT_EQ(request(door(), "POST", "/api/elsewhere?name=a", headers, "v").status, 404u);
-  EXPECT_EQ(request(door(), "POST", "/api/guide?name=a.path.json", headers, "{\"format\": 7}").status, 422u);
+  EXPECT_EQ(request(address(), "POST", "/api/open", headers, "v").status, 400u);
+  EXPECT_EQ(request(address(), "POST", "/api/open?name=..", headers, "v").status, 400u);
+  EXPECT_EQ(request(address(), "POST", "/api/open?name=.bashrc", headers, "v").status, 400u);
+  EXPECT_EQ(request(address(), "POST", "/api/elsewhere?name=a", headers, "v").status, 404u);
+  EXPECT_EQ(request(address(), "POST", "/api/guide?name=a.path.json", headers, "{\"format\": 7}").status, 422u);
 }
 
 TEST_F(ServerRobustness, OutlivesHostileFiles) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   // A buffer and an accessor that claim 10 GB.
   const std::string claims =
@@ -281,7 +281,7 @@ TEST_F(ServerRobustness, OutlivesHostileFiles) {
 }
 
 TEST_F(ServerRobustness, CancelsAnImport) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   const Json job = client.command("open", {{"sample", "lathe"}});
   ASSERT_TRUE(job["ok"]) << job;
@@ -292,7 +292,7 @@ TEST_F(ServerRobustness, CancelsAnImport) {
 }
 
 TEST_F(ServerRobustness, RemembersRecentFilesBelowItsRoots) {
-  Client client(door(), kClientKey);
+  Client client(address(), kClientKey);
   client.state();
   const Json recent = client.command("recent");
   ASSERT_EQ(recent["recent"].size(), 1u) << recent;

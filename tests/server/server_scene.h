@@ -31,7 +31,7 @@ class ServerScene : public testing::Test {
     Result<std::unique_ptr<Server>> started = Server::start(std::move(options));
     ASSERT_TRUE(started.ok()) << (started.ok() ? "" : started.error().message);
     server_ = std::move(*started);
-    door_ = {server_->port(), server_->token()};
+    address_ = {server_->port(), server_->token()};
   }
   std::filesystem::path root() const { return folder_ / "root"; }
   /// Writes block.obj into the root: a block of 10 mm, 10.5 mm in front of a wall; and opens it.
@@ -65,18 +65,18 @@ class ServerScene : public testing::Test {
   }
   /// The recording, which must pass the audit.
   Path audited_recording() const {
-    const testing_client::HttpReply reply = testing_client::get(door(), "/api/path.json");
+    const testing_client::HttpReply reply = testing_client::get(address(), "/api/path.json");
     const Result<Path> path = parse_path(reply.body, "recording");
     EXPECT_TRUE(path.ok()) << reply.body;
     const Result<Assembly> assembly = load_assembly(root() / "block.obj");
     EXPECT_TRUE(audit_path(*assembly, *path).holds());
     return *path;
   }
-  const testing_client::Door& door() const { return door_; }
+  const testing_client::ServerAddress& address() const { return address_; }
 
   ScratchFolder folder_;
   std::unique_ptr<Server> server_;
-  testing_client::Door door_;
+  testing_client::ServerAddress address_;
 };
 
 }  // namespace dismantle::server

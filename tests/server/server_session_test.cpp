@@ -15,7 +15,7 @@ class ServerSession : public ServerScene {
 };
 
 TEST_F(ServerSession, TellsWhatIsOpen) {
-  Client client(door());
+  Client client(address());
   const Json model = client.event("model");
   EXPECT_EQ(model["name"], "block.obj");
   EXPECT_EQ(model["components"][0]["name"], "block");
@@ -23,14 +23,14 @@ TEST_F(ServerSession, TellsWhatIsOpen) {
   const Json state = client.state();
   EXPECT_EQ(state["components"].size(), 2u);
   EXPECT_TRUE(state["hand"].is_null());
-  const HttpReply glb = get(door(), "/api/model.glb?model=" + std::to_string(model["number"].get<int>()));
+  const HttpReply glb = get(address(), "/api/model.glb?model=" + std::to_string(model["number"].get<int>()));
   EXPECT_EQ(glb.status, 200u);
   EXPECT_EQ(glb.body.substr(0, 4), "glTF");
-  EXPECT_EQ(get(door(), "/api/model.glb?model=99").status, 404u);
+  EXPECT_EQ(get(address(), "/api/model.glb?model=99").status, 404u);
 }
 
 TEST_F(ServerSession, DragsABlockIntoTheWallAndSaysWhatItTouches) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   const PoseMessage free = drag(client, grip, {}, {5, 0, 0}, 5);
@@ -50,7 +50,7 @@ TEST_F(ServerSession, DragsABlockIntoTheWallAndSaysWhatItTouches) {
 }
 
 TEST_F(ServerSession, RecordsADragThatPassesTheAudit) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   drag(client, grip, {}, {20, 5, 0}, 20);
@@ -65,7 +65,7 @@ TEST_F(ServerSession, RecordsADragThatPassesTheAudit) {
 }
 
 TEST_F(ServerSession, AppliesTheLastTargetBeforeRelease) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   for (std::uint32_t i = 1; i <= 50; ++i) client.send_binary(target_at(grip, i, {-0.1 * i, 0, 0}));
@@ -74,7 +74,7 @@ TEST_F(ServerSession, AppliesTheLastTargetBeforeRelease) {
 }
 
 TEST_F(ServerSession, GoesBackToTheStartOfADragInMidDrag) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   drag(client, grip, {}, {-5, 0, 0}, 5);
@@ -96,7 +96,7 @@ TEST_F(ServerSession, GoesBackToTheStartOfADragInMidDrag) {
 }
 
 TEST_F(ServerSession, FollowsA3dMouseAndStopsWhenItFallsSilent) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   client.send_binary(encode(RateMessage{grip, 1, {-100, 0, 0}, {}}));
@@ -108,7 +108,7 @@ TEST_F(ServerSession, FollowsA3dMouseAndStopsWhenItFallsSilent) {
 }
 
 TEST_F(ServerSession, RefusesInvalidCommands) {
-  Client client(door());
+  Client client(address());
   client.state();
   for (const Json& components : {Json(Json::array()), Json{7}, Json{-1}, Json{"block"}, Json("block"), Json(nullptr)})
     EXPECT_FALSE(client.command("hold", {{"components", components}})["ok"]) << components;
@@ -119,7 +119,7 @@ TEST_F(ServerSession, RefusesInvalidCommands) {
 }
 
 TEST_F(ServerSession, HidesIsolatesAndRestores) {
-  Client client(door());
+  Client client(address());
   client.state();
   client.command("hide", {{"components", {0}}});
   EXPECT_TRUE(client.state()["components"][0].contains("hidden"));
@@ -136,7 +136,7 @@ TEST_F(ServerSession, HidesIsolatesAndRestores) {
 }
 
 TEST_F(ServerSession, OpensASampleAndTellsHowItGoes) {
-  Client client(door());
+  Client client(address());
   client.state();
   EXPECT_EQ(client.command("samples")["samples"].size(), 4u);
   EXPECT_FALSE(client.command("open", {{"sample", "spaceship"}})["ok"]);
@@ -150,7 +150,7 @@ TEST_F(ServerSession, OpensASampleAndTellsHowItGoes) {
 }
 
 TEST_F(ServerSession, TakesAComponentOutAndPutsItBack) {
-  Client client(door());
+  Client client(address());
   client.state();
   const Json directions = client.command("free_directions", {{"components", {0}}});
   ASSERT_TRUE(directions["ok"]) << directions;
@@ -171,7 +171,7 @@ TEST_F(ServerSession, TakesAComponentOutAndPutsItBack) {
 }
 
 TEST_F(ServerSession, PlaysTheRecordingInBothDirectionsToTheSameBits) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   drag(client, grip, {}, {20, 12, 3}, 30);
@@ -196,7 +196,7 @@ TEST_F(ServerSession, PlaysTheRecordingInBothDirectionsToTheSameBits) {
 }
 
 TEST_F(ServerSession, SavesTheRecordingAndFollowsItAsAGuide) {
-  Client client(door());
+  Client client(address());
   client.state();
   const std::uint32_t grip = hold(client, 0);
   drag(client, grip, {}, {-8, 0, 0}, 8);
@@ -205,12 +205,12 @@ TEST_F(ServerSession, SavesTheRecordingAndFollowsItAsAGuide) {
   EXPECT_FALSE(client.command("save", {{"root", 0}, {"file", "mine.step"}})["ok"]);
   EXPECT_FALSE(client.command("save", {{"root", 0}, {"file", "../mine.path.json"}})["ok"]);
   EXPECT_FALSE(client.command("save", {{"root", 1}, {"file", "mine.path.json"}})["ok"]);
-  EXPECT_EQ(get(door(), "/api/guide.json").status, 404u);
+  EXPECT_EQ(get(address(), "/api/guide.json").status, 404u);
   client.command("reset");
   const Json opened = client.command("open_path", {{"root", 0}, {"file", "mine.path.json"}});
   ASSERT_TRUE(opened["ok"]) << opened;
   EXPECT_EQ(client.state()["guide"]["moves"].size(), 1u);
-  EXPECT_EQ(get(door(), "/api/guide.json").status, 200u);
+  EXPECT_EQ(get(address(), "/api/guide.json").status, 200u);
   ASSERT_TRUE(client.command("play", {{"speed", 10}, {"source", "guide"}})["ok"]);
   const Json state =
       client.event_where("state", [](const Json& s) { return !s["playback"].is_null() && !s["playback"]["playing"]; });
@@ -220,7 +220,7 @@ TEST_F(ServerSession, SavesTheRecordingAndFollowsItAsAGuide) {
 }
 
 TEST_F(ServerSession, KeepsAMotionByItselfFromCommandsThatWouldTearIt) {
-  Client client(door());
+  Client client(address());
   client.state();
   ASSERT_TRUE(client.command("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}})["ok"]);
   client.pose();

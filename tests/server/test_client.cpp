@@ -47,26 +47,26 @@ std::string text_of(beast::string_view view) {
 }
 
 /// The response to a Client's handshake, as plain HTTP.
-HttpReply upgrade(const Door& door, const std::string& key, const Headers& headers) {
-  Headers all = {{"Origin", door.origin()},
+HttpReply upgrade(const ServerAddress& address, const std::string& key, const Headers& headers) {
+  Headers all = {{"Origin", address.origin()},
                  {"Connection", "Upgrade"},
                  {"Upgrade", "websocket"},
                  {"Sec-WebSocket-Version", "13"},
                  {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="},
-                 {"Sec-WebSocket-Protocol", "dismantle.1, token." + door.token}};
+                 {"Sec-WebSocket-Protocol", "dismantle.1, token." + address.token}};
   for (const auto& [name, value] : headers) all[name] = value;
-  return request(door, "GET", "/session?client=" + key, all);
+  return request(address, "GET", "/session?client=" + key, all);
 }
 
 }  // namespace
 
-HttpReply request(const Door& door, const std::string& method, const std::string& target, Headers headers,
+HttpReply request(const ServerAddress& address, const std::string& method, const std::string& target, Headers headers,
                   const std::string& body) {
   asio::io_context io;
   beast::tcp_stream stream(io);
-  connect(stream, door.port);
+  connect(stream, address.port);
   http::request<http::string_body> message(http::string_to_verb(method), target, 11);
-  headers.try_emplace("Host", door.host());
+  headers.try_emplace("Host", address.host());
   for (const auto& [name, value] : headers)
     if (!value.empty()) message.set(name, value);
   message.body() = body;
@@ -89,14 +89,14 @@ HttpReply request(const Door& door, const std::string& method, const std::string
   return reply;
 }
 
-HttpReply get(const Door& door, const std::string& target) {
-  return request(door, "GET", target, {{"Authorization", "Bearer " + door.token}});
+HttpReply get(const ServerAddress& address, const std::string& target) {
+  return request(address, "GET", target, {{"Authorization", "Bearer " + address.token}});
 }
 
-std::string exchange(const Door& door, const std::string& bytes, std::chrono::milliseconds quiet) {
+std::string exchange(const ServerAddress& address, const std::string& bytes, std::chrono::milliseconds quiet) {
   asio::io_context io;
   beast::tcp_stream stream(io);
-  connect(stream, door.port);
+  connect(stream, address.port);
   ErrorCode ignored;
   asio::write(stream.socket(), asio::buffer(bytes), ignored);
   std::string reply(std::size_t{1} << 16, '\0');
@@ -118,19 +118,19 @@ class SilentConnection::Body {
   beast::tcp_stream stream{io};
 };
 
-SilentConnection::SilentConnection(const Door& door) : body_(std::make_unique<Body>()) {
-  connect(body_->stream, door.port);
+SilentConnection::SilentConnection(const ServerAddress& address) : body_(std::make_unique<Body>()) {
+  connect(body_->stream, address.port);
 }
 SilentConnection::~SilentConnection() = default;
 
 class Client::Body {
  public:
-  Body(const Door& door, const std::string& key, const Headers& headers) : stream_(io_) {
-    connect(stream_.next_layer(), door.port);
+  Body(const ServerAddress& address, const std::string& key, const Headers& headers) : stream_(io_) {
+    connect(stream_.next_layer(), address.port);
     stream_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
-      request.set(http::field::host, door.host());
-      request.set(http::field::origin, door.origin());
-      request.set(http::field::sec_websocket_protocol, "dismantle.1, token." + door.token);
+      request.set(http::field::host, address.host());
+      request.set(http::field::origin, address.origin());
+      request.set(http::field::sec_websocket_protocol, "dismantle.1, token." + address.token);
       for (const auto& [name, value] : headers) {
         request.erase(name);
         if (!value.empty()) request.set(name, value);
@@ -138,12 +138,12 @@ class Client::Body {
     }));
     websocket::response_type response;
     ErrorCode error;
-    stream_.handshake(response, door.host(), "/session?client=" + key, error);
+    stream_.handshake(response, address.host(), "/session?client=" + key, error);
     status_ = response.result_int();
     protocol_ = text_of(response[http::field::sec_websocket_protocol]);
     ended_ = static_cast<bool>(error);
     if (ended_) {  // Beast does not expose the refusal: send the request again
-      status_ = upgrade(door, key, headers).status;
+      status_ = upgrade(address, key, headers).status;
       return;
     }
     stream_.read_message_max(std::size_t{256} << 20);
@@ -220,8 +220,8 @@ class Client::Body {
   std::uint64_t last_id_ = 0;
 };
 
-Client::Client(const Door& door, std::string key, const Headers& headers)
-    : body_(std::make_unique<Body>(door, key, headers)) {}
+Client::Client(const ServerAddress& address, std::string key, const Headers& headers)
+    : body_(std::make_unique<Body>(address, key, headers)) {}
 Client::~Client() = default;
 Client::Client(Client&&) noexcept = default;
 

@@ -19,7 +19,7 @@ inline constexpr std::chrono::seconds kPatience{60};
 inline const std::string kClientKey = "00112233445566778899aabbccddeeff";
 
 /// A server's address and token.
-struct Door {
+struct ServerAddress {
   std::uint16_t port = 0;
   std::string token;
   std::string host() const { return "127.0.0.1:" + std::to_string(port); }
@@ -34,20 +34,20 @@ struct HttpReply {
 
 /// One request on a new connection, with the correct Host unless `headers` has another. A header with an empty value is
 /// omitted.
-HttpReply request(const Door& door, const std::string& method, const std::string& target, Headers headers = {},
-                  const std::string& body = {});
+HttpReply request(const ServerAddress& address, const std::string& method, const std::string& target,
+                  Headers headers = {}, const std::string& body = {});
 
 /// A GET request with the token.
-HttpReply get(const Door& door, const std::string& target);
+HttpReply get(const ServerAddress& address, const std::string& target);
 
 /// Sends bytes unchanged. @return everything received until the connection ends or is silent for `quiet`
-std::string exchange(const Door& door, const std::string& bytes,
+std::string exchange(const ServerAddress& address, const std::string& bytes,
                      std::chrono::milliseconds quiet = std::chrono::milliseconds(300));
 
 /// Connects and sends nothing.
 class SilentConnection {
  public:
-  explicit SilentConnection(const Door& door);
+  explicit SilentConnection(const ServerAddress& address);
   ~SilentConnection();
 
  private:
@@ -60,7 +60,7 @@ class Client {
  public:
   /// Connects and performs the handshake; status() tells whether it was accepted. A header with an empty value is
   /// omitted.
-  explicit Client(const Door& door, std::string key = kClientKey, const Headers& headers = {});
+  explicit Client(const ServerAddress& address, std::string key = kClientKey, const Headers& headers = {});
   ~Client();
   Client(Client&&) noexcept;
 

@@ -25,23 +25,23 @@ double brute_distance(const PlacedSolid& a, const PlacedSolid& b) {
     for (Vec3& corner : t.corner) corner = p.world_from_assembled * corner;
     return t;
   };
-  double least = kInfinite;
+  double minimum = kInfinite;
   for (std::uint32_t f = 0; f < a.solid->faces.size(); ++f)
     for (std::uint32_t g = 0; g < b.solid->faces.size(); ++g)
-      least = std::min(least, distance_triangle_triangle(placed(a, f), placed(b, g)).distance);
-  return least;
+      minimum = std::min(minimum, distance_triangle_triangle(placed(a, f), placed(b, g)).distance);
+  return minimum;
 }
 
 /// Expects the distance of brute force, and nothing at a limit that is not larger.
 void expect_nearest(const PlacedSolid& a, const PlacedSolid& b) {
-  const double least = brute_distance(a, b);
+  const double minimum = brute_distance(a, b);
   const SolidDistance found = solid_distance(a, b);
-  ASSERT_EQ(found.distance, least);
-  EXPECT_NEAR(length(found.point_a - found.point_b), least, 1e-9);
-  EXPECT_LE(bounds_distance(a, b), least);
-  EXPECT_TRUE(std::isinf(solid_distance(a, b, least).distance));
-  const SolidDistance limited = solid_distance(a, b, std::nextafter(least, kInfinite));
-  EXPECT_EQ(limited.distance, least);
+  ASSERT_EQ(found.distance, minimum);
+  EXPECT_NEAR(length(found.point_a - found.point_b), minimum, 1e-9);
+  EXPECT_LE(bounds_distance(a, b), minimum);
+  EXPECT_TRUE(std::isinf(solid_distance(a, b, minimum).distance));
+  const SolidDistance limited = solid_distance(a, b, std::nextafter(minimum, kInfinite));
+  EXPECT_EQ(limited.distance, minimum);
 }
 
 TEST(SolidDistance, IsThatOfAllPairsOfFacesWhereverTheyAre) {
