@@ -3,11 +3,11 @@
 
 namespace dismantle {
 
-/// Where a method is to be computed.
+/// The device that a method runs on.
 enum class DeviceChoice {
-  Cpu,
-  Cuda,  ///< The CPU all the same where there is no CUDA device.
-  Auto,  ///< CUDA where there is a device and the work is worth it.
+  Cpu,   ///< Threads of the CPU.
+  Cuda,  ///< The CUDA device; the CPU if there is none.
+  Auto,  ///< The CUDA device if there is one and there is enough work for it.
 };
 
 }  // namespace dismantle

@@ -27,7 +27,7 @@ PairRules::PairRules(const PairStates& states)
     : table_(std::bit_ceil(2 * states.pairs.size() + 2)), tolerance_(states.tolerance) {
   for (const ComponentPair& pair : states.pairs) {
     DISMANTLE_EXPECT(pair.a < pair.b);
-    std::size_t i = PairRulesView::place(pair.a.value, pair.b.value) & (table_.size() - 1);
+    std::size_t i = PairRulesView::hash(pair.a.value, pair.b.value) & (table_.size() - 1);
     while (table_[i].a != PairRuleEntry::kFree) i = (i + 1) & (table_.size() - 1);
     table_[i] = {pair.a.value, pair.b.value, rule_of(pair)};
   }

@@ -9,39 +9,41 @@
 
 namespace dismantle {
 
-/// Which test decides the triangle pairs of a component pair.
+/// The test for the triangle pairs of a component pair.
 enum class PairTest : std::uint8_t {
-  Ordinary,   ///< Apart at the start: the continuous test that the options name.
-  Certified,  ///< In contact, fit or parted: the certified test with an allowance.
-  Discrete,   ///< Embedded, in S_i: do they intersect at the end of the step.
+  Ordinary,   ///< Apart in the assembled state: the continuous test of the options.
+  Certified,  ///< Contact, fit, or no longer embedded: the certified continuous test with an allowance.
+  Discrete,   ///< Embedded, in S_i: the intersection test at the end of the step.
 };
 
-/// What the narrow phase has to know of a component pair.
+/// The rule of a component pair.
 struct PairRule {
-  PairTest test = PairTest::Ordinary;
-  double allowed_penetration = 0;  ///< [mm]; of no meaning for Discrete
+  PairTest test = PairTest::Ordinary;  ///< Test for its triangle pairs.
+  double allowed_penetration = 0;      ///< [mm]; meaningless for Discrete
 };
 
-/// One place of the table of rules; components a < b.
+/// A slot of the hash table of rules.
 struct PairRuleEntry {
-  static constexpr std::uint32_t kFree = 0xffffffffu;
-  std::uint32_t a = kFree, b = kFree;
-  PairRule rule;
+  static constexpr std::uint32_t kFree = 0xffffffffu;  ///< `a` of an empty slot.
+  std::uint32_t a = kFree;                             ///< The smaller component index.
+  std::uint32_t b = kFree;                             ///< The larger component index.
+  PairRule rule;                                       ///< The pair's rule.
 };
 
-/// The rules as kernels see them: a hash table with open addressing; pairs that are not in it are ordinary.
+/// View of the rules for kernels: a hash table with open addressing. Pairs that are not in it are Ordinary.
 struct PairRulesView {
-  Span<const PairRuleEntry> table;  ///< A power of two, at most half full.
-  double tolerance = 0;             ///< [mm]
+  Span<const PairRuleEntry> table;  ///< Its size is a power of two; at most half of it is used.
+  double tolerance = 0;             ///< Allowed penetration of pairs that are not in the table [mm].
 
-  DISMANTLE_HOST_DEVICE static std::size_t place(std::uint32_t a, std::uint32_t b) {
+  /// The hash of a pair: its first slot, modulo the size of the table. @pre a < b
+  DISMANTLE_HOST_DEVICE static std::size_t hash(std::uint32_t a, std::uint32_t b) {
     const std::uint64_t mixed = (static_cast<std::uint64_t>(a) << 32 | b) * 0x9E3779B97F4A7C15ull;
     return static_cast<std::size_t>(mixed >> 32);
   }
 
-  /// @pre a < b
+  /// The rule of a pair. @pre a < b
   DISMANTLE_HOST_DEVICE PairRule find(std::uint32_t a, std::uint32_t b) const {
-    for (std::size_t i = place(a, b);; ++i) {
+    for (std::size_t i = hash(a, b);; ++i) {
       const PairRuleEntry& entry = table[i & (table.size() - 1)];
       if (entry.a == a && entry.b == b) return entry.rule;
       if (entry.a == PairRuleEntry::kFree) return {PairTest::Ordinary, tolerance};
@@ -49,15 +51,18 @@ struct PairRulesView {
   }
 };
 
-/// The rules of an assembly's pairs.
+/// The rules of all component pairs of an assembly.
 class PairRules {
  public:
+  /// Makes the rules from the states of the pairs in the assembled state.
   explicit PairRules(const PairStates& states);
 
+  /// A view that is valid as long as this is.
   PairRulesView view() const { return {table_, tolerance_}; }
+  /// Allowed penetration of pairs that are apart [mm].
   double tolerance() const { return tolerance_; }
-  /// The pair has parted: it may be no deeper than the tolerance from now on. Certified, whatever the options name: at
-  /// the moment of parting it may still overlap by less than that. @pre it has been embedded
+  /// Ends the embedded state of a pair: its triangles may be no deeper than the tolerance from now on. The test is
+  /// Certified, as they may still overlap by less than that. @pre a < b; the pair was embedded
   void part(ComponentId a, ComponentId b);
 
  private:
