@@ -142,11 +142,11 @@ std::string edge_path(const PrecedenceDrawing& drawing, const PrecedenceDrawing:
   double x = drawing.centers[rank] + kBoxWidth / 2, y = edge.ys[0];
   std::string path = "M" + number(x) + " " + number(y);
   for (std::size_t i = 1; i < edge.ys.size(); ++i) {
-    const double middle = drawing.centers[rank + i], half = kBoxWidth / 2;
-    const double next = middle - half;
+    const double center = drawing.centers[rank + i], half = kBoxWidth / 2;
+    const double next = center - half;
     path += " C" + number(x + kRankGap / 2) + " " + number(y) + " " + number(next - kRankGap / 2) + " " +
             number(edge.ys[i]) + " " + number(next) + " " + number(edge.ys[i]);
-    x = middle + half;
+    x = center + half;
     y = edge.ys[i];
     if (i + 1 < edge.ys.size()) path += " L" + number(x) + " " + number(y);
   }

@@ -69,8 +69,8 @@ Camera fit_camera(Span<const Vec3> points, const CameraFit& fit) {
   const Mat3 axes = camera_axes(camera);
   Aabb extent;  // in the camera's frame
   for (const Vec3& p : points) extent.extend(axes * p);
-  const Vec3 middle = extent.center(), size = extent.size();
-  camera.target = transposed(axes) * middle;
+  const Vec3 center = extent.center(), size = extent.size();
+  camera.target = transposed(axes) * center;
   const double radius = std::max(length(size) / 2, 1e-9);
   const double fill = 1 - 2 * fit.margin;
   camera.height = std::max({size.y, size.x / fit.aspect, 1e-9 * radius}) / fill;
@@ -80,7 +80,7 @@ Camera fit_camera(Span<const Vec3> points, const CameraFit& fit) {
     const double tangent_y = std::tan(camera.field_of_view / 2) * fill, tangent_x = tangent_y * fit.aspect;
     distance = 0.1 * radius;
     for (const Vec3& p : points)
-      distance = std::max(distance, fitting_distance(axes * p - middle, tangent_x, tangent_y));
+      distance = std::max(distance, fitting_distance(axes * p - center, tangent_x, tangent_y));
   }
   camera.eye = camera.target - distance * forward;
   return camera;

@@ -86,10 +86,10 @@ void rasterize_line(const ScreenLine& line, const SampleRect& rect, const Visit&
     const float py = static_cast<float>(y) + 0.5f - line.y[0];
     double from = left - w, to = right + w;
     if (std::abs(dy) > 1e-3f * std::abs(dx)) {  // limit the row to the band around the infinite line
-      const double middle = line.x[0] + static_cast<double>(py) * dx / dy;
+      const double center = line.x[0] + static_cast<double>(py) * dx / dy;
       const double reach = w * std::sqrt(length_squared) / std::abs(dy);
-      from = std::max(from, middle - reach);
-      to = std::min(to, middle + reach);
+      from = std::max(from, center - reach);
+      to = std::min(to, center + reach);
     }
     const SampleRange columns = sample_range(from, to, rect.x0, rect.x1);
     for (int x = columns.first; x < columns.last; ++x) {
