@@ -35,8 +35,8 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
   motion.allowed = kAllowed;
   const PreparedSweep sweep = front.begin_sweep(motion);
   FacePairs found;
-  const TrianglePairTest test = [&](std::uint32_t face_a, std::uint32_t face_b, Vec3f, std::uint32_t) {
-    found.insert({face_a, face_b});
+  const TrianglePairTest test = [&](const TrianglePairCandidate& candidate) {
+    found.insert({candidate.face_moving, candidate.face_fixed});
     TrianglePairVerdict verdict;
     verdict.free = false;
     verdict.certificate.offset = kNoCertificate;
@@ -123,9 +123,10 @@ struct RevolutionBody : Body {
     std::vector<std::uint8_t> parts;
     add_cylinder_parts(mesh.vertices, mesh.faces, axes, parts);
     tree = obb_tree_build(mesh.vertices, mesh.faces, Executor(), parts);
-    round = std::make_unique<RevolutionSurface>(mesh.vertices, mesh.faces, tree.nodes, axes, std::vector<ThreadAxis>{});
+    revolution =
+        std::make_unique<RevolutionSurface>(mesh.vertices, mesh.faces, tree.nodes, axes, std::vector<ThreadAxis>{});
   }
-  std::unique_ptr<RevolutionSurface> round;
+  std::unique_ptr<RevolutionSurface> revolution;
 };
 
 TEST(CertificateFront, LeavesDeepPairsInABoreToTheTriangleTestAndIsOtherwiseAFewPairs) {
@@ -184,7 +185,7 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
   motion.allowed = kAllowed;
-  const TrianglePairTest blocks = [](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
+  const TrianglePairTest blocks = [](const TrianglePairCandidate&) {
     TrianglePairVerdict verdict;
     verdict.free = false;
     verdict.certificate.offset = kNoCertificate;
@@ -253,11 +254,10 @@ TEST(CertificateFront, SweepsConstWithoutChanges) {
   motion.allowed = kAllowed;
   std::size_t first = 0, second = 0;
   for (std::size_t* count : {&first, &second})
-    front.look(front.prepare_sweep(motion), front_kernels(widest_lanes()),
-               [&](std::uint32_t, std::uint32_t, Vec3f, std::uint32_t) {
-                 ++*count;
-                 return TrianglePairVerdict{};
-               });
+    front.sweep_const(front.prepare_sweep(motion), front_kernels(widest_lanes()), [&](const TrianglePairCandidate&) {
+      ++*count;
+      return TrianglePairVerdict{};
+    });
   EXPECT_EQ(first, second);
   EXPECT_EQ(front.size(), 1u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions of method `certificates` with a device, compared step by step with the same without: on emulated devices, and
 // on a CUDA device if there is one.
+#include "dismantle/certificates/sweep/triangle_pair_sweep.h"
 #include "dismantle/documents/motion_file.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/math/vec3f.h"
@@ -38,7 +39,7 @@ struct QueryCounts {
 };
 
 /// Expects the result of the host for the same faces, bit for bit.
-void expect_same_leaf(const TrianglePairResult& found, const TrianglePairResult& expected) {
+void expect_same_test(const TrianglePairResult& found, const TrianglePairResult& expected) {
   EXPECT_EQ(found.free, expected.free);
   EXPECT_EQ(found.gap, expected.gap);
   EXPECT_EQ(found.no_deep_vertex_possible, expected.no_deep_vertex_possible);
@@ -53,12 +54,12 @@ class CountedDevice final : public FrontDevice {
  public:
   CountedDevice(std::unique_ptr<FrontDevice> device, QueryCounts& counts)
       : device_(std::move(device)), counts_(counts) {}
-  FrontResults ask(Span<const FrontQuery> fronts, bool to_the_end) override {
-    const FrontResults results = device_->ask(fronts, to_the_end);
+  Span<const PartResults> evaluate(Span<const FrontQuery> fronts, bool exhaustive) override {
+    const Span<const PartResults> results = device_->evaluate(fronts, exhaustive);
     ++counts_.sweeps;
     std::size_t part = 0;
     for (const FrontQuery& query : fronts)
-      for (std::size_t p = 0; p < query.front->part_count(); ++p) count(results.parts[part++], results.leaves, query);
+      for (std::size_t p = 0; p < query.front->part_count(); ++p) count(results[part++], query);
     return results;
   }
   Span<const NodeSeparation> separate(Span<const FrontQuery> fronts, Span<const MergeCandidate> pairs) override {
@@ -67,21 +68,21 @@ class CountedDevice final : public FrontDevice {
   }
 
  private:
-  void count(const PartResults& part, Span<const TrianglePairResult> leaves, const FrontQuery& query) {
+  void count(const PartResults& part, const FrontQuery& query) {
     std::vector<std::uint32_t> left = part.roots;
     counts_.failing += left.size();
-    for (const std::uint32_t root : left) counts_.decided += part.answers[root].kind != PairResult::None ? 1 : 0;
+    for (const std::uint32_t root : left) counts_.decided += part.pairs[root].kind != PairResult::None ? 1 : 0;
     while (!left.empty()) {
-      const PairResult& result = part.answers[left.back()];
+      const PairResult& result = part.pairs[left.back()];
       left.pop_back();
       if (result.first_child != PairResult::kNone)
         left.insert(left.end(), {result.first_child, result.first_child + 1});
-      if (result.leaf == PairResult::kNone) continue;
+      if (result.test == PairResult::kNone) continue;
       ++counts_.tests;
       if (query.front->trees().sides == SideRule::Memory) continue;  // its hint is unknown
-      const TrianglePairResult& found = leaves[result.leaf];
+      const TrianglePairResult& found = part.tests[result.test];
       const Vec3 hint = to_double(result.separation.certificate.axis);
-      expect_same_leaf(found, query.leaves->test(found.contact.face_moving, found.contact.face_fixed, hint));
+      expect_same_test(found, query.triangle_pairs->test(found.contact.face_moving, found.contact.face_fixed, hint));
     }
   }
 

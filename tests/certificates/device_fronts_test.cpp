@@ -60,18 +60,20 @@ INSTANTIATE_TEST_SUITE_P(On, DeviceFronts, testing::ValuesIn(kDevices), name_of_
 struct Swept {
   float min_gap = 3e38f;
   std::size_t blocked = 0;
-  bool complete = true, touching = false;
+  bool complete = true, may_touch = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
   std::size_t parents = 0;  ///< Pairs of nodes queried for merging; no result.
   friend bool operator==(const Swept& x, const Swept& y) {
-    return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.touching == y.touching &&
+    return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.may_touch == y.may_touch &&
            x.tested == y.tested;
   }
 };
 
 /// Every third pair of triangles blocks.
 TrianglePairTest triangle_pair_test(Swept& swept) {
-  return [&swept](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t) {
+  return [&swept](const TrianglePairCandidate& candidate) {
+    const std::uint32_t moving = candidate.face_moving, fixed = candidate.face_fixed;
+    const Vec3f hint = candidate.hint;
     swept.tested.emplace_back(moving, fixed);
     TrianglePairVerdict verdict;
     verdict.free = (moving + fixed) % 3 != 0;
@@ -85,7 +87,7 @@ void add(Swept& swept, const FrontSweep& found) {
   swept.min_gap = std::min(swept.min_gap, found.min_gap);
   swept.blocked += found.blocked;
   swept.complete &= found.complete;
-  swept.touching |= found.touching;
+  swept.may_touch |= found.may_touch;
 }
 
 bool free_of(const Swept& swept) {
@@ -116,7 +118,7 @@ std::size_t merge_by(FrontDevice& device, CertificateFront& front, const Prepare
   return begin;
 }
 
-Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* device, bool to_the_end) {
+Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* device, bool exhaustive) {
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
   const PreparedSweep linear = front.begin_sweep(motion);
@@ -124,7 +126,7 @@ Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* devi
   const FrontQuery query{&front, &linear};
   if (device) {
     swept.parents = merge_by(*device, front, linear);
-    results = device->ask(Span<const FrontQuery>(&query, 1), to_the_end).parts;
+    results = device->evaluate(Span<const FrontQuery>(&query, 1), exhaustive);
   }
   for (std::size_t part = 0; part < front.part_count(); ++part) {
     if (!device) front.merge_part(part, linear, kernels);
@@ -197,13 +199,13 @@ TEST_P(DeviceFronts, LeaveNothingToTheHostInAnExhaustiveQuery) {
   motion.allowed = kAllowed;
   const PreparedSweep linear = front.begin_sweep(motion);
   const FrontQuery query{&front, &linear};
-  const Span<const PartResults> results = device_->ask(Span<const FrontQuery>(&query, 1), true).parts;
+  const Span<const PartResults> results = device_->evaluate(Span<const FrontQuery>(&query, 1), true);
   ASSERT_EQ(results.size(), 1u);
   ASSERT_EQ(results[0].roots.size(), 1u);
   std::size_t of_kind[4] = {};
   std::vector<std::uint32_t> left = results[0].roots;
   while (!left.empty()) {
-    const PairResult& result = results[0].answers[left.back()];
+    const PairResult& result = results[0].pairs[left.back()];
     left.pop_back();
     ++of_kind[result.kind];
     if (result.kind != PairResult::Split) continue;
@@ -254,7 +256,7 @@ TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreQueriedTogether) {
       sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
     }
     const FrontQuery queries[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
-    const Span<const PartResults> results = device_->ask(Span<const FrontQuery>(queries, 2), true).parts;
+    const Span<const PartResults> results = device_->evaluate(Span<const FrontQuery>(queries, 2), true);
     ASSERT_EQ(results.size(), in_bore.part_count() + to_box.part_count());
     std::size_t part = 0;
     for (std::size_t f = 0; f < 2; ++f) {

@@ -14,11 +14,11 @@ namespace {
 struct Body {
   TriangleMesh mesh;
   ObbTree tree;
-  std::unique_ptr<RevolutionSurface> round;
+  std::unique_ptr<RevolutionSurface> revolution;
   explicit Body(TriangleMesh m) : mesh(std::move(m)) {
     tree = obb_tree_build(mesh.vertices, mesh.faces, Executor());
-    round = std::make_unique<RevolutionSurface>(mesh.vertices, mesh.faces, tree.nodes,
-                                                revolution_axes(mesh.vertices, mesh.faces), std::vector<ThreadAxis>{});
+    revolution = std::make_unique<RevolutionSurface>(
+        mesh.vertices, mesh.faces, tree.nodes, revolution_axes(mesh.vertices, mesh.faces), std::vector<ThreadAxis>{});
   }
 };
 
@@ -137,7 +137,7 @@ TEST(RadialSweep, CertifiesAShaftInItsBoreUnderMotionsThatKeepItsAxis) {
     EXPECT_EQ(fit->moving_inside, !bore_moves);
     EXPECT_NEAR(fit->radius, 9.9, 1e-5);
     EXPECT_NEAR(fit->room, 0.1 - sagitta_of_bore, 1e-5);
-    EXPECT_NEAR(fit->spread, together, 1e-5);
+    EXPECT_NEAR(fit->radial_deviation, together, 1e-5);
     EXPECT_NEAR(fit->inner_end - fit->inner_begin, 30, 1e-4);
     EXPECT_NEAR(fit->outer_end - fit->outer_begin, 20, 1e-4);
   }

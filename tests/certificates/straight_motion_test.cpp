@@ -20,7 +20,7 @@ double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
   for (int k = 0; k <= kPlaces; ++k)
     for (std::uint32_t a = 0; a < moving.solid.faces.size(); ++a) {
       Triangle moved = moving.solid.triangle(a);
-      for (Vec3& p : moved.corner) p = moving.at * p + k / static_cast<double>(kPlaces) * moving.way;
+      for (Vec3& p : moved.corner) p = moving.at * p + k / static_cast<double>(kPlaces) * moving.displacement;
       for (std::uint32_t b = 0; b < fixed.faces.size(); ++b)
         minimum = std::min(minimum, distance_triangle_triangle(moved, fixed.triangle(b)).distance);
     }
@@ -28,7 +28,7 @@ double brute_distance(const StraightMover& moving, const SolidTree& fixed) {
 }
 
 /// Both results for a motion are true, and most motions have one.
-TEST(StraightWay, IsNeverFreeIfItMeetsNorDeepIfItDoesNot) {
+TEST(StraightMotion, IsNeverFreeIfItMeetsNorDeepIfItDoesNot) {
   std::mt19937_64 random(5);
   int free = 0, deep = 0, unsettled = 0;
   for (const double offset : {1.0, 1e4})
@@ -52,10 +52,10 @@ TEST(StraightWay, IsNeverFreeIfItMeetsNorDeepIfItDoesNot) {
         ASSERT_GT(brute_distance(moving, fixed.tree), 0) << i;
       }
       if (!found) continue;
-      ASSERT_GE(found->share, 0);
-      ASSERT_LE(found->share, 1);
+      ASSERT_GE(found->fraction, 0);
+      ASSERT_LE(found->fraction, 1);
       // There it is a vertex of one of the two, deep in the other.
-      const Vec3 of_moving = inverse(moving.at) * (found->point - found->share * moving.way);
+      const Vec3 of_moving = inverse(moving.at) * (found->point - found->fraction * moving.displacement);
       const auto is_deep = [](const SolidTree& in, const Vec3& p) {
         return point_in_solid(in, p) && nearest_face(in, p, NearestFace::kNone).distance > 0.05 - 1e-6;
       };
@@ -73,7 +73,7 @@ TEST(StraightWay, IsNeverFreeIfItMeetsNorDeepIfItDoesNot) {
   EXPECT_LT(unsettled, 40) << free << " free, " << deep << " deep";
 }
 
-TEST(StraightWay, PassesObstaclesBehindOrBesideItsShadow) {
+TEST(StraightMotion, PassesObstaclesBehindOrBesideItsShadow) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), plate(scenes::box({1.01, -500, 5}, {500, 500, 6})),
       behind(scenes::box({-5, -5, -2}, {5, 5, -0.01})), beyond(scenes::box({-5, -5, 12.01}, {5, 5, 13}));
   for (const Solid* other : {&plate, &behind, &beyond}) EXPECT_TRUE(passes_by({bar.tree, {}, {0, 0, 10}}, other->tree));
@@ -82,7 +82,7 @@ TEST(StraightWay, PassesObstaclesBehindOrBesideItsShadow) {
   EXPECT_FALSE(passes_by({bar.tree, {}, {0, 0, 10.2}}, beyond.tree));
 }
 
-TEST(StraightWay, IsDeepAtADeepVertexUnlessTheOtherIsThinOrOpen) {
+TEST(StraightMotion, IsDeepAtADeepVertexUnlessTheOtherIsThinOrOpen) {
   const Solid bar(scenes::box({-1, -1, 0}, {1, 1, 2})), wall(scenes::box({-5, -5, 3}, {5, 5, 4})),
       foil(scenes::box({-5, -5, 3}, {5, 5, 3.05}));
   EXPECT_TRUE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, wall.tree, 0.1));
@@ -95,7 +95,7 @@ TEST(StraightWay, IsDeepAtADeepVertexUnlessTheOtherIsThinOrOpen) {
   EXPECT_FALSE(deep_vertex_on({bar.tree, {}, {0, 0, 10}}, Solid(open).tree, 0.1));
 }
 
-TEST(StraightWay, IgnoresVerticesWithoutFaces) {
+TEST(StraightMotion, IgnoresVerticesWithoutFaces) {
   TriangleMesh mesh = scenes::box({-1, -1, 0}, {1, 1, 2});
   mesh.vertices.push_back({20, 0, 0});
   Component component = scenes::component("bar", scenes::box({-1, -1, 0}, {1, 1, 2}));

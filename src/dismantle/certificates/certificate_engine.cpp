@@ -10,9 +10,9 @@
 
 namespace dismantle {
 
-class CertificateEngine::Body {
+class CertificateEngine::Impl {
  public:
-  Body(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, CertificateDevice device)
+  Impl(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, CertificateDevice device)
       : sweeper(assembly, pairs, options, std::move(device)), response(sweeper, assembly, pairs) {}
 
   CertificateSweeper sweeper;
@@ -21,57 +21,62 @@ class CertificateEngine::Body {
 
 CertificateEngine::CertificateEngine(const Assembly& assembly, const PairStates& pairs,
                                      const CertificateOptions& options, CertificateDevice device)
-    : body_(std::make_unique<Body>(assembly, pairs, options, std::move(device))) {}
+    : impl_(std::make_unique<Impl>(assembly, pairs, options, std::move(device))) {}
 
 CertificateEngine::~CertificateEngine() = default;
 CertificateEngine::CertificateEngine(CertificateEngine&&) noexcept = default;
 CertificateEngine& CertificateEngine::operator=(CertificateEngine&&) noexcept = default;
 
-void CertificateEngine::hold(Span<const ComponentId> components) {
-  body_->sweeper.hold(components);
-  body_->response.begin();
+void CertificateEngine::grab(Span<const ComponentId> components) {
+  impl_->sweeper.grab(components);
+  impl_->response.begin();
+}
+
+Span<const ComponentId> CertificateEngine::moving_set() const {
+  return impl_->sweeper.moving_set();
 }
 
 StepResult CertificateEngine::step(const Pose& target, ResponseKind response) {
-  DISMANTLE_EXPECT(!body_->sweeper.held().empty());
-  return body_->response.step(target, response);
+  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
+  return impl_->response.step(target, response);
 }
 
 void CertificateEngine::jump(Span<const Pose> poses) {
-  body_->response.jump(poses);
+  impl_->response.jump(poses);
 }
 
 Span<const Pose> CertificateEngine::poses() const {
-  return body_->sweeper.poses();
+  return impl_->sweeper.poses();
 }
 
 std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
-  return body_->response.embedded_pairs();
+  return impl_->response.embedded_pairs();
 }
 
 std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
-  return contacts_within(body_->sweeper, reach);
+  return contacts_within(impl_->sweeper, reach);
 }
 
 Clearance CertificateEngine::clearance(double limit) const {
-  return min_clearance(body_->sweeper, limit);
+  return min_clearance(impl_->sweeper, limit);
 }
 
-std::vector<FirstContact> CertificateEngine::first_contacts(Span<const Pose> targets) const {
-  return dismantle::first_contacts(body_->sweeper, targets);
+FirstContact CertificateEngine::first_contact(const Pose& target) const {
+  return dismantle::first_contact(impl_->sweeper, target);
 }
 
-std::vector<FirstContact> CertificateEngine::straight_contacts(Span<const Vec3> ways) const {
-  return dismantle::straight_contacts(body_->sweeper, ways);
+std::vector<FirstContact> CertificateEngine::straight_contacts(Span<const Vec3> displacements) const {
+  return dismantle::straight_contacts(impl_->sweeper, displacements);
 }
 
 std::optional<StraightContact> CertificateEngine::straight_contact(ComponentId moving, ComponentId fixed,
-                                                                   const Vec3& way, StraightSearch search) const {
-  return dismantle::straight_contact(body_->sweeper, {moving, fixed, way, {}, {}}, search);
+                                                                   const Vec3& displacement,
+                                                                   StraightSearch search) const {
+  return dismantle::straight_contact(impl_->sweeper, {moving, fixed, displacement, {}, {}}, search);
 }
 
 std::size_t CertificateEngine::front_size() const {
-  return body_->sweeper.front_size();
+  return impl_->sweeper.front_size();
 }
 
 }  // namespace dismantle

@@ -12,51 +12,46 @@
 
 namespace dismantle {
 
-/// The least distance between the set in hand and the rest, and where it is.
+/// The smallest distance between the moving set and all other components, and where it is.
 struct Clearance {
-  double distance = 0;             ///< [mm]; 0 where surfaces meet, infinite where nothing else is near enough.
-  ComponentId moving, fixed;       ///< The two components.
-  FaceId face_moving, face_fixed;  ///< Of the components' own meshes.
-  Vec3 point_moving, point_fixed;  ///< [mm, world]
+  double distance = 0;  ///< [mm]; 0 if surfaces meet, infinite if nothing is near enough.
+  ComponentId moving;   ///< The component of the moving set.
+  ComponentId fixed;    ///< The other component.
+  FaceId face_moving;   ///< Face of the moving component's mesh.
+  FaceId face_fixed;    ///< Face of the fixed component's mesh.
+  Vec3 point_moving;    ///< Nearest point of the moving face [mm, world].
+  Vec3 point_fixed;     ///< Nearest point of the fixed face [mm, world].
 };
 
-/// How far one candidate motion of a batch gets.
-struct FirstContact {
-  double toi = 1;  ///< The motion is certainly free on [0, toi]; 1 where all of it is.
-  bool free = true;
-  ComponentId moving, fixed;       ///< The earliest contact's components; of no meaning where free.
-  FaceId face_moving, face_fixed;  ///< Its faces, of the components' own meshes.
-  friend bool operator==(const FirstContact&, const FirstContact&) = default;
-};
-
-/// What is asked of a component's way straight past another.
+/// Which contact of a linear motion is sought.
 enum class StraightSearch {
-  Any,    ///< Whether anything blocks it: any contact will do.
+  Any,    ///< Any contact: decides if the motion is free.
   First,  ///< The first contact.
 };
 
-/// Where a component that goes straight is blocked by another one.
+/// The contact that blocks a linear motion of one component past another.
 struct StraightContact {
-  double distance = 0;             ///< It is certainly free so far, with StraightSearch::First [mm].
-  FaceId face_moving, face_fixed;  ///< Of the components' own meshes.
-  Vec3 point;                      ///< Where the two faces meet then [mm, world].
+  double distance = 0;  ///< With StraightSearch::First the motion is certainly free up to here [mm].
+  FaceId face_moving;   ///< Face of the moving component's mesh.
+  FaceId face_fixed;    ///< Face of the fixed component's mesh.
+  Vec3 point;           ///< Where the two faces meet [mm, world].
 };
 
 /// Options of the method `certificates`.
 struct CertificateOptions {
-  Executor executor;
-  LaneCount lanes = widest_lanes();  ///< Same results for all.
+  Executor executor;                 ///< Runs the parts of a sweep in parallel; the results do not depend on it.
+  LaneCount lanes = widest_lanes();  ///< Lanes of the kernels; the results do not depend on it.
 };
 
-/// A device that keeps copies of fronts, and when sweeps ask it.
+/// A device that evaluates fronts, and when it is used.
 struct CertificateDevice {
-  std::unique_ptr<FrontDevice> fronts;  ///< None: all is computed on the CPU.
-  std::size_t min_pairs = 0;            ///< Sweeps of fewer pairs of nodes do not ask it.
+  std::unique_ptr<FrontDevice> fronts;  ///< Null: everything is computed on the CPU.
+  std::size_t min_pairs = 0;            ///< Sweeps of fewer pairs of nodes do not use the device.
 };
 
-/// The method `certificates` (docs/design/0006-certificates.md) with responses Stop, Touch and Slide: a front of
-/// separating certificates over static trees of oriented boxes. Same input, same results: for every executor, thread
-/// count, lane width and device.
+/// The method `certificates` (docs/design/0006-certificates.md) with responses Stop, Touch and Slide: fronts of
+/// separating certificates over static trees of oriented boxes. The same input gives the same results with every
+/// executor, thread count, lane width and device.
 class CertificateEngine final : public MotionEngine {
  public:
   /// All components in the assembled state. `assembly` must outlive the engine.
@@ -66,38 +61,39 @@ class CertificateEngine final : public MotionEngine {
   CertificateEngine(CertificateEngine&&) noexcept;
   CertificateEngine& operator=(CertificateEngine&&) noexcept;
 
-  void hold(Span<const ComponentId> components) override;
+  void grab(Span<const ComponentId> components) override;
+  Span<const ComponentId> moving_set() const override;
   StepResult step(const Pose& target, ResponseKind response) override;
   bool can_respond(ResponseKind) const override { return true; }
   void jump(Span<const Pose> poses) override;
   Span<const Pose> poses() const override;
   std::vector<ComponentPair> embedded_pairs() const override;
 
-  /// What the set in hand touches where it is: the triangle pairs nearer than `reach` [mm]. Ordered by components and
-  /// faces.
+  /// The contacts of the moving set at its pose: all triangle pairs nearer than `reach` [mm], by components and faces.
   std::vector<ContactPoint> contacts(double reach) const;
-  /// The exact least distance from the set in hand to everything that it may not overlap, if it is below `limit` [mm];
-  /// of components that are equally near the first.
+  /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
+  /// components that are equally near, the first.
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
-  /// The earliest contact of each candidate motion, one screw each from the present pose of the set in hand to
-  /// `targets[i]`; embedded pairs are free all the way. Nothing moves. Candidates are looked at side by side.
-  std::vector<FirstContact> first_contacts(Span<const Pose> targets) const;
-  /// How far the set in hand can go straight on by each of `ways` [mm] from where it is, in a fraction of the time of
-  /// first_contacts. All up to toi is certainly free; the first contact may be a few tolerances beyond. A pair that
-  /// touches as it begins is looked at anew from where it would stop, up to a few times, so that a fit comes out.
-  /// Nothing moves.
-  std::vector<FirstContact> straight_contacts(Span<const Vec3> ways) const;
-  /// What blocks one component on its way straight on by `way` [mm] past one other, both in their assembled poses and
-  /// whatever was moved since; nothing where it is free, or the two are embedded. The vertices' rule of the guarantee
-  /// is left to step(). May be asked by many threads at the same time.
-  std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& way,
+  /// The first contact of the one screw from the pose of the moving set to `target`; embedded pairs are free all the
+  /// way. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at
+  /// the same time.
+  FirstContact first_contact(const Pose& target) const;
+  /// The first contact of each of some translations of the moving set [mm, world] from its pose, in a fraction of the
+  /// time of first_contact(). The motion is certainly free up to toi; the first contact may be a few tolerances beyond.
+  /// A pair that touches at the start is swept again from where it would stop, up to a few times, so that a fit comes
+  /// out. Nothing moves.
+  std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) const;
+  /// The contact that blocks the translation of one component by `displacement` [mm] past one other, both in their
+  /// assembled poses whatever was moved since; none if it is free, or the two are embedded. Leaves the rule of the
+  /// guarantee for vertices to step(). May be called by many threads at the same time.
+  std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& displacement,
                                                   StraightSearch search) const;
-  /// How many pairs of nodes the fronts of the set in hand have.
+  /// Number of pairs of nodes of the fronts of the moving set.
   std::size_t front_size() const;
 
  private:
-  class Body;
-  std::unique_ptr<Body> body_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace dismantle

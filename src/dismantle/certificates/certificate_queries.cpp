@@ -26,24 +26,24 @@ Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId
   return at(sweeper.solid(component).triangle(face.value), sweeper.poses()[component.value]);
 }
 
-/// A component in hand and one that is not, and a lower bound of their distance [mm].
+/// A component of the moving set and another one, with a lower bound of their distance [mm].
 struct ApartPair {
   ComponentId moving, fixed;
   PlacedSolid moving_solid, fixed_solid;
   double bound = 0;
 };
 
-/// The pairs that may be nearer than `limit`, the nearest bounds first.
+/// The pairs that may be nearer than `limit`, by ascending bounds.
 std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double limit) {
   std::vector<ApartPair> pairs;
-  const RigidTransform held_at = transform_from_pose(sweeper.pose());
+  const RigidTransform moving_at = transform_from_pose(sweeper.pose());
   for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
     const ComponentId fixed(k);
-    if (sweeper.holds(fixed) || sweeper.solid(fixed).tree.empty()) continue;
+    if (sweeper.moves(fixed) || sweeper.solid(fixed).tree.empty()) continue;
     const PlacedSolid fixed_solid{&sweeper.solid(fixed), transform_from_pose(sweeper.poses()[k])};
-    for (const ComponentId moving : sweeper.held()) {
+    for (const ComponentId moving : sweeper.moving_set()) {
       if (sweeper.solid(moving).tree.empty() || sweeper.allowed(moving, fixed) < 0) continue;
-      const PlacedSolid moving_solid{&sweeper.solid(moving), held_at};
+      const PlacedSolid moving_solid{&sweeper.solid(moving), moving_at};
       const double bound = bounds_distance(moving_solid, fixed_solid);
       if (bound < limit) pairs.push_back({moving, fixed, moving_solid, fixed_solid, bound});
     }
@@ -51,22 +51,6 @@ std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double lim
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const ApartPair& x, const ApartPair& y) { return x.bound < y.bound; });
   return pairs;
-}
-
-/// One candidate motion, cut so that its arcs stay near their chords.
-FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target) {
-  const Pose start = sweeper.pose();
-  const double most = kArcShare * sweeper.tolerance();
-  const int cuts = std::max(1, static_cast<int>(std::ceil(std::sqrt(sweeper.deviation(target) / most))));
-  FirstContact first;
-  for (int k = 0; k < cuts; ++k) {
-    const CertificateSweep found = sweeper.look(pose_between(start, target, static_cast<double>(k) / cuts),
-                                                pose_between(start, target, static_cast<double>(k + 1) / cuts), 0);
-    if (found.free) continue;
-    const BlockedPair& pair = found.blocked.front();
-    return {(k + pair.toi) / cuts, false, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed};
-  }
-  return first;
 }
 
 }  // namespace
@@ -91,101 +75,112 @@ std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, dou
 }
 
 Clearance min_clearance(const CertificateSweeper& sweeper, double limit) {
-  Clearance least;
-  least.distance = kInfinite;
+  Clearance nearest;
+  nearest.distance = kInfinite;
   for (const ApartPair& pair : apart_pairs(sweeper, limit)) {
-    // Of components that are equally near the first counts, in whatever order they are looked at.
-    const bool is_first = std::pair(pair.moving, pair.fixed) < std::pair(least.moving, least.fixed);
-    const double beyond = is_first ? std::nextafter(least.distance, kInfinite) : least.distance;
+    // Of components that are equally near the first counts, independent of the order of examination.
+    const bool is_first = std::pair(pair.moving, pair.fixed) < std::pair(nearest.moving, nearest.fixed);
+    const double beyond = is_first ? std::nextafter(nearest.distance, kInfinite) : nearest.distance;
     const SolidDistance d = solid_distance(pair.moving_solid, pair.fixed_solid, std::min(limit, beyond));
     if (std::isinf(d.distance)) continue;
-    least = {d.distance, pair.moving, pair.fixed, d.face_a, d.face_b, d.point_a, d.point_b};
+    nearest = {d.distance, pair.moving, pair.fixed, d.face_a, d.face_b, d.point_a, d.point_b};
   }
-  return least;
+  return nearest;
 }
 
-std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets) {
-  std::vector<FirstContact> found(targets.size());
-  sweeper.executor().for_each_heavy(targets.size(),
-                                    [&](std::size_t i) { found[i] = first_contact(sweeper, targets[i]); });
-  return found;
+FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target) {
+  // Cut so that the arcs stay near their chords.
+  const ScrewMotion whole = sweeper.motion_to(target);
+  const int cuts = chord_count(whole.deviation, kArcShare * sweeper.tolerance());
+  FirstContact first;
+  for (int k = 0; k < cuts; ++k) {
+    const ScrewMotion motion =
+        sweeper.motion_between(whole.at(static_cast<double>(k) / cuts), whole.at(static_cast<double>(k + 1) / cuts));
+    const CertificateSweep found = sweeper.sweep_const(motion, 0);
+    if (found.free) continue;
+    const BlockedPair& pair = found.blocked.front();
+    return {(k + pair.toi) / cuts, false, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed};
+  }
+  return first;
 }
 
 namespace {
 
-/// What touches from the start and is stopped goes on if a new start gets so many tolerances further: which of two
-/// overlapping faces is on which side is chosen where a sweep begins.
+/// A pair that touches at the start and is blocked is swept again from there if that gets it this many tolerances
+/// further: the side on which two overlapping faces are is chosen at the start of a sweep.
 constexpr double kNewStart = 8;
 constexpr int kMaxStarts = 8;
-/// Each look for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
-/// contacts that are ever so little nearer would go on for ever.
+/// Each sweep for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
+/// contacts that are hardly nearer each time would go on forever.
 constexpr double kShorter = 0.05;
 
-/// @param from how much of the way is free already
-/// @param to how much of it is asked about
-std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper, const StraightWay& asked, double from,
-                                               double to, StraightSearch search) {
+/// The contact in part of a motion.
+/// @param from, to the part, as fractions of the displacement; what is before it is free already
+std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper, const LinearMotion& motion,
+                                               double from, double to, StraightSearch search) {
   std::optional<StraightContact> contact;
-  double shorter = kShorter * sweeper.tolerance() / length(asked.way);
-  // Any contact shortens the way; where that is free the contact was the first.
+  double shorter = kShorter * sweeper.tolerance() / length(motion.displacement);
+  // Any contact shortens the motion; if the rest is free it was the first.
   while (to > from) {
-    const CertificateSweep found = sweeper.look_straight(asked, from, to);
+    const CertificateSweep found = sweeper.sweep_linear(motion, from, to);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const BlockedPair& a, const BlockedPair& b) { return a.toi < b.toi; });
     to = std::max(from, std::min(from + (to - from) * first->toi, to - shorter));
     shorter *= 2;
-    Triangle moving = at(sweeper.solid(asked.moving).triangle(first->face_moving.value), asked.moving_at);
-    for (Vec3& p : moving.corner) p += to * asked.way;
-    const Triangle fixed = at(sweeper.solid(asked.fixed).triangle(first->face_fixed.value), asked.fixed_at);
-    contact = {to * length(asked.way), first->face_moving, first->face_fixed,
+    Triangle moving = at(sweeper.solid(motion.moving).triangle(first->face_moving.value), motion.pose_moving);
+    for (Vec3& p : moving.corner) p += to * motion.displacement;
+    const Triangle fixed = at(sweeper.solid(motion.fixed).triangle(first->face_fixed.value), motion.pose_fixed);
+    contact = {to * length(motion.displacement), first->face_moving, first->face_fixed,
                distance_triangle_triangle(moving, fixed).point_b};
     if (search == StraightSearch::Any) break;
   }
   return contact;
 }
 
-/// The same from the beginning, of what touches there.
-std::optional<StraightContact> contact_from_fit(const CertificateSweeper& sweeper, const StraightWay& asked, double to,
-                                                StraightSearch search) {
-  const double whole = length(asked.way);
+/// The same from the start, for a pair that touches there.
+std::optional<StraightContact> contact_from_fit(const CertificateSweeper& sweeper, const LinearMotion& motion,
+                                                double to, StraightSearch search) {
+  const double whole = length(motion.displacement);
   double from = 0;
   for (int starts = 1;; ++starts) {
     const double next = std::min(to, from + kNewStart * sweeper.tolerance() / whole);
-    if (const auto contact = contact_between(sweeper, asked, from, next, search)) return contact;
-    const auto contact = contact_between(sweeper, asked, next, to, StraightSearch::First);
+    if (const auto contact = contact_between(sweeper, motion, from, next, search)) return contact;
+    const auto contact = contact_between(sweeper, motion, next, to, StraightSearch::First);
     if (!contact || starts == kMaxStarts) return contact;
     from = contact->distance / whole;
   }
 }
 
-/// The way as the fixed one sees it.
-StraightMover mover(const CertificateSweeper& sweeper, const StraightWay& asked) {
-  const RigidTransform back = inverse(transform_from_pose(asked.fixed_at));
-  return {sweeper.solid(asked.moving), back * transform_from_pose(asked.moving_at), back.rotation * asked.way};
+/// The motion in the frame of the fixed component.
+StraightMover mover(const CertificateSweeper& sweeper, const LinearMotion& motion) {
+  const RigidTransform back = inverse(transform_from_pose(motion.pose_fixed));
+  return {sweeper.solid(motion.moving), back * transform_from_pose(motion.pose_moving),
+          back.rotation * motion.displacement};
 }
 
-/// Where some vertex would get deeper than any may: no start makes that way free.
-std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+/// The contact of a vertex that would get deeper than any may: no other start makes this motion free.
+std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const LinearMotion& motion,
                                             const StraightMover& moving) {
-  const auto deep = deep_vertex_on(moving, sweeper.solid(asked.fixed),
-                                   VertexDepthGuard::kLimit * sweeper.allowed(asked.moving, asked.fixed));
+  const auto deep = deep_vertex_on(moving, sweeper.solid(motion.fixed),
+                                   VertexDepthGuard::kLimit * sweeper.allowed(motion.moving, motion.fixed));
   if (!deep) return std::nullopt;
-  return StraightContact{deep->share * length(asked.way), FaceId(deep->face_moving), FaceId(deep->face_fixed),
-                         transform_from_pose(asked.fixed_at) * deep->point};
+  return StraightContact{deep->fraction * length(motion.displacement), FaceId(deep->face_moving),
+                         FaceId(deep->face_fixed), transform_from_pose(motion.pose_fixed) * deep->point};
 }
 
-/// The earliest contact of the set in hand on its way: what one component meets shortens it for the others.
-FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 way) {
+/// The first contact of the whole moving set: the contact of one component shortens the motion for the others.
+FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 displacement) {
   FirstContact first;
   for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
     const ComponentId fixed(k);
-    if (sweeper.holds(fixed)) continue;
-    for (const ComponentId moving : sweeper.held()) {
-      const StraightWay asked{moving, fixed, first.toi * way, sweeper.pose(), sweeper.poses()[k]};
-      const auto contact = straight_contact(sweeper, asked, StraightSearch::First);
+    if (sweeper.moves(fixed)) continue;
+    for (const ComponentId moving : sweeper.moving_set()) {
+      const LinearMotion motion{moving, fixed, first.toi * displacement, sweeper.pose(), sweeper.poses()[k]};
+      const auto contact = straight_contact(sweeper, motion, StraightSearch::First);
       if (!contact) continue;
-      first = {contact->distance / length(way), false, moving, fixed, contact->face_moving, contact->face_fixed};
+      first = {
+          contact->distance / length(displacement), false, moving, fixed, contact->face_moving, contact->face_fixed};
       if (first.toi <= 0) return first;
     }
   }
@@ -194,26 +189,26 @@ FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 way
 
 }  // namespace
 
-std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> ways) {
-  std::vector<FirstContact> found(ways.size());
-  sweeper.executor().for_each_heavy(ways.size(), [&](std::size_t i) {
-    if (length(ways[i]) > 0) found[i] = straight_contact_of_all(sweeper, ways[i]);
+std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> displacements) {
+  std::vector<FirstContact> found(displacements.size());
+  sweeper.executor().for_each_heavy(displacements.size(), [&](std::size_t i) {
+    if (length(displacements[i]) > 0) found[i] = straight_contact_of_all(sweeper, displacements[i]);
   });
   return found;
 }
 
-std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const LinearMotion& motion,
                                                 StraightSearch search) {
-  const double allowed = sweeper.allowed(asked.moving, asked.fixed);
-  if (allowed < 0 || sweeper.solid(asked.moving).tree.empty() || sweeper.solid(asked.fixed).tree.empty())
+  const double allowed = sweeper.allowed(motion.moving, motion.fixed);
+  if (allowed < 0 || sweeper.solid(motion.moving).tree.empty() || sweeper.solid(motion.fixed).tree.empty())
     return std::nullopt;
-  const StraightMover moving = mover(sweeper, asked);
-  if (passes_by(moving, sweeper.solid(asked.fixed))) return std::nullopt;
-  const auto deep = deep_contact(sweeper, asked, moving);
+  const StraightMover moving = mover(sweeper, motion);
+  if (passes_by(moving, sweeper.solid(motion.fixed))) return std::nullopt;
+  const auto deep = deep_contact(sweeper, motion, moving);
   if (deep && search == StraightSearch::Any) return deep;
-  const double to = deep ? deep->distance / length(asked.way) : 1;
-  const auto contact = sweeper.touched(asked.moving, asked.fixed) ? contact_from_fit(sweeper, asked, to, search)
-                                                                  : contact_between(sweeper, asked, 0, to, search);
+  const double to = deep ? deep->distance / length(motion.displacement) : 1;
+  const auto contact = sweeper.touched(motion.moving, motion.fixed) ? contact_from_fit(sweeper, motion, to, search)
+                                                                    : contact_between(sweeper, motion, 0, to, search);
   return contact ? contact : deep;
 }
 

@@ -8,20 +8,20 @@
 
 namespace dismantle {
 
-/// The contacts of CertificateEngine::contacts.
+/// The result of CertificateEngine::contacts().
 std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach);
 
-/// The clearance of CertificateEngine::clearance.
+/// The result of CertificateEngine::clearance().
 Clearance min_clearance(const CertificateSweeper& sweeper, double limit);
 
-/// The batch of CertificateEngine::first_contacts.
-std::vector<FirstContact> first_contacts(const CertificateSweeper& sweeper, Span<const Pose> targets);
+/// The result of CertificateEngine::first_contact().
+FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target);
 
-/// The answer of CertificateEngine::straight_contact; the distance is along the way.
-std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const StraightWay& asked,
+/// The result of CertificateEngine::straight_contact(); distances are along the displacement.
+std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const LinearMotion& motion,
                                                 StraightSearch search);
 
-/// The batch of CertificateEngine::straight_contacts.
-std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> ways);
+/// The result of CertificateEngine::straight_contacts().
+std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> displacements);
 
 }  // namespace dismantle

@@ -8,20 +8,23 @@
 
 namespace dismantle {
 
+/// The device chosen by choose_certificate_device().
 struct ChosenCertificateDevice {
   CertificateDevice use;  ///< For the engine.
-  std::string device;     ///< "cpu", or the CUDA device's name.
-  std::string why;        ///< Cuda was asked for: why it is the CPU all the same; else empty.
+  std::string device;     ///< "cpu", or the name of the CUDA device.
+  std::string why;        ///< If CUDA was requested and the CPU chosen: the reason; else empty.
 };
 
-/// What Auto predicts work by. From so many triangles on it takes a CUDA device: fronts of fewer hardly ever grow to as
-/// many pairs as make a sweep worth asking. Sweeps of so many pairs ask: to check them takes a core 0.14 ms (2.1 ns a
-/// pair in lanes of AVX-512), about what a device's launches and copies should. Estimates: no GPU was at hand to
-/// measure them on.
+///@{ Thresholds of DeviceChoice::Auto: triangles of an assembly, and pairs of a sweep, from which on it uses a CUDA
+/// device. Fronts of fewer triangles hardly ever grow to as many pairs. To check so many pairs takes a core 0.14 ms
+/// (2.1 ns a pair in lanes of AVX-512), about the time expected for a device's launches and copies. Estimates, not
+/// measured on a GPU.
 inline constexpr std::size_t kCudaWorthCertificateTriangles = 100'000;
 inline constexpr std::size_t kCudaWorthPairs = 65'536;
+///@}
 
-/// The device that an engine of method `certificates` over this assembly asks. Cuda asks in every sweep.
+/// Chooses the device for an engine of method `certificates` over this assembly. DeviceChoice::Cuda uses it in every
+/// sweep.
 ChosenCertificateDevice choose_certificate_device(const Assembly& assembly, DeviceChoice choice);
 
 }  // namespace dismantle

@@ -13,15 +13,15 @@ namespace dismantle {
 
 namespace {
 
-/// So many vertices of each solid are looked at, from all over it.
+/// Number of vertices of each solid that are examined, spread over it.
 constexpr std::size_t kVertices = 48;
 
-/// Beyond so many pairs of nodes the shadows are not told apart.
+/// The search ends undecided after this many pairs of nodes.
 constexpr std::size_t kMaxShadows = 20'000;
-/// What rounding may take from a gap, relative to the coordinates.
+/// Bound of the rounding of a gap, relative to the coordinates.
 constexpr double kRounding = 1e-5;
 
-/// A box as the way sees it.
+/// A box to be projected along the displacement.
 struct BoxShadow {
   Vec3 center, half[3];  // [mm]
   double radius;
@@ -41,11 +41,11 @@ struct BoxShadow {
   }
 };
 
-/// Tells shadows apart along one way.
+/// Separates shadows along one displacement.
 class Shadows {
  public:
   Shadows(const StraightMover& moving, const SolidTree& fixed)
-      : moving_(moving), fixed_(fixed), whole_(length(moving.way)), ahead_(moving.way / whole_) {}
+      : moving_(moving), fixed_(fixed), whole_(length(moving.displacement)), ahead_(moving.displacement / whole_) {}
 
   bool apart(std::uint32_t a, std::uint32_t b) const {
     const ObbNode &node_a = moving_.solid.tree.nodes[a], &node_b = fixed_.tree.nodes[b];
@@ -95,16 +95,16 @@ class Shadows {
   Vec3 ahead_;
 };
 
-/// Where on its way a vertex is deep in a solid.
-struct DeepPlace {
-  double share = 0;
+/// Where along a ray a vertex is deep in a solid.
+struct DeepPoint {
+  double fraction = 0;
   std::uint32_t face = 0;
 };
 
-/// Halfway between where the way goes in, or begins, and where it comes out again.
-std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way, double depth) {
-  const double whole = length(way);
-  const Vec3 ahead = way / whole;
+/// Halfway between where the ray enters the solid, or starts, and where it leaves it again.
+std::optional<DeepPoint> deep_point(const SolidTree& solid, Vec3 from, Vec3 displacement, double depth) {
+  const double whole = length(displacement);
+  const Vec3 ahead = displacement / whole;
   std::optional<std::vector<RayCrossing>> crossings = crossings_of(solid, from, ahead);
   if (!crossings) return std::nullopt;
   double before = 0;
@@ -112,7 +112,7 @@ std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way,
     const double middle = std::min(whole, 0.5 * (before + crossing.distance));
     if (crossing.outward && middle > before && crossing.distance - before > depth) {
       const NearestFace nearest = nearest_face(solid, from + middle * ahead, crossing.face, depth);
-      if (nearest.distance > depth) return DeepPlace{middle / whole, nearest.face};
+      if (nearest.distance > depth) return DeepPoint{middle / whole, nearest.face};
     }
     before = crossing.distance;
     if (before > whole) break;
@@ -120,14 +120,16 @@ std::optional<DeepPlace> deep_place(const SolidTree& solid, Vec3 from, Vec3 way,
   return std::nullopt;
 }
 
-/// The first of a few vertices of `from`, which `into` sees at `at`, that the way takes deep into that, and its place.
-std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTree& from, const RigidTransform& at,
-                                                                  const SolidTree& into, Vec3 way, double depth) {
+/// The first of a few vertices of `from`, at pose `at` in the frame of `into`, that the displacement takes deep into
+/// it.
+std::optional<std::pair<std::uint32_t, DeepPoint>> deep_vertex_of(const SolidTree& from, const RigidTransform& at,
+                                                                  const SolidTree& into, Vec3 displacement,
+                                                                  double depth) {
   const std::size_t count = from.vertices.size(), stride = std::max<std::size_t>(1, count / kVertices);
   for (std::size_t v = 0; v < count; v += stride) {
     if (from.around_begin[v] == from.around_begin[v + 1]) continue;  // of no face
-    if (const auto place = deep_place(into, at * from.vertices[v], way, depth))
-      return std::pair(static_cast<std::uint32_t>(v), *place);
+    if (const auto point = deep_point(into, at * from.vertices[v], displacement, depth))
+      return std::pair(static_cast<std::uint32_t>(v), *point);
   }
   return std::nullopt;
 }
@@ -137,7 +139,7 @@ std::optional<std::pair<std::uint32_t, DeepPlace>> deep_vertex_of(const SolidTre
 bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
   const ObbTree& tree = moving.solid.tree;
   if (tree.empty() || fixed.tree.empty()) return true;
-  if (!(length(moving.way) > 0)) return false;
+  if (!(length(moving.displacement) > 0)) return false;
   const Shadows shadows(moving, fixed);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
   for (std::size_t seen = 0; !open.empty(); ++seen) {
@@ -155,17 +157,17 @@ bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
 
 std::optional<DeepVertex> deep_vertex_on(const StraightMover& moving, const SolidTree& fixed, double depth) {
   const SolidTree& solid = moving.solid;
-  if (!solid.has_outside || !fixed.has_outside || !(length(moving.way) > 0)) return std::nullopt;
+  if (!solid.has_outside || !fixed.has_outside || !(length(moving.displacement) > 0)) return std::nullopt;
   const auto face_at = [](const SolidTree& of, std::uint32_t v) { return of.around[of.around_begin[v]]; };
-  if (const auto found = deep_vertex_of(solid, moving.at, fixed, moving.way, depth)) {
-    const auto& [v, place] = *found;
-    return DeepVertex{place.share, face_at(solid, v), place.face,
-                      moving.at * solid.vertices[v] + place.share * moving.way};
+  if (const auto found = deep_vertex_of(solid, moving.at, fixed, moving.displacement, depth)) {
+    const auto& [v, point] = *found;
+    return DeepVertex{point.fraction, face_at(solid, v), point.face,
+                      moving.at * solid.vertices[v] + point.fraction * moving.displacement};
   }
   const RigidTransform back = inverse(moving.at);
-  if (const auto found = deep_vertex_of(fixed, back, solid, -(back.rotation * moving.way), depth)) {
-    const auto& [v, place] = *found;
-    return DeepVertex{place.share, place.face, face_at(fixed, v), fixed.vertices[v]};
+  if (const auto found = deep_vertex_of(fixed, back, solid, -(back.rotation * moving.displacement), depth)) {
+    const auto& [v, point] = *found;
+    return DeepVertex{point.fraction, point.face, face_at(fixed, v), fixed.vertices[v]};
   }
   return std::nullopt;
 }

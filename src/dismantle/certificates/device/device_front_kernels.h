@@ -6,77 +6,85 @@
 #include "dismantle/certificates/front/front_results.h"
 #include "dismantle/certificates/front/paired_trees.h"
 #include "dismantle/certificates/front/triangle_lanes.h"
+#include "dismantle/certificates/sweep/triangle_pair_sweep_kernel.h"
 #include "dismantle/exec/append_buffer.h"
 
 #include <cstring>
 
-/// The bodies of a sweep of fronts that have copies on a device (DeviceFronts), with all counts in the device's
-/// memory, so that a sweep is enqueued without knowing them.
+/// The kernels of DeviceFronts. All counts are in the device's memory, so that a sweep is enqueued without knowing
+/// them.
 namespace dismantle::device_front {
 
 /// A page: one block of a part's certificates, and their pairs.
 struct Page {
-  float fields[CertificateBlocks::kFields * CertificateBlocks::kBlock];
-  FrontPair pairs[CertificateBlocks::kBlock];
+  float fields[CertificateBlocks::kFields * CertificateBlocks::kBlock];  ///< As CertificateBlocks has them.
+  FrontPair pairs[CertificateBlocks::kBlock];                            ///< The last one repeated as padding.
 };
 
-/// A page as the host has it now, for place `page`.
+/// New content of a page.
 struct PageEdit {
-  Page content;
-  std::uint32_t page;
+  Page content;        ///< From the host.
+  std::uint32_t page;  ///< Index of the page.
 };
 
-/// One page that a sweep checks.
+/// A page that a sweep checks.
 struct CheckedPage {
-  std::uint32_t page;   ///< Its place.
-  std::uint32_t front;  ///< Of the fronts asked.
-  std::uint32_t part;   ///< Of all parts asked.
-  std::uint32_t begin;  ///< Place of its first pair in the part.
-  std::uint32_t count;  ///< Pairs in it.
+  std::uint32_t page;   ///< Index of the page.
+  std::uint32_t front;  ///< Index of the front in the query.
+  std::uint32_t part;   ///< Index of the part, counted over all fronts.
+  std::uint32_t begin;  ///< Slot of its first pair in the part.
+  std::uint32_t count;  ///< Number of pairs in it.
 };
 
-/// A front that is asked.
-struct FrontOrder {
-  LinearSweep sweep;
-  PairedTrees trees;               ///< Those in the device's memory.
-  std::uint32_t tests_leaves = 0;  ///< Not 0: triangles that are not apart are to be tested.
+/// A front of the query.
+struct QueriedFront {
+  LinearSweep sweep;                  ///< Its motion.
+  PairedTrees trees;                  ///< Its trees, in the device's memory.
+  std::uint32_t tests_triangles = 0;  ///< Not 0: triangles that are not separated are to be tested.
 };
 
-struct SweepOrder {
-  std::uint32_t page_count = 0;
+/// Size of a sweep.
+struct SweepSize {
+  std::uint32_t page_count = 0;  ///< Number of pages to be checked.
 };
 
+/// Counters of a sweep.
 struct SweepCounters {
-  std::uint64_t needed = 0;          ///< Pairs to be looked at, whether there was room for them or not.
-  std::uint64_t begin = 0, end = 0;  ///< Those of this round.
-  std::uint64_t leaves_needed = 0;   ///< The same of elementary tests.
-  std::uint64_t leaves_begin = 0, leaves_end = 0;
+  std::uint64_t needed = 0;        ///< Pairs to be examined, including those that there was no room for.
+  std::uint64_t begin = 0;         ///< First pair of this round.
+  std::uint64_t end = 0;           ///< End of the pairs of this round.
+  std::uint64_t tests_needed = 0;  ///< Triangle-pair tests to be made, including those that there was no room for.
+  std::uint64_t tests_begin = 0;   ///< First test of this launch.
+  std::uint64_t tests_end = 0;     ///< End of the tests of this launch.
 };
 
-/// A pair to be looked at.
-struct AskedPair {
-  static constexpr std::uint32_t kDead = 0xffffffffu;
+/// A pair of nodes to be examined.
+struct PendingPair {
+  static constexpr std::uint32_t kDead = 0xffffffffu;  ///< Value of `a` of pairs that are not to be examined.
 
-  std::uint32_t a = kDead, b = kDead;  ///< Dead where there was room for one of two.
-  std::uint32_t front = 0;
-  std::uint32_t of_triangles = 0;  ///< Not 0: boxes need not be tried.
-  std::uint32_t on_edge = 0;       ///< Not 0: the triangles were found to be in each other on edge.
-  Vec3f hint;
+  std::uint32_t a = kDead;          ///< Node of A's tree.
+  std::uint32_t b = kDead;          ///< Node of B's tree.
+  std::uint32_t front = 0;          ///< Index of the front in the query.
+  std::uint32_t are_triangles = 0;  ///< Not 0: the boxes need not be separated.
+  std::uint32_t on_edge = 0;        ///< Not 0: the triangles were found to overlap on edge.
+  Vec3f hint;                       ///< As BoxPairQuery::guard.
 };
 
-/// Two faces to be tested.
+/// A triangle-pair test to be made.
 struct TrianglePairRequest {
-  std::uint32_t moving = 0, fixed = 0;
-  std::uint32_t front = 0;
-  Vec3f hint;
+  std::uint32_t moving = 0;  ///< Face of the moving component.
+  std::uint32_t fixed = 0;   ///< Face of the fixed component.
+  std::uint32_t front = 0;   ///< Index of the front in the query.
+  Vec3f hint;                ///< As TrianglePairCandidate::hint.
 };
 
-/// A gap as a word, in the same order.
+/// A gap as a word with the same order.
 DISMANTLE_HOST_DEVICE inline std::uint64_t word_of_gap(float gap) {
   std::uint32_t word = 0;
   std::memcpy(&word, &gap, sizeof word);
   return (word & 0x80000000u) != 0 ? ~word : word | 0x80000000u;
 }
+/// The gap of a word from word_of_gap().
 DISMANTLE_HOST_DEVICE inline float gap_of_word(std::uint64_t word) {
   const auto ordered = static_cast<std::uint32_t>(word);
   const std::uint32_t plain = (ordered & 0x80000000u) != 0 ? ordered & 0x7fffffffu : ~ordered;
@@ -85,11 +93,11 @@ DISMANTLE_HOST_DEVICE inline float gap_of_word(std::uint64_t word) {
   return gap;
 }
 
-/// Puts edited pages where they belong. Item: a float of one.
+/// Copies edited pages to their indices. Item: a float of one.
 struct EditPages {
-  static constexpr std::size_t kItems = CertificateBlocks::kFields * CertificateBlocks::kBlock;
-  Span<const PageEdit> edits;
-  Span<Page> pages;
+  static constexpr std::size_t kItems = CertificateBlocks::kFields * CertificateBlocks::kBlock;  ///< Items of a page.
+  Span<const PageEdit> edits;                                                                    ///< Input.
+  Span<Page> pages;                                                                              ///< Output.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const PageEdit& edit = edits[i / kItems];
@@ -100,99 +108,101 @@ struct EditPages {
   }
 };
 
-/// Clears the counts and what is least. Item: a part.
+/// Resets the counters and the smallest gaps. Item: a part.
 struct BeginSweep {
-  SweepCounters* counters;
-  Span<std::uint64_t> least;
+  SweepCounters* counters;        ///< To be reset.
+  Span<std::uint64_t> part_gaps;  ///< Of each part, as words.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i == 0) *counters = {};
-    least[i] = word_of_gap(CertificateCheck().min_gap);
+    part_gaps[i] = word_of_gap(CertificateCheck().min_gap);
   }
 };
 
-/// Pairs to be looked at, and room for what is found of them.
+/// Append buffer of the pairs to be examined, with room for their results.
 struct PairSink {
-  Span<AskedPair> pairs;
-  Span<PairResult> answers;
-  std::uint64_t* needed;
+  Span<PendingPair> pairs;   ///< The pairs.
+  Span<PairResult> results;  ///< Their results.
+  std::uint64_t* needed;     ///< SweepCounters::needed.
 
-  /// Room for so many; where there is none they are counted only. @return the first place; none for no room
-  DISMANTLE_HOST_DEVICE std::uint32_t take(std::uint32_t count) const {
-    const std::uint64_t place = atomic_add(needed, count);
-    if (place + count <= pairs.size()) return static_cast<std::uint32_t>(place);
-    for (std::uint64_t k = place; k < pairs.size(); ++k) put(static_cast<std::uint32_t>(k), {}, 0, PairResult::kNone);
+  /// Reserves room for `count` pairs; if there is none, only counts them. @return index of the first; none for no room
+  DISMANTLE_HOST_DEVICE std::uint32_t reserve(std::uint32_t count) const {
+    const std::uint64_t first = atomic_add(needed, count);
+    if (first + count <= pairs.size()) return static_cast<std::uint32_t>(first);
+    for (std::uint64_t k = first; k < pairs.size(); ++k) put(static_cast<std::uint32_t>(k), {}, 0, PairResult::kNone);
     return PairResult::kNone;
   }
-  DISMANTLE_HOST_DEVICE void put(std::uint32_t at, const AskedPair& pair, std::uint32_t part,
-                                 std::uint32_t place) const {
+  /// Stores a pair at a reserved index. @param part, slot as PairResult has them
+  DISMANTLE_HOST_DEVICE void put(std::uint32_t at, const PendingPair& pair, std::uint32_t part,
+                                 std::uint32_t slot) const {
     pairs[at] = pair;
-    answers[at] = {PairResult::None, part, place, PairResult::kNone, PairResult::kNone, {}};
+    results[at] = {PairResult::None, part, slot, PairResult::kNone, PairResult::kNone, {}};
   }
 };
 
-/// Faces to be tested.
-struct LeafSink {
-  Span<TrianglePairRequest> leaves;
-  std::uint64_t* needed;
+/// Append buffer of the triangle-pair tests to be made.
+struct TestSink {
+  Span<TrianglePairRequest> tests;  ///< The tests.
+  std::uint64_t* needed;            ///< SweepCounters::tests_needed.
 
-  /// Where there is no room it is counted only. @return its place; none for no room
-  DISMANTLE_HOST_DEVICE std::uint32_t append(const TrianglePairRequest& leaf) const {
-    const std::uint64_t place = atomic_add(needed, 1);
-    if (place >= leaves.size()) return PairResult::kNone;
-    leaves[place] = leaf;
-    return static_cast<std::uint32_t>(place);
+  /// Adds a test; if there is no room, only counts it. @return its index; none for no room
+  DISMANTLE_HOST_DEVICE std::uint32_t append(const TrianglePairRequest& test) const {
+    const std::uint64_t index = atomic_add(needed, 1);
+    if (index >= tests.size()) return PairResult::kNone;
+    tests[index] = test;
+    return static_cast<std::uint32_t>(index);
   }
 };
 
-/// Certificates against the sweep. Item: a place in the pages that are checked.
+/// Checks certificates against the sweep, and gathers the pairs whose own do not hold. Item: a slot in the pages to be
+/// checked.
 struct CheckCertificates {
-  const SweepOrder* order;
-  Span<const CheckedPage> checked;
-  Span<const Page> pages;
-  Span<const FrontOrder> fronts;
-  Span<std::uint64_t> least;
-  PairSink sink;
+  const SweepSize* size;            ///< Input.
+  Span<const CheckedPage> checked;  ///< Input.
+  Span<const Page> pages;           ///< Input.
+  Span<const QueriedFront> fronts;  ///< Input.
+  Span<std::uint64_t> part_gaps;    ///< Output: of each part, as words.
+  PairSink sink;                    ///< Output: the pairs that do not hold.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     constexpr std::size_t kBlock = CertificateBlocks::kBlock;
     const std::size_t k = i % kBlock;
-    if (i / kBlock >= order->page_count || k >= checked[i / kBlock].count) return;
+    if (i / kBlock >= size->page_count || k >= checked[i / kBlock].count) return;
     const CheckedPage& at = checked[i / kBlock];
     const Page& page = pages[at.page];
     const LinearSweep& sweep = fronts[at.front].sweep;
     Lanes<1> kind;
     const Lanes<1> gap = min_gaps<1>(CertificateBlocks{page.fields}, k, sweep, kind);
     if (any(certify<1>(gap, kind, sweep))) {
-      atomic_lower(&least[at.part], word_of_gap(gap.r));
+      atomic_lower(&part_gaps[at.part], word_of_gap(gap.r));
       return;
     }
-    const std::uint32_t place = sink.take(1);
-    if (place != PairResult::kNone)
-      sink.put(place, asked(at, page, k), at.part, at.begin + static_cast<std::uint32_t>(k));
+    const std::uint32_t index = sink.reserve(1);
+    if (index != PairResult::kNone)
+      sink.put(index, pending(at, page, k), at.part, at.begin + static_cast<std::uint32_t>(k));
   }
 
  private:
-  DISMANTLE_HOST_DEVICE AskedPair asked(const CheckedPage& at, const Page& page, std::size_t k) const {
-    const FrontOrder& front = fronts[at.front];
+  DISMANTLE_HOST_DEVICE PendingPair pending(const CheckedPage& at, const Page& page, std::size_t k) const {
+    const QueriedFront& front = fronts[at.front];
     const Certificate certificate = CertificateBlocks{page.fields}.certificate(k);
     const float kind = certificate.hull.kind;
-    AskedPair pair;
-    // What was parted as round the host looks at: mostly it is so again, and nothing else is to be known of it.
+    PendingPair pair;
+    // Pairs that were separated radially are left to the host: mostly they are again, without any other test.
     if (kind != NodeHull::kNone) pair.a = page.pairs[k].a;
     pair.b = page.pairs[k].b;
     pair.front = at.front;
-    pair.of_triangles = kind > NodeHull::kBox ? 1 : 0;
+    pair.are_triangles = kind > NodeHull::kBox ? 1 : 0;
     pair.on_edge = kind == NodeHull::kTriangleOnEdge ? 1 : 0;
     pair.hint = front.trees.hint_of(certificate, front.sweep);
     return pair;
   }
 };
 
-/// Goes on to what was found by now. One item.
+/// Advances to the pairs that were gathered so far. One item.
 struct NextRound {
-  SweepCounters* counters;
-  std::uint64_t capacity;
+  SweepCounters* counters;  ///< To be advanced.
+  std::uint64_t capacity;   ///< Of the pairs.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->begin = counters->end;
@@ -200,102 +210,102 @@ struct NextRound {
   }
 };
 
-/// Separates the pairs of a round, splits what cannot be separated, and gathers the faces that are to be tested. Item:
-/// a place in the round.
+/// Separates the pairs of a round, splits those that cannot be separated, and gathers the triangles to be tested. Item:
+/// a pair of the round.
 struct SeparatePairs {
-  const SweepCounters* counters;
-  Span<const FrontOrder> fronts;
-  PairSink sink;
-  LeafSink leaves;
+  const SweepCounters* counters;    ///< Input.
+  Span<const QueriedFront> fronts;  ///< Input.
+  PairSink sink;                    ///< Pairs of the round, and output: their results, and what they are split into.
+  TestSink tests;                   ///< Output: tests to be made.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::size_t at = counters->begin + i;
-    if (at >= counters->end || sink.pairs[at].a == AskedPair::kDead) return;
-    const AskedPair pair = sink.pairs[at];
-    const FrontOrder& front = fronts[pair.front];
-    PairResult& answer = sink.answers[at];
-    if (pair.of_triangles == 0) {
+    if (at >= counters->end || sink.pairs[at].a == PendingPair::kDead) return;
+    const PendingPair pair = sink.pairs[at];
+    const QueriedFront& front = fronts[pair.front];
+    PairResult& result = sink.results[at];
+    if (pair.are_triangles == 0) {
       const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
-      separate_box_lanes<1>(&query, 1, front.sweep, &answer.separation);
-      if (front.trees.certifies(answer.separation, pair.hint, false, front.sweep)) {
-        answer.kind = PairResult::Boxes;
+      separate_box_lanes<1>(&query, 1, front.sweep, &result.separation);
+      if (front.trees.certifies(result.separation, pair.hint, false, front.sweep)) {
+        result.kind = PairResult::Boxes;
         return;
       }
-      if (!front.trees.leaves(pair.a, pair.b)) {
-        split(pair, front.trees, answer);
+      if (!front.trees.both_leaves(pair.a, pair.b)) {
+        split(pair, front.trees, result);
         return;
       }
     }
     const TrianglePairQuery query = front.trees.triangle_query(pair.a, pair.b, pair.hint);
-    separate_triangle_lanes<1>(&query, 1, front.sweep, &answer.separation);
-    answer.kind = PairResult::Triangles;
-    if (front.tests_leaves != 0 && !front.trees.certifies(answer.separation, pair.hint, pair.on_edge != 0, front.sweep))
-      answer.leaf = leaves.append(asked(pair, front.trees, answer.separation));
+    separate_triangle_lanes<1>(&query, 1, front.sweep, &result.separation);
+    result.kind = PairResult::Triangles;
+    if (front.tests_triangles != 0 &&
+        !front.trees.certifies(result.separation, pair.hint, pair.on_edge != 0, front.sweep))
+      result.test = tests.append(request(pair, front.trees, result.separation));
   }
 
  private:
-  /// With the hint that the front's own sweep has.
-  DISMANTLE_HOST_DEVICE static TrianglePairRequest asked(const AskedPair& pair, const PairedTrees& trees,
-                                                         const NodeSeparation& found) {
+  /// With the same hint as in the front's own sweep.
+  DISMANTLE_HOST_DEVICE static TrianglePairRequest request(const PendingPair& pair, const PairedTrees& trees,
+                                                           const NodeSeparation& found) {
     const BoxPairQuery faces = trees.box_query(pair.a, pair.b, {});
-    return {faces.a->child, faces.b->child, pair.front, trees.leaf_hint(pair.hint, found)};
+    return {faces.a->child, faces.b->child, pair.front, trees.triangle_hint(pair.hint, found)};
   }
-  DISMANTLE_HOST_DEVICE void split(const AskedPair& pair, const PairedTrees& trees, PairResult& answer) const {
-    answer.kind = PairResult::Split;
-    answer.first_child = sink.take(2);
-    if (answer.first_child == PairResult::kNone) return;
+  DISMANTLE_HOST_DEVICE void split(const PendingPair& pair, const PairedTrees& trees, PairResult& result) const {
+    result.kind = PairResult::Split;
+    result.first_child = sink.reserve(2);
+    if (result.first_child == PairResult::kNone) return;
     const bool splits_of_a = trees.splits_a(pair.a, pair.b);
     for (std::uint32_t k = 0; k < 2; ++k) {
-      AskedPair half = pair;
+      PendingPair half = pair;
       if (splits_of_a) {
         half.a = trees.a.nodes[pair.a].child + k;
       } else {
         half.b = trees.b.nodes[pair.b].child + k;
       }
-      sink.put(answer.first_child + k, half, answer.part, PairResult::kNone);
+      sink.put(result.first_child + k, half, result.part, PairResult::kNone);
     }
   }
 };
 
 /// Separates the boxes of pairs that siblings may merge into. Item: one of them.
-struct SeparateParents {
-  Span<const MergeCandidate> asked;
-  Span<const FrontOrder> fronts;
-  Span<NodeSeparation> found;
+struct SeparateCandidates {
+  Span<const MergeCandidate> candidates;  ///< Input.
+  Span<const QueriedFront> fronts;        ///< Input.
+  Span<NodeSeparation> separations;       ///< Output: of each candidate.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const MergeCandidate& pair = asked[i];
-    const FrontOrder& front = fronts[pair.front];
+    const MergeCandidate& pair = candidates[i];
+    const QueriedFront& front = fronts[pair.front];
     const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
-    separate_box_lanes<1>(&query, 1, front.sweep, &found[i]);
+    separate_box_lanes<1>(&query, 1, front.sweep, &separations[i]);
   }
 };
 
-/// Goes on to the tests that were gathered by now. One item.
-struct NextLeaves {
-  SweepCounters* counters;
-  std::uint64_t capacity;
+/// Advances to the tests that were gathered so far. One item.
+struct NextTests {
+  SweepCounters* counters;  ///< To be advanced.
+  std::uint64_t capacity;   ///< Of the tests.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
-    counters->leaves_begin = counters->leaves_end;
-    counters->leaves_end = counters->leaves_needed < capacity ? counters->leaves_needed : capacity;
+    counters->tests_begin = counters->tests_end;
+    counters->tests_end = counters->tests_needed < capacity ? counters->tests_needed : capacity;
   }
 };
 
-/// Tests faces for the whole motion. Item: a place among the tests.
-/// @tparam Kernel has test(moving, fixed, hint, horizon)
-template <class Kernel, class Found>
-struct TestLeaves {
-  const SweepCounters* counters;
-  Span<const TrianglePairRequest> asked;
-  Span<const Kernel> kernels;  ///< Of each front asked.
-  Span<Found> found;
+/// Tests pairs of triangles over the whole sweep. Item: one of the tests.
+struct TestTrianglePairs {
+  const SweepCounters* counters;                ///< Input.
+  Span<const TrianglePairRequest> requests;     ///< Input.
+  Span<const TrianglePairSweepKernel> kernels;  ///< Input: of each front of the query.
+  Span<TrianglePairResult> results;             ///< Output: of each test.
 
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const std::size_t at = counters->leaves_begin + i;
-    if (at >= counters->leaves_end) return;
-    const TrianglePairRequest& leaf = asked[at];
-    found[at] = kernels[leaf.front].test(leaf.moving, leaf.fixed, {leaf.hint.x, leaf.hint.y, leaf.hint.z}, 1);
+    const std::size_t at = counters->tests_begin + i;
+    if (at >= counters->tests_end) return;
+    const TrianglePairRequest& request = requests[at];
+    const Vec3f hint = request.hint;
+    results[at] = kernels[request.front].test(request.moving, request.fixed, {hint.x, hint.y, hint.z}, 1);
   }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the CUDA file beside this one has, where that is not built.
+// Replaces front_device_cuda.cu in builds without CUDA.
 #include "dismantle/certificates/device/front_device.h"
 #include "dismantle/exec/cuda_device.h"
 

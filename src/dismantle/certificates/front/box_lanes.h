@@ -3,12 +3,13 @@
 
 #include "dismantle/certificates/front/certificate_lanes.h"
 
-/// The separating-axis test of boxes in lanes: the same text for the CPU and CUDA, where a lane is a thread. For
-/// kernels' sources only.
+/// The separating-axis test of boxes in lanes: the same code on the CPU and on CUDA, where a lane is a thread. To be
+/// included by kernels only.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// Crosses of edges that are nearer to parallel than this (squared sine) are no axes: rounding would swallow them.
+/// Cross products of edges that are nearer to parallel than this (squared sine) are not used as axes: rounding would
+/// dominate them.
 template <int kLanes>
 constexpr float kMinCross = 0.01f;
 
@@ -18,12 +19,14 @@ struct BoxPairs {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V center_a, center_b, axes_a[3], axes_b[3];
-  F half_a[3], half_b[3];
-  V guard, cone_a, cone_b;
-  F ahead_a, ahead_b;
+  V center_a, center_b;    ///< [mm]
+  V axes_a[3], axes_b[3];  ///< Unit.
+  F half_a[3], half_b[3];  ///< Half extents along the axes [mm].
+  V guard;                 ///< As BoxPairQuery::guard.
+  V cone_a, cone_b;        ///< Axes of the normal cones.
+  F ahead_a, ahead_b;      ///< As NormalCone::ahead; -1 where any axis may use the allowance.
 
-  /// Gathers from the nodes; lanes past `count` repeat the last pair.
+  /// Gathers the boxes of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE BoxPairs(const BoxPairQuery* queries, std::size_t count) {
     constexpr int kFields = 35;
     const NormalCone any{{}, -1};
@@ -77,23 +80,24 @@ struct BoxPairs {
   }
 };
 
-/// The axis of the largest gap so far, with the boxes turned as they are half way, whatever the normals say.
+/// The axis of the largest gap so far, with the boxes' rotation half way, ignoring normals.
 template <int kLanes>
 struct FurthestAxes {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V guard;
-  F apart;
-  F gap = F(-3e38f);
-  V axis = {};
+  V guard;            ///< As BoxPairQuery::guard.
+  F apart;            ///< As LinearSweep::apart [mm].
+  F gap = F(-3e38f);  ///< The largest so far [mm].
+  V axis = {};        ///< Its axis.
 
-  /// @param way_t0, way_t1 from the center of B to that of A, along `line`, at either end
-  /// @param half the two boxes' extents along `line`
+  /// Takes the direction of `line` that separates the boxes if its gap is larger than all so far.
+  /// @param offset_t0, offset_t1 from the center of B to that of A, along `line`, at the start and the end
+  /// @param half sum of the two boxes' half extents along `line`
   /// @param scale 1 / |line|
-  DISMANTLE_HOST_DEVICE void consider(V line, F way_t0, F way_t1, F half, F scale) {
-    const F side = select(way_t0 + way_t1 > F(0), F(-1), F(1));
-    const F nearest = min(-(side * way_t0), -(side * way_t1));
+  DISMANTLE_HOST_DEVICE void consider(V line, F offset_t0, F offset_t1, F half, F scale) {
+    const F side = select(offset_t0 + offset_t1 > F(0), F(-1), F(1));
+    const F nearest = min(-(side * offset_t0), -(side * offset_t1));
     const F along = side * dot(line, guard);
     const F found = (nearest - half) * scale;
     const auto better = (found > gap) & !((along < F(0)) & (found < apart));
@@ -102,19 +106,20 @@ struct FurthestAxes {
   }
 };
 
-/// Two boxes, where they are relative to each other during the sweep.
+/// Relative positions of two boxes during the sweep.
 template <int kLanes>
-struct BoxWay {
+struct BoxMotion {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V way_t0, way_t1;  // from the center of B to that of A
-  V a[3];            // axes of A half way
-  F cosine[3][3];
+  V offset_t0, offset_t1;  ///< From the center of B to that of A, at the start and the end [mm].
+  V a[3];                  ///< Axes of A with the rotation half way.
+  F cosine[3][3];          ///< Absolute cosines between a[i] and the axes of B.
 
-  DISMANTLE_HOST_DEVICE BoxWay(const BoxPairs<kLanes>& boxes, const LinearSweep& sweep)
-      : way_t0(transformed<kLanes>(sweep.t0, boxes.center_a) - boxes.center_b),
-        way_t1(transformed<kLanes>(sweep.t1, boxes.center_a) - boxes.center_b) {
+  /// Of these boxes in this sweep.
+  DISMANTLE_HOST_DEVICE BoxMotion(const BoxPairs<kLanes>& boxes, const LinearSweep& sweep)
+      : offset_t0(transformed<kLanes>(sweep.t0, boxes.center_a) - boxes.center_b),
+        offset_t1(transformed<kLanes>(sweep.t1, boxes.center_a) - boxes.center_b) {
     for (int i = 0; i < 3; ++i) {
       a[i] = rotated<kLanes>(sweep.middle, boxes.axes_a[i]);
       for (int j = 0; j < 3; ++j) cosine[i][j] = abs(dot(a[i], boxes.axes_b[j]));
@@ -124,34 +129,36 @@ struct BoxWay {
 
 /// Considers all 15 axes of pairs of boxes.
 template <int kLanes, class Axes>
-DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const BoxWay<kLanes>& way, Axes& best) {
+DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const BoxMotion<kLanes>& motion, Axes& best) {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
   for (int i = 0; i < 3; ++i) {
-    const F reach_b =
-        boxes.half_b[0] * way.cosine[i][0] + boxes.half_b[1] * way.cosine[i][1] + boxes.half_b[2] * way.cosine[i][2];
-    best.consider(way.a[i], dot(way.a[i], way.way_t0), dot(way.a[i], way.way_t1), boxes.half_a[i] + reach_b, F(1));
-    const F reach_a =
-        boxes.half_a[0] * way.cosine[0][i] + boxes.half_a[1] * way.cosine[1][i] + boxes.half_a[2] * way.cosine[2][i];
+    const F reach_b = boxes.half_b[0] * motion.cosine[i][0] + boxes.half_b[1] * motion.cosine[i][1] +
+                      boxes.half_b[2] * motion.cosine[i][2];
+    best.consider(motion.a[i], dot(motion.a[i], motion.offset_t0), dot(motion.a[i], motion.offset_t1),
+                  boxes.half_a[i] + reach_b, F(1));
+    const F reach_a = boxes.half_a[0] * motion.cosine[0][i] + boxes.half_a[1] * motion.cosine[1][i] +
+                      boxes.half_a[2] * motion.cosine[2][i];
     const V b = boxes.axes_b[i];
-    best.consider(b, dot(b, way.way_t0), dot(b, way.way_t1), boxes.half_b[i] + reach_a, F(1));
+    best.consider(b, dot(b, motion.offset_t0), dot(b, motion.offset_t1), boxes.half_b[i] + reach_a, F(1));
   }
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      const V line = cross(way.a[i], boxes.axes_b[j]);
+      const V line = cross(motion.a[i], boxes.axes_b[j]);
       const F square = dot(line, line);
       const auto parallel = square < F(kMinCross<kLanes>);
       const F scale = F(1) / sqrt(select(parallel, F(1), square));
-      const F half = boxes.half_a[i1] * way.cosine[i2][j] + boxes.half_a[i2] * way.cosine[i1][j] +
-                     boxes.half_b[j1] * way.cosine[i][j2] + boxes.half_b[j2] * way.cosine[i][j1];
-      best.consider(line, dot(line, way.way_t0), dot(line, way.way_t1), half + select(parallel, F(1e30f), F(0)), scale);
+      const F half = boxes.half_a[i1] * motion.cosine[i2][j] + boxes.half_a[i2] * motion.cosine[i1][j] +
+                     boxes.half_b[j1] * motion.cosine[i][j2] + boxes.half_b[j2] * motion.cosine[i][j1];
+      best.consider(line, dot(line, motion.offset_t0), dot(line, motion.offset_t1),
+                    half + select(parallel, F(1e30f), F(0)), scale);
     }
   }
 }
 
-/// As separate_boxes_kernel.
+/// Body of separate_boxes_kernel().
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void separate_box_lanes(const BoxPairQuery* queries, std::size_t count, const LinearSweep& sweep,
                                               NodeSeparation* separations) {
@@ -160,17 +167,17 @@ DISMANTLE_HOST_DEVICE void separate_box_lanes(const BoxPairQuery* queries, std::
   for (std::size_t first = 0; first < count; first += kLanes) {
     const std::size_t left = count - first;
     const BoxPairs<kLanes> boxes(queries + first, left);
-    const BoxWay<kLanes> way(boxes, sweep);
+    const BoxMotion<kLanes> motion(boxes, sweep);
     const FacingLanes<kLanes> facing{rotated<kLanes>(sweep.middle, boxes.cone_a), boxes.cone_b, boxes.ahead_a,
                                      boxes.ahead_b, F(sweep.allowed)};
     FurthestAxes<kLanes> furthest{boxes.guard, F(sweep.apart)};
-    consider_all<kLanes>(boxes, way, furthest);
+    consider_all<kLanes>(boxes, motion, furthest);
     V axis = furthest.axis;
     FacingAxes<kLanes> chosen{facing, boxes.guard, F(sweep.apart)};
-    // Which side is which matters only where they are close.
+    // The side matters only where they are close.
     const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
     if (any(close)) {
-      consider_all<kLanes>(boxes, way, chosen);
+      consider_all<kLanes>(boxes, motion, chosen);
       axis = select_vector<kLanes>(close, chosen.axis, axis);
     }
     const Hulls<kLanes> hull{

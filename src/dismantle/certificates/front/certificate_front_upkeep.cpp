@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a front does between looking for what is apart: it gathers what went fine, and keeps its parts of a size.
+// Upkeep of a front between sweeps: merges siblings and pairs separated radially, keeps parts within size limits.
 #include "dismantle/certificates/front/certificate_front.h"
 #include "dismantle/certificates/front/sibling_table.h"
 #include "dismantle/core/contract.h"
@@ -12,26 +12,26 @@ namespace dismantle {
 
 namespace {
 
-/// Every part looks for siblings to merge each so many sweeps.
+/// Each part merges siblings once in this many sweeps.
 constexpr std::size_t kMergePeriod = 8;
-/// It goes on with that while more than one in so many pairs goes.
+/// Merging is repeated while it removes more than one in this many pairs.
 constexpr std::size_t kMergeShare = 8;
-/// Parts of more pairs than this are cut in two.
+/// Parts with more pairs than this are split in two.
 constexpr std::size_t kLargestPart = 2048;
-/// After so many sweeps that were not free, as they leave it fine, a front of more pairs than this is looked through
-/// for what is parted as round, in so many pairs of nodes.
+/// Sweeps that were not free leave a front finely divided: after this many of them, a front of at least this many pairs
+/// is searched for pairs of large nodes that are separated radially; at most this many pairs of nodes are tried.
 constexpr std::size_t kBlockedToMerge = 3;
-constexpr std::size_t kMinToMergeRound = 64;
-constexpr std::size_t kRoundTries = 256;
+constexpr std::size_t kMinToMergeRadial = 64;
+constexpr std::size_t kRadialTries = 256;
 
 }  // namespace
 
-bool CertificateFront::merges(std::size_t part) const {
+bool CertificateFront::merge_due(std::size_t part) const {
   return (sweeps_ + part) % kMergePeriod == kMergePeriod - 1;
 }
 
 std::vector<Siblings> CertificateFront::siblings_of(std::size_t part, const PreparedSweep& sweep) const {
-  return merges(part) ? find_siblings(parts_[part], sweep) : std::vector<Siblings>{};
+  return merge_due(part) ? find_siblings(parts_[part], sweep) : std::vector<Siblings>{};
 }
 
 void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
@@ -57,10 +57,10 @@ std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& par
     return halves_a ? x.b == y.b && a_->nodes[x.a].parent == a_->nodes[y.a].parent
                     : x.a == y.a && b_->nodes[x.b].parent == b_->nodes[y.b].parent;
   };
-  const auto look_for = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
-    const std::optional<std::uint32_t> other = table.meet(parent.a, parent.b, halves_a, i);
+  const auto find_half = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
+    const std::optional<std::uint32_t> other = table.match(parent.a, parent.b, halves_a, i);
     if (!other || !siblings(part.pair(*other), part.pair(i), halves_a)) return;
-    // Siblings on different sides of the same thing stay apart; one side is handed on.
+    // Siblings bound to opposite sides are not merged; else the parent keeps the side of either.
     const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
     if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
     found.push_back({parent, length_squared(one) > 0 ? one : two, *other, i});
@@ -68,8 +68,8 @@ std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& par
   for (std::uint32_t i = 0; i < part.size(); ++i) {
     const FrontPair pair = part.pair(i);
     const std::uint32_t up_a = a_->nodes[pair.a].parent, up_b = b_->nodes[pair.b].parent;
-    if (up_a != ObbNode::kNone) look_for({up_a, pair.b}, true, i);
-    if (up_b != ObbNode::kNone) look_for({pair.a, up_b}, false, i);
+    if (up_a != ObbNode::kNone) find_half({up_a, pair.b}, true, i);
+    if (up_b != ObbNode::kNone) find_half({pair.a, up_b}, false, i);
   }
   return found;
 }
@@ -95,8 +95,8 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
     const Siblings& s = siblings[k];
     if (merged[s.first] || merged[s.second]) continue;
     const bool by_boxes = separations[k].gap >= trees().limit(s.hint, sweep);
-    if (!by_boxes && !parts_round(s.parent.a, s.parent.b, sweep, unused)) continue;
-    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::of_round());
+    if (!by_boxes && !separated_radially(s.parent.a, s.parent.b, sweep, unused)) continue;
+    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::radial());
     merged[s.first] = merged[s.second] = true;
     gone.push_back(s.second);
   }
@@ -105,26 +105,26 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
   return gone.size();
 }
 
-CertificatePart CertificateFront::cut(CertificatePart& part) const {
+CertificatePart CertificateFront::split_part(CertificatePart& part) const {
   std::vector<std::uint32_t> of_a(part.size()), of_b(part.size());
   for (std::size_t i = 0; i < part.size(); ++i) {
     of_a[i] = part.pair(i).a;
     of_b[i] = part.pair(i).b;
   }
-  // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not part them.
+  // Siblings are nodes 2k - 1 and 2k: a border at an odd number does not separate them.
   const auto middle_of = [](std::vector<std::uint32_t>& nodes) {
     const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
     std::nth_element(nodes.begin(), middle, nodes.end());
     return *middle | 1u;
   };
-  const auto spread = [](const std::vector<std::uint32_t>& nodes) {
-    const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
-    return *most - *least;
+  const auto range = [](const std::vector<std::uint32_t>& nodes) {
+    const auto [first, last] = std::minmax_element(nodes.begin(), nodes.end());
+    return *last - *first;
   };
-  const bool by_a = spread(of_a) >= spread(of_b);
+  const bool by_a = range(of_a) >= range(of_b);
   std::vector<std::uint32_t>& nodes = by_a ? of_a : of_b;
   std::uint32_t border = middle_of(nodes);
-  // Where most pairs have the first node, it and its sibling go before the border: something has to.
+  // If most pairs have the first node, it and its sibling go before the border, so that neither part is empty.
   if (*std::min_element(nodes.begin(), nodes.end()) >= border) border += 2;
   CertificatePart kept, rest;
   for (std::size_t i = 0; i < part.size(); ++i)
@@ -133,15 +133,15 @@ CertificatePart CertificateFront::cut(CertificatePart& part) const {
   return rest;
 }
 
-void CertificateFront::merge_round(const PreparedSweep& sweep) {
+void CertificateFront::merge_radial(const PreparedSweep& sweep) {
   struct Pair {
     ObbSubtree a, b;
   };
   std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
   FrontSweep unused;
-  for (std::size_t k = 0; k < tried.size() && k < kRoundTries; ++k) {
+  for (std::size_t k = 0; k < tried.size() && k < kRadialTries; ++k) {
     const Pair pair = tried[k];
-    if (parts_round(pair.a.node, pair.b.node, sweep, unused)) {
+    if (separated_radially(pair.a.node, pair.b.node, sweep, unused)) {
       found.push_back(pair);
     } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
       const bool splits_of_a = trees().splits_a(pair.a.node, pair.b.node);
@@ -156,22 +156,22 @@ void CertificateFront::merge_round(const PreparedSweep& sweep) {
   for (CertificatePart& part : parts_)
     for (std::size_t i = part.size(); i-- > 0;)
       if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
-  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, Certificate::of_round());
+  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, Certificate::radial());
 }
 
 void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
   ++sweeps_;
   blocked_ += !free;
-  if (free && blocked_ >= kBlockedToMerge && size() > kMinToMergeRound) {
-    merge_round(sweep);
+  if (free && blocked_ >= kBlockedToMerge && size() > kMinToMergeRadial) {
+    merge_radial(sweep);
     blocked_ = 0;
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].size() <= kLargestPart) continue;
-    CertificatePart rest = cut(parts_[p]);
+    CertificatePart rest = split_part(parts_[p]);
     if (rest.size() > 0) parts_.push_back(std::move(rest));
   }
-  // Parts that merging has left small join, so that siblings meet again.
+  // Join parts that merging has left small, so that siblings can meet again.
   for (std::size_t p = 1; p < parts_.size();) {
     CertificatePart& before = parts_[p - 1];
     const CertificatePart& part = parts_[p];

@@ -11,7 +11,7 @@ CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const Certifica
   using F = Lanes<kLanes>;
   const F huge(3e38f);
   std::size_t found = 0;
-  F least = huge;
+  F smallest = huge;
   float number[kLanes];
   for (int l = 0; l < kLanes; ++l) number[l] = static_cast<float>(l);
   for (std::size_t i = 0; i < count; i += kLanes) {
@@ -19,12 +19,12 @@ CertificateCheck check_certificates_kernel<DISMANTLE_LANE_COUNT>(const Certifica
     const F gaps = min_gaps<kLanes>(certificates, i, sweep, kind);
     const auto holds = certify<kLanes>(gaps, kind, sweep);
     const auto real = F::load(number) < F(static_cast<float>(count - i));  // not of the padding
-    least = min(least, select(holds & real, gaps, huge));
+    smallest = min(smallest, select(holds & real, gaps, huge));
     for (unsigned failed = bits((!holds) & real); failed != 0; failed &= failed - 1)
       failing[found++] = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(__builtin_ctz(failed));
   }
   float gap[kLanes];
-  least.store(gap);
+  smallest.store(gap);
   CertificateCheck check;
   check.failing = found;
   for (int l = 0; l < kLanes; ++l) check.min_gap = gap[l] < check.min_gap ? gap[l] : check.min_gap;

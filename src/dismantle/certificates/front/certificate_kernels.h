@@ -9,90 +9,96 @@
 
 namespace dismantle {
 
-/// Certificates for lanes: blocks of kBlock, each field of a block in a row. What one certificate touches lies
-/// together, and what lanes load does.
+/// Certificates in an array of structures of arrays: blocks of kBlock certificates, each field of a block contiguous. A
+/// certificate's memory lies close together, and lanes load contiguous floats.
 struct CertificateBlocks {
-  static constexpr std::size_t kBlock = 16;
-  /// Axis, offset, the hull's center, its three spans, its kind.
-  static constexpr std::size_t kFields = 17;
-  const float* data = nullptr;
+  static constexpr std::size_t kBlock = 16;   ///< Certificates in a block.
+  static constexpr std::size_t kFields = 17;  ///< Axis, offset, the hull's center, its three spans, its kind.
+  const float* data = nullptr;                ///< Whole blocks.
 
-  /// Where field `k` of certificate `i` is.
-  DISMANTLE_HOST_DEVICE static constexpr std::size_t place(std::size_t i, std::size_t k) {
+  /// Index in `data` of field `k` of certificate `i`.
+  DISMANTLE_HOST_DEVICE static constexpr std::size_t index(std::size_t i, std::size_t k) {
     return (i / kBlock * kFields + k) * kBlock + i % kBlock;
   }
 
+  /// The vector of the fields k, k + 1, k + 2 of certificate `i`.
   DISMANTLE_HOST_DEVICE Vec3f vector(std::size_t i, std::size_t k) const {
-    const float* from = data + place(i, k);
+    const float* from = data + index(i, k);
     return {from[0], from[kBlock], from[2 * kBlock]};
   }
+  /// Certificate `i`.
   DISMANTLE_HOST_DEVICE Certificate certificate(std::size_t i) const {
-    const NodeHull hull{vector(i, 4), {vector(i, 7), vector(i, 10), vector(i, 13)}, data[place(i, 16)]};
-    return {vector(i, 0), data[place(i, 3)], hull};
+    const NodeHull hull{vector(i, 4), {vector(i, 7), vector(i, 10), vector(i, 13)}, data[index(i, 16)]};
+    return {vector(i, 0), data[index(i, 3)], hull};
   }
 };
 
-/// A pair of nodes to be separated.
+/// Input of the separating-axis test of two nodes' boxes.
 struct BoxPairQuery {
-  const ObbNode* a;
-  const ObbNode* b;
-  /// An axis that has used part of the allowance: it may only be left for one within a right angle of it, or where the
+  const ObbNode* a;  ///< Node of the moving component.
+  const ObbNode* b;  ///< Node of the fixed component.
+  /// An axis that has used part of the allowance: it may only be replaced by one within a right angle of it, unless the
   /// boxes are apart; zero for none (docs/design/0006-certificates.md: open sheets remember their side).
   Vec3f guard;
-  /// Of the nodes of closed solids: only an axis that leaves A and enters B through their outsides may use the
-  /// allowance. Null where any may.
+  ///@{ Normal cones of the nodes of closed solids: only an axis that leaves A and enters B through their outsides may
+  /// use the allowance. Null if any axis may.
   const NormalCone* cone_a = nullptr;
   const NormalCone* cone_b = nullptr;
+  ///@}
 };
 
-/// Two triangles to be separated.
+/// Input of the separating-axis test of two triangles.
 struct TrianglePairQuery {
-  const TriangleF* a;
-  const TriangleF* b;
-  Vec3f guard;          ///< As BoxPairQuery has it.
-  bool facing = false;  ///< They are faces of closed solids, whose outward normals decide what may use the allowance.
+  const TriangleF* a;  ///< Triangle of the moving component.
+  const TriangleF* b;  ///< Triangle of the fixed component.
+  Vec3f guard;         ///< As BoxPairQuery::guard.
+  bool facing =
+      false;  ///< Both are faces of closed solids: the outward normals decide which axes may use the allowance.
 };
 
-/// The axis along which two nodes or triangles are furthest apart during a sweep, of those of their separating-axis
-/// test.
+/// Result of a separating-axis test over a sweep: the axis with the largest gap.
 struct NodeSeparation {
-  /// The least gap along it during the sweep [mm], up to LinearSweep::error, before the arcs' deviation, less the
-  /// allowance where it may not be used: what a check of the certificate finds.
+  /// The smallest gap along the axis during the sweep [mm], up to LinearSweep::error, before the arcs' deviation, minus
+  /// the allowance if the axis may not use it: the value that a check of the certificate computes.
   float gap;
-  Certificate certificate;
+  Certificate certificate;  ///< Of that axis.
 };
 
-/// What certificates say of a sweep.
+/// Result of checking certificates against a sweep.
 struct CertificateCheck {
-  std::size_t failing = 0;  ///< How many do not certify their pair.
-  float min_gap = 3e38f;    ///< Of the others, at either end, up to LinearSweep::error [mm].
+  std::size_t failing = 0;  ///< Number of certificates that do not hold.
+  float min_gap = 3e38f;    ///< Smallest gap of those that hold, at either end, up to LinearSweep::error [mm].
 };
 
-/// Checks certificates 0, ..., count - 1 against LinearSweep::limit, those of triangles on edge against `meeting`;
-/// padded to whole blocks.
-/// @param failing gets the indices of those that do not certify, ascending; room for `count`
+/// Checks certificates 0, ..., count - 1 against LinearSweep::limit, those of triangles on edge against
+/// LinearSweep::meeting. The certificates are padded to whole blocks.
+/// @param failing receives the indices of those that do not hold, ascending; room for `count`
 template <int kLanes>
 CertificateCheck check_certificates_kernel(const CertificateBlocks& certificates, std::size_t count,
                                            const LinearSweep& sweep, std::uint32_t* failing);
 
-/// The separating-axis test of pairs of boxes over a whole sweep.
+/// The separating-axis test of pairs of boxes over a whole sweep: 15 axes.
+/// @param separations receives `count` results
 template <int kLanes>
 void separate_boxes_kernel(const BoxPairQuery* queries, std::size_t count, const LinearSweep& sweep,
                            NodeSeparation* separations);
 
 /// The separating-axis test of pairs of triangles over a whole sweep: 17 axes.
+/// @param separations receives `count` results
 template <int kLanes>
 void separate_triangles_kernel(const TrianglePairQuery* queries, std::size_t count, const LinearSweep& sweep,
                                NodeSeparation* separations);
 
-/// The kernels of one lane width.
+/// The three kernels above for one lane width.
 struct FrontKernels {
+  ///@{ As the kernel of that name.
   CertificateCheck (*check_certificates)(const CertificateBlocks&, std::size_t, const LinearSweep&, std::uint32_t*);
   void (*separate_boxes)(const BoxPairQuery*, std::size_t, const LinearSweep&, NodeSeparation*);
   void (*separate_triangles)(const TrianglePairQuery*, std::size_t, const LinearSweep&, NodeSeparation*);
+  ///@}
 };
 
-/// All widths give the same numbers. @pre `lanes` is one of lane_counts()
+/// The kernels for a lane width; all widths give the same bits. @pre `lanes` is one of lane_counts()
 FrontKernels front_kernels(LaneCount lanes);
 
 }  // namespace dismantle

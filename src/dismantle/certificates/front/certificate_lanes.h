@@ -4,40 +4,45 @@
 #include "dismantle/certificates/front/certificate_kernels.h"
 #include "dismantle/math/lanes.h"
 
-/// What the kernels of the front share: certificates in lanes, and the choice of their axes. For kernels' sources only.
+/// Certificates in lanes, and the choice of their axes: shared by the front's kernels. To be included by kernels only.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// As OutwardNormals has them; allowances and what comes on top.
+///@{ The constants of OutwardNormals in float32.
 template <int kLanes>
 constexpr float kMinCosine = -0.05f;
 template <int kLanes>
 constexpr float kMinAgainst = 0.3f;
 template <int kLanes>
 constexpr float kBehind = 4;
+///@}
 
+/// The vector in every lane.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> uniform(const Vec3f& v) {
   return {v.x, v.y, v.z};
 }
 
+/// The vector turned by a rotation matrix.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> rotated(const Vec3f (&row)[3], Vec3T<Lanes<kLanes>> v) {
   return {dot(uniform<kLanes>(row[0]), v), dot(uniform<kLanes>(row[1]), v), dot(uniform<kLanes>(row[2]), v)};
 }
 
+/// The point moved by a rigid transform.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> transformed(const RigidTransformF& t, Vec3T<Lanes<kLanes>> p) {
   return rotated<kLanes>(t.row, p) + uniform<kLanes>(t.translation);
 }
 
-/// Of either vector where `mask` says so.
+/// Lanes of `yes` where `mask` is set, else of `no`.
 template <int kLanes, class Mask>
 DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> select_vector(Mask mask, const Vec3T<Lanes<kLanes>>& yes,
                                                          const Vec3T<Lanes<kLanes>>& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
+/// Stores a vector to three rows.
 template <std::size_t kFields, int kLanes>
 DISMANTLE_HOST_DEVICE void store_vector(float (&field)[kFields][kLanes], int first, const Vec3T<Lanes<kLanes>>& v) {
   v.x.store(field[first]);
@@ -45,19 +50,21 @@ DISMANTLE_HOST_DEVICE void store_vector(float (&field)[kFields][kLanes], int fir
   v.z.store(field[first + 2]);
 }
 
+/// The vector of one lane from three rows.
 template <std::size_t kFields, int kLanes>
 DISMANTLE_HOST_DEVICE Vec3f lane_vector(const float (&field)[kFields][kLanes], int first, std::size_t lane) {
   return {field[first][lane], field[first + 1][lane], field[first + 2][lane]};
 }
 
-/// Hulls, one a lane.
+/// NodeHull in lanes, one hull a lane.
 template <int kLanes>
 struct Hulls {
-  Vec3T<Lanes<kLanes>> center, span[3];
-  Lanes<kLanes> kind;  // as NodeHull has it
+  Vec3T<Lanes<kLanes>> center;   ///< As NodeHull::center.
+  Vec3T<Lanes<kLanes>> span[3];  ///< As NodeHull::span.
+  Lanes<kLanes> kind;            ///< As NodeHull::kind.
 };
 
-/// How far hulls reach along an axis, with A where `t` has it.
+/// The extent of hulls along an axis, with A at pose `t`.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Lanes<kLanes> reach_along(Vec3T<Lanes<kLanes>> axis, const Hulls<kLanes>& hull,
                                                 const RigidTransformF& t) {
@@ -71,14 +78,14 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> reach_along(Vec3T<Lanes<kLanes>> axis, const
          select(hull.kind > F(0), of_triangle, of_box);
 }
 
-/// The least gap of certificates during the sweep.
+/// The smallest gap of certificates during the sweep.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gap(Vec3T<Lanes<kLanes>> axis, Lanes<kLanes> offset, const Hulls<kLanes>& hull,
                                             const LinearSweep& sweep) {
   return offset - max(reach_along<kLanes>(axis, hull, sweep.t0), reach_along<kLanes>(axis, hull, sweep.t1));
 }
 
-/// The least gaps of certificates i, i + 1, ...
+/// The smallest gaps of certificates i, i + 1, ... @param kind receives NodeHull::kind of each
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::size_t i, const LinearSweep& sweep,
                                              Lanes<kLanes>& kind) {
@@ -93,26 +100,28 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::si
   return min_gap<kLanes>(vector(0), field(3), hull, sweep);
 }
 
-/// Whether certificates with these least gaps certify their pairs. What is on edge may be apart along another axis by
-/// now.
+/// Mask of the certificates with these smallest gaps that certify their pairs. Those on edge are not accepted while
+/// they use the allowance: the pair may be apart along another axis by now.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE auto certify(Lanes<kLanes> gap, Lanes<kLanes> kind, const LinearSweep& sweep) {
   using F = Lanes<kLanes>;
   return gap >= select(kind == F(NodeHull::kTriangleOnEdge), F(sweep.meeting), F(sweep.limit));
 }
 
-/// What the outward normals say of an axis between two nodes: cones of directions, or the normals of two triangles.
+/// Decides by outward normals (cones of nodes, or the normals of two triangles) which axes may use the allowance.
 template <int kLanes>
 struct FacingLanes {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V normal_a, normal_b;  // that of A half way
-  F ahead_a, ahead_b;    // least cosines with an axis that may use the allowance
-  F allowed;
+  V normal_a;  ///< Of A, with the rotation half way.
+  V normal_b;  ///< Of B.
+  F ahead_a;   ///< Smallest cosine of normal_a with an axis that may use the allowance.
+  F ahead_b;   ///< The same of normal_b.
+  F allowed;   ///< [mm]
 
-  /// What to take off a gap along `w`: nothing where every normal allows it, more than the allowance where it parts
-  /// the two behind each other's backs (OutwardNormals).
+  /// The amount to subtract from a gap along `w`: nothing if every normal agrees, more than the allowance if the axis
+  /// separates the two behind each other's backs (OutwardNormals).
   DISMANTLE_HOST_DEVICE F taken_off(V w) const {
     const F along_a = dot(w, normal_a), along_b = -dot(w, normal_b);
     const auto against = (along_a < F(-kMinAgainst<kLanes>)) & (along_b < F(-kMinAgainst<kLanes>));
@@ -121,18 +130,19 @@ struct FacingLanes {
   }
 };
 
-/// The axis of the largest gap so far, less what is to be taken off it.
+/// The axis of the largest gap so far, minus what FacingLanes subtracts.
 template <int kLanes>
 struct FacingAxes {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  const FacingLanes<kLanes>& facing;
-  V guard;
-  F apart;
-  F gap = F(-3e38f);
-  V axis = {};
+  const FacingLanes<kLanes>& facing;  ///< Decides which axes may use the allowance.
+  V guard;                            ///< As BoxPairQuery::guard.
+  F apart;                            ///< As LinearSweep::apart [mm].
+  F gap = F(-3e38f);                  ///< The largest so far [mm].
+  V axis = {};                        ///< Its axis.
 
+  /// Takes the unit axis `w` if its gap `found`, less what is to be subtracted, is larger than all so far.
   DISMANTLE_HOST_DEVICE void consider_side(V w, F found) {
     const F counts = found - facing.taken_off(w);
     const auto better = (counts > gap) & !((dot(w, guard) < F(0)) & (found < apart));
@@ -140,15 +150,17 @@ struct FacingAxes {
     axis = select_vector<kLanes>(better, w, axis);
   }
 
-  /// As FurthestAxes has it; either side of the line.
-  DISMANTLE_HOST_DEVICE void consider(V line, F way_t0, F way_t1, F half, F scale) {
+  /// As FurthestAxes::consider(), for both directions of the line.
+  DISMANTLE_HOST_DEVICE void consider(V line, F offset_t0, F offset_t1, F half, F scale) {
     const V w = scale * line;
-    consider_side(w, (-max(way_t0, way_t1) - half) * scale);
-    consider_side(-w, (min(way_t0, way_t1) - half) * scale);
+    consider_side(w, (-max(offset_t0, offset_t1) - half) * scale);
+    consider_side(-w, (min(offset_t0, offset_t1) - half) * scale);
   }
 };
 
-/// Writes what was found of pairs of nodes or triangles.
+/// Stores the separations of up to kLanes pairs of nodes or triangles. Axes on the wrong side of the guard, and zero
+/// axes, get no gap.
+/// @param count of the pairs; lanes past it are padding
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void store_separations(Vec3T<Lanes<kLanes>> axis, Lanes<kLanes> offset, const Hulls<kLanes>& hull,
                                              Vec3T<Lanes<kLanes>> guard, const LinearSweep& sweep, NodeSeparation* to,

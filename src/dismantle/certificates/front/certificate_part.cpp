@@ -4,7 +4,7 @@
 namespace dismantle {
 
 void CertificatePart::resize_blocks(std::size_t count) {
-  data_.resize(CertificateBlocks::place(count * CertificateBlocks::kBlock, 0));
+  data_.resize(CertificateBlocks::index(count * CertificateBlocks::kBlock, 0));
   changed_.resize(count, 1);
 }
 
@@ -25,7 +25,7 @@ void CertificatePart::set_certificate(std::size_t i, const Certificate& c) {
                                                     h.center.y,  h.center.z,  h.span[0].x, h.span[0].y, h.span[0].z,
                                                     h.span[1].x, h.span[1].y, h.span[1].z, h.span[2].x, h.span[2].y,
                                                     h.span[2].z, h.kind};
-  float* to = data_.data() + CertificateBlocks::place(i, 0);
+  float* to = data_.data() + CertificateBlocks::index(i, 0);
   for (std::size_t k = 0; k < CertificateBlocks::kFields; ++k) to[k * CertificateBlocks::kBlock] = values[k];
   changed_[i / CertificateBlocks::kBlock] = 1;
 }

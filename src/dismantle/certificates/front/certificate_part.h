@@ -11,32 +11,39 @@
 
 namespace dismantle {
 
-/// A pair of nodes.
+/// A pair of nodes of two trees, by their indices.
 struct FrontPair {
-  std::uint32_t a, b;
+  std::uint32_t a;  ///< Node of A's tree.
+  std::uint32_t b;  ///< Node of B's tree.
 };
 
-/// A part of a front: pairs of nodes and their certificates, padded to whole blocks. In no order.
+/// A part of a front: pairs of nodes with their certificates, unordered, padded to whole blocks.
 class CertificatePart {
  public:
+  /// Number of pairs.
   std::size_t size() const { return pairs_.size(); }
+  /// The nodes of pair i.
   const FrontPair& pair(std::size_t i) const { return pairs_[i]; }
+  /// The certificate of pair i.
   Certificate certificate(std::size_t i) const { return blocks().certificate(i); }
-  /// Its axis, whatever it proves.
-  Vec3f axis(std::size_t i) const { return blocks().vector(i, 0); }
-  /// Of the certificate's hull.
-  float kind(std::size_t i) const { return data_[CertificateBlocks::place(i, 16)]; }
+  /// NodeHull::kind of the certificate of pair i.
+  float kind(std::size_t i) const { return data_[CertificateBlocks::index(i, 16)]; }
+  /// All certificates, for kernels.
   CertificateBlocks blocks() const { return {data_.data()}; }
+  /// Number of blocks.
   std::size_t block_count() const { return changed_.size(); }
-  /// Whether something in a block is not what it was when this was asked last, for who keeps a copy.
+  /// True if the block has changed since the last call for it; for those who keep a copy.
   bool take_changed(std::size_t block) { return std::exchange(changed_[block], std::uint8_t{0}) != 0; }
-  /// From now on all of it counts as changed.
+  /// Marks all blocks as changed.
   void mark_changed() { std::fill(changed_.begin(), changed_.end(), std::uint8_t{1}); }
 
+  /// Adds a pair at the end.
   void append(const FrontPair& pair, const Certificate& certificate);
+  /// Replaces pair i.
   void set(std::size_t i, const FrontPair& pair, const Certificate& certificate);
+  /// Replaces the certificate of pair i.
   void set_certificate(std::size_t i, const Certificate& certificate);
-  /// The last one takes the place of pair i.
+  /// Removes pair i; the last one takes its slot.
   void remove(std::size_t i);
 
  private:
@@ -44,7 +51,7 @@ class CertificatePart {
 
   std::vector<FrontPair> pairs_;
   std::vector<float> data_;
-  std::vector<std::uint8_t> changed_;  // of each block
+  std::vector<std::uint8_t> changed_;  // one flag a block
 };
 
 }  // namespace dismantle

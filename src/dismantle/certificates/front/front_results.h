@@ -10,46 +10,50 @@
 namespace dismantle {
 
 class CertificateFront;
+class TrianglePairSweep;
+struct TrianglePairResult;
 
-/// What a device found of a pair of nodes that a sweep has to look at.
-struct PairResult {
-  enum Kind : std::uint32_t {
-    None,       ///< It did not look at the pair: the host does.
-    Boxes,      ///< What is in `separation` certifies them as boxes.
-    Split,      ///< They are not apart as boxes; of the halves of the larger one is more known.
-    Triangles,  ///< Neither are they as boxes, and `separation` is that of their triangles.
-  };
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
-  Kind kind = None;
-  std::uint32_t part = 0;             ///< Of those that were asked for, and of a pair of the front
-  std::uint32_t place = kNone;        ///< its place in that; none of what pairs were split into.
-  std::uint32_t first_child = kNone;  ///< Of two answers; none where there was no room for them.
-  std::uint32_t leaf = kNone;         ///< Triangles: of what their elementary test found; none where it did not test.
-  NodeSeparation separation = {};
+/// A front whose certificates a device evaluates for a sweep.
+struct FrontQuery {
+  CertificateFront* front;   ///< The front; the device marks as unchanged what it has copied.
+  const LinearSweep* sweep;  ///< The sweep, begun with CertificateFront::begin_sweep().
+  /// The triangle-pair tests of this sweep; null if the device is not to test triangles.
+  const TrianglePairSweep* triangle_pairs = nullptr;
 };
 
-/// What a device found of one part of a front.
+/// Device result for a pair of nodes whose certificate does not hold.
+struct PairResult {
+  /// How far the device got with the pair.
+  enum Kind : std::uint32_t {
+    None,       ///< Not evaluated: left to the host.
+    Boxes,      ///< `separation` certifies the pair as boxes.
+    Split,      ///< Not separated as boxes; replaced by the halves of the larger node.
+    Triangles,  ///< Not separated as boxes; `separation` is that of the two triangles.
+  };
+  static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No index.
+
+  Kind kind = None;                   ///< How far the device got.
+  std::uint32_t part = 0;             ///< Index of the part, counted over all fronts of the query.
+  std::uint32_t slot = kNone;         ///< Index of the pair in its part; none for what pairs were split into.
+  std::uint32_t first_child = kNone;  ///< Index of the first of two results; none if there was no room for them.
+  std::uint32_t test = kNone;         ///< Triangles: index in PartResults::tests; none if the two were not tested.
+  NodeSeparation separation = {};     ///< Boxes and Triangles: the separation found.
+};
+
+/// Device results for one part of a front.
 struct PartResults {
-  float min_gap = 3e38f;             ///< As CertificateCheck has it.
-  std::vector<std::uint32_t> roots;  ///< Answers of the pairs that do not hold, their places ascending.
-  Span<const PairResult> answers;    ///< Of all parts.
+  float min_gap = 3e38f;                 ///< As CertificateCheck::min_gap.
+  std::vector<std::uint32_t> roots;      ///< Indices of the results of the part's own pairs, by ascending slots.
+  Span<const PairResult> pairs;          ///< Results of all parts.
+  Span<const TrianglePairResult> tests;  ///< Triangle-pair tests of all parts, each over the whole sweep.
 };
 
 /// A pair of nodes that two siblings of a front may merge into.
 struct MergeCandidate {
-  std::uint32_t front = 0;     ///< Of the fronts asked.
-  std::uint32_t a = 0, b = 0;  ///< Nodes of its trees.
-  Vec3f hint;                  ///< The side to stay on; zero for none.
-};
-
-/// A front whose parts are swept.
-/// @tparam TrianglePairSweep tests pairs of triangles
-template <class TrianglePairSweep>
-struct FrontQuery {
-  CertificateFront* front;
-  const LinearSweep* sweep;
-  const TrianglePairSweep* leaves = nullptr;  ///< The elementary tests of this sweep; null leaves them to the host.
+  std::uint32_t front = 0;  ///< Index of the front in the query.
+  std::uint32_t a = 0;      ///< Node of A's tree.
+  std::uint32_t b = 0;      ///< Node of B's tree.
+  Vec3f hint;               ///< The axis of the side to keep; zero for none.
 };
 
 }  // namespace dismantle

@@ -3,12 +3,12 @@
 
 #include "dismantle/certificates/front/certificate_lanes.h"
 
-/// The separating-axis test of triangles in lanes: the same text for the CPU and CUDA, where a lane is a thread. For
-/// kernels' sources only.
+/// The separating-axis test of triangles in lanes: the same code on the CPU and on CUDA, where a lane is a thread. To
+/// be included by kernels only.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
-/// Crosses smaller than this (squared [mm^4]) are no axes.
+/// Cross products with a smaller squared length [mm^4] are not used as axes.
 template <int kLanes>
 constexpr float kNoAxis = 1e-30f;
 
@@ -18,10 +18,11 @@ struct TrianglePairs {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V a[3], b[3], guard;
-  F facing;
+  V a[3], b[3];  ///< Corners [mm].
+  V guard;       ///< As TrianglePairQuery::guard.
+  F facing;      ///< 1 where TrianglePairQuery::facing is set, else 0.
 
-  /// Gathers the corners; lanes past `count` repeat the last pair.
+  /// Gathers the corners of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE TrianglePairs(const TrianglePairQuery* queries, std::size_t count) {
     constexpr int kFields = 22;
     float field[kFields][kLanes];
@@ -48,6 +49,7 @@ struct TrianglePairs {
   }
 };
 
+/// The vector scaled to unit length; zero if it is shorter than kNoAxis.
 template <int kLanes>
 DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> unit_or_zero(Vec3T<Lanes<kLanes>> v) {
   using F = Lanes<kLanes>;
@@ -56,15 +58,19 @@ DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> unit_or_zero(Vec3T<Lanes<kLanes>> v) 
   return select(none, F(0), F(1) / sqrt(select(none, F(1), square))) * v;
 }
 
-/// The axes of two triangles: both normals, what is across their edges in their planes, and the edges' crosses.
+/// The axes of two triangles: both normals, the perpendiculars of the edges in their planes, and the cross products of
+/// the edges.
 template <int kLanes>
 struct TriangleAxes {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
 
-  V at_t0[3], at_t1[3], b[3];
-  FacingAxes<kLanes>&well, &on_edge;
+  V at_t0[3], at_t1[3];         ///< Corners of A at the start and the end, in B's frame [mm].
+  V b[3];                       ///< Corners of B [mm].
+  FacingAxes<kLanes>& well;     ///< Best axis of those that the normals clearly agree with.
+  FacingAxes<kLanes>& on_edge;  ///< Best axis of those that they hardly oppose.
 
+  /// Considers both directions of a line.
   DISMANTLE_HOST_DEVICE void consider(V line) {
     const V w = unit_or_zero<kLanes>(line);
     F low_a(3e38f), high_a(-3e38f), low_b(3e38f), high_b(-3e38f);
@@ -85,7 +91,7 @@ struct TriangleAxes {
   }
 };
 
-/// As separate_triangles_kernel.
+/// Body of separate_triangles_kernel().
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* queries, std::size_t count,
                                                    const LinearSweep& sweep, NodeSeparation* separations) {
@@ -102,8 +108,8 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
     const V normal_a = cross(along_a[0], along_a[2]), normal_b = cross(along_b[0], along_b[2]);
     const auto closed = pairs.facing > F(0);
     const V unit_a = unit_or_zero<kLanes>(normal_a), unit_b = unit_or_zero<kLanes>(normal_b);
-    const auto facing_by = [&](float least) {
-      const F ahead = select(closed, F(least), F(-2));
+    const auto facing_by = [&](float min_cosine) {
+      const F ahead = select(closed, F(min_cosine), F(-2));
       return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
     };
     const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kMinAhead)),
@@ -122,7 +128,7 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
       axes.consider(cross(along_b[i], normal_b));
       for (int j = 0; j < 3; ++j) axes.consider(cross(along_a[i], along_b[j]));
     }
-    // On edge only what cannot be otherwise; the margin is for what rounding does to `well`.
+    // On edge only if there is no other way; the margin covers the rounding of `well`.
     const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
     const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
     const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);

@@ -1,69 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/certificates/response/embedded_watch.h"
+#include "dismantle/certificates/response/guarded_mover.h"
 #include "dismantle/certificates/response/slide_contacts.h"
-#include "dismantle/engine/vertex_depth_guard.h"
 
 namespace dismantle {
 
-/// How the set in hand of a CertificateSweeper goes on at contact (docs/design/0006-certificates.md): the loop of one
-/// step. Keeps the two rules that triangle pairs' certificates do not: embedded pairs that part, and vertices that get
-/// too deep in closed components.
+/// The response of the moving set of a CertificateSweeper to contact (docs/design/0006-certificates.md): the loop of
+/// one step.
 class CertificateResponse {
  public:
+  /// The sweeper and the assembly must outlive the response.
   CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs);
 
-  /// Another set is in hand now.
+  /// Forgets the contacts of the last step: another set was grabbed.
   void begin();
+  /// As CertificateEngine::step().
   StepResult step(const Pose& target, ResponseKind response);
+  /// As CertificateEngine::jump().
   void jump(Span<const Pose> poses);
-  std::vector<ComponentPair> embedded_pairs() const { return embedded_.pairs(); }
+  /// The pairs that are still embedded.
+  std::vector<ComponentPair> embedded_pairs() const { return mover_.embedded_pairs(); }
 
  private:
-  /// Whether a motion is made in part where vertices would get too deep further on, or not at all.
-  enum class Guarded { Part, Whole };
-  CertificateSweep sweep(const Pose& end, double window, Effort effort, StepResult& result);
-  /// Goes `part` of the motion to `end`, which the certificates allow, or as far as the other two rules let it.
-  /// @return the part made
-  double advance(const Pose& end, double part, StepResult& result, Guarded guarded);
-  /// How far of a motion that the certificates allow up to `part` the other two rules let through; the watches follow.
-  double follow(const Pose& end, double part, Guarded guarded);
-  double guarded_part(const Pose& end, double part, Guarded guarded);
-  void adopt_parted();
+  struct SlideState;
+  struct SlideTrial;
+
+  CertificateSweep sweep(const ScrewMotion& motion, double window, SweepBudget budget, StepResult& result);
+  /// Moves along the motion up to `fraction` of it, and reports the pose. @return the fraction made
+  double advance(const ScrewMotion& motion, double fraction, GuardedMover::Shortening shortening, StepResult& result);
   void report(const CertificateSweep& sweep, StepResult& result) const;
 
+  /// Responses Stop and Touch.
   void go(const Pose& target, bool touch, StepResult& result);
-  /// How much of the motion to `end` the certificates allow: up to the first contact less what is kept before it; all
-  /// or nothing where not `touch`.
-  double free_part(const Pose& end, bool touch, StepResult& result);
+  /// The fraction of a motion that the certificates allow: up to the first contact less what is kept before it; all or
+  /// nothing if not `touch`.
+  double free_fraction(const ScrewMotion& motion, bool touch, StepResult& result);
+
+  ///@{ Response Slide (slide_response.cpp).
   void slide(const Pose& target, StepResult& result);
-  /// Whether contacts that let the set hardly move are to be found anew: the first times since it did move, and then
-  /// ever more seldom.
-  bool look_again();
-  /// Goes what cylinders held as one may have kept from it, and tells the contacts.
+  /// Chooses the twist to try next from the contacts known.
+  SlideTrial choose_trial(SlideState& state);
+  /// Makes a motion that was found free. @return false if the step ends
+  bool make_free(const SlideTrial& trial, const ScrewMotion& motion, SlideState& state, StepResult& result);
+  /// Adds the contacts that block a motion, or makes it up to these. @return false if the step ends
+  bool make_blocked(const SlideTrial& trial, const ScrewMotion& motion, const CertificateSweep& found,
+                    SlideState& state, StepResult& result);
+  /// True if contacts that let the set hardly move are to be found again: the first times since it did move, then ever
+  /// more rarely.
+  bool search_again();
+  /// Makes up for what whole cylinders withheld, and reports the contacts.
   void end_slide(const Pose& target, StepResult& result);
-  /// Takes up what the guard stopped the last motion for; true where that bounds the twist in a new way.
-  bool take_guarded(StepResult& result);
-  /// The twist, shortened where contacts bound it and its second-order part would take points too far.
-  SlideContacts::Twist bent_little(SlideContacts::Twist twist) const;
-  Pose within_arcs(const Pose& target) const;
+  /// Adds the vertices that blocked the last motion as contacts. @return true if they bound the twist further
+  bool add_blocking_vertices(StepResult& result);
+  ///@}
+
+  ///@{ Twists of the moving set about its center.
+  SlideContacts::Twist twist_of(const ScrewMotion& motion) const;
   Pose twisted(const SlideContacts::Twist& twist) const;
-  SlideContacts::Twist twist_to(const Pose& target) const;
-  SlideContacts::Twist shortened(SlideContacts::Twist twist, double max_travel) const;
   double travel_of(const SlideContacts::Twist& twist) const;
+  SlideContacts::Twist shortened(SlideContacts::Twist twist, double max_travel) const;
+  /// The twist, shortened if contacts bound it and its second-order part would move points too far.
+  SlideContacts::Twist bent_little(SlideContacts::Twist twist) const;
+  /// The part of the motion from its start whose arcs are close enough to their chords for one sweep.
+  ScrewMotion within_arcs(const ScrewMotion& motion) const;
+  ///@}
 
   CertificateSweeper& sweeper_;
-  VertexDepthGuard guard_;
-  EmbeddedWatch embedded_;
-  std::vector<RigidTransform> from_, to_;                      ///< For the guard.
-  std::vector<bool> held_;                                     ///< For the watch.
-  std::vector<std::pair<ComponentId, ComponentId>> touching_;  ///< Of the last sweep.
-  std::vector<VertexContact> guarded_;                         ///< What the guard found in the last advance.
-  SlideContacts contacts_;                                     ///< Of the last step of response Slide.
-  std::vector<BlockedPair> stopping_;                          ///< What stopped the last motion of Stop or Touch.
-  double reach_;  ///< Slide and Touch try motions of at most this length [mm]: longer ones after they were free.
-  unsigned held_times_ = 0;  ///< How often contacts let the set hardly move since it last did.
+  GuardedMover mover_;
+  SlideContacts contacts_;             ///< Of the last step of response Slide.
+  std::vector<BlockedPair> stopping_;  ///< The pairs that stopped the last motion of Stop or Touch.
+  double reach_;               ///< Slide and Touch try motions of at most this length [mm]; it grows after free ones.
+  unsigned hardly_moved_ = 0;  ///< Times that contacts let the set hardly move since it last did.
 };
+
+/// A pair of triangles of a moving and a fixed component as StepResult reports it.
+/// @tparam Pair has moving, fixed, face_moving and face_fixed
+template <class Pair>
+BlockingPair blocking_pair_of(const Pair& pair, double toi) {
+  if (pair.moving < pair.fixed) return {pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, toi};
+  return {pair.fixed, pair.moving, pair.face_fixed, pair.face_moving, toi};
+}
 
 }  // namespace dismantle

@@ -8,7 +8,7 @@ namespace dismantle {
 
 namespace {
 
-/// A triangle seen along a direction: x and y across it, z along it, about a common origin.
+/// A triangle in coordinates along a direction: x and y across it, z along it, about a common origin.
 Triangle seen_along(const Triangle& t, Vec3 origin, Vec3 right, Vec3 forward, Vec3 up) {
   Triangle seen;
   for (int i = 0; i < 3; ++i) {
@@ -18,20 +18,22 @@ Triangle seen_along(const Triangle& t, Vec3 origin, Vec3 right, Vec3 forward, Ve
   return seen;
 }
 
+/// Cross product of the x and y parts.
 double cross_flat(Vec3 a, Vec3 b) {
   return a.x * b.y - a.y * b.x;
 }
 
+/// Length of the x and y parts.
 double length_flat(Vec3 a) {
   return std::hypot(a.x, a.y);
 }
 
-/// The height of the triangle at p, where p is over it or at most `slack` beside it.
+/// Computes the height of the triangle at p. @return false if p is beside it by more than `slack`
 bool height_at(const Triangle& t, Vec3 p, double slack, double& height) {
   const double area = cross_flat(t[1] - t[0], t[2] - t[0]);
   double longest = 0;
   for (int i = 0; i < 3; ++i) longest = std::max(longest, length_flat(t[(i + 1) % 3] - t[i]));
-  // Edge-on: its edges' crossings say it all.
+  // Edge-on: the crossings of its edges suffice.
   if (std::abs(area) <= longest * slack) return false;
   height = 0;
   for (int i = 0; i < 3; ++i) {

@@ -41,20 +41,20 @@ std::vector<ComponentPair> EmbeddedWatch::pairs() const {
   return list;
 }
 
-double EmbeddedWatch::follow(const std::vector<bool>& held, Span<const Pose> poses, const Pose& start, const Pose& end,
-                             int cuts, double deviation) {
+double EmbeddedWatch::follow(const std::vector<bool>& is_moving, Span<const Pose> poses, const ScrewMotion& motion,
+                             double max_deviation) {
   std::vector<Watched*> moving;
   for (Watched& w : watched_)
-    if (held[w.pair.a.value] != held[w.pair.b.value]) moving.push_back(&w);
+    if (is_moving[w.pair.a.value] != is_moving[w.pair.b.value]) moving.push_back(&w);
   if (moving.empty()) return 1;
 
-  // The least part of the piece to `next` that all of them let through; nothing is committed.
+  // The fraction of the piece to `next` that all of them allow; nothing is committed.
   const auto sweep = [&](const Pose& next) {
     double toi = 1;
     for (Watched* w : moving) {
-      const auto at = [&](ComponentId c) { return transform_from_pose(held[c.value] ? next : poses[c.value]); };
+      const auto at = [&](ComponentId c) { return transform_from_pose(is_moving[c.value] ? next : poses[c.value]); };
       const RigidTransform state[2] = {at(w->pair.a), at(w->pair.b)};
-      const SweepResult found = w->engine->sweep({state, 2}, deviation);
+      const SweepResult found = w->engine->sweep({state, 2}, max_deviation);
       if (!found.free) toi = std::min(toi, found.toi * (1 - kBackoffShare));
     }
     return toi;
@@ -63,15 +63,16 @@ double EmbeddedWatch::follow(const std::vector<bool>& held, Span<const Pose> pos
     for (Watched* w : moving) w->engine->commit();
   };
 
+  const int cuts = chord_count(motion.deviation, max_deviation);
   for (int k = 0; k < cuts; ++k) {
-    double part = 1;
+    double fraction = 1;
     for (int tries = 0; tries < kTries; ++tries) {
-      const double through = sweep(pose_between(start, end, (k + part) / cuts));
-      if (through >= 1) break;
-      part = tries + 1 < kTries ? part * through : 0;
+      const double allowed = sweep(motion.at((k + fraction) / cuts));
+      if (allowed >= 1) break;
+      fraction = tries + 1 < kTries ? fraction * allowed : 0;
     }
-    if (part > 0) commit();
-    if (part < 1) return (k + part) / cuts;
+    if (fraction > 0) commit();
+    if (fraction < 1) return (k + fraction) / cuts;
   }
   return 1;
 }

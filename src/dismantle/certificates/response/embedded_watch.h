@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/math/screw.h"
 #include "dismantle/streams/sweep_engine.h"
 
 #include <memory>
@@ -8,27 +9,28 @@
 
 namespace dismantle {
 
-/// Watches the embedded pairs (the paper's S_i) for the moment at which they are apart: until then they are free, from
-/// then on they are like all others. Each pair has an engine of method `streams` over its two components alone, which
-/// knows how to tell that moment on the true paths (parting.h).
+/// Watches the embedded pairs (the paper's S_i) for the moment at which they part: until then they are free to move,
+/// from then on they are like all others. Each pair has an engine of method `streams` over its two components, which
+/// finds that moment on the true paths (parting.h).
 class EmbeddedWatch {
  public:
+  /// Watches the embedded pairs of `pairs`, in the assembled state.
   EmbeddedWatch(const Assembly& assembly, const PairStates& pairs, const Executor& executor);
 
   bool empty() const { return watched_.empty(); }
+  /// The pairs that are still embedded.
   std::vector<ComponentPair> pairs() const;
 
-  /// Follows the set in hand along the screw from `start` to `end`, as far as pairs that part on the way let it, and
-  /// stays there.
-  /// @param held of each component: whether it is in hand
-  /// @param cuts into how many equal pieces the motion is cut so that each one's arcs are within `deviation` of their
-  ///        chords
-  /// @return the part of the motion made, in [0, 1]
-  double follow(const std::vector<bool>& held, Span<const Pose> poses, const Pose& start, const Pose& end, int cuts,
-                double deviation);
-  /// All components are at these poses now.
+  /// Follows the moving set along a motion, as far as pairs that part on the way allow, and keeps the state there.
+  /// @param is_moving of each component: true if it is in the moving set
+  /// @param poses of each component
+  /// @param max_deviation the motion is divided until its arcs are so close to their chords [mm]
+  /// @return the fraction of the motion made, in [0, 1]
+  double follow(const std::vector<bool>& is_moving, Span<const Pose> poses, const ScrewMotion& motion,
+                double max_deviation);
+  /// Puts all components at these poses without a test.
   void jump(Span<const Pose> poses);
-  /// The pairs that have parted since this was last asked; they are watched no more.
+  /// The pairs that have parted since the last call; they are no longer watched.
   std::vector<ComponentPair> take_parted();
 
  private:

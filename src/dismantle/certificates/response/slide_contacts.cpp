@@ -14,25 +14,25 @@ namespace {
 
 /// Axes nearer to each other than this (one minus the cosine) are the same.
 constexpr double kSameAxis = 1e-9;
-/// Corners within this share of the tolerance of the nearest one touch with it.
+/// Corners whose gap exceeds the smallest one by at most this share of the tolerance touch as well.
 constexpr double kTouching = 1e-2;
 
-/// Of a motion on which a pair uses the reserve, this share of what the certificates allow is made.
+/// Where a pair uses the reserve, a motion is made up to this share of what the certificates allow.
 constexpr double kShareBeyondReserve = 0.5;
 
-/// The same of a cylinder in its bore, whose rows leave nothing out but what bends.
+/// As kSlideReserve for a cylinder in its bore, whose rows leave out only the bending of the twist.
 constexpr double kFitReserve = 0.45;
-/// A twist is bounded anew where it takes a cylinder further, so many times.
+/// A twist is bounded again where it takes a cylinder further, at most this many times.
 constexpr int kFitCuts = 6;
-/// By less than this share of the tolerance it may.
+/// It may exceed the bound by less than this share of the tolerance.
 constexpr double kFitSlack = 1e-2;
 
-/// Cylinders that may be off their bores by less than this share of the tolerance are held by their triangles.
+/// Cylinders with less play than this share of the tolerance are left to their triangles.
 constexpr double kMinOff = 0.1;
 
-/// The face that touches is looked for so far from the end of what touches [of its length].
+/// The touching face is searched at this distance from the end of the contact [of its length].
 constexpr double kInside = 1e-3;
-/// The cosine of the angle between a cylinder and its bore, up to its sign, is at least this.
+/// The smallest cosine of the angle between a cylinder and its bore, up to its sign.
 constexpr double kMinAhead = 0.99;
 
 bool same_faces(const BlockedPair& x, const BlockedPair& y) {
@@ -47,17 +47,17 @@ bool SlideContacts::add(const BlockedPair& pair) {
     if (!same_faces(known, pair)) continue;
     const bool changed = 1 - dot(known.axis, pair.axis) > kSameAxis;
     known = pair;
-    return changed && stand(known).patch.count > 0;
+    return changed && geometry(known).patch.count > 0;
   }
   pairs_.push_back(pair);
-  return stand(pair).patch.count > 0;
+  return geometry(pair).patch.count > 0;
 }
 
 bool SlideContacts::add_vertex(const BlockedPair& pair) {
   for (const BlockedPair& known : vertices_)
     if (same_faces(known, pair)) return false;
   vertices_.push_back(pair);
-  return stand(pair).patch.count > 0;
+  return geometry(pair).patch.count > 0;
 }
 
 bool SlideContacts::add_fit(const BlockedFit& fit) {
@@ -74,26 +74,26 @@ void SlideContacts::drop_vertices() {
   vertices_.clear();
 }
 
-void SlideContacts::choose_axes(const Pose& end) {
+void SlideContacts::choose_axes(const ScrewMotion& motion) {
   std::erase_if(pairs_, [&](BlockedPair& pair) {
-    const TrianglePairResult found = sweeper_.sweep_pair(pair, end);
+    const TrianglePairResult found = sweeper_.sweep_pair(pair, motion);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
     return false;
   });
 }
 
-double SlideContacts::part_within_reserve(const BlockedPair& pair) const {
+double SlideContacts::fraction_within_reserve(const BlockedPair& pair) const {
   if (length_squared(pair.axis) == 0) return 0;
-  const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = stand(pair).gap;
-  const double most = gap + allowed - kArcShare * sweeper_.tolerance();
+  const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = geometry(pair).gap;
+  const double available = gap + allowed - kArcShare * sweeper_.tolerance();
   const double wanted = gap + allowed - kSlideReserve * sweeper_.tolerance();
-  const double share = most > 0 ? wanted / most : 0;
-  // What is beyond the reserve already goes half of what is left.
+  const double share = available > 0 ? wanted / available : 0;
+  // A pair that uses the reserve already goes half of what is left.
   return pair.toi * std::max(share, kShareBeyondReserve);
 }
 
-SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
+SlideContacts::PairGeometry SlideContacts::geometry(const BlockedPair& pair) const {
   const RigidTransform moving = transform_from_pose(sweeper_.pose());
   const Pose& fixed_pose = sweeper_.poses()[pair.fixed.value];
   const RigidTransform fixed = transform_from_pose(fixed_pose);
@@ -101,11 +101,11 @@ SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
   const Triangle other = sweeper_.solid(pair.fixed).triangle(pair.face_fixed.value);
   const Triangle own_now{{moving * own[0], moving * own[1], moving * own[2]}};
   const Triangle other_now{{fixed * other[0], fixed * other[1], fixed * other[2]}};
-  Stand s;
+  PairGeometry s;
   s.normal = -(fixed.rotation * pair.axis);
-  double most = -std::numeric_limits<double>::infinity(), gaps[3];
-  for (int i = 0; i < 3; ++i) most = std::max(most, dot(s.normal, other_now[i] - other_now[0]));
-  for (int i = 0; i < 3; ++i) gaps[i] = dot(s.normal, own_now[i] - other_now[0]) - most;
+  double top = -std::numeric_limits<double>::infinity(), gaps[3];
+  for (int i = 0; i < 3; ++i) top = std::max(top, dot(s.normal, other_now[i] - other_now[0]));
+  for (int i = 0; i < 3; ++i) gaps[i] = dot(s.normal, own_now[i] - other_now[0]) - top;
   s.gap = std::min({gaps[0], gaps[1], gaps[2]});
   s.patch = contact_patch(own_now, other_now, s.normal, sweeper_.tolerance());
   if (s.patch.count == 0 && s.gap <= sweeper_.tolerance())
@@ -114,7 +114,7 @@ SlideContacts::Stand SlideContacts::stand(const BlockedPair& pair) const {
 }
 
 void SlideContacts::drop_beyond(double reach) {
-  std::erase_if(pairs_, [&](const BlockedPair& pair) { return stand(pair).gap > reach; });
+  std::erase_if(pairs_, [&](const BlockedPair& pair) { return geometry(pair).gap > reach; });
   std::erase_if(fits_, [&](const BlockedFit& fit) {
     const std::vector<FitEnd> both = ends(fit);
     return std::all_of(both.begin(), both.end(), [reach](const FitEnd& end) { return end.gap > reach; });
@@ -128,7 +128,7 @@ std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked
   const RigidTransform &of_inner = fit.moving_inside ? moving : fixed, &of_outer = fit.moving_inside ? fixed : moving;
   const Vec3 point = of_inner * fit.inner.point, direction = of_inner.rotation * fit.inner.direction;
   const Vec3 middle = of_outer * fit.outer.point, along = of_outer.rotation * fit.outer.direction;
-  // The bore's ends, as places along the cylinder's axis.
+  // The bore's ends, as positions along the cylinder's axis.
   const double ahead = dot(direction, along), start = dot(point - middle, along);
   if (std::abs(ahead) < kMinAhead) return {};
   double begin = (fit.outer_begin - start) / ahead, end = (fit.outer_end - start) / ahead;
@@ -139,87 +139,90 @@ std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked
   std::vector<FitEnd> both;
   for (const bool at_end : {false, true}) {
     const double at = at_end ? end : begin;
-    const Vec3 place = point + at * direction, from = place - middle;
+    const Vec3 there = point + at * direction, from = there - middle;
     const Vec3 off = from - dot(from, along) * along;
-    both.push_back({place, fit.moving_inside ? off : -off, along, (at_end ? begin - end : end - begin) * direction,
+    both.push_back({there, fit.moving_inside ? off : -off, along, (at_end ? begin - end : end - begin) * direction,
                     fit.room - length(off)});
   }
   return both;
 }
 
 double SlideContacts::withheld() const {
-  double most = 0;
-  for (const BlockedFit& fit : fits_) most = std::max(most, fit.fit.spread);
-  return most;
+  double largest = 0;
+  for (const BlockedFit& fit : fits_) largest = std::max(largest, fit.fit.radial_deviation);
+  return largest;
 }
 
 double SlideContacts::max_off(const BlockedFit& fit) const {
   return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
 }
 
-bool SlideContacts::bound(const HeldFit& held, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const {
+bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
+                          std::vector<HalfSpace>& bounds) const {
   const double slack = kFitSlack * sweeper_.tolerance();
   bool bounded = false;
-  for (const FitEnd& end : held.ends) {
-    const Vec3 lever_arm = end.place - sweeper_.center();
-    const Vec3 way = twist.velocity + cross(twist.rotation, lever_arm);
-    const Vec3 off = end.off + way - dot(way, end.along) * end.along;
-    if (length(off) <= std::max(held.max_off, length(end.off)) + slack) continue;
-    const Vec3 out = normalized(off), turn = (1 / lever) * cross(lever_arm, out);
+  for (const FitEnd& end : fit.ends) {
+    const Vec3 arm = end.point - sweeper_.center();
+    const Vec3 shift = twist.velocity + cross(twist.rotation, arm);
+    const Vec3 off = end.off + shift - dot(shift, end.along) * end.along;
+    if (length(off) <= std::max(fit.max_off, length(end.off)) + slack) continue;
+    const Vec3 out = normalized(off), turn = (1 / characteristic_length) * cross(arm, out);
     bounds.push_back(
-        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - held.max_off)});
+        {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - fit.max_off)});
     bounded = true;
   }
   return bounded;
 }
 
-void SlideContacts::bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const {
+void SlideContacts::bound(const BlockedPair& pair, double allowed, double characteristic_length,
+                          std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
-  const Stand s = stand(pair);
+  const PairGeometry s = geometry(pair);
   const double deepest = allowed - kSlideReserve * sweeper_.tolerance();
   if (s.patch.count == 0) return;
-  // What the certificates measure: it can be deeper than where the two lie over each other.
+  // The gap that the certificates measure can be deeper than that of the overlap.
   const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
   for (int i = 0; i < s.patch.count; ++i) {
     const ContactPatch::Point& p = s.patch.points[i];
-    const Vec3 turn = (1 / lever) * cross(p.on_upper - center, s.normal);
+    const Vec3 turn = (1 / characteristic_length) * cross(p.on_upper - center, s.normal);
     bounds.push_back(
         {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
   }
 }
 
-SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double lever) const {
+SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) const {
   std::vector<HalfSpace> bounds;
-  for (const BlockedPair& pair : pairs_) bound(pair, sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
+  for (const BlockedPair& pair : pairs_)
+    bound(pair, sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
   for (const BlockedPair& pair : vertices_)
-    bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), lever, bounds);
-  std::vector<HeldFit> held;
-  for (const BlockedFit& fit : fits_) held.push_back({max_off(fit), ends(fit)});
-  Twist found = solve(wanted, lever, bounds);
+    bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
+  std::vector<BoundingFit> bounding_fits;
+  for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
+  Twist found = solve(wanted, characteristic_length, bounds);
   for (int cuts = 0; cuts < kFitCuts; ++cuts) {
     bool news = false;
-    for (const HeldFit& fit : held) news |= bound(fit, found, lever, bounds);
+    for (const BoundingFit& fit : bounding_fits) news |= bound(fit, found, characteristic_length, bounds);
     if (!news) break;
-    found = solve(wanted, lever, bounds);
+    found = solve(wanted, characteristic_length, bounds);
   }
   return found;
 }
 
-SlideContacts::Twist SlideContacts::solve(const Twist& wanted, double lever,
+SlideContacts::Twist SlideContacts::solve(const Twist& wanted, double characteristic_length,
                                           const std::vector<HalfSpace>& bounds) const {
-  const Vec3 turned = lever * wanted.rotation;
+  const Vec3 turned = characteristic_length * wanted.rotation;
   const NearestTwist found =
       nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds);
   return {{found.x[0], found.x[1], found.x[2]},
-          {found.x[3] / lever, found.x[4] / lever, found.x[5] / lever},
+          {found.x[3] / characteristic_length, found.x[4] / characteristic_length, found.x[5] / characteristic_length},
           found.active_count > 0};
 }
 
 ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) const {
   const Vec3 out = normalized(end.off);
   const double side = fit.fit.moving_inside ? 1 : -1;
-  ContactPoint contact{fit.moving, fit.fixed, {}, {}, end.place + side * fit.fit.radius * out, -out, end.gap};
-  // Just inside: on the rim the faces that the bore opens in are as near.
+  ContactPoint contact{fit.moving, fit.fixed, {}, {}, end.point + side * fit.fit.radius * out, -out, end.gap};
+  // Just inside: on the rim, the faces around the opening of the bore are as near.
   const Vec3 inside = contact.point + kInside * end.inwards;
   const auto face = [&inside](const SolidTree& solid, const Pose& pose) {
     const Vec3 seen = inverse(transform_from_pose(pose)) * inside;
@@ -233,7 +236,7 @@ ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) cons
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
   std::vector<ContactPoint> points;
   for (const BlockedPair& pair : pairs_) {
-    const Stand s = stand(pair);
+    const PairGeometry s = geometry(pair);
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.
     const double touching = s.patch.nearest().gap + kTouching * sweeper_.tolerance();

@@ -10,86 +10,95 @@
 
 namespace dismantle {
 
-/// The contacts that bound the twist of the set in hand during one step of response Slide
+/// The contacts that bound the twist of the moving set during one step of response Slide
 /// (docs/design/0006-certificates.md; Ortega, Redon, Coquillart 2007): pairs of triangles, each with the axis that last
 /// let the wanted motion go furthest.
 class SlideContacts {
  public:
+  /// No contacts. The sweeper must outlive them.
   explicit SlideContacts(const CertificateSweeper& sweeper) : sweeper_(sweeper) {}
 
+  /// Removes all contacts.
   void clear() {
     pairs_.clear();
     vertices_.clear();
     fits_.clear();
   }
-  /// Lets go of all pairs, to find those that are left anew.
+  /// Removes all pairs of triangles.
   void drop_pairs() { pairs_.clear(); }
+  /// True if there are no pairs of triangles.
   bool empty() const { return pairs_.empty(); }
-  /// Takes up the pair, or gives it its new axis. True where it bounds the twist in a way that it did not before.
+  /// Adds a pair of triangles, or replaces its axis. @return true if it bounds the twist in a new way
   bool add(const BlockedPair& pair);
-  /// The same for a cylinder in its bore: one row a place along its axis instead of dozens of triangles.
+  /// Adds a cylinder in its bore: one bound at each end instead of those of dozens of triangles.
+  /// @return true if it bounds the twist in a new way
   bool add_fit(const BlockedFit& fit);
-  /// The most that cylinders taken whole keep from a motion that their triangles would allow [mm].
+  /// Upper bound of how much of a motion the whole cylinders withhold that their triangles would allow [mm].
   double withheld() const;
-  /// The same for a vertex that would get too deep behind a face, which the pair of a face of its own and that face
-  /// stands for until the step ends: no test of triangles knows of it.
+  /// Adds a vertex that would get too deep behind a face, until drop_vertices(): no triangle-pair test finds it.
+  /// @param pair a face of the vertex and that face
+  /// @return true if it bounds the twist in a new way
   bool add_vertex(const BlockedPair& pair);
+  /// Removes all vertices.
   void drop_vertices();
-  /// Gives every pair the axis that lets a motion to `end` go furthest, and lets go of pairs that do not block it.
-  void choose_axes(const Pose& end);
-  /// Lets go of pairs whose gap is more than `reach` [mm].
+  /// Gives every pair the axis that lets a motion go furthest, and removes pairs that do not block it.
+  void choose_axes(const ScrewMotion& motion);
+  /// Removes contacts whose gap is more than `reach` [mm].
   void drop_beyond(double reach);
 
-  /// The twist of the set in hand about its center, nearest to `wanted`, that takes no triangle pair deeper than its
-  /// allowance less kSlideReserve of the tolerance, to first order; rotations count with the lever `lever` [mm].
+  /// A twist of the moving set about its center.
   struct Twist {
     Vec3 velocity;         ///< Of the center [mm].
     Vec3 rotation;         ///< [rad]
     bool bounded = false;  ///< Some contact holds it back.
   };
-  Twist nearest(const Twist& wanted, double lever) const;
+  /// The twist nearest to `wanted` that takes no triangle pair deeper than its allowance less kSlideReserve of the
+  /// tolerance, to first order.
+  /// @param characteristic_length weighs rotations against translations [mm]
+  Twist nearest(const Twist& wanted, double characteristic_length) const;
 
-  /// How much of a motion on which `pair` is blocked should be made, so that kSlideReserve is kept if it can be.
-  double part_within_reserve(const BlockedPair& pair) const;
-  std::size_t size() const { return pairs_.size(); }
+  /// The fraction of a motion on which `pair` is blocked that should be made, so that kSlideReserve is kept if it can.
+  double fraction_within_reserve(const BlockedPair& pair) const;
 
-  /// The contacts with a gap of at most `reach` [mm] where the set is now.
+  /// The contacts with a gap of at most `reach` [mm] at the present pose, by components and faces.
   std::vector<ContactPoint> points(double reach) const;
 
  private:
-  /// Where a pair stands.
-  struct Stand {
-    Vec3 normal;         ///< Unit, from the fixed to the moving one [world].
+  /// The contact geometry of a pair at the present pose.
+  struct PairGeometry {
+    Vec3 normal;         ///< Unit, from the fixed to the moving triangle [world].
     ContactPatch patch;  ///< The moving triangle above the fixed one [world].
     double gap = 0;      ///< Along the normal [mm].
   };
-  Stand stand(const BlockedPair& pair) const;
-  /// What the pair forbids the twist; rows of nearest_twist.
-  /// @param allowed how deep it may be [mm]
-  void bound(const BlockedPair& pair, double allowed, double lever, std::vector<HalfSpace>& bounds) const;
+  PairGeometry geometry(const BlockedPair& pair) const;
+  /// Adds the rows of nearest_twist() by which the pair bounds the twist.
+  /// @param allowed depth [mm]
+  void bound(const BlockedPair& pair, double allowed, double characteristic_length,
+             std::vector<HalfSpace>& bounds) const;
 
-  /// An end of what of a cylinder is in its bore.
+  /// An end of the part of a cylinder that is in its bore.
   struct FitEnd {
-    Vec3 place;    ///< On the cylinder's axis [mm, world].
-    Vec3 off;      ///< What has the moving one's axis there off the fixed one's, across the bore [mm, world].
+    Vec3 point;    ///< On the cylinder's axis [mm, world].
+    Vec3 off;      ///< Offset of the moving one's axis from the fixed one's, across the bore [mm, world].
     Vec3 along;    ///< The bore's direction [unit, world].
     Vec3 inwards;  ///< To the other end [mm, world].
     double gap;    ///< Of the two surfaces on that side [mm].
   };
-  /// A cylinder in its bore where the set is now.
-  struct HeldFit {
-    double max_off;  ///< How far off the bore's axis it may be [mm].
+  /// A cylinder in its bore at the present pose.
+  struct BoundingFit {
+    double max_off;  ///< Largest offset from the bore's axis [mm].
     std::vector<FitEnd> ends;
   };
-  /// None where the cylinder is not in the bore any more.
+  /// Both ends; none if the cylinder is not in the bore any more.
   std::vector<FitEnd> ends(const BlockedFit& fit) const;
-  /// How far off its bore's axis a cylinder may be [mm].
+  /// The largest offset of a cylinder from its bore's axis [mm].
   double max_off(const BlockedFit& fit) const;
-  /// What the bore forbids the twist where `twist` would take the cylinder.
-  /// @return false where the twist keeps within it
-  bool bound(const HeldFit& held, const Twist& twist, double lever, std::vector<HalfSpace>& bounds) const;
+  /// Adds the rows by which the bore bounds the twist where `twist` would take the cylinder.
+  /// @return false if the twist keeps within it
+  bool bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
+             std::vector<HalfSpace>& bounds) const;
   ContactPoint point(const BlockedFit& fit, const FitEnd& end) const;
-  Twist solve(const Twist& wanted, double lever, const std::vector<HalfSpace>& bounds) const;
+  Twist solve(const Twist& wanted, double characteristic_length, const std::vector<HalfSpace>& bounds) const;
 
   const CertificateSweeper& sweeper_;
   std::vector<BlockedPair> pairs_;
@@ -97,8 +106,7 @@ class SlideContacts {
   std::vector<BlockedFit> fits_;
 };
 
-/// Response Slide keeps this share of the tolerance from every allowance: room for what a twist leaves out to first
-/// order.
+/// Response Slide keeps this share of the tolerance from every allowance: room for the second-order part of twists.
 inline constexpr double kSlideReserve = 0.65;
 
 }  // namespace dismantle

@@ -1,65 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 
+#include "dismantle/certificates/sweep/sweep_tasks.h"
 #include "dismantle/core/contract.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 namespace dismantle {
 
 namespace {
 
-/// Effort::Quick ends after so many steps, or one that is less than this share of the tolerance [of path length].
-constexpr int kQuickSteps = 6;
-constexpr double kQuickShare = 1e-2;
+/// Limits of SweepBudget::Bounded: the steps of a test, and its smallest step as a share of the tolerance [of path
+/// length].
+constexpr int kBoundedSteps = 6;
+constexpr double kBoundedShare = 1e-2;
 
-/// Effort::Some ends with about so many blocked pairs of two components.
-constexpr std::size_t kSomeBlocked = 32;
+/// A sampled sweep ends with about this many blocked pairs of two components.
+constexpr std::size_t kSampleSize = 32;
 
-/// `pose` in the frame of something at `frame`; exact where that is the assembled pose.
+/// `pose` in the frame of something at `frame`; exact if that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
   return frame == Pose{} ? pose : inverse(frame) * pose;
 }
 
-bool before(const BlockedPair& x, const BlockedPair& y) {
-  if (x.moving != y.moving) return x.moving < y.moving;
-  if (x.fixed != y.fixed) return x.fixed < y.fixed;
-  if (x.face_moving != y.face_moving) return x.face_moving < y.face_moving;
-  return x.face_fixed < y.face_fixed;
-}
-
 }  // namespace
 
-/// A pair whose spheres may come near each other in a sweep.
-struct CertificateSweeper::ActivePair {
-  ComponentId moving, fixed;
-  CertificateFront* front;
-  TrianglePairSweep leaves;
-  PreparedSweep sweep;
-  double allowed;
-  bool free = true;  ///< As far as was looked at by now.
-};
-
-/// A pair to be looked at with its fronts left as they are.
-struct CertificateSweeper::Look {
-  ComponentId moving, fixed;
-  const TrianglePairSweep& leaves;
-  const PairMotion& motion;
-  double window;
-};
-
-/// One part of one front, and what its sweep found.
-struct CertificateSweeper::PartTask {
-  std::size_t pair, part;
-  double horizon = 1;  // what comes later would not happen
-  FrontSweep found;
-  std::vector<BlockedPair> blocked;
-  std::size_t answered = 0;
-};
+void sort_blocked(std::vector<BlockedPair>& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const BlockedPair& x, const BlockedPair& y) {
+    if (x.moving != y.moving) return x.moving < y.moving;
+    if (x.fixed != y.fixed) return x.fixed < y.fixed;
+    if (x.face_moving != y.face_moving) return x.face_moving < y.face_moving;
+    return x.face_fixed < y.face_fixed;
+  });
+}
 
 CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairStates& pairs,
                                        const CertificateOptions& options, CertificateDevice device)
@@ -67,63 +42,44 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
       options_(options),
       kernels_(front_kernels(options.lanes)),
       rules_(pairs),
+      store_(assembly, options.executor),
+      device_(std::move(device)),
       poses_(assembly.components.size()),
-      is_held_(assembly.components.size()),
-      device_(std::move(device)) {
-  for (const Component& c : assembly.components) {
-    solids_.push_back(make_solid_tree(c, options.executor));
-    const Aabb box = assembled_bounds(c);
-    centers_.push_back(box.empty() ? Vec3{} : box.center());
-    double radius = 0;
-    for (const Vec3& p : solids_.back().vertices) radius = std::max(radius, length(p - centers_.back()));
-    radii_.push_back(radius);
-  }
-  prepare_radial();
-}
+      is_moving_(assembly.components.size()) {}
 
-void CertificateSweeper::prepare_radial() {
-  std::vector<std::pair<ComponentId, ComponentId>> near;
-  for (std::uint32_t a = 0; a < solids_.size(); ++a)
-    for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
-      if (solids_[a].revolution && solids_[b].revolution && sphere_gap(ComponentId(a), ComponentId(b), {}, {}, 0) <= 0)
-        near.emplace_back(a, b);
-  std::vector<std::vector<ThreadMatch>> threads(near.size());
-  options_.executor.for_each_heavy(near.size(), [&](std::size_t i) {
-    const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
-    threads[i] = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
-    PairMotion still;
-    still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
-    RadialSweeps(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin, still).get();
-  });
-  for (std::size_t i = 0; i < near.size(); ++i)
-    if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
-}
-
-void CertificateSweeper::hold(Span<const ComponentId> components) {
+void CertificateSweeper::grab(Span<const ComponentId> components) {
   DISMANTLE_EXPECT(!components.empty());
-  held_.assign(components.begin(), components.end());
-  std::sort(held_.begin(), held_.end());
-  std::fill(is_held_.begin(), is_held_.end(), false);
+  moving_.assign(components.begin(), components.end());
+  std::sort(moving_.begin(), moving_.end());
+  std::fill(is_moving_.begin(), is_moving_.end(), false);
   Aabb box;
-  for (const ComponentId c : held_) {
+  for (const ComponentId c : moving_) {
     DISMANTLE_EXPECT(poses_[c.value] == pose());
-    is_held_[c.value] = true;
+    is_moving_[c.value] = true;
     box.extend(assembled_bounds((*assembly_)[c]));
   }
   center_ = box.empty() ? Vec3{} : box.center();
   radius_ = 0;
-  for (const ComponentId c : held_)
-    for (const Vec3& p : solids_[c.value].vertices) radius_ = std::max(radius_, length(p - center_));
+  for (const ComponentId c : moving_)
+    for (const Vec3& p : solid(c).vertices) radius_ = std::max(radius_, length(p - center_));
 }
 
-double CertificateSweeper::deviation(const Pose& start, const Pose& end) const {
-  const Screw screw = screw_between(start, end);
-  return screw_chord_deviation(screw, screw_radius(screw, transform_from_pose(start) * center_, radius_));
+void CertificateSweeper::move_to(const Pose& pose) {
+  for (const ComponentId c : moving_) poses_[c.value] = pose;
 }
 
-double CertificateSweeper::travel(const Pose& start, const Pose& end) const {
-  const Screw screw = screw_between(start, end);
-  return screw_path_length(screw, screw_radius(screw, transform_from_pose(start) * center_, radius_));
+void CertificateSweeper::jump(Span<const Pose> poses) {
+  DISMANTLE_EXPECT(poses.size() == poses_.size());
+  const auto moved = [&](ComponentId c) { return !(poses[c.value] == poses_[c.value]); };
+  if (std::any_of(moving_.begin(), moving_.end(), moved)) {
+    moving_.clear();
+    std::fill(is_moving_.begin(), is_moving_.end(), false);
+  }
+  poses_.assign(poses.begin(), poses.end());
+}
+
+ScrewMotion CertificateSweeper::motion_between(const Pose& start, const Pose& end) const {
+  return screw_motion(start, end, transform_from_pose(start) * center_, radius_);
 }
 
 double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
@@ -135,99 +91,33 @@ bool CertificateSweeper::touched(ComponentId a, ComponentId b) const {
   return rules_.view().find(std::min(a, b).value, std::max(a, b).value).test != PairTest::Ordinary;
 }
 
-CertificateSweeper::FrontEntry& CertificateSweeper::front_of(ComponentId moving, ComponentId fixed) {
-  const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
-  auto found = fronts_.find({a, b});
-  if (found == fronts_.end())
-    found = fronts_.emplace(std::pair{a, b}, FrontEntry{roots(a, b, sides(a, b)), false, {}}).first;
-  FrontEntry& entry = found->second;
-  if (entry.b_moves != (moving == b)) {
-    const Mat3 of_moving = mat3_from_quat(poses_[moving.value].rotation);
-    const Mat3 of_fixed = mat3_from_quat(poses_[fixed.value].rotation);
-    // What stands still now is what moved so far.
-    entry.front.exchange_roles(transposed(of_moving) * of_fixed);
-    entry.b_moves = moving == b;
-  } else if (!(entry.fixed_pose == poses_[fixed.value])) {
-    entry.front.forget();
-  }
-  entry.fixed_pose = poses_[fixed.value];
-  return entry;
-}
-
-CertificateFront CertificateSweeper::roots(ComponentId a, ComponentId b, SideRule sides) const {
-  const auto threads = threads_.find({a, b});
-  return {solid(a).tree,
-          solid(b).tree,
-          sides,
-          solid(a).revolution.get(),
-          solid(b).revolution.get(),
-          threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
-}
-
 SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
   if (!solid(a).has_outside || !solid(b).has_outside) return SideRule::Memory;
   return allowed(a, b) > tolerance() ? SideRule::Free : SideRule::Normals;
 }
 
-TrianglePairSweep CertificateSweeper::triangle_pair_sweep(ComponentId moving, ComponentId fixed, const Pose& start,
-                                                          const Pose& end, Effort effort) const {
+TrianglePairSweep CertificateSweeper::triangle_pair_sweep(ComponentId moving, ComponentId fixed,
+                                                          const ScrewMotion& motion, SweepBudget budget) const {
   const Pose& frame = poses_[fixed.value];
   TrianglePairRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
-  if (effort == Effort::Quick || effort == Effort::Fits) {
-    rules.limits.steps = kQuickSteps;
-    rules.limits.min_progress = std::max(rules.limits.min_progress, kQuickShare * tolerance() / travel(start, end));
+  if (budget == SweepBudget::Bounded || budget == SweepBudget::WholeCylinders) {
+    rules.limits.steps = kBoundedSteps;
+    rules.limits.min_progress = std::max(rules.limits.min_progress, kBoundedShare * tolerance() / motion.path_length);
   }
-  return TrianglePairSweep(solid(moving), solid(fixed), seen_from(frame, start), seen_from(frame, end),
-                           deviation(start, end), rules);
-}
-
-TrianglePairResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const Pose& end) const {
-  return triangle_pair_sweep(pair.moving, pair.fixed, pose(), end, Effort::Quick)
-      .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
-}
-
-CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const Pose& end, double window) const {
-  CertificateSweep result;
-  std::optional<TrianglePairSweep> leaves;
-  const BlockedPair* last = nullptr;
-  for (const BlockedPair& pair : pairs) {
-    if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
-      leaves.emplace(triangle_pair_sweep(pair.moving, pair.fixed, pose(), end, Effort::Full));
-    last = &pair;
-    const TrianglePairResult found = leaves->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
-    ++result.triangle_tests;
-    if (found.free) continue;
-    result.blocked.push_back(pair);
-    result.blocked.back().toi = found.contact.toi;
-    result.blocked.back().axis = found.contact.axis;
-  }
-  finish(result, window);
-  return result;
-}
-
-double CertificateSweeper::sphere_gap(ComponentId moving, ComponentId fixed, const RigidTransform& start,
-                                      const RigidTransform& end, double deviation) const {
-  const Pose& pose_fixed = poses_[fixed.value];
-  const Vec3 from = start * centers_[moving.value], way = end * centers_[moving.value] - from;
-  const Vec3 other =
-      pose_fixed == Pose{} ? centers_[fixed.value] : transform_from_pose(pose_fixed) * centers_[fixed.value];
-  const double length2 = length_squared(way);
-  const double nearest = length2 > 0 ? std::clamp(dot(other - from, way) / length2, 0.0, 1.0) : 0;
-  const double margin = 1e-9 * (max_abs(from) + max_abs(way) + max_abs(other));
-  return length(from + nearest * way - other) - radii_[moving.value] - radii_[fixed.value] - deviation - margin;
+  return TrianglePairSweep(solid(moving), solid(fixed), seen_from(frame, motion.start), seen_from(frame, motion.end),
+                           motion.deviation, rules);
 }
 
 template <class Visit>
-void CertificateSweeper::for_each_near(const Pose& start, const Pose& end, double reach, CertificateSweep& result,
+void CertificateSweeper::for_each_near(const ScrewMotion& motion, double reach, CertificateSweep& result,
                                        Visit visit) const {
-  const RigidTransform from = transform_from_pose(start), to = transform_from_pose(end);
-  const double bend = deviation(start, end);
-  for (const ComponentId moving : held_) {
+  const RigidTransform from = transform_from_pose(motion.start), to = transform_from_pose(motion.end);
+  for (const ComponentId moving : moving_) {
     if (solid(moving).tree.empty()) continue;
     for (std::uint32_t k = 0; k < poses_.size(); ++k) {
       const ComponentId fixed(k);
-      if (is_held_[k] || solid(fixed).tree.empty()) continue;
-      const double gap = sphere_gap(moving, fixed, from, to, bend);
+      if (is_moving_[k] || solid(fixed).tree.empty()) continue;
+      const double gap = store_.spheres().gap(moving, from, to, motion.deviation, fixed, poses_[k]);
       if (gap > reach) {
         result.clearance = std::min(result.clearance, gap);
       } else if (allowed(moving, fixed) >= 0) {
@@ -235,84 +125,6 @@ void CertificateSweeper::for_each_near(const Pose& start, const Pose& end, doubl
       }
     }
   }
-}
-
-TrianglePairTest CertificateSweeper::triangle_pair_test(const ActivePair& pair, PartTask& task, double window,
-                                                        Span<const TrianglePairResult> answers) {
-  return [&pair, &task, window, answers](std::uint32_t moving, std::uint32_t fixed, Vec3f hint, std::uint32_t answer) {
-    // A device tests the whole motion; after a contact it is not looked at to its end any more.
-    const bool answered = answer != PairResult::kNone && task.horizon == 1;
-    task.answered += answered ? 1 : 0;
-    const TrianglePairResult found =
-        answered ? answers[answer] : pair.leaves.test(moving, fixed, {hint.x, hint.y, hint.z}, task.horizon);
-    if (!found.free) {
-      task.horizon = std::min(task.horizon, found.contact.toi + window);
-      task.blocked.push_back(
-          {pair.moving, pair.fixed, FaceId(moving), FaceId(fixed), found.contact.toi, found.contact.axis});
-    }
-    const float gap = -rounded_up(-found.gap);
-    const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
-    return TrianglePairVerdict{found.free, gap, cut_short, found.no_deep_vertex_possible, pair.leaves.certificate(found, pair.sweep)};
-  };
-}
-
-void CertificateSweeper::finish(CertificateSweep& result, double window) {
-  std::sort(result.blocked.begin(), result.blocked.end(), before);
-  for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
-  std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
-  result.free = result.blocked.empty() && result.fits.empty();
-  result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
-}
-
-CertificateSweep CertificateSweeper::sweep(const Pose& end, double window, Effort effort) {
-  CertificateSweep result;
-  result.clearance = std::numeric_limits<double>::infinity();
-  std::vector<ActivePair> active;
-  for_each_near(pose(), end, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    CertificateFront& front = front_of(moving, fixed).front;
-    const TrianglePairSweep leaves = triangle_pair_sweep(moving, fixed, pose(), end, effort);
-    PairMotion motion = leaves.motion();
-    if (effort != Effort::Full) motion.max_blocked = kSomeBlocked;
-    if (effort == Effort::Fits) motion.max_fit_deviation = tolerance();
-    active.push_back({moving, fixed, &front, leaves, front.begin_sweep(motion), allowed(moving, fixed)});
-  });
-  std::vector<PartTask> tasks;
-  for (std::size_t p = 0; p < active.size(); ++p)
-    for (std::size_t part = 0; part < active[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
-
-  FrontResults answers;
-  const bool asks = asks_device(active);
-  if (asks) {
-    merge_by_device(active, tasks);
-    answers = device_.fronts->ask(asked_fronts(active), effort == Effort::Full);
-  }
-  for_each_part(tasks.size(), [&](std::size_t i) {
-    const ActivePair& pair = active[tasks[i].pair];
-    if (!asks) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
-    tasks[i].found = pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_,
-                                            triangle_pair_test(pair, tasks[i], window, answers.leaves),
-                                            asks ? &answers.parts[i] : nullptr);
-  });
-
-  for (PartTask& task : tasks) {
-    const LinearSweep& sweep = active[task.pair].sweep;
-    result.clearance = std::min<double>(result.clearance, task.found.min_gap - sweep.error);
-    result.triangle_tests += task.found.triangle_tests;
-    result.answered_tests += task.answered;
-    result.complete &= task.found.complete;
-    active[task.pair].free &= task.found.complete && task.found.blocked == 0;
-    const std::pair both{active[task.pair].moving, active[task.pair].fixed};
-    if (task.found.touching && (result.touching.empty() || result.touching.back() != both))
-      result.touching.push_back(both);
-    result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-    for (const CylinderFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
-  }
-  for (const ActivePair& pair : active) {
-    pair.front->end_sweep(pair.sweep, pair.free);
-    result.front += pair.front->size();
-  }
-  finish(result, window);
-  return result;
 }
 
 template <class Run>
@@ -324,82 +136,198 @@ void CertificateSweeper::for_each_part(std::size_t count, const Run& run) const 
   }
 }
 
-bool CertificateSweeper::asks_device(const std::vector<ActivePair>& active) const {
-  if (!device_.fronts || active.empty()) return false;
-  std::size_t pairs = 0;
-  for (const ActivePair& pair : active) pairs += pair.front->size();
-  return pairs >= device_.min_pairs;
+TrianglePairTest CertificateSweeper::triangle_pair_test(const PairSweep& pair, PartTask& task, double window) {
+  return [&pair, &task, window](const TrianglePairCandidate& candidate) {
+    // A device tests the whole motion; after a contact only the time up to the horizon is tested.
+    const bool by_device = candidate.known && task.horizon == 1;
+    task.device_tests += by_device ? 1 : 0;
+    const Vec3f hint = candidate.hint;
+    const TrianglePairResult found = by_device ? *candidate.known
+                                               : pair.triangle_pairs.test(candidate.face_moving, candidate.face_fixed,
+                                                                          {hint.x, hint.y, hint.z}, task.horizon);
+    if (!found.free) {
+      task.horizon = std::min(task.horizon, found.contact.toi + window);
+      task.blocked.push_back({pair.moving, pair.fixed, FaceId(candidate.face_moving), FaceId(candidate.face_fixed),
+                              found.contact.toi, found.contact.axis});
+    }
+    const float gap = -rounded_up(-found.gap);
+    const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
+    return TrianglePairVerdict{found.free, gap, cut_short, found.no_deep_vertex_possible,
+                               pair.triangle_pairs.certificate(found, pair.sweep)};
+  };
 }
 
-std::vector<FrontQuery> CertificateSweeper::asked_fronts(const std::vector<ActivePair>& active) {
-  std::vector<FrontQuery> fronts;
-  fronts.reserve(active.size());
-  for (const ActivePair& pair : active) fronts.push_back({pair.front, &pair.sweep, &pair.leaves});
-  return fronts;
+void CertificateSweeper::finish(CertificateSweep& result, double window) {
+  sort_blocked(result.blocked);
+  for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
+  std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
+  result.free = result.blocked.empty() && result.fits.empty();
+  result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
 
-void CertificateSweeper::merge_by_device(const std::vector<ActivePair>& active, const std::vector<PartTask>& tasks) {
+std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(const ScrewMotion& motion,
+                                                                             SweepBudget budget,
+                                                                             CertificateSweep& result) {
+  std::vector<PairSweep> pairs;
+  for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
+    CertificateFront& front = store_.prepare(moving, fixed, sides(moving, fixed), poses_);
+    const TrianglePairSweep triangle_pairs = triangle_pair_sweep(moving, fixed, motion, budget);
+    PairMotion pair_motion = triangle_pairs.motion();
+    if (budget != SweepBudget::Exhaustive) pair_motion.max_blocked = kSampleSize;
+    if (budget == SweepBudget::WholeCylinders) pair_motion.max_fit_deviation = tolerance();
+    pairs.push_back({moving, fixed, &front, triangle_pairs, front.begin_sweep(pair_motion), allowed(moving, fixed)});
+  });
+  return pairs;
+}
+
+CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double window, SweepBudget budget) {
+  CertificateSweep result;
+  result.clearance = std::numeric_limits<double>::infinity();
+  std::vector<PairSweep> pairs = prepare_pairs(motion, budget, result);
+  std::vector<PartTask> tasks;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t part = 0; part < pairs[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
+
+  Span<const PartResults> known;
+  const bool by_device = uses_device(pairs);
+  if (by_device) {
+    merge_by_device(pairs, tasks);
+    known = device_.fronts->evaluate(front_queries(pairs), budget == SweepBudget::Exhaustive);
+  }
+  for_each_part(tasks.size(), [&](std::size_t i) {
+    const PairSweep& pair = pairs[tasks[i].pair];
+    if (!by_device) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
+    tasks[i].found =
+        pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, triangle_pair_test(pair, tasks[i], window),
+                               by_device ? &known[i] : nullptr);
+  });
+
+  collect(tasks, pairs, result);
+  for (const PairSweep& pair : pairs) {
+    pair.front->end_sweep(pair.sweep, pair.free);
+    result.front += pair.front->size();
+  }
+  finish(result, window);
+  return result;
+}
+
+void CertificateSweeper::collect(const std::vector<PartTask>& tasks, std::vector<PairSweep>& pairs,
+                                 CertificateSweep& result) {
+  for (const PartTask& task : tasks) {
+    PairSweep& pair = pairs[task.pair];
+    result.clearance = std::min<double>(result.clearance, task.found.min_gap - pair.sweep.error);
+    result.triangle_tests += task.found.triangle_tests;
+    result.device_tests += task.device_tests;
+    result.complete &= task.found.complete;
+    pair.free &= task.found.complete && task.found.blocked == 0;
+    const std::pair both{pair.moving, pair.fixed};
+    if (task.found.may_touch && (result.near_component_pairs.empty() || result.near_component_pairs.back() != both))
+      result.near_component_pairs.push_back(both);
+    result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
+    for (const CylinderFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
+  }
+}
+
+bool CertificateSweeper::uses_device(const std::vector<PairSweep>& pairs) const {
+  if (!device_.fronts || pairs.empty()) return false;
+  std::size_t size = 0;
+  for (const PairSweep& pair : pairs) size += pair.front->size();
+  return size >= device_.min_pairs;
+}
+
+std::vector<FrontQuery> CertificateSweeper::front_queries(const std::vector<PairSweep>& pairs) {
+  std::vector<FrontQuery> queries;
+  queries.reserve(pairs.size());
+  for (const PairSweep& pair : pairs) queries.push_back({pair.front, &pair.sweep, &pair.triangle_pairs});
+  return queries;
+}
+
+void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, const std::vector<PartTask>& tasks) {
   std::vector<std::vector<Siblings>> siblings(tasks.size());
   for_each_part(tasks.size(), [&](std::size_t i) {
-    const ActivePair& pair = active[tasks[i].pair];
+    const PairSweep& pair = pairs[tasks[i].pair];
     siblings[i] = pair.front->siblings_of(tasks[i].part, pair.sweep);
   });
   std::vector<std::size_t> begins;
-  std::vector<MergeCandidate> parents;
+  std::vector<MergeCandidate> candidates;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    begins.push_back(parents.size());
+    begins.push_back(candidates.size());
     for (const Siblings& s : siblings[i])
-      parents.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b, s.hint});
+      candidates.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b, s.hint});
   }
-  if (parents.empty()) return;
-  const Span<const NodeSeparation> separations = device_.fronts->separate(asked_fronts(active), parents);
+  if (candidates.empty()) return;
+  const Span<const NodeSeparation> separations = device_.fronts->separate(front_queries(pairs), candidates);
   for_each_part(tasks.size(), [&](std::size_t i) {
-    const ActivePair& pair = active[tasks[i].pair];
+    const PairSweep& pair = pairs[tasks[i].pair];
     pair.front->merge_part(tasks[i].part, pair.sweep, kernels_, siblings[i],
                            separations.subspan(begins[i], siblings[i].size()));
   });
 }
 
-CertificateSweep CertificateSweeper::look(const Pose& start, const Pose& end, double window) const {
+TrianglePairResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const ScrewMotion& motion) const {
+  return triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Bounded)
+      .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+}
+
+CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const ScrewMotion& motion,
+                                                 double window) const {
+  CertificateSweep result;
+  std::optional<TrianglePairSweep> triangle_pairs;
+  const BlockedPair* last = nullptr;
+  for (const BlockedPair& pair : pairs) {
+    if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
+      triangle_pairs.emplace(triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Exhaustive));
+    last = &pair;
+    const TrianglePairResult found = triangle_pairs->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
+    ++result.triangle_tests;
+    if (found.free) continue;
+    result.blocked.push_back(pair);
+    result.blocked.back().toi = found.contact.toi;
+    result.blocked.back().axis = found.contact.axis;
+  }
+  finish(result, window);
+  return result;
+}
+
+CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, double window) const {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
-  for_each_near(start, end, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
-    const auto known = fronts_.find({a, b});
-    const bool usable = known != fronts_.end() && known->second.b_moves == (moving == b) &&
-                        known->second.fixed_pose == poses_[fixed.value];
-    const CertificateFront anew = roots(moving, fixed, sides(moving, fixed));
-    const CertificateFront& front = usable ? known->second.front : anew;
-    const TrianglePairSweep leaves = triangle_pair_sweep(moving, fixed, start, end, Effort::Full);
-    const PairMotion motion = leaves.motion();
-    look_at(front, {moving, fixed, leaves, motion, window}, result);
+  for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
+    std::optional<CertificateFront> fresh;
+    const CertificateFront* front = store_.find(moving, fixed, poses_[fixed.value]);
+    if (!front) front = &fresh.emplace(store_.new_front(moving, fixed, sides(moving, fixed)));
+    const TrianglePairSweep triangle_pairs = triangle_pair_sweep(moving, fixed, motion, SweepBudget::Exhaustive);
+    const PairSweep pair{
+        moving, fixed, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()), allowed(moving, fixed)};
+    sweep_const(*front, pair, window, result);
   });
   finish(result, window);
   return result;
 }
 
-CertificateSweep CertificateSweeper::look_straight(const StraightWay& asked, double from, double to) const {
-  const ComponentId moving = asked.moving, fixed = asked.fixed;
+CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to) const {
+  const ComponentId moving = motion.moving, fixed = motion.fixed;
   CertificateSweep result;
   const double allowance = allowed(moving, fixed);
   if (allowance < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
   const auto at = [&](double share) {
-    return seen_from(asked.fixed_at, {asked.moving_at.position + share * asked.way, asked.moving_at.rotation});
+    return seen_from(motion.pose_fixed,
+                     {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
-  const TrianglePairSweep leaves(solid(moving), solid(fixed), at(from), at(to), 0,
-                                 {allowance, tolerance(), sides(moving, fixed), {}, false});
-  PairMotion motion = leaves.motion();
-  motion.max_blocked = 1;
-  look_at(roots(moving, fixed, sides(moving, fixed)), {moving, fixed, leaves, motion, 0}, result);
+  const TrianglePairSweep triangle_pairs(solid(moving), solid(fixed), at(from), at(to), 0,
+                                         {allowance, tolerance(), sides(moving, fixed), {}, false});
+  PairMotion pair_motion = triangle_pairs.motion();
+  pair_motion.max_blocked = 1;
+  const CertificateFront front = store_.new_front(moving, fixed, sides(moving, fixed));
+  sweep_const(front, {moving, fixed, nullptr, triangle_pairs, front.prepare_sweep(pair_motion), allowance}, 0, result);
   finish(result, 0);
   return result;
 }
 
-void CertificateSweeper::look_at(const CertificateFront& front, const Look& look, CertificateSweep& result) const {
-  const ActivePair pair{
-      look.moving, look.fixed, nullptr, look.leaves, front.prepare_sweep(look.motion), allowed(look.moving, look.fixed)};
-  PartTask task{0, 0, std::min(1.0, result.toi + look.window), {}, {}, 0};
-  const FrontSweep found = front.look(pair.sweep, kernels_, triangle_pair_test(pair, task, look.window));
+void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSweep& pair, double window,
+                                     CertificateSweep& result) const {
+  PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}, 0};
+  const FrontSweep found = front.sweep_const(pair.sweep, kernels_, triangle_pair_test(pair, task, window));
   for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
   result.clearance = std::min<double>(result.clearance, found.min_gap - pair.sweep.error);
@@ -411,34 +339,19 @@ void CertificateSweeper::look_at(const CertificateFront& front, const Look& look
 std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   std::vector<BlockedPair> pairs;
   CertificateSweep unused;
-  for_each_near(pose(), pose(), reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    const CertificateFront front = roots(moving, fixed, SideRule::Free);
-    PairMotion motion = triangle_pair_sweep(moving, fixed, pose(), pose(), Effort::Full).motion();
+  const ScrewMotion rest = motion_to(pose());
+  for_each_near(rest, reach, unused, [&](ComponentId moving, ComponentId fixed) {
+    const CertificateFront front = store_.new_front(moving, fixed, SideRule::Free);
+    PairMotion motion = triangle_pair_sweep(moving, fixed, rest, SweepBudget::Exhaustive).motion();
     motion.allowed = -reach;
-    const TrianglePairTest take = [&](std::uint32_t face_moving, std::uint32_t face_fixed, Vec3f, std::uint32_t) {
-      pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
+    const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
+      pairs.push_back({moving, fixed, FaceId(candidate.face_moving), FaceId(candidate.face_fixed), 0, {}});
       return TrianglePairVerdict{};
     };
-    front.look(front.prepare_sweep(motion), kernels_, take);
+    front.sweep_const(front.prepare_sweep(motion), kernels_, take);
   });
-  std::sort(pairs.begin(), pairs.end(), before);
+  sort_blocked(pairs);
   return pairs;
-}
-
-void CertificateSweeper::move_to(const Pose& pose) {
-  for (const ComponentId c : held_) poses_[c.value] = pose;
-}
-
-void CertificateSweeper::jump(Span<const Pose> poses) {
-  DISMANTLE_EXPECT(poses.size() == poses_.size());
-  poses_.assign(poses.begin(), poses.end());
-}
-
-std::size_t CertificateSweeper::front_size() const {
-  std::size_t size = 0;
-  for (const auto& [pair, entry] : fronts_)
-    if (is_held_[pair.first.value] != is_held_[pair.second.value]) size += entry.front.size();
-  return size;
 }
 
 }  // namespace dismantle

@@ -73,16 +73,16 @@ Certificate TrianglePairSweep::certificate(const TrianglePairResult& found, cons
   c.hull.center = to_float(moving[0] - origin);
   for (int i = 0; i < 2; ++i) c.hull.span[i] = to_float(moving[i + 1] - origin - to_double(c.hull.center));
   const Vec3 w = to_double(c.axis);
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) least = std::min(least, dot(w, fixed[i] - fixed_->tree.origin));
-  // An axis against the normals says something only without the allowance.
+  double min_fixed = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) min_fixed = std::min(min_fixed, dot(w, fixed[i] - fixed_->tree.origin));
+  // An axis that disagrees with the normals may not use the allowance.
   double usable = rules.allowed;
   if (rules.sides == SideRule::Normals) {
     const Mat3 middle{{to_double(sweep.middle[0]), to_double(sweep.middle[1]), to_double(sweep.middle[2])}};
     const Triangle turned{{middle * moving[0], middle * moving[1], middle * moving[2]}};
     const Vec3 own = middle * moving_->normals[face_moving], other = fixed_->normals[face_fixed];
     usable = OutwardNormals{own, other, {}, {}}.allowance(w, rules.allowed);
-    // On edge the allowance is only for those that need it: others may be apart along another axis when they do.
+    // On edge only pairs that need the allowance get it: others may be apart along another axis by then.
     const bool on_edge = !detail::face_on(own, other, w);
     if (on_edge && !meet) usable = std::min(0.0, usable);
     TrianglePairSweepKernel::Around around;
@@ -90,9 +90,9 @@ Certificate TrianglePairSweep::certificate(const TrianglePairResult& found, cons
       usable = kernel_.normals_of({face_moving, face_fixed, turned, fixed}, middle, around).allowance(w, rules.allowed);
     if (usable > 0 && on_edge) c.hull.kind = NodeHull::kTriangleOnEdge;
   }
-  // What the front allows is taken off where none of it may be used.
+  // The front's allowance is subtracted if the axis may not use it.
   const double taken_off = usable < rules.allowed ? static_cast<double>(sweep.allowed) - std::min(0.0, usable) : 0;
-  c.offset = -rounded_up(taken_off - least);
+  c.offset = -rounded_up(taken_off - min_fixed);
   return c;
 }
 

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/certificates/device/device_fronts.h"
-#include "dismantle/certificates/device/front_device.h"
+#include "dismantle/certificates/sweep/triangle_pair_sweep.h"
+#include "dismantle/exec/device_array.h"
 
 #include <map>
-#include <utility>
 
 namespace dismantle {
 
-/// The elementary tests of sweeps on a device, with copies of the components' triangles in its memory.
-class DeviceTrianglePairs {
+/// Copies of the components' triangles in a device's memory, for triangle-pair tests there.
+class DeviceSolids {
  public:
-  using Sweep = TrianglePairSweep;
-  using Kernel = TrianglePairSweepKernel;
-  using Found = TrianglePairResult;
-
-  /// What tests as `sweep` does, over solids in the device's memory. Solids that it does not know go there.
+  /// The kernel of `sweep` over solids in the device's memory. Uploads solids that are not there yet.
   template <class Queue>
-  Kernel kernel(Queue& queue, const TrianglePairSweep& sweep) {
-    Kernel kernel = sweep.kernel();
+  TrianglePairSweepKernel kernel(Queue& queue, const TrianglePairSweep& sweep) {
+    TrianglePairSweepKernel kernel = sweep.kernel();
     kernel.moving = copy_of(queue, sweep.moving());
     kernel.fixed = copy_of(queue, sweep.fixed());
     return kernel;
@@ -51,26 +46,6 @@ class DeviceTrianglePairs {
   }
 
   std::map<const SolidTree*, Solid> solids_;
-};
-
-/// Fronts and elementary tests on the device that `Queue` is: HostQueue or CudaQueue.
-template <class Queue>
-class QueueFrontDevice final : public FrontDevice {
- public:
-  /// @param capacity that everything starts with
-  QueueFrontDevice(Queue queue, std::size_t capacity) : fronts_(std::move(queue), capacity) {}
-
-  FrontResults ask(Span<const FrontQuery<TrianglePairSweep>> fronts, bool to_the_end) override {
-    const Span<const PartResults> parts = fronts_.ask(fronts, to_the_end);
-    return {parts, fronts_.leaves()};
-  }
-  Span<const NodeSeparation> separate(Span<const FrontQuery<TrianglePairSweep>> fronts,
-                                      Span<const MergeCandidate> pairs) override {
-    return fronts_.separate(fronts, pairs);
-  }
-
- private:
-  DeviceFronts<Queue, DeviceTrianglePairs> fronts_;
 };
 
 }  // namespace dismantle

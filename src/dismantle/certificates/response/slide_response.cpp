@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Response Slide: the motions along contacts of one step.
+#include "dismantle/certificates/response/certificate_response.h"
+#include "dismantle/certificates/response/slide_state.h"
+#include "dismantle/engine/chords.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+using Shortening = GuardedMover::Shortening;
+using Twist = SlideContacts::Twist;
+
+/// Sweeps of one step, apart from free ones of an unbounded motion.
+constexpr int kMaxTries = 40;
+/// A step ends before a motion along contacts that makes less than this share of what is still wanted, or after it if
+/// it is the step's first: the next step goes on.
+constexpr double kCreepShare = 0.1;
+/// Contacts that let the set hardly move are found again this many times in a row, then ever more rarely.
+constexpr unsigned kAlwaysSearchAgain = 4;
+/// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
+constexpr double kBendShare = 0.3;
+/// Contacts are kept while their gap is at most this many tolerances.
+constexpr double kContactReach = 8;
+
+}  // namespace
+
+void CertificateResponse::slide(const Pose& target, StepResult& result) {
+  const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
+  contacts_.drop_vertices();
+  SlideState state;
+  state.target = target;
+  state.axes_chosen = state.contacts_here = contacts_.empty();
+  while (state.tries < kMaxTries) {
+    const SlideTrial trial = choose_trial(state);
+    if (!state.contacts_here && (trial.travel < rest || trial.creeping) && search_again()) {
+      // Among many pairs, one that was left behind may be what holds the set.
+      contacts_.drop_pairs();
+      state.axes_chosen = state.contacts_here = true;
+      ++state.tries;
+      continue;
+    }
+    if (trial.travel < rest || (trial.creeping && !result.poses.empty())) break;
+
+    const ScrewMotion motion = within_arcs(trial.motion);
+    const double window = std::max(kContactWindow, kContactReach * tolerance / trial.travel);
+    const CertificateSweep found = sweep(motion, window, state.budget, result);
+    result.clearance = found.clearance;
+    if (!found.free) report(found, result);
+    state.tries += !found.free || trial.twist.bounded;
+    const bool goes_on =
+        found.free ? make_free(trial, motion, state, result) : make_blocked(trial, motion, found, state, result);
+    if (!goes_on) break;
+  }
+  end_slide(target, result);
+}
+
+CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& state) {
+  const double characteristic_length = std::max(sweeper_.radius() / 2, sweeper_.tolerance());
+  const ScrewMotion to_target = sweeper_.motion_to(state.target);
+  const Twist wanted = twist_of(to_target);
+  const Twist tried = shortened(wanted, reach_);
+  const bool whole = travel_of(tried) >= travel_of(wanted);
+  if (!std::exchange(state.axes_chosen, true))
+    contacts_.choose_axes(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
+  const Twist allowed = contacts_.nearest(tried, characteristic_length), twist = bent_little(allowed);
+  const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
+  return {twist, travel_of(twist), creeping, twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
+}
+
+bool CertificateResponse::make_free(const SlideTrial& trial, const ScrewMotion& motion, SlideState& state,
+                                    StepResult& result) {
+  bool made = advance(motion, 1, Shortening::None, result) > 0;
+  if (add_blocking_vertices(result)) {
+    ++state.tries;
+    return true;
+  }
+  if (!made) made = advance(motion, 1, Shortening::Allowed, result) > 0;
+  const bool was_on_course = std::exchange(state.on_course, !trial.twist.bounded);
+  // Motions along one screw are reported as one.
+  if (made && was_on_course && state.on_course) result.poses.erase(result.poses.end() - 2);
+  reach_ *= kTryGrowth;
+  state.axes_chosen = state.contacts_here = false;
+  if (made && !trial.creeping) hardly_moved_ = 0;
+  return made && !trial.creeping && !(sweeper_.pose() == state.target);
+}
+
+bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotion& motion,
+                                       const CertificateSweep& found, SlideState& state, StepResult& result) {
+  bool news = false;
+  double fraction = found.toi;
+  for (const BlockedPair& pair : found.blocked) {
+    news |= contacts_.add(pair);
+    fraction = std::min(fraction, contacts_.fraction_within_reserve(pair));
+  }
+  for (const BlockedFit& fit : found.fits) news |= contacts_.add_fit(fit);
+  if (news) return true;
+  if (!found.fits.empty()) {
+    state.budget = SweepBudget::Bounded;
+    return true;
+  }
+  if (!found.complete) {
+    // Other pairs may block earlier: all of them have to be examined up to where these allow the motion.
+    reach_ = fraction * trial.travel;
+    return !(reach_ < kRestShare * sweeper_.tolerance());
+  }
+  reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
+  const bool made = advance(motion, fraction, Shortening::Allowed, result) > 0;
+  if (!add_blocking_vertices(result) && !made) return false;
+  state.axes_chosen = state.on_course = state.contacts_here = false;
+  if (made && !trial.creeping) hardly_moved_ = 0;
+  return true;
+}
+
+bool CertificateResponse::search_again() {
+  ++hardly_moved_;
+  return hardly_moved_ <= kAlwaysSearchAgain || (hardly_moved_ & (hardly_moved_ - 1)) == 0;
+}
+
+void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
+  const ScrewMotion left = sweeper_.motion_to(target);
+  const double tolerance = sweeper_.tolerance();
+  if (left.path_length > 0 && left.path_length <= contacts_.withheld()) {
+    const CertificateSweep found = sweep(left, kContactWindow, SweepBudget::Bounded, result);
+    if (found.free && advance(left, 1, Shortening::None, result) > 0)
+      result.clearance = std::min(result.clearance, found.clearance);
+  }
+  contacts_.drop_beyond(kContactReach * tolerance);
+  result.contact_points = contacts_.points(tolerance);
+  // No triangles were reported for contacts of whole cylinders.
+  if (!result.blocking_pairs.empty()) return;
+  for (const ContactPoint& c : result.contact_points) result.blocking_pairs.push_back(blocking_pair_of(c, 0));
+}
+
+bool CertificateResponse::add_blocking_vertices(StepResult& result) {
+  if (mover_.blocking_vertices().empty()) return false;
+  result.blocking_pairs = mover_.blocking_vertices();
+  bool news = false;
+  for (const BlockingPair& c : mover_.blocking_vertices()) {
+    const bool a_moves = sweeper_.moves(c.a);
+    BlockedPair pair{
+        a_moves ? c.a : c.b, a_moves ? c.b : c.a, a_moves ? c.face_a : c.face_b, a_moves ? c.face_b : c.face_a, 0, {}};
+    // Out of the face that the vertex is behind.
+    const bool moving_is_outer = (c.rule == BlockingRule::VertexOfB) == a_moves;
+    const ComponentId outer = moving_is_outer ? pair.moving : pair.fixed;
+    const FaceId face = moving_is_outer ? pair.face_moving : pair.face_fixed;
+    const Vec3 out = normalized(normal_unscaled(sweeper_.solid(outer).triangle(face.value)));
+    const Mat3 seen = mat3_from_quat((inverse(sweeper_.poses()[pair.fixed.value]) * sweeper_.pose()).rotation);
+    pair.axis = moving_is_outer ? seen * out : -out;
+    news |= contacts_.add_vertex(pair);
+  }
+  mover_.clear_blocking_vertices();
+  return news;
+}
+
+Twist CertificateResponse::bent_little(Twist twist) const {
+  const double bend = sweeper_.radius() * length_squared(twist.rotation) / 2;
+  const double max_bend = kBendShare * sweeper_.tolerance();
+  if (!twist.bounded || bend <= max_bend) return twist;
+  const double scale = std::sqrt(max_bend / bend);
+  return {scale * twist.velocity, scale * twist.rotation, true};
+}
+
+ScrewMotion CertificateResponse::within_arcs(const ScrewMotion& motion) const {
+  const double limit = kArcShare * sweeper_.tolerance();
+  if (motion.deviation <= limit) return motion;
+  return sweeper_.motion_to(motion.at(std::sqrt(limit / motion.deviation) * (1 - 1e-6)));
+}
+
+Twist CertificateResponse::twist_of(const ScrewMotion& motion) const {
+  const Screw& screw = motion.screw;
+  const Vec3 turn = screw.angle * screw.axis;
+  return {screw.velocity + cross(turn, sweeper_.center() - screw.reference), turn, false};
+}
+
+double CertificateResponse::travel_of(const Twist& twist) const {
+  return length(twist.velocity) + sweeper_.radius() * length(twist.rotation);
+}
+
+Twist CertificateResponse::shortened(Twist twist, double max_travel) const {
+  const double travel = travel_of(twist);
+  if (travel <= max_travel) return twist;
+  const double scale = max_travel / travel;
+  return {scale * twist.velocity, scale * twist.rotation, twist.bounded};
+}
+
+Pose CertificateResponse::twisted(const Twist& twist) const {
+  Screw screw;
+  screw.reference = sweeper_.center();
+  screw.velocity = twist.velocity;
+  const double angle = length(twist.rotation);
+  if (angle >= kScrewMinimumAngle) {
+    screw.angle = angle;
+    screw.axis = twist.rotation / angle;
+    return screw_at(screw, 1) * sweeper_.pose();
+  }
+  return {sweeper_.pose().position + twist.velocity, sweeper_.pose().rotation};
+}
+
+}  // namespace dismantle

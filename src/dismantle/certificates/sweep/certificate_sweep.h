@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/certificates/front/radial_separation.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace dismantle {
+
+/// Two triangles that a sweep has found to get too deep into each other.
+struct BlockedPair {
+  ComponentId moving;  ///< A component of the moving set.
+  ComponentId fixed;   ///< The other component.
+  FaceId face_moving;  ///< Face of the moving component's mesh.
+  FaceId face_fixed;   ///< Face of the fixed component's mesh.
+  double toi = 0;      ///< The pair certainly allows the motion on [0, toi].
+  /// Unit, from the moving to the fixed triangle [assembled frame of the fixed component]; zero if no axis separates
+  /// them.
+  Vec3 axis;
+};
+
+/// A cylinder of one component that is blocked by its bore in another, as one contact.
+struct BlockedFit {
+  ComponentId moving;  ///< A component of the moving set.
+  ComponentId fixed;   ///< The other component.
+  CylinderFit fit;     ///< The cylinder and the bore.
+};
+
+/// Result of a sweep of the moving set.
+struct CertificateSweep {
+  double toi = 1;    ///< The motion is certainly free on [0, toi], if `complete`.
+  bool free = true;  ///< Nothing blocks the motion.
+  /// False if blocked pairs were left out: `toi` may then be too late, and `blocked` lacks some. A free sweep is always
+  /// complete.
+  bool complete = true;
+  std::vector<BlockedPair> blocked;  ///< Pairs blocked within the window after the first; by components and faces.
+  std::vector<BlockedFit> fits;      ///< SweepBudget::WholeCylinders: blocked cylinders, taken as one contact each.
+  double clearance = 0;              ///< Lower bound of all distances during the sweep [mm]; 0 if not free.
+  std::size_t front = 0;             ///< Node pairs of the fronts used.
+  std::size_t triangle_tests = 0;    ///< Triangle-pair tests made.
+  std::size_t device_tests = 0;      ///< Those of them that a device made.
+  /// Moving and fixed: component pairs of which some triangles were neither certainly apart throughout nor met face on
+  /// face.
+  std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs;
+};
+
+/// How much work a sweep may do. All budgets are safe; smaller ones are faster, but may block earlier.
+enum class SweepBudget {
+  Exhaustive,      ///< Tests each triangle pair to its end, and finds all blocked pairs.
+  Sampled,         ///< The same for a sample of the blocked pairs.
+  Bounded,         ///< A sample; each test is limited in the number and the size of its steps.
+  WholeCylinders,  ///< As Bounded; cylinders that are blocked by their bores are one contact each.
+};
+
+/// A translation of one component past another.
+struct LinearMotion {
+  ComponentId moving;  ///< The component that moves.
+  ComponentId fixed;   ///< The component that it may meet.
+  Vec3 displacement;   ///< [mm, world]
+  Pose pose_moving;    ///< Pose of the moving component at the start.
+  Pose pose_fixed;     ///< Pose of the fixed component.
+};
+
+}  // namespace dismantle
