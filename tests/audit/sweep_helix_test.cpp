@@ -76,12 +76,12 @@ TEST(HelicalRuns, JoinTheFramesOfOneHelicalMotion) {
   const auto motion = helical_motion(scene.pair, runs[0]);
   ASSERT_TRUE(motion.has_value());
   EXPECT_NEAR(motion->pitch, 0.3, 1e-9);
-  EXPECT_LT(motion->astray, 1e-9);
+  EXPECT_LT(motion->deviation, 1e-9);
   for (std::uint32_t k = 0; k < 30; ++k) {
-    const Vec3 origin = motion->place(scene.pair.motions[k].start.translation);
-    const Vec3 first = motion->place(scene.pair.motions[0].start.translation);
+    const Vec3 origin = motion->axis_coordinates(scene.pair.motions[k].start.translation);
+    const Vec3 first = motion->axis_coordinates(scene.pair.motions[0].start.translation);
     EXPECT_NEAR(std::hypot(origin.x, origin.y), std::hypot(first.x, first.y), 1e-9);
-    EXPECT_NEAR(origin.z - first.z, 0.3 * motion->turned[k], 1e-9);
+    EXPECT_NEAR(origin.z - first.z, 0.3 * motion->angles[k], 1e-9);
   }
 }
 
@@ -112,7 +112,7 @@ TEST(HelicalMotion, IsRefusedBeyondTheResolutionAndReportsItsDeviationWithin) {
   scene.pair.motions[12].start.translation = scene.pair.motions[12].start.translation + Vec3{0, 0.0004, 0};
   const auto near = helical_motion(scene.pair, {0, 20});
   ASSERT_TRUE(near.has_value());
-  EXPECT_GT(near->astray, 0.000399);
+  EXPECT_GT(near->deviation, 0.000399);
   scene.pair.motions[12].start.translation = scene.pair.motions[12].start.translation + Vec3{0, 0.001, 0};
   EXPECT_FALSE(helical_motion(scene.pair, {0, 20}).has_value());
 }
@@ -146,7 +146,7 @@ TEST(ProfileTree, NodesContainAllPointsOfTheirTriangles) {
       for (int sample = 0; sample < 40; ++sample) {
         double s = uniform(random), w = uniform(random);
         if (s + w > 1) s = 1 - s, w = 1 - w;
-        const Vec3 place = helical->motion.place(t[0] + s * (t[1] - t[0]) + w * (t[2] - t[0]));
+        const Vec3 place = helical->motion.axis_coordinates(t[0] + s * (t[1] - t[0]) + w * (t[2] - t[0]));
         for (const std::uint32_t j : above) {
           const ProfileNode& outer = tree.node(j);
           EXPECT_LE(gap(outer.z, {place.z, 0}, 0), 1e-9);

@@ -28,7 +28,7 @@ double squared_distance_to_box(const BoxNode& node, Vec3 point) {
   return squared;
 }
 
-/// Orthonormal frames whose third rows are ray directions that no CAD model has a plane along.
+/// Orthonormal frames whose third rows are ray directions, unlikely to be parallel to a plane of a CAD model.
 const Mat3* ray_frames(int& count) {
   static const auto frames = [] {
     std::vector<Mat3> made;
@@ -48,8 +48,8 @@ const Mat3* ray_frames(int& count) {
   return frames.data();
 }
 
-/// Twice the signed area of (point, a, b) in the plane across the ray. Swapping a and b negates it exactly, so that two
-/// triangles always agree on which side of their edge the ray is.
+/// Twice the signed area of (point, a, b) in the plane perpendicular to the ray. Swapping a and b negates it exactly,
+/// so that two triangles always agree about the side of their common edge on which the ray is.
 double side_of_edge(Vec3 a, Vec3 b, Vec3 point) {
   return (a.x - point.x) * (b.y - point.y) - (b.x - point.x) * (a.y - point.y);
 }

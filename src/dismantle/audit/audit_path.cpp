@@ -14,8 +14,8 @@ namespace dismantle {
 namespace {
 
 double resolution_of(const Assembly& assembly, const Path& path) {
-  const double least = kAuditMinTolerance * diagonal(assembled_bounds(assembly));
-  const double resolution = kAuditResolution * (path.tolerance > least ? path.tolerance : least);
+  const double minimum = kAuditMinTolerance * diagonal(assembled_bounds(assembly));
+  const double resolution = kAuditResolution * (path.tolerance > minimum ? path.tolerance : minimum);
   return resolution > 0 ? resolution : kAuditResolution * kAuditMinTolerance;
 }
 
@@ -31,7 +31,7 @@ void append(std::vector<AuditViolation>& to, std::vector<AuditViolation> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// Takes what a sweep found into the report. @return whether to go on
+/// Adds the outcome of a sweep to the report; false where it was cancelled.
 bool take(audit::SweepOutcome outcome, AuditReport& report) {
   append(report.violations, std::move(outcome.violations));
   report.samples += outcome.samples;

@@ -10,7 +10,7 @@ struct MovingTriangle {
   Triangle now;
   Vec3 velocity[3];
   double acceleration[3];
-  double speed = 0;  // the largest of its points
+  double speed = 0;  // largest of its points
 
   MovingTriangle(const RelativeMotion& motion, const Triangle& at_s) : now(at_s) {
     for (int i = 0; i < 3; ++i) {
@@ -20,14 +20,14 @@ struct MovingTriangle {
     }
   }
 
-  /// A lower bound of corner i's projection on `axis` for all of the next `duration`; the bound is concave in time.
+  /// A lower bound of corner i's projection on `axis` during the next `duration`; the bound is concave in time.
   double lowest_projection(int i, Vec3 axis, double duration) const {
     const double at_start = dot(axis, now[i]);
     const double at_end = at_start + duration * dot(axis, velocity[i]) - 0.5 * acceleration[i] * duration * duration;
     return std::min(at_start, at_end);
   }
 
-  /// How long, `horizon` at most, no corner's projection on `axis` falls below `floor`.
+  /// The time, `horizon` at most, during which no corner's projection on `axis` falls below `floor`.
   double certified_time(Vec3 axis, double floor, double horizon) const {
     double time = horizon;
     for (int i = 0; i < 3; ++i) {
@@ -43,8 +43,8 @@ struct MovingTriangle {
 
 namespace {
 
-/// Leaves one crossing for each vertex and segment, from the earliest to the latest time.
-void unite(std::vector<CrossingVertex>& crossings) {
+/// Merges the crossings of each vertex and segment into one, from the earliest to the latest time.
+void merge(std::vector<CrossingVertex>& crossings) {
   std::sort(crossings.begin(), crossings.end(), [](const CrossingVertex& p, const CrossingVertex& q) {
     return p.vertex != q.vertex ? p.vertex < q.vertex : p.segment < q.segment;
   });
@@ -61,7 +61,8 @@ void unite(std::vector<CrossingVertex>& crossings) {
   crossings.resize(count);
 }
 
-/// Whether a point may touch a triangle that stands still within `duration`, by its plane and those across its edges.
+/// True if a point may touch a stationary triangle within `duration`, by the triangle's plane and the planes through
+/// its edges perpendicular to it.
 bool may_touch(const Triangle& t, Vec3 normal, Vec3 point, Vec3 velocity, double acceleration, double duration,
                double rounding) {
   const auto beyond = [&](Vec3 out, Vec3 from) {
@@ -81,7 +82,7 @@ TriangleFollower::TriangleFollower(const PairSweep& pair)
     : pair_(pair), may_enter_{pair.b->closed(), pair.a->closed()} {}
 
 TriangleFindings TriangleFollower::take() {
-  for (std::vector<CrossingVertex>& crossings : findings_.crossing) unite(crossings);
+  for (std::vector<CrossingVertex>& crossings : findings_.crossing) merge(crossings);
   return std::move(findings_);
 }
 
@@ -102,8 +103,8 @@ Vec3 TriangleFollower::follow(const ScrewStretch& stretch, std::uint32_t face_a,
       return found.axis.axis;
     }
     axis = found.axis.axis;
-    const double least = moving.speed > 0 ? pair_.resolution / moving.speed : 1;
-    const double step = std::min(end - s, std::max(found.time, least));
+    const double min_step = moving.speed > 0 ? pair_.resolution / moving.speed : 1;
+    const double step = std::min(end - s, std::max(found.time, min_step));
     mark_crossing({segment, s, s + step, a_from_b}, face_a, face_b, a, moving, axis);
     s += step;
     if (!(s < end)) return axis;
@@ -160,7 +161,7 @@ void TriangleFollower::mark_crossing(const ScrewStretch& stretch, std::uint32_t 
         may_touch(a, normal_a, moving.now[i], moving.velocity[i], moving.acceleration[i], duration, pair_.rounding))
       mark(1, pair_.b->face(face_b).v[i], stretch);
     if (dot(axis, a[i]) < lowest_b - pair_.rounding) continue;
-    const Vec3 velocity = -motion.velocity(a[i]);  // as b sees it
+    const Vec3 velocity = -motion.velocity(a[i]);  // relative to b
     if (may_touch(moving.now, normal_b, a[i], velocity, motion.acceleration(velocity), duration, pair_.rounding))
       mark(0, pair_.a->face(face_a).v[i], stretch);
   }
@@ -177,9 +178,9 @@ void TriangleFollower::mark(int side, std::uint32_t vertex, const ScrewStretch& 
   if (!may_enter_[side]) return;
   std::vector<CrossingVertex>& crossings = findings_.crossing[side];
   crossings.push_back({vertex, when.segment, when.from, when.to});
-  if (crossings.size() < room_[side]) return;
-  unite(crossings);
-  room_[side] = std::max(room_[side], 2 * crossings.size());
+  if (crossings.size() < capacity_[side]) return;
+  merge(crossings);
+  capacity_[side] = std::max(capacity_[side], 2 * crossings.size());
 }
 
 }  // namespace dismantle::audit

@@ -25,12 +25,12 @@ Mat3 cross_matrix(Vec3 w) {
   return {{{0, -w.z, w.y}, {w.z, 0, -w.x}, {-w.y, w.x, 0}}};
 }
 
-/// The least absolute value of each coordinate between two points.
+/// The smallest absolute value of each coordinate on the segment between two points.
 Vec3 nearest_to_zero(Vec3 from, Vec3 to) {
   return max(max(min(from, to), -max(from, to)), Vec3{});
 }
 
-/// The first part of a screw, `part` of its time long; a later part of the same length has the same twist.
+/// The first `part` of a screw motion; a later part of the same length has the same twist.
 Screw scaled(const Screw& screw, double part) {
   Screw result = screw;
   result.velocity = part * screw.velocity;
@@ -59,14 +59,14 @@ double Interval::clearance(const BoxNode& a, const BoxNode& b) const {
     return std::max(in_a, in_b) - reach(b);
   }
   const Vec3 velocity = motion.velocity(center);
-  // A point's velocity keeps its size and turns about the axis, so its path leaves its tangent by this.
-  const double astray = 0.5 * (motion.acceleration(velocity) + motion.screw.angle * motion.screw.angle * b.radius);
+  // Bound of a path's deviation from its tangent: the velocity has constant magnitude and turns about the axis.
+  const double deviation = 0.5 * (motion.acceleration(velocity) + motion.screw.angle * motion.screw.angle * b.radius);
   const Vec3 near_a = nearest_to_zero(offset, offset + velocity);
   const double in_a = length_of_positive(near_a - (a.half + swept_a * b.half));
-  if (in_a > astray) return in_a - astray;
+  if (in_a > deviation) return in_a - deviation;
   const Vec3 near_b = nearest_to_zero(b_from_a * offset, b_from_a * (offset + velocity));
   const double in_b = length_of_positive(near_b - (swept_b * b.half + transposed(abs_rotation) * a.half));
-  return std::max(in_a, in_b) - astray;
+  return std::max(in_a, in_b) - deviation;
 }
 
 Interval interval_of(const RelativeMotion& motion) {

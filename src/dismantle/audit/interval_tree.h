@@ -9,42 +9,52 @@
 
 namespace dismantle::audit {
 
-/// A stretch of time in the sweep of a pair, and how far b gets in it: whole screws, or a part of one screw.
+/// A time interval in the sweep of a pair with bounds of b's motion: several whole segments, or a part of one.
 struct Interval {
-  std::uint32_t span = 0;              ///< Of the span tree; a leaf of it, where it is a part of one screw.
-  std::uint32_t first = 0, count = 0;  ///< Segments.
-  double s = 0, duration = 1;          ///< Of one segment: when it starts, and how long it is.
-  RigidTransform a_from_b;     ///< At its reference: at its start, or at the frame in the middle of several segments.
-  Mat3 abs_rotation;           ///< |R|: half sizes of a box of b to half sizes in a's axes.
-  Mat3 swept_a, swept_b;       ///< One segment: half sizes of a box of b to those of all that its points, seen from
-                               ///< the centre's linear path, cover, in a's axes and in b's axes at the reference.
-  Mat3 b_from_a;               ///< The reference's rotation.
-  RelativeMotion motion;       ///< One segment: from the start of the interval to its end.
-  double shift = 0, turn = 0;  ///< Several segments: as in MotionSpan.
-  std::uint32_t halves[2] = {0, 0};  ///< 0 where it is not split yet.
+  std::uint32_t span = 0;  ///< Node of the span tree; a leaf for a part of one segment.
+  ///@{ Segments [first, first + count).
+  std::uint32_t first = 0, count = 0;
+  ///@}
+  ///@{ Of one segment: begin and length, as parts of the segment.
+  double s = 0, duration = 1;
+  ///@}
+  RigidTransform a_from_b;  ///< Reference pose of b: at the begin, or at the middle frame of several segments.
+  Mat3 abs_rotation;        ///< |R|: maps half sizes of a box of b to half sizes along a's axes.
+  ///@{ Of one segment: map half sizes of a box of b to those of the region that its points cover relative to the linear
+  /// path of the box's centre, along the axes of a and along those of b at the reference.
+  Mat3 swept_a, swept_b;
+  ///@}
+  Mat3 b_from_a;          ///< Rotation of the reference pose.
+  RelativeMotion motion;  ///< Of one segment: from the begin of the interval to its end.
+  ///@{ Of several segments: as in MotionSpan.
+  double shift = 0, turn = 0;
+  ///@}
+  std::uint32_t halves[2] = {0, 0};  ///< Indices of the two halves; 0 where it is not split yet.
 
+  /// True for a part of one segment.
   bool one_segment() const { return count == 1; }
-  /// How far a point of a box of b gets from where it is at the reference [mm].
+  /// Bound of the distance of a point of a box of b from its position at the reference [mm].
   double reach(const BoxNode& b) const;
-  /// A lower bound of the distance of the two boxes at every instant of the interval.
+  /// A lower bound of the distance of two boxes during the interval [mm].
   double clearance(const BoxNode& a, const BoxNode& b) const;
 };
 
 /// The interval of one whole motion.
 Interval interval_of(const RelativeMotion& motion);
 
-/// The span tree of a sweep, and below its leaves every screw in halves, quarters, and so on. Made as it is asked for.
+/// The span tree of a sweep, and below its leaves every segment in halves, quarters, and so on. Nodes are created on
+/// demand.
 class IntervalTree {
  public:
-  /// A screw is halved this often at most.
+  /// Largest number of times that a segment is halved.
   static constexpr int kMaxHalvings = 6;
 
-  /// @param spans as motion_spans makes them; both must outlive the tree
+  /// @param spans of motion_spans(); both must outlive the tree
   IntervalTree(const PairSweep& pair, const std::vector<MotionSpan>& spans);
 
-  /// The root is 0. References stay valid.
+  /// An interval; 0 is the root. References remain valid.
   const Interval& operator[](std::uint32_t i) const { return intervals_[i]; }
-  /// True where halves(i) may be asked for.
+  /// True if interval i can be split by halves().
   bool can_split(std::uint32_t i) const;
   /// The earlier and the later half of interval i. @pre can_split(i)
   const std::uint32_t (&halves(std::uint32_t i))[2];

@@ -21,8 +21,8 @@ PairLedger::PairLedger(const Assembly& assembly, const Path& path) {
 }
 
 const PairRecord& PairLedger::find(std::uint32_t a, std::uint32_t b) const {
-  const auto place = records_.find({a, b});
-  return place != records_.end() ? place->second : ordinary_;
+  const auto found = records_.find({a, b});
+  return found != records_.end() ? found->second : ordinary_;
 }
 
 PairRecord& PairLedger::get(std::uint32_t a, std::uint32_t b) {

@@ -10,7 +10,7 @@ namespace dismantle::audit {
 
 namespace {
 
-/// Depths are right to this many units of rounding of the largest coordinate on the way to them.
+/// Error bound of depths in units of rounding of the largest coordinate in their computation.
 constexpr double kRoundingUnits = 32;
 
 double rounding_of(const PairTask& task, const SweepTimes& times, const Pose& pose_a) {

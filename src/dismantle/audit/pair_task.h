@@ -14,49 +14,56 @@
 
 namespace dismantle::audit {
 
-/// One pair in one move, and what was found about it.
+/// One pair in one move, and its findings.
 struct PairTask {
-  std::uint32_t a = 0, b = 0;  ///< Components; b moves.
-  PairSweep sweep;
-  std::vector<std::uint32_t> spans;         ///< Indices of the span trees of b in which it may come near a.
-  std::vector<HelicalPair> helices;         ///< In these runs it is looked at from the axis.
-  Breach triangles, vertices;               ///< Of rule 1 and of rule 2.
-  double deepest = 0;                       ///< Of its triangles [mm].
-  std::vector<CrossingVertex> crossing[2];  ///< Of a against b, of b against a.
-  bool parted = false;                      ///< It was embedded and is so no more.
+  ///@{ The components; b moves.
+  std::uint32_t a = 0, b = 0;
+  ///@}
+  PairSweep sweep;                   ///< The motion of b relative to a.
+  std::vector<std::uint32_t> spans;  ///< Indices of the span trees of b in which it may come near a.
+  std::vector<HelicalPair> helices;  ///< The runs that sweep_helix() checks.
+  ///@{ The first breach of rule 1 and of rule 2.
+  Breach triangles, vertices;
+  ///@}
+  double deepest = 0;                       ///< Largest depth of its triangles [mm].
+  std::vector<CrossingVertex> crossing[2];  ///< Vertices of a against b, of b against a.
+  bool parted = false;                      ///< It was embedded and parts in this move.
 
+  ///@{ The components in the order of their indices.
   std::uint32_t low() const { return std::min(a, b); }
   std::uint32_t high() const { return std::max(a, b); }
+  ///@}
 };
 
-/// The poses and screws of a sweep.
+/// The segments of a move.
 struct SweepTimes {
-  std::size_t move = AuditViolation::kAssembledState;
-  std::vector<MotionSegment> segments;
+  std::size_t move = AuditViolation::kAssembledState;  ///< Index of the move.
+  std::vector<MotionSegment> segments;                 ///< In order.
 };
 
-/// The sweep of b against a, which stands at `pose_a`.
+/// The task of b against a, which stands still at `pose_a`.
 PairTask make_task(const SweepContext& context, const SweepTimes& times, std::uint32_t a, std::uint32_t b,
                    const Pose& pose_a);
 
-/// Vertices of one component against the other: of the moving one (side 1), or of the one that stands (side 0).
+/// The sweep of the vertices of the moving component (side 1) or the stationary one (side 0) against the other.
 VertexSweep vertex_sweep(const PairTask& task, int side);
 
-/// Which of the two lists of vertices of the pair's record a side of a task is.
+/// Index of a task's side in PairRecord::inside.
 inline int record_side(const PairTask& task, int side) {
   return task.a < task.b ? side : 1 - side;
 }
 
-/// From where on an embedded pair is apart and so ordinary; the number of segments where it never is.
+/// The segment at whose start an embedded pair parts; the number of segments where it does not.
 std::uint32_t parted_at(const PairTask& task);
 
-/// Sorts by pair: the order of the report.
+/// Sorts by pair, the order of the report.
 void sort_by_pair(std::vector<PairTask>& tasks);
 
-/// Takes what a task found into the ledger and the outcome.
+/// Adds the findings of a task to the ledger and the outcome.
 void conclude(SweepContext& context, const SweepTimes& times, const PairTask& task, SweepOutcome& outcome);
 
-/// Runs work(i) for all i in batches, with progress and the chance to cancel between them.
+/// Runs work(i) for i in [0, count) in batches, with a progress report from `from` to `to` after each; false where it
+/// was cancelled.
 template <class Work>
 bool run_batches(const SweepContext& context, std::size_t count, std::size_t batch, double from, double to,
                  const Work& work) {

@@ -5,8 +5,8 @@
 
 namespace dismantle::audit {
 
-/// True where two components are apart: all their triangles by more than `margin` [mm], and neither has a piece of its
-/// surface inside the other where that is closed.
+/// True if two components are apart: all their triangles by more than `margin` [mm], and no connected piece of a
+/// surface is inside the other component where that is closed.
 bool components_apart(const AuditBody& a, const AuditBody& b, const RigidTransform& a_from_b, double margin);
 
 }  // namespace dismantle::audit

@@ -33,7 +33,7 @@ bool finite(const Pose& pose) {
   return is_finite(pose.position) && is_finite(Vec3{q.x, q.y, q.z}) && std::isfinite(q.w);
 }
 
-/// Within kPoseAgreement; q and -q are the same rotation.
+/// True if two poses agree within kPoseAgreement; q and -q are the same rotation.
 bool same_pose(const Pose& a, const Pose& b) {
   const double scale = std::max({1.0, max_abs(a.position), max_abs(b.position)});
   if (!(max_abs(a.position - b.position) <= kPoseAgreement * scale)) return false;
@@ -42,7 +42,7 @@ bool same_pose(const Pose& a, const Pose& b) {
   return dot(d, d) <= kPoseAgreement * kPoseAgreement;
 }
 
-/// Names in a list that the assembly does not have or that come twice.
+/// Messages about names in a list that the assembly does not have or that are repeated.
 std::vector<std::string> wrong_names(const Assembly& assembly, const std::vector<std::string>& names,
                                      const std::string& where) {
   std::vector<std::string> messages;

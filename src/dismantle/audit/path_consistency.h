@@ -10,23 +10,23 @@
 
 namespace dismantle::audit {
 
-/// How far a move's first frame may be from where its components are: relative to the position's size and to 1 mm, and
-/// absolute for the quaternion.
+/// Largest difference between a move's first frame and the poses of its components: relative to the larger of the
+/// position's size and 1 mm, and absolute for the quaternion.
 inline constexpr double kPoseAgreement = 1e-9;
 
-/// What is wrong with the path's header, pairs and list of removed components: names that the assembly does not have
-/// or that come twice, numbers that make no sense.
+/// Checks the path's header, pairs and list of removed components: names that the assembly does not have or that are
+/// repeated, and invalid numbers.
 std::vector<AuditViolation> check_declarations(const Assembly& assembly, const Path& path);
 
-/// What is wrong with move `index`, given the poses that the components have before it: names, times, numbers, unit
-/// quaternions, and that it starts where its components are, which must be one pose.
+/// Checks move `index`: names, times, numbers, unit quaternions, and that its first frame is the pose of all its
+/// components. @param poses of all components before the move
 std::vector<AuditViolation> check_move(const Assembly& assembly, const Path& path, std::size_t index,
                                        Span<const Pose> poses);
 
-/// True where the move's frames can be followed: there are some, and all numbers are finite.
+/// True if the move has frames and all their numbers are finite, so that it can be swept.
 bool can_follow(const Move& move);
 
-/// Components that end further than the assembly's bounding box (its diagonal) from it must be listed as removed.
+/// Checks that components which end further from the assembly's bounding box than its diagonal are listed as removed.
 std::vector<AuditViolation> check_removed(const Assembly& assembly, const Path& path, Span<const Pose> final_poses);
 
 }  // namespace dismantle::audit

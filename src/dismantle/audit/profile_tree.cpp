@@ -13,9 +13,9 @@ namespace dismantle::audit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// The profile is cut along a node's normal while the node is this many times as wide along it as its triangles are.
+/// A node is divided along its normal while it is more than this many times as wide along it as its triangles.
 constexpr double kFlat = 4;
-/// Directions that are this near to that of r count as it [rad].
+/// Directions within this angle of r count as r [rad].
 constexpr double kAlongR = 0.04;
 
 double on_circle(double value, double circumference) {
@@ -27,28 +27,28 @@ Arc full_circle(double circumference) {
   return {0, circumference};
 }
 
-/// The distance of the origin from a triangle in the plane, z not looked at; 0 inside.
+/// The distance of the origin from a triangle's projection on the plane of x and y; 0 inside.
 double distance_from_axis(const std::array<Vec3, 3>& p) {
-  double least = 1e300;
+  double distance = 1e300;
   int left = 0, right = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 from{p[i].x, p[i].y, 0}, to{p[(i + 1) % 3].x, p[(i + 1) % 3].y, 0};
     const Vec3 edge = to - from;
     const double squared = dot(edge, edge);
     const double s = squared > 0 ? std::clamp(-dot(from, edge) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, length(from + s * edge));
+    distance = std::min(distance, length(from + s * edge));
     const double side = from.x * to.y - from.y * to.x;
     left += side >= 0 ? 1 : 0;
     right += side <= 0 ? 1 : 0;
   }
-  return left == 3 || right == 3 ? 0 : least;
+  return left == 3 || right == 3 ? 0 : distance;
 }
 
 double angle_between(const Vec3& from, const Vec3& to) {
   return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
 }
 
-/// The angle of a triangle's normal in the plane of r and u, from r on.
+/// The angle of a triangle's normal in the plane of r and u, from r [rad].
 double profile_normal(const std::array<Vec3, 3>& p) {
   const Vec3 normal = unit_normal({{p[0], p[1], p[2]}});
   const Vec3 center = (p[0] + p[1] + p[2]) / 3.0;
@@ -56,7 +56,7 @@ double profile_normal(const std::array<Vec3, 3>& p) {
   return std::atan2(normal.z, radius > 0 ? (normal.x * center.x + normal.y * center.y) / radius : 0);
 }
 
-/// How much of a surface faces where, by the angle of its normal in the profile; both sides count as one.
+/// A histogram of area by the angle of the normal in the profile; opposite normals count as one.
 class NormalHistogram {
  public:
   static constexpr int kBins = 180;
@@ -68,7 +68,7 @@ class NormalHistogram {
     bins_[std::min(static_cast<int>(angle / kPi * kBins), kBins - 1)] += length(n);
   }
 
-  /// Takes the direction that most of what is left faces in. 0 and pi are the same.
+  /// Removes the most frequent direction and returns its angle [rad]. 0 and pi are the same.
   double take_peak() {
     int best = 0;
     for (int i = 1; i < kBins; ++i)
@@ -98,12 +98,12 @@ class NormalHistogram {
   std::array<double, kBins> bins_{};
 };
 
-/// Corners about the axis of the motion.
-std::array<Vec3, 3> places(const HelicalMotion& motion, const Triangle& t) {
-  return {motion.place(t[0]), motion.place(t[1]), motion.place(t[2])};
+/// The coordinates of a triangle's corners about the axis of the motion.
+std::array<Vec3, 3> corners_about_axis(const HelicalMotion& motion, const Triangle& t) {
+  return {motion.axis_coordinates(t[0]), motion.axis_coordinates(t[1]), motion.axis_coordinates(t[2])};
 }
 
-/// What a triangle takes of r, z, theta and the profile.
+/// The bounds of a triangle in r, z, theta and the profile.
 ProfileNode bounds_of(const std::array<Vec3, 3>& p, const ProfileFrame& frame) {
   ProfileNode node;
   double radius[3], angle[3];
@@ -114,13 +114,13 @@ ProfileNode bounds_of(const std::array<Vec3, 3>& p, const ProfileFrame& frame) {
   node.z = make_arc(low_z, high_z, 0);
   node.along[0] = node.r;
 
-  double longest = 0;  // edge across the axis, squared
+  double longest = 0;  // edge perpendicular to the axis, squared
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = p[(i + 1) % 3] - p[i];
     longest = std::max(longest, edge.x * edge.x + edge.y * edge.y);
   }
-  // Linear interpolation of f over a triangle is off by at most |f''| R^2 / 2, R^2 a third of the longest edge squared
-  // (Waldron 1998); |r''| = 1 / r, r is convex, and |theta''| = 1 / r^2.
+  // Linear interpolation of f over a triangle has an error of at most |f''| R^2 / 2, R^2 a third of the longest edge
+  // squared (Waldron 1998); |r''| = 1 / r, r is convex, and |theta''| = 1 / r^2.
   const double off_r = longest / (6 * nearest), off_theta = off_r / nearest;
   if (!(off_theta < kPi)) {
     node.theta = full_circle(2 * kPi);
@@ -140,9 +140,9 @@ ProfileNode bounds_of(const std::array<Vec3, 3>& p, const ProfileFrame& frame) {
     const double of_r = frame.of_r[k], of_u = frame.of_u[k];
     double low = 1e300, high = -1e300;
     for (int i = 0; i < 3; ++i) {
-      const double place = of_r * radius[i] + of_u * (p[i].z - frame.pitch * angle[i]);
-      low = std::min(low, place);
-      high = std::max(high, place);
+      const double coordinate = of_r * radius[i] + of_u * (p[i].z - frame.pitch * angle[i]);
+      low = std::min(low, coordinate);
+      high = std::max(high, coordinate);
     }
     const double turning = std::fabs(frame.pitch * of_u) * off_theta;
     low -= turning + std::max(of_r, 0.0) * off_r;
@@ -189,12 +189,12 @@ ProfileFrame::ProfileFrame(double pitch_of_motion, const std::array<double, kDir
   }
 }
 
-double ProfileFrame::spread(int k, double distance, double radius) const {
+double ProfileFrame::max_difference(int k, double distance, double radius) const {
   if (k == 0 || pitch == 0) return distance;
   const double nearest = radius - distance;
   if (!(nearest > 0)) return 1e300;
-  const double lift = pitch / nearest;
-  return distance * std::sqrt(1 + of_u[k] * of_u[k] * lift * lift);
+  const double slope = pitch / nearest;
+  return distance * std::sqrt(1 + of_u[k] * of_u[k] * slope * slope);
 }
 
 ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion) {
@@ -202,12 +202,12 @@ ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion) {
   NormalHistogram histogram;
   Arc r;
   for (std::uint32_t f = 0; f < pair.b->face_count(); ++f) {
-    const std::array<Vec3, 3> corners = places(motion, transformed(start, pair.b->triangle(f)));
+    const std::array<Vec3, 3> corners = corners_about_axis(motion, transformed(start, pair.b->triangle(f)));
     for (const Vec3& p : corners) r = united(r, {std::hypot(p.x, p.y), 0}, 0);
     histogram.add(corners);
   }
   for (std::uint32_t f = 0; f < pair.a->face_count(); ++f) {
-    const std::array<Vec3, 3> corners = places(motion, pair.a->triangle(f));
+    const std::array<Vec3, 3> corners = corners_about_axis(motion, pair.a->triangle(f));
     Arc of_face;
     for (const Vec3& p : corners) of_face = united(of_face, {std::hypot(p.x, p.y), 0}, 0);
     if (gap(of_face, r, 0) <= 0) histogram.add(corners);
@@ -217,7 +217,7 @@ ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion) {
     angles[k] = (k + 1) * kPi / ProfileFrame::kDirections;
     while (!histogram.empty()) {
       const double peak = histogram.take_peak();
-      if (peak < kAlongR || peak > kPi - kAlongR) continue;  // the first direction of all
+      if (peak < kAlongR || peak > kPi - kAlongR) continue;  // the first direction
       angles[k] = peak;
       break;
     }
@@ -228,19 +228,19 @@ ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion) {
 struct ProfileTree::Builder {
   const ProfileFrame& frame;
   std::vector<ProfileNode> faces;
-  std::vector<int>
-      facing;  // the direction of each face's normal in the profile: k, or k + kDirections for its opposite
+  // The direction of each face's normal in the profile: k, or k + kDirections for its opposite.
+  std::vector<int> facing;
   std::vector<std::uint32_t> order;
   std::vector<ProfileNode> nodes;
 
   int facing_of(const std::array<Vec3, 3>& p) const {
     const double angle = profile_normal(p);
     int best = 0;
-    double most = -2;
+    double largest = -2;
     for (int k = 0; k < ProfileFrame::kDirections; ++k) {
       const double along = frame.of_r[k] * std::cos(angle) + frame.of_u[k] * std::sin(angle);
-      if (std::fabs(along) <= most) continue;
-      most = std::fabs(along);
+      if (std::fabs(along) <= largest) continue;
+      largest = std::fabs(along);
       best = along >= 0 ? k : k + ProfileFrame::kDirections;
     }
     return best;
@@ -254,7 +254,7 @@ struct ProfileTree::Builder {
       node.along[k] = united(node.along[k], other.along[k], frame.circumference[k]);
   }
 
-  /// Sorts order[first, first + count) so that its halves are the children.
+  /// Partitions order[first, first + count) into the two children.
   void halve(std::uint32_t first, std::uint32_t count, const ProfileNode& node) {
     const auto begin = order.begin() + first, middle = begin + count / 2, end = begin + count;
     const auto by = [&](const auto& key) {
@@ -269,13 +269,13 @@ struct ProfileTree::Builder {
     const int k = facing[*begin] % ProfileFrame::kDirections;
     double own = 0;
     for (auto it = begin; it != end; ++it) own += faces[*it].along[k].width / count;
-    const auto place = [&](const Arc& arc, const Arc& whole, double circumference) {
+    const auto position = [&](const Arc& arc, const Arc& whole, double circumference) {
       return circumference == 0 ? arc.middle() : on_circle(arc.low - whole.low, circumference) + arc.width / 2;
     };
     if (node.along[k].width > kFlat * own && node.along[k].width > 0)
-      return by([&](std::uint32_t f) { return place(faces[f].along[k], node.along[k], frame.circumference[k]); });
+      return by([&](std::uint32_t f) { return position(faces[f].along[k], node.along[k], frame.circumference[k]); });
     if (node.theta.width * node.r.high() > node.z.width)
-      return by([&](std::uint32_t f) { return place(faces[f].theta, node.theta, 2 * kPi); });
+      return by([&](std::uint32_t f) { return position(faces[f].theta, node.theta, 2 * kPi); });
     return by([&](std::uint32_t f) { return faces[f].z.middle(); });
   }
 
@@ -302,7 +302,7 @@ ProfileTree::ProfileTree(const AuditBody& body, const RigidTransform& a_from_bod
   builder.order.resize(count);
   std::iota(builder.order.begin(), builder.order.end(), 0u);
   for (std::uint32_t f = 0; f < count; ++f) {
-    const std::array<Vec3, 3> corners = places(motion, transformed(a_from_body, body.triangle(f)));
+    const std::array<Vec3, 3> corners = corners_about_axis(motion, transformed(a_from_body, body.triangle(f)));
     builder.faces.push_back(bounds_of(corners, frame));
     builder.facing.push_back(builder.facing_of(corners));
   }

@@ -8,9 +8,9 @@ namespace dismantle::audit {
 
 namespace {
 
-/// Looks at one pair in the assembled state.
-std::size_t look_at_assembled_pair(const SweepContext& context, const SweepTimes& times, PairTask& task,
-                                   std::vector<std::uint32_t> (&inside)[2]) {
+/// Checks one pair in the assembled state. @return the number of samples
+std::size_t sweep_assembled_pair(const SweepContext& context, const SweepTimes& times, PairTask& task,
+                                 std::vector<std::uint32_t> (&inside)[2]) {
   if (context.ledger.find(task.low(), task.high()).embedded) {
     task.parted = parted_at(task) == 0;
     return 0;
@@ -31,7 +31,7 @@ std::size_t look_at_assembled_pair(const SweepContext& context, const SweepTimes
   return samples;
 }
 
-/// Pairs whose boxes touch in the assembled state, and all that are declared embedded.
+/// The pairs whose boxes overlap in the assembled state, and all that are declared embedded.
 std::vector<PairTask> assembled_tasks(const SweepContext& context, const SweepTimes& times) {
   const auto& components = context.assembly.components;
   std::vector<Aabb> boxes;
@@ -71,7 +71,7 @@ SweepOutcome sweep_assembled_state(SweepContext& context, double progress_from, 
 
   SweepOutcome outcome;
   outcome.cancelled = !run_batches(context, tasks.size(), 64, progress_from, progress_to, [&](std::size_t i) {
-    samples[i] = look_at_assembled_pair(context, times, tasks[i], inside[i].of);
+    samples[i] = sweep_assembled_pair(context, times, tasks[i], inside[i].of);
   });
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const PairTask& task = tasks[i];

@@ -11,15 +11,16 @@ namespace dismantle::audit {
 
 namespace {
 
+/// Descends two profile trees and follows the triangle pairs that may meet.
 class HelixSweep {
  public:
   HelixSweep(const PairSweep& pair, const HelicalPair& helical, const SegmentRun& segments)
       : pair_(pair),
         helical_(helical),
         segments_(segments),
-        from_(turned(segments.first)),
-        to_(turned(segments.first + segments.count)),
-        margin_(2 * pair.rounding + helical.motion.astray),
+        from_(angle_at(segments.first)),
+        to_(angle_at(segments.first + segments.count)),
+        margin_(2 * pair.rounding + helical.motion.deviation),
         follower_(pair) {}
 
   TriangleFindings run() {
@@ -28,20 +29,20 @@ class HelixSweep {
   }
 
  private:
-  /// How far b has turned at the start of a segment.
-  double turned(std::uint32_t segment) const { return helical_.motion.turned[segment - helical_.motion.run.first]; }
+  /// The angle by which b has turned at the start of a segment [rad].
+  double angle_at(std::uint32_t segment) const { return helical_.motion.angles[segment - helical_.motion.run.first]; }
 
-  /// Whether nothing of the one ever comes nearer to the other than the margin, however far b turns.
+  /// True if the two are never nearer to each other than the margin, whatever the angle of b.
   bool profiles_apart(const ProfileNode& a, const ProfileNode& b) const {
     const double radius = std::min(a.r.low, b.r.low);
     for (int k = 0; k < ProfileFrame::kDirections; ++k) {
       const double circumference = helical_.frame.circumference[k];
-      if (gap(a.along[k], b.along[k], circumference) > helical_.frame.spread(k, margin_, radius)) return true;
+      if (gap(a.along[k], b.along[k], circumference) > helical_.frame.max_difference(k, margin_, radius)) return true;
     }
     return false;
   }
 
-  /// Calls visit(from, to) for the turns of b during which the two may be near each other until it answers false.
+  /// Calls visit(from, to) for the ranges of b's angle in which the two may be near each other, until it returns false.
   template <class Visit>
   void for_each_passage(const ProfileNode& a, const ProfileNode& b, const Visit& visit) const {
     double first = from_, last = to_;
@@ -68,6 +69,7 @@ class HelixSweep {
     }
   }
 
+  /// True if triangles of the two may come within the margin of each other.
   bool meet(const ProfileNode& a, const ProfileNode& b) const {
     if (gap(a.r, b.r, 0) > margin_) return false;
     bool some = false;
@@ -78,12 +80,13 @@ class HelixSweep {
     return some && !profiles_apart(a, b);
   }
 
-  /// The least room that a node takes in the profile, as far as directions tell.
+  /// The smallest width of a node in the profile, of those along the frame's directions.
   static double thickness(const ProfileNode& node) {
-    double least = node.r.width;
-    for (const Arc& arc : node.along) least = std::min(least, arc.width);
-    return least;
+    double width = node.r.width;
+    for (const Arc& arc : node.along) width = std::min(width, arc.width);
+    return width;
   }
+  /// The length of a node along the thread.
   static double extent(const ProfileNode& node) { return node.z.width + node.theta.width * node.r.high(); }
 
   static bool splits_a(const ProfileNode& a, const ProfileNode& b) {
@@ -111,15 +114,15 @@ class HelixSweep {
   /// Follows two triangles through all of their passages.
   void follow(const ProfileNode& a, const ProfileNode& b) {
     for_each_passage(a, b, [&](double from, double to) {
-      const std::vector<double>& turned = helical_.motion.turned;
+      const std::vector<double>& angles = helical_.motion.angles;
       const std::uint32_t start = helical_.motion.run.first;
-      const auto begin = turned.begin() + (segments_.first - start);
+      const auto begin = angles.begin() + (segments_.first - start);
       const auto end = begin + segments_.count;
       // The first segment that ends no earlier than the passage begins.
       auto at = std::lower_bound(begin + 1, end, from) - 1;
       for (; at < end && *at <= to; ++at) {
-        const auto segment = static_cast<std::uint32_t>(at - turned.begin()) + start;
-        if (!follower_.looks_at(segment, 1)) continue;
+        const auto segment = static_cast<std::uint32_t>(at - angles.begin()) + start;
+        if (!follower_.is_active(segment, 1)) continue;
         const double angle = at[1] - at[0];
         ScrewStretch stretch{segment, 0, 1, {}};
         if (angle > 0) {
@@ -133,16 +136,16 @@ class HelixSweep {
     });
   }
 
-  /// What turns and times are wrong by at most.
+  /// Bound of the rounding of angles and times.
   static constexpr double kRounding = 1e-9;
 
   const PairSweep& pair_;
   const HelicalPair& helical_;
   const SegmentRun segments_;
-  const double from_, to_;  // how far b has turned at the start and at the end
+  const double from_, to_;  // angles of b at the start and at the end [rad]
   const double margin_;
   TriangleFollower follower_;
-  Vec3 axis_;  // the direction that held last, for this pair of triangles or the one before it
+  Vec3 axis_;  // the last certified axis, of this pair of triangles or the one before it
 };
 
 }  // namespace

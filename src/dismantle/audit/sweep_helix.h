@@ -9,20 +9,20 @@
 
 namespace dismantle::audit {
 
-/// A pair in a helical motion: how both look from its axis.
+/// A pair in a helical motion, with the profiles of both bodies about its axis.
 struct HelicalPair {
-  HelicalMotion motion;
-  ProfileFrame frame;
-  ProfileTree a, b;  ///< b where it is at the start of the run.
+  HelicalMotion motion;  ///< Of b relative to a.
+  ProfileFrame frame;    ///< Directions of the profiles.
+  ///@{ Profiles in the frame of a, that of b at the start of the run.
+  ProfileTree a, b;
+  ///@}
 };
 
-/// Looks at the pair from the axis of a run; nothing where it does not follow one helical motion there. @pre neither is
-/// empty
+/// The profiles of a pair in a run; nothing where it does not follow one helical motion there. @pre neither is empty
 std::optional<HelicalPair> helical_pair(const PairSweep& pair, const SegmentRun& run);
 
-/// As sweep_triangles does, for segments of the pair's run, at most kSpanSegments. Triangles are apart at all times
-/// where their profiles are; of the others it is known when they come past each other, and only then they are looked
-/// at.
+/// As sweep_triangles(), for at most kSpanSegments segments of the pair's run. Triangles whose profiles are apart are
+/// apart at all times; the others are checked only at the times at which they pass each other.
 TriangleFindings sweep_helix(const PairSweep& pair, const HelicalPair& helical, const SegmentRun& segments);
 
 }  // namespace dismantle::audit

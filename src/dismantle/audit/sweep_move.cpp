@@ -10,7 +10,7 @@ namespace dismantle::audit {
 
 namespace {
 
-/// The screws of one move and the span trees of what moves in it.
+/// The sweep of one move: its segments, span trees and tasks.
 class MoveSweep {
  public:
   MoveSweep(SweepContext& context, Span<const Pose> poses, std::size_t index) : context_(context), poses_(poses) {
@@ -32,8 +32,8 @@ class MoveSweep {
   }
 
  private:
-  /// Every span tree of the moving component `b`, one after another in time; none holds both a part of a helical run
-  /// and what is not of that run.
+  /// Makes the span trees of the moving component `b`, in the order of time; none contains both segments of a helical
+  /// run and others.
   void make_spans(std::uint32_t b) {
     const AuditBody& body = *context_.bodies[b];
     const auto cut = [&](std::uint32_t first, std::uint32_t end) {
@@ -50,7 +50,7 @@ class MoveSweep {
     cut(first, static_cast<std::uint32_t>(times_.segments.size()));
   }
 
-  /// Looks at the pair from the axes of the helical runs in which it may be near.
+  /// Makes the profiles of the helical runs in which the pair may be near.
   void make_helices(PairTask& task) const {
     for (const SegmentRun& run : runs_[task.b]) {
       const auto in_run = [&](std::uint32_t i) {
@@ -62,7 +62,7 @@ class MoveSweep {
     }
   }
 
-  /// Rule 1 for a span tree of b.
+  /// Checks rule 1 for a span tree of b.
   static TriangleFindings sweep_span(const PairTask& task, const std::vector<MotionSpan>& spans) {
     const MotionSpan& root = spans.front();
     for (const HelicalPair& helical : task.helices) {
@@ -107,7 +107,7 @@ class MoveSweep {
       }
     }
     sort_by_pair(tasks_);
-    const bool go_on = run_batches(context_, tasks_.size(), 64, from, to, [&](std::size_t i) {
+    const bool completed = run_batches(context_, tasks_.size(), 64, from, to, [&](std::size_t i) {
       PairTask& task = tasks_[i];
       make_helices(task);
       if (!context_.ledger.find(task.low(), task.high()).embedded) return;
@@ -120,10 +120,10 @@ class MoveSweep {
       record.embedded = false;
       record.parted = true;
     }
-    return go_on;
+    return completed;
   }
 
-  /// Rule 1 for all pairs, a span tree at a time.
+  /// Checks rule 1 for all pairs, one span tree at a time; false where it was cancelled.
   bool sweep_pairs(double from, double to) {
     std::vector<std::pair<std::size_t, std::uint32_t>> pieces;
     for (std::size_t t = 0; t < tasks_.size(); ++t) {
@@ -133,7 +133,7 @@ class MoveSweep {
       }
     }
     std::vector<TriangleFindings> found(pieces.size());
-    const bool go_on = run_batches(context_, pieces.size(), 64, from, to, [&](std::size_t i) {
+    const bool completed = run_batches(context_, pieces.size(), 64, from, to, [&](std::size_t i) {
       const PairTask& task = tasks_[pieces[i].first];
       found[i] = sweep_span(task, spans_[task.b][pieces[i].second]);
     });
@@ -146,10 +146,10 @@ class MoveSweep {
         task.crossing[side].insert(task.crossing[side].end(), found[i].crossing[side].begin(),
                                    found[i].crossing[side].end());
     }
-    return go_on;
+    return completed;
   }
 
-  /// A vertex that may be inside, or become so.
+  /// A vertex that may be, or come, inside.
   struct VertexItem {
     std::size_t task = 0;
     int side = 0;
@@ -176,7 +176,7 @@ class MoveSweep {
     }
   }
 
-  /// Rule 2 for all vertices that the triangles do not rule out.
+  /// Checks rule 2 for all vertices that the triangle sweep does not exclude; false where it was cancelled.
   bool follow_vertices(double from, double to) {
     std::vector<VertexItem> items;
     std::vector<VertexSweep> sweeps;
@@ -194,18 +194,19 @@ class MoveSweep {
       }
     }
     std::vector<VertexFindings> found(items.size());
-    const bool go_on = run_batches(context_, items.size(), 4096, from, to, [&](std::size_t i) {
+    const bool completed = run_batches(context_, items.size(), 4096, from, to, [&](std::size_t i) {
       const VertexItem& item = items[i];
       const Span<const CrossingVertex> crossing(tasks_[item.task].crossing[item.side]);
       found[i] = sweep_vertex(sweeps[item.sweep], item.vertex, item.tracked, crossing.subspan(item.first, item.count));
     });
     take_vertices(items, found);
-    look_inside_again();
-    return go_on;
+    find_inside_again();
+    return completed;
   }
 
-  /// Where the triangles broke the rule, nothing was followed to the end: who is inside whom must be found anew.
-  void look_inside_again() {
+  /// Finds the vertices inside at the end of the move for pairs with a breach of rule 1, which were not followed to the
+  /// end.
+  void find_inside_again() {
     std::vector<std::pair<std::size_t, int>> lost;
     for (std::size_t t = 0; t < tasks_.size(); ++t)
       for (int side = 0; side < 2 && tasks_[t].triangles.depth > 0; ++side) lost.emplace_back(t, side);
@@ -247,7 +248,7 @@ class MoveSweep {
   SweepTimes times_;
   std::vector<bool> moves_;                                  // by component
   std::vector<std::vector<std::vector<MotionSpan>>> spans_;  // by component, by part of the move
-  std::vector<std::vector<SegmentRun>> runs_;                // by component: where it goes along a helix
+  std::vector<std::vector<SegmentRun>> runs_;                // by component: its helical runs
   std::vector<PairTask> tasks_;
   SweepOutcome outcome_;
 };

@@ -15,29 +15,33 @@
 
 namespace dismantle::audit {
 
-/// What all sweeps of an audit share.
+/// The data that all sweeps of an audit share.
 struct SweepContext {
+  ///@{ The arguments of the audit.
   const Assembly& assembly;
   const Path& path;
-  const std::vector<std::unique_ptr<const AuditBody>>& bodies;  ///< One a component.
-  PairLedger& ledger;
-  double resolution = 0;  ///< [mm]
+  ///@}
+  const std::vector<std::unique_ptr<const AuditBody>>& bodies;  ///< Of each component.
+  PairLedger& ledger;                                           ///< Updated after each move.
+  double resolution = 0;                                        ///< AuditReport::resolution [mm].
+  ///@{ Of AuditOptions.
   const Executor& executor;
   const ProgressCallback& progress;
+  ///@}
 };
 
-/// What a sweep of all pairs found.
+/// The findings of a sweep of all pairs.
 struct SweepOutcome {
   std::vector<AuditViolation> violations;  ///< By (a, b, kind).
-  std::size_t samples = 0;
-  bool cancelled = false;
+  std::size_t samples = 0;                 ///< As in AuditReport.
+  bool cancelled = false;                  ///< The findings are not complete.
 };
 
-/// Looks at all pairs in the assembled state, and takes down in the ledger what is inside what. Progress goes from
-/// `progress_from` to `progress_to`.
+/// Checks all pairs in the assembled state and records in the ledger which vertices are inside other components.
+/// Reports progress from `progress_from` to `progress_to`.
 SweepOutcome sweep_assembled_state(SweepContext& context, double progress_from, double progress_to);
 
-/// Looks at all pairs of which one moves in move `index`. @param poses of all components before it
+/// Checks all pairs of a moving and a stationary component in move `index`. @param poses of all components before it
 /// @pre can_follow(the move)
 SweepOutcome sweep_move(SweepContext& context, Span<const Pose> poses, std::size_t index, double progress_from,
                         double progress_to);

@@ -10,6 +10,7 @@ namespace dismantle::audit {
 
 namespace {
 
+/// Descends two trees of boxes and a tree of intervals, and follows the triangle pairs that may meet.
 class TriangleSweep {
  public:
   TriangleSweep(const PairSweep& pair, const std::vector<MotionSpan>& spans)
@@ -21,12 +22,12 @@ class TriangleSweep {
   }
 
  private:
-  /// How far a box moves in an interval, in sizes of what is tested, from which on time is split before the boxes.
+  /// The interval is split before the boxes where a box moves further than this many times the size of the larger one.
   static constexpr double kSplitTime = 0.5;
 
-  bool looked_at(const Interval& time) const { return follower_.looks_at(time.first, time.count); }
+  bool is_active(const Interval& time) const { return follower_.is_active(time.first, time.count); }
 
-  /// The second largest half size: what decides how many others a long thin box is near to.
+  /// The second largest half size, which determines how many other boxes a long thin box is near to.
   static double width(const BoxNode& node) {
     const Vec3 h = node.half;
     return std::max(std::min(h.x, h.y), std::min(std::max(h.x, h.y), h.z));
@@ -34,7 +35,7 @@ class TriangleSweep {
 
   void visit(std::uint32_t i, std::uint32_t a, std::uint32_t b) {
     const Interval& time = times_[i];
-    if (!looked_at(time)) return;
+    if (!is_active(time)) return;
     const BoxNode& node_a = pair_.a->node(a);
     const BoxNode& node_b = pair_.b->node(b);
     if (time.clearance(node_a, node_b) > pair_.rounding) return;
@@ -51,11 +52,11 @@ class TriangleSweep {
     }
   }
 
-  /// @param axis a direction to try first, zero for none
-  /// @return the direction that held last
+  /// @param axis an axis to try first; zero for none
+  /// @return the last certified axis
   Vec3 visit_leaves(std::uint32_t i, const BoxNode& leaf_a, const BoxNode& leaf_b, Vec3 axis) {
     const Interval& time = times_[i];
-    if (!looked_at(time)) return axis;
+    if (!is_active(time)) return axis;
     if (time.one_segment()) {
       const ScrewStretch stretch{time.first, time.s, time.s + time.duration, time.a_from_b};
       return follower_.follow(stretch, leaf_a.face, leaf_b.face, axis);

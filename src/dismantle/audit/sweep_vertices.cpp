@@ -7,27 +7,29 @@ namespace dismantle::audit {
 
 namespace {
 
+/// The depth above which a breach is reported: the limit plus rounding.
 double breach_depth(const VertexSweep& sweep) {
   return sweep.limit * (1 + 1e-9) + sweep.rounding;
 }
 
+/// Follows one vertex segment by segment.
 class VertexWalk {
  public:
   VertexWalk(const VertexSweep& sweep, std::uint32_t vertex) : sweep_(sweep), point_(sweep.points->vertex(vertex)) {}
 
-  /// Follows the vertex through a segment. @param crossing when it may cross the surface; null: never
-  /// @param tracked whether it may be inside at the start
-  /// @return whether it may be inside at the end
+  /// Follows the vertex through a segment. @param crossing the time at which it may cross the surface; null for never
+  /// @param tracked true if it may be inside at the start
+  /// @return true if it may be inside at the end
   bool advance(std::uint32_t segment, const CrossingVertex* crossing, bool tracked) {
     const RelativeMotion& motion = sweep_.motions[segment];
     const double speed = length(motion.velocity(motion.start * point_));
     const double from = crossing != nullptr ? crossing->from : 0, to = crossing != nullptr ? crossing->to : 0;
-    was_outside_ = tracked ? -1 : 0;
+    outside_distance_ = tracked ? -1 : 0;
     if (tracked && (crossing == nullptr || from > 0) && is_outside(motion.start * point_, 0)) tracked = false;
     if (!tracked && crossing == nullptr) return false;
-    bool crosses = crossing != nullptr;  // from now on it may
+    bool crosses = crossing != nullptr;  // it may from here on
     double s = tracked ? 0 : from, moved = 0;
-    if (s > 0) was_outside_ = 0;
+    if (s > 0) outside_distance_ = 0;
     while (s < 1) {
       const Vec3 x = motion.at(s) * point_;
       if (crosses && s >= to) {
@@ -68,23 +70,23 @@ class VertexWalk {
     return near;
   }
 
-  /// Whether the vertex is off the surface at `x`, and outside. @param moved its way since it was last seen outside
+  /// True if the vertex is off the surface at `x`, and outside. @param moved its path length since it was last outside
   bool is_outside(Vec3 x, double moved) {
     const double distance = closest(x).distance;
     return distance > sweep_.rounding && is_outside(x, distance, moved);
   }
-  /// The same where it is known to be off the surface, by this distance. It is where it was if the balls around then
-  /// and now that the surface does not enter hold all of the way between; else a ray decides.
+  /// The same for a known distance from the surface, above the rounding. The vertex is still outside if the empty balls
+  /// around its last outside position and around `x` cover the path between; else a ray decides.
   bool is_outside(Vec3 x, double distance, double moved) {
-    const bool still = was_outside_ >= 0 && moved < was_outside_ + distance - sweep_.rounding;
+    const bool still = outside_distance_ >= 0 && moved < outside_distance_ + distance - sweep_.rounding;
     if (!still && sweep_.solid->contains(x)) return false;
-    was_outside_ = distance;
+    outside_distance_ = distance;
     return true;
   }
 
-  /// How long the vertex, at `x` at time s, is certain to stay within the limit of the triangle that it was last seen
-  /// closest to, and so no deeper; 0 where it is not within it now. The distance from a triangle is convex along a
-  /// chord, and the path leaves its chord by at most acceleration * time^2 / 8.
+  /// The time for which the vertex, at `x` at time s, certainly remains within the limit of the triangle that was last
+  /// closest to it, and so no deeper; 0 where it is not within the limit now. The distance from a triangle is convex
+  /// along a chord, and the path deviates from its chord by at most acceleration * time^2 / 8.
   double time_near_surface(const RelativeMotion& motion, Vec3 x, double s) const {
     const Triangle triangle = sweep_.solid->triangle(face_);
     const double now = distance_to_triangle(triangle, x);
@@ -93,8 +95,8 @@ class VertexWalk {
     double time = 1 - s;
     for (int k = 0; k < kHalvings; ++k, time /= 2) {
       const double then = distance_to_triangle(triangle, motion.at(s + time) * point_);
-      const double astray = acceleration * time * time / 8;
-      if (std::max(now, then) + astray <= sweep_.limit + sweep_.resolution / 2) return time;
+      const double deviation = acceleration * time * time / 8;
+      if (std::max(now, then) + deviation <= sweep_.limit + sweep_.resolution / 2) return time;
     }
     return 0;
   }
@@ -102,7 +104,7 @@ class VertexWalk {
   const VertexSweep& sweep_;
   const Vec3 point_;
   std::uint32_t face_ = 0;
-  double was_outside_ = -1;  // the distance from the surface where it was last seen outside; negative: it was not
+  double outside_distance_ = -1;  // from the surface at its last outside position; negative: there is none
 };
 
 }  // namespace
@@ -129,10 +131,10 @@ VertexFindings sweep_vertex(const VertexSweep& sweep, std::uint32_t vertex, bool
 InsideVertices find_inside_vertices(const VertexSweep& sweep, std::uint32_t segment) {
   InsideVertices found;
   if (sweep.solid->empty()) return found;
-  const RigidTransform& place = sweep.motions[segment].start;
+  const RigidTransform& solid_from_points = sweep.motions[segment].start;
   std::uint32_t face = 0;
   for (std::uint32_t v = 0; v < sweep.points->vertex_count(); ++v) {
-    const Vec3 x = place * sweep.points->vertex(v);
+    const Vec3 x = solid_from_points * sweep.points->vertex(v);
     if (!sweep.solid->contains(x)) continue;
     ++found.samples;
     const SurfacePoint near = sweep.solid->closest(x, face);

@@ -8,7 +8,7 @@ namespace dismantle::audit {
 
 namespace {
 
-/// What one body does in each segment.
+/// The path of a body's centre in a segment [mm].
 struct Track {
   Vec3 center;  // at the start
   Vec3 center_at_end;
@@ -42,7 +42,7 @@ struct SpanBuilder {
       const Track& track = tracks[k - base];
       const double to_start = length(track.center - reference.center);
       const double to_end = length(track.center_at_end - reference.center);
-      // Every instant is within half the way of one of the two ends.
+      // At every time the centre is within half of the path length of one of the two ends.
       span.shift = std::max(span.shift, std::max(to_start, to_end) + track.path_length / 2);
       const double turned = angle_between(segments[span.middle].start.rotation, segments[k].start.rotation);
       span.turn = std::max(span.turn, turned + segments[k].screw.angle);

@@ -10,32 +10,35 @@
 
 namespace dismantle::audit {
 
-/// One screw of a move, from frame to frame. A move ends with a screw of no motion at its last frame, so that every
-/// frame is the start of one.
+/// One screw motion of a move, from frame to frame. The last segment of a move stands still at the last frame, so that
+/// every frame is the start of a segment.
 struct MotionSegment {
-  std::size_t frame = 0;  ///< The frame it starts at.
-  double time = 0;        ///< Of that frame [s].
-  double duration = 0;    ///< [s]
-  Pose start;
-  Screw screw;
+  std::size_t frame = 0;  ///< Index of the frame at its start.
+  double time = 0;        ///< Time of that frame [s].
+  double duration = 0;    ///< Time to the next frame [s].
+  Pose start;             ///< Pose at its start.
+  Screw screw;            ///< The motion.
 };
 
-/// The screws of a move in order; frames that repeat the pose before them are left out, there is nothing new to see.
+/// The segments of a move in order, without those that repeat the pose before them.
 std::vector<MotionSegment> motion_segments(const std::vector<Frame>& frames);
 
-/// A run of screws and how far a body goes within it: at every instant it is its pose at the frame `middle`, turned by
-/// at most `turn` [rad] about its centre, which is moved by at most `shift` [mm].
+/// A node of a tree over segments, with bounds of a body's motion: at every time the body is at its pose at the start
+/// of the segment `middle`, turned by at most `turn` about its centre, which is moved by at most `shift`.
 struct MotionSpan {
-  std::uint32_t first = 0, count = 0;  ///< Segments.
-  std::uint32_t middle = 0;            ///< The segment at whose start the reference pose is taken.
-  std::uint32_t right = 0;             ///< Index of the second half; the first half follows; 0 where count is 1.
-  double shift = 0, turn = 0;
+  ///@{ Segments [first, first + count).
+  std::uint32_t first = 0, count = 0;
+  ///@}
+  std::uint32_t middle = 0;  ///< The segment at whose start the reference pose is.
+  std::uint32_t right = 0;   ///< Index of the second half, 0 where count is 1; the first half is the next node.
+  double shift = 0;          ///< Bound of the centre's displacement [mm].
+  double turn = 0;           ///< Bound of the rotation [rad].
 };
 
-/// Segments in one tree of spans: what one task looks at.
+/// Largest number of segments of one span tree, the unit of work.
 inline constexpr std::uint32_t kSpanSegments = 32;
 
-/// The tree of spans over segments [first, first + count) for a body that follows them; the root is the first.
+/// The span tree over segments [first, first + count) for a body that follows them; the root is the first.
 /// @pre 0 < count <= kSpanSegments
 std::vector<MotionSpan> motion_spans(const std::vector<MotionSegment>& segments, std::uint32_t first,
                                      std::uint32_t count, const AuditBody& body);
