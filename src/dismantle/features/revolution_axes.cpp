@@ -63,7 +63,7 @@ RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const 
   const Vec3 from = vertices[pair.edge[0]];
   axis.direction = of_one_sign(normalized(vertices[pair.edge[1]] - from));
   const auto across = [&](Vec3 v) { return v - dot(v, axis.direction) * axis.direction; };
-  // The centre of the circle through the edge and the two opposite corners, in the projection along the edge.
+  // The center of the circle through the edge and the two opposite corners, in the projection along the edge.
   const Vec3 p = across(opposite(vertices, a, pair.edge) - from), q = across(opposite(vertices, b, pair.edge) - from);
   const Vec3 normal = cross(p, q);
   const double square = length_squared(normal);

@@ -11,7 +11,7 @@ namespace dismantle {
 
 /// The axis of the cylindrical parts of a surface: bores, shafts, fillets.
 struct RevolutionAxis {
-  Vec3 point;      ///< The axis' nearest point to the centre of the mesh's box [mm].
+  Vec3 point;      ///< The axis' nearest point to the center of the mesh's box [mm].
   Vec3 direction;  ///< Unit, of either sign.
   /// The angle by which the surface turns about the axis, summed over the edges along it [rad]: a bore cut n times
   /// along its length has 2 pi (n + 1).
