@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_quotes.py DOCUMENT FOLDER: every C++ block of the document is, line by line, in a source of the folder."""
+"""check_quotes.py DOCUMENT FOLDER: checks that every C++ block of the document is in a source of the folder, line by line."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=... -DOBJECTS=a.o|b.o... -P check_lane_kernels.cmake: fails where an object that is compiled for more than
-# the plain machine has a weak function (one that the linker may keep for the whole program) whose name does not say so.
+# cmake -DNM=... -DOBJECTS=a.o|b.o... -P check_lane_kernels.cmake: fails if an object compiled for more than the
+# baseline machine has a weak function (one that the linker may keep for the whole program) whose name does not say so.
 string(REPLACE "|" ";" objects "${OBJECTS}")
 set(faults "")
 foreach(object IN LISTS objects)
