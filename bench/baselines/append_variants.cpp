@@ -92,7 +92,7 @@ FrontAppender::FrontAppender(AppendVariant variant, std::size_t capacity)
 void FrontAppender::run(FrontSproutKernel kernel, const Executor& executor) {
   for (std::vector<std::uint64_t>& stream : streams_) stream.clear();
   launch(
-      kernel.items.size(), kNodesPerRange, [&](std::size_t i, auto& sink) { kernel.look(i, sink); }, executor);
+      kernel.items.size(), kNodesPerRange, [&](std::size_t i, auto& sink) { kernel.sprout_node(i, sink); }, executor);
   while (!streams_[Pending].empty()) {
     const std::vector<std::uint64_t> left = std::exchange(streams_[Pending], {});
     kernel.items = left;

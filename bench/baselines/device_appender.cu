@@ -44,7 +44,7 @@ struct FrontRound {
   template <class Sink>
   __device__ void visit(std::size_t i, Sink& sink) const {
     if (first) {
-      kernel.look(i, sink);
+      kernel.sprout_node(i, sink);
     } else {
       kernel.resume(i, sink);
     }

@@ -185,7 +185,7 @@ void FrontBasedEngine::test_embedded_pairs(PairTestResults& results, double path
   for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, results.intersections)) {
     parting_.push_back(found.pair);
     const double allowed =
-        allowed_on_chords(rules_.tolerance(), path_deviation, moves(found.pair.a), moves(found.pair.b));
+        allowed_on_chords(rules_.tolerance(), path_deviation, moves(found.pair.a) + moves(found.pair.b));
     const PartedPairKernel kernel{found.triangle_pairs, triangles(), found.from, allowed};
     for (std::size_t i = 0; i < found.triangle_pairs.size(); ++i)
       if (const std::optional<TrianglePairContact> contact = kernel(i)) results.contact(*contact);

@@ -75,14 +75,14 @@ TEST(ReplaceSprouted, ChangesNothingIfTheFrontIsNotComplete) {
   EXPECT_EQ(sprouted.replaced_by({20, 21, 22, 23}), (std::vector<std::uint64_t>{10, 11, 12, 13, 14}));
 }
 
-TEST(LookAtFront, SkipsDeadNodes) {
+TEST(SproutFront, SkipsDeadNodes) {
   const std::vector<std::uint64_t> front{kDeadNode};
   StepCounters counters;
   counters.front = 1;
-  LookAtFront look{};
-  look.kernel.items = front;
-  look.counters = &counters;
-  look(0);  // would read missing bounds
+  SproutFront sprout{};
+  sprout.kernel.items = front;
+  sprout.counters = &counters;
+  sprout(0);  // would read missing bounds
   EXPECT_EQ(counters.triangle_pairs, 0u);
 }
 
@@ -95,9 +95,9 @@ TEST(StepCapacity, CountsTheNodesThatFindNoHole) {
   counters.kept = 6;
   EXPECT_EQ(StepCapacity::front_needed(counters), 8u);
   counters.pending[2] = 4;
-  EXPECT_TRUE((StepCapacity{8, 1, 6, 3, 4}.holds_front(counters)));
-  EXPECT_FALSE((StepCapacity{8, 1, 6, 3, 3}.holds_front(counters)));
-  EXPECT_FALSE((StepCapacity{7, 1, 6, 3, 4}.holds_front(counters)));
+  EXPECT_TRUE((StepCapacity{8, 1, 6, 3, 4}.fits_front(counters)));
+  EXPECT_FALSE((StepCapacity{8, 1, 6, 3, 3}.fits_front(counters)));
+  EXPECT_FALSE((StepCapacity{7, 1, 6, 3, 4}.fits_front(counters)));
 }
 
 TEST(WordOfTime, KeepsTheOrderAndTheValueOfTimes) {

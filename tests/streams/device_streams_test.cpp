@@ -80,7 +80,7 @@ class DeviceStreams : public testing::TestWithParam<Device> {
                              std::size_t capacity) {
     const CollisionOptions options{test, Executor(), capacity};
     if (GetParam().emulated_by)
-      return {assembly, states, options, make_device_streams_backend(assembly, options, *GetParam().emulated_by)};
+      return {assembly, states, options, make_emulated_streams_backend(assembly, options, *GetParam().emulated_by)};
     return {assembly, states, options, std::move(make_cuda_streams_backend(assembly, options).value())};
   }
 };

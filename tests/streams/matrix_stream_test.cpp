@@ -34,13 +34,13 @@ TEST(MatrixStream, ListsTheComponentsWhoseVerticesMustBeUpdated) {
 
 TEST(MatrixStream, ListsTheComponentsWhoseBoundsMustBeUpdatedOnce) {
   MatrixStream stream(3);
-  EXPECT_TRUE(stream.take_unfitted().empty());
+  EXPECT_TRUE(stream.take_outdated_bounds().empty());
   stream.set_next(std::vector<RigidTransform>{{}, kOne, {}});
-  EXPECT_EQ(stream.take_unfitted(), Ids{ComponentId(1)});
-  EXPECT_TRUE(stream.take_unfitted().empty());
+  EXPECT_EQ(stream.take_outdated_bounds(), Ids{ComponentId(1)});
+  EXPECT_TRUE(stream.take_outdated_bounds().empty());
   stream.commit();
   stream.set_next(std::vector<RigidTransform>{{}, kOne, kOther});
-  EXPECT_EQ(stream.take_unfitted(), (Ids{ComponentId(1), ComponentId(2)}));
+  EXPECT_EQ(stream.take_outdated_bounds(), (Ids{ComponentId(1), ComponentId(2)}));
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ TEST(WithinAllowance, CountsTouchingAsContactWithoutAnAllowance) {
 }
 
 TEST(AllowedOnChords, TakesOffADeviationForEachComponentThatMoves) {
-  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.001, false, true), 0.009);
-  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.001, true, true), 0.008);
-  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.02, true, true), 0);
+  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.001, 1), 0.009);
+  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.001, 2), 0.008);
+  EXPECT_DOUBLE_EQ(allowed_on_chords(0.01, 0.02, 2), 0);
 }
 
 TEST(PartOf, IsTheMotionBetweenTwoTimes) {

@@ -5,84 +5,91 @@
 
 namespace dismantle {
 
-/// The nodes of a Bvh as a thread of a candidate sees them: what is in hand goes its way, all else stands.
+/// The state from which candidate motions start: the moving set moves, all other components are stationary.
 struct CandidateScene {
-  BvhView tree;
-  Span<const Kdop16> bounds;               ///< Of all nodes at the start [world].
-  Span<const Vec3> assembled, vertices;    ///< S_v0, and S_v at the start [mm].
+  BvhView tree;                            ///< The hierarchy of all components.
+  Span<const Kdop16> bounds;               ///< At the start, shape [node_count] [mm, world].
+  Span<const Vec3> assembled;              ///< S_v0 [mm, assembled].
+  Span<const Vec3> vertices;               ///< S_v at the start [mm, world].
   Span<const Face> faces;                  ///< In leaf order.
-  Span<const NodeIndex> moving_roots;      ///< Of the components in hand.
-  Span<const std::uint32_t> motion_class;  ///< Of each component: not 0 where it is in hand.
-  PairRulesView rules;
-  RigidTransform start;       ///< Of the set in hand.
-  double path_deviation = 0;  ///< [mm]
+  Span<const NodeIndex> moving_roots;      ///< Roots of the components of the moving set.
+  Span<const std::uint32_t> motion_class;  ///< Not 0 for the moving set, shape [component_count].
+  PairRulesView rules;                     ///< The rules of the component pairs.
+  RigidTransform start;                    ///< Of the moving set: world from assembled.
+  double path_deviation = 0;               ///< Maximum distance of true paths from linear ones [mm].
 };
 
-/// The first contact of a candidate; free where `key` is kFree.
+/// The first contact of a candidate; free if `key` is kFree.
 struct CandidateContact {
-  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-  double toi = 1;             ///< Fraction of the motion; 1 where it is free.
+  static constexpr std::uint64_t kFree = ~std::uint64_t{0};  ///< Key without contact.
+
+  double toi = 1;             ///< Fraction of the motion; 1 if it is free.
   std::uint64_t key = kFree;  ///< pair_key of the two leaves.
   friend bool operator==(const CandidateContact&, const CandidateContact&) = default;
 };
 
-/// Extents along axes, some of which change linearly and some stand: when all overlap, and from when on they may be
-/// deeper in each other than is allowed.
+/// The time interval in which two objects overlap along all axes, while one of them translates, and the time from which
+/// on they may be deeper in each other than allowed.
 struct OverlapTimes {
-  double begin = 0, end = 1;
-  double deep = 0;
+  double begin = 0;  ///< Start of the overlap.
+  double end = 1;    ///< End of the overlap.
+  double deep = 0;   ///< Time from which on the overlap may be deeper than allowed; kNever if it never is.
 
-  /// How much nearer extents are taken than they are, of all sizes that go into a distance: rounding is less than a
-  /// thousandth of it.
+  /// Enlargement of extents, relative to all values that enter a distance; rounding is less than a thousandth of it.
   static constexpr double kRounding = 0x1p-40;
+  /// A time after the motion.
+  static constexpr double kNever = 2;
 
-  /// Looks at an axis: [a_lower, a_upper] + s way against [b_lower, b_upper].
-  /// @param allowed depth along it
-  DISMANTLE_HOST_DEVICE void meet(const double (&a)[2], double way, const double (&b)[2], double allowed) {
-    const double size = absolute(a[0]) + absolute(a[1]) + absolute(b[0]) + absolute(b[1]) + absolute(way);
+  /// Takes an axis into account: extents a + s * displacement, s in [0, 1], and b.
+  /// @param a, b lower and upper bound
+  /// @param allowed depth along the axis
+  DISMANTLE_HOST_DEVICE void meet(const double (&a)[2], double displacement, const double (&b)[2], double allowed) {
+    const double size = absolute(a[0]) + absolute(a[1]) + absolute(b[0]) + absolute(b[1]) + absolute(displacement);
     const double slack = kRounding * size;
-    narrow(b[0] - a[1] - slack, way, allowed);
-    narrow(a[0] - b[1] - slack, -way, allowed);
+    narrow(b[0] - a[1] - slack, displacement, allowed);
+    narrow(a[0] - b[1] - slack, -displacement, allowed);
   }
 
-  /// From when on they may be too deep; after the motion where they never are.
+  /// The time from which on they may be too deep; kNever if they never are.
   DISMANTLE_HOST_DEVICE double contact() const { return begin <= end ? deep : kNever; }
-
-  static constexpr double kNever = 2;
 
  private:
   DISMANTLE_HOST_DEVICE static double absolute(double x) { return x < 0 ? -x : x; }
-  /// A gap that closes at speed `way`: it is closed from gap / way on, or until then. What goes through a thing without
-  /// thickness is never deep in it on both sides, but comes to be so on one: `deep` asks for the side that it came
-  /// from.
-  DISMANTLE_HOST_DEVICE void narrow(double gap, double way, double allowed) {
-    if (way > 0) {
-      if (gap > begin * way) begin = gap / way;
-      if (gap + allowed > deep * way) deep = (gap + allowed) / way;
+  /// Takes a gap into account that closes at `speed`: it is closed from the time gap / speed on, or until then. An
+  /// object that passes through a sheet without thickness is never deep in it from both sides, but from the side that
+  /// it comes from: this side decides `deep`.
+  DISMANTLE_HOST_DEVICE void narrow(double gap, double speed, double allowed) {
+    if (speed > 0) {
+      if (gap > begin * speed) begin = gap / speed;
+      if (gap + allowed > deep * speed) deep = (gap + allowed) / speed;
     } else {
       if (gap + allowed > 0) deep = kNever;
-      if (way < 0 && gap > end * way) end = gap / way;
+      if (speed < 0 && gap > end * speed) end = gap / speed;
     }
   }
 };
 
 /// The projections of a point on the axes of Kdop16.
 struct KdopProjections {
-  double along[Kdop16::kAxisCount];
+  double along[Kdop16::kAxisCount];  ///< Not normalised: diagonal axes are sqrt(2) long.
+  /// Projects `p`.
   DISMANTLE_HOST_DEVICE explicit KdopProjections(Vec3 p)
       : along{p.x, p.y, p.z, p.x + p.y, p.x + p.z, p.y + p.z, p.x - p.y, p.x - p.z} {}
 };
 
-/// An allowed depth [mm] in the measure of an axis: the diagonal ones are sqrt(2) long, and 1.4 is less.
+/// Lower bound of an allowed depth [mm] in the units of an axis: the diagonal ones are sqrt(2) long, and 1.4 is less.
 DISMANTLE_HOST_DEVICE inline double allowed_along(int axis, double allowed) {
   return (axis < 3 ? 1 : 1.4) * kAllowanceRounding * allowed;
 }
 
-/// A way straight on, by `way` [mm], from the start.
+/// A translation of the moving set from the start.
 class StraightPiece {
  public:
-  DISMANTLE_HOST_DEVICE StraightPiece(const CandidateScene&, Vec3 way) : way_(way), along_(way) {}
+  /// @param displacement [mm, world]
+  DISMANTLE_HOST_DEVICE StraightPiece(const CandidateScene&, Vec3 displacement)
+      : displacement_(displacement), along_(displacement) {}
 
+  /// Overlap of the bounds of a pair of nodes, the first of the moving set.
   /// @param allowed depth of two triangles in these nodes [mm]
   DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodePair p, double allowed) const {
     const Kdop16& a = scene.bounds[p.a];
@@ -92,31 +99,33 @@ class StraightPiece {
       times.meet({a.lower[k], a.upper[k]}, along_.along[k], {b.lower[k], b.upper[k]}, allowed_along(k, allowed));
     return times;
   }
+  /// The motion of the triangle of a leaf of the moving set [mm, world].
   DISMANTLE_HOST_DEVICE TriangleMotion motion(const CandidateScene& scene, NodeIndex leaf) const {
     TriangleMotion m;
     for (int k = 0; k < 3; ++k) {
       m.t0[k] = scene.vertices[scene.faces[leaf].v[k]];
-      m.t1[k] = m.t0[k] + way_;
+      m.t1[k] = m.t0[k] + displacement_;
     }
     return m;
   }
 
  private:
-  Vec3 way_;
+  Vec3 displacement_;
   KdopProjections along_;
 };
 
-/// A way from one pose to another, the vertices along their chords.
+/// A piece of a screw of the moving set, with the vertices along chords.
 class TurningPiece {
  public:
-  /// @param start, end x = start * x_assembled
+  /// @param start, end world from assembled
   DISMANTLE_HOST_DEVICE TurningPiece(const CandidateScene& scene, const RigidTransform& start,
                                      const RigidTransform& end)
       : start_(start), end_(end), from_start_(start * inverse(scene.start)), from_end_(end * inverse(scene.start)) {}
 
+  /// As StraightPiece::times(), by the bounds of both ends: overlap for the whole piece, or not at all.
   DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodePair p, double allowed) const {
     const Kdop16& b = scene.bounds[p.b];
-    const Turned at_start(from_start_, scene.bounds[p.a]), at_end(from_end_, scene.bounds[p.a]);
+    const RotatedBox at_start(from_start_, scene.bounds[p.a]), at_end(from_end_, scene.bounds[p.a]);
     OverlapTimes times;
     for (int k = 0; k < Kdop16::kAxisCount; ++k) {
       const double lower = at_start.lower(k), upper = at_start.upper(k);
@@ -126,6 +135,7 @@ class TurningPiece {
     }
     return times;
   }
+  /// As StraightPiece::motion().
   DISMANTLE_HOST_DEVICE TriangleMotion motion(const CandidateScene& scene, NodeIndex leaf) const {
     TriangleMotion m;
     for (int k = 0; k < 3; ++k) {
@@ -137,11 +147,11 @@ class TurningPiece {
   }
 
  private:
-  /// The box of bounds, turned: its center, and its half edges as vectors.
-  struct Turned {
+  /// A rotated box: its center, and its half edges as vectors.
+  struct RotatedBox {
     KdopProjections center, edge_x, edge_y, edge_z;
 
-    DISMANTLE_HOST_DEVICE Turned(const RigidTransform& by, const Kdop16& box)
+    DISMANTLE_HOST_DEVICE RotatedBox(const RigidTransform& by, const Kdop16& box)
         : center(by * Vec3{middle(box, 0), middle(box, 1), middle(box, 2)}),
           edge_x(by.rotation * Vec3{half(box, 0), 0, 0}),
           edge_y(by.rotation * Vec3{0, half(box, 1), 0}),
@@ -164,18 +174,21 @@ class TurningPiece {
   RigidTransform from_start_, from_end_;  // of bounds at the start
 };
 
-/// Room for a depth-first traversal: a subtree is at most kBvhHeuristicDepth + 31 levels deep, so is the tree above the
-/// components, and each level leaves one pair open.
+/// Size of the stack of the depth-first traversal: a subtree has at most kBvhHeuristicDepth + 31 levels, as does the
+/// tree above the components, and each level leaves one pair on the stack.
 inline constexpr int kCandidateStackSize = 224;
 
-/// The first contact of what is in hand on one piece of a way: depth-first, what meets first is looked at first, and
-/// what meets later than the first contact known is not looked at.
+/// The search for the first contact of the moving set on one piece of a motion: depth-first, the pair that may meet
+/// earlier first, without pairs that meet later than the first known contact.
+/// @tparam Piece StraightPiece or TurningPiece
 template <class Piece>
 class CandidateSearch {
  public:
+  /// @param scene, piece must outlive this
   DISMANTLE_HOST_DEVICE CandidateSearch(const CandidateScene& scene, const Piece& piece)
       : scene_(scene), piece_(piece) {}
 
+  /// The first contact, as a fraction of the piece. To be called once.
   DISMANTLE_HOST_DEVICE CandidateContact first() {
     const auto root = static_cast<NodeIndex>(scene_.bounds.size() - 1);
     for (const NodeIndex moving : scene_.moving_roots) {
@@ -193,7 +206,7 @@ class CandidateSearch {
  private:
   struct Open {
     NodePair pair;
-    double contact;  ///< Not before this time.
+    double contact;  ///< Lower bound of the time of contact.
   };
 
   DISMANTLE_HOST_DEVICE bool worth(double contact) const {
@@ -211,7 +224,7 @@ class CandidateSearch {
     open(next.pair[1 - later], contact[1 - later]);
   }
 
-  /// Before which time no two triangles of the nodes are in contact.
+  /// Lower bound of the time at which triangles of the nodes are in contact.
   DISMANTLE_HOST_DEVICE double contact_of(NodePair p) const {
     if (scene_.tree.is_top(p.b)) return piece_.times(scene_, p, 0).contact();
     const std::uint32_t fixed = scene_.tree.component_of[p.b];
@@ -227,15 +240,15 @@ class CandidateSearch {
     return a < b ? scene_.rules.find(a, b) : scene_.rules.find(b, a);
   }
   DISMANTLE_HOST_DEVICE double allowed_of(const PairRule& rule) const {
-    return allowed_on_chords(rule.allowed_penetration, scene_.path_deviation, true, false);
+    return allowed_on_chords(rule.allowed_penetration, scene_.path_deviation, 1);
   }
 
   DISMANTLE_HOST_DEVICE void test(NodePair p) {
-    TriangleMotion standing;
-    for (int k = 0; k < 3; ++k) standing.t0[k] = standing.t1[k] = scene_.vertices[scene_.faces[p.b].v[k]];
+    TriangleMotion stationary;
+    for (int k = 0; k < 3; ++k) stationary.t0[k] = stationary.t1[k] = scene_.vertices[scene_.faces[p.b].v[k]];
     const double horizon = found_.toi;
     const CcdResult ccd =
-        ccd_triangle_triangle(part_of(piece_.motion(scene_, p.a), 0, horizon), standing, allowed_of(rule_of(p)));
+        ccd_triangle_triangle(part_of(piece_.motion(scene_, p.a), 0, horizon), stationary, allowed_of(rule_of(p)));
     if (ccd.status == CcdStatus::Contact) found_ = {horizon * ccd.toi, pair_key(p.a, p.b)};
   }
 
@@ -246,25 +259,27 @@ class CandidateSearch {
   Open open_[kCandidateStackSize];
 };
 
-/// Many ways straight on from one state. Item: a candidate.
+/// The first contacts of many translations from one state. Item: a candidate.
 struct SweepStraight {
-  CandidateScene scene;
-  Span<const Vec3> ways;  ///< [mm]
-  Span<CandidateContact> found;
+  CandidateScene scene;            ///< The state.
+  Span<const Vec3> displacements;  ///< Of each candidate [mm, world].
+  Span<CandidateContact> found;    ///< Output, one for each candidate.
 
+  /// Candidate i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const StraightPiece piece(scene, ways[i]);
+    const StraightPiece piece(scene, displacements[i]);
     found[i] = CandidateSearch<StraightPiece>(scene, piece).first();
   }
 };
 
-/// Many ways along screws from one state, each cut into equal pieces. Item: a candidate.
+/// The first contacts of many screws from one state, each divided into equal pieces. Item: a candidate.
 struct SweepTurning {
-  CandidateScene scene;
-  Span<const RigidTransform> stations;  ///< Of candidate i: from stations_begin[i] on, its start first.
-  Span<const std::uint32_t> stations_begin;
-  Span<CandidateContact> found;
+  CandidateScene scene;                 ///< The state.
+  Span<const RigidTransform> stations;  ///< World from assembled at the ends of the pieces, candidate by candidate.
+  Span<const std::uint32_t> stations_begin;  ///< First station of each candidate; one more at the end.
+  Span<CandidateContact> found;              ///< Output, one for each candidate.
 
+  /// Candidate i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::uint32_t begin = stations_begin[i], pieces = stations_begin[i + 1] - begin - 1;
     found[i] = {};

@@ -14,10 +14,12 @@
 
 namespace dismantle {
 
-/// MotionBatch over a queue, as DeviceStreams is: HostQueue or CudaQueue.
+/// MotionBatch on a device.
+/// @tparam Queue the device: HostQueue or CudaQueue
 template <class Queue>
 class DeviceBatch final : public MotionBatch {
  public:
+  /// @param assembly must outlive this
   DeviceBatch(Queue queue, const Assembly& assembly, const PairStates& pairs, const Executor& executor)
       : queue_(std::move(queue)),
         executor_(executor),
@@ -28,7 +30,7 @@ class DeviceBatch final : public MotionBatch {
         rule_table_(queue_, rules_.view().table) {}
 
   void set_state(Span<const Pose> poses, Span<const ComponentId> moving) override;
-  std::vector<FirstContact> straight_contacts(Span<const Vec3> ways) override;
+  std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) override;
   std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override;
 
  private:
@@ -49,7 +51,7 @@ class DeviceBatch final : public MotionBatch {
   DeviceArray<Kdop16> bounds_;
   DeviceArray<NodeIndex> moving_roots_;
   DeviceArray<std::uint32_t> motion_class_;
-  std::vector<std::uint32_t> in_hand_;  // what motion_class_ holds
+  std::vector<std::uint32_t> moving_;  // motion_class_ on the host
   Pose start_;
   RigidSet set_;
 };
@@ -62,18 +64,18 @@ void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentI
   host_.jump(state, executor_);
   start_ = poses[moving[0].value];
   set_ = make_rigid_set(assembly_, {moving.begin(), moving.end()});
-  in_hand_.assign(poses.size(), 0);
+  moving_.assign(poses.size(), 0);
   std::vector<NodeIndex> roots;
   for (const ComponentId c : moving) {
     DISMANTLE_EXPECT(poses[c.value] == start_);
-    in_hand_[c.value] = 1;
+    moving_[c.value] = 1;
     const NodeIndex root = host_.fixed().bvh.components[c.value].root;
     if (root != kNoNode) roots.push_back(root);
   }
   vertices_ = {queue_, host_.vertices_t0()};
   bounds_ = {queue_, host_.bounds()};
   moving_roots_ = {queue_, Span<const NodeIndex>(roots)};
-  motion_class_ = {queue_, Span<const std::uint32_t>(in_hand_)};
+  motion_class_ = {queue_, Span<const std::uint32_t>(moving_)};
 }
 
 template <class Queue>
@@ -91,14 +93,14 @@ CandidateScene DeviceBatch<Queue>::scene() const {
 }
 
 template <class Queue>
-std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> ways) {
-  const DeviceArray<Vec3> ways_there(queue_, ways);
-  DeviceArray<CandidateContact> found(queue_, ways.size());
-  queue_.launch(ways.size(), SweepStraight{scene(), ways_there.view(), found.view()});
+std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> displacements) {
+  const DeviceArray<Vec3> device_displacements(queue_, displacements);
+  DeviceArray<CandidateContact> found(queue_, displacements.size());
+  queue_.launch(displacements.size(), SweepStraight{scene(), device_displacements.view(), found.view()});
   return brought_down_contacts(found);
 }
 
-/// The poses between which the set's chords are near enough to its arcs; the start first.
+/// The poses that divide the screw into pieces with chords near enough to the arcs; the start first.
 template <class Queue>
 std::vector<Pose> DeviceBatch<Queue>::stations_to(const Pose& target) const {
   const Screw screw = screw_between(start_, target);
@@ -117,10 +119,10 @@ std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> ta
     for (const Pose& station : stations_to(target)) stations.push_back(transform_from_pose(station));
     begin.push_back(static_cast<std::uint32_t>(stations.size()));
   }
-  const DeviceArray<RigidTransform> stations_there(queue_, Span<const RigidTransform>(stations));
-  const DeviceArray<std::uint32_t> begin_there(queue_, Span<const std::uint32_t>(begin));
+  const DeviceArray<RigidTransform> device_stations(queue_, Span<const RigidTransform>(stations));
+  const DeviceArray<std::uint32_t> device_begin(queue_, Span<const std::uint32_t>(begin));
   DeviceArray<CandidateContact> found(queue_, targets.size());
-  queue_.launch(targets.size(), SweepTurning{scene(), stations_there.view(), begin_there.view(), found.view()});
+  queue_.launch(targets.size(), SweepTurning{scene(), device_stations.view(), device_begin.view(), found.view()});
   return brought_down_contacts(found);
 }
 
@@ -139,7 +141,7 @@ FirstContact DeviceBatch<Queue>::contact_of(const CandidateContact& found) const
   if (found.key == CandidateContact::kFree) return contact;
   const AssemblyTriangles& fixed = host_.fixed();
   NodePair leaves = pair_of_key(found.key);
-  if (in_hand_[fixed.bvh.component_of[leaves.a]] == 0) std::swap(leaves.a, leaves.b);
+  if (moving_[fixed.bvh.component_of[leaves.a]] == 0) std::swap(leaves.a, leaves.b);
   contact.toi = found.toi;
   contact.free = false;
   contact.moving = ComponentId(fixed.bvh.component_of[leaves.a]);

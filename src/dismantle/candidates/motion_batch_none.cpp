@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the CUDA file beside this one has, where that is not built.
+// Stands for the CUDA file beside it in builds without CUDA.
 #include "dismantle/candidates/motion_batch.h"
 #include "dismantle/exec/cuda_device.h"
 

@@ -9,12 +9,14 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kNodesPerRange = 2048;  // looking at a node costs 5-20 ns: less than this is not worth a task
-constexpr std::size_t kPendingPerRange = 4;   // a pair that was left over is worth up to kFrontWorkBudget nodes
+/// Nodes of the front in one task: a visit takes 5 to 20 ns.
+constexpr std::size_t kNodesPerRange = 2048;
+/// Pending pairs in one task: each may take up to kFrontWorkBudget visits.
+constexpr std::size_t kPendingPerRange = 4;
+/// Distance of prefetches [nodes]: a visit takes about a tenth of a memory access.
+constexpr std::size_t kPrefetchDistance = 12;
 
-constexpr std::size_t kPrefetchDistance = 12;  // nodes ahead; looking at one takes about a tenth of a memory access
-
-/// Asks for the bounds of a pair that will be looked at soon.
+/// Prefetches the bounds of a pair that is visited soon.
 void prefetch([[maybe_unused]] Span<const Kdop16> bounds, [[maybe_unused]] std::uint64_t key) {
 #if defined(__GNUC__)
   const NodePair p = pair_of_key(key);
@@ -23,7 +25,7 @@ void prefetch([[maybe_unused]] Span<const Kdop16> bounds, [[maybe_unused]] std::
 #endif
 }
 
-/// Where the kernel's finds go, all of them staged.
+/// Sink of the kernel that stages everything before it is appended.
 class StagedSink {
  public:
   struct Targets {
@@ -109,7 +111,7 @@ FrontUpdate Front::sprout(const FrontInput& input, const Executor& executor) {
       StagedSink sink(targets);
       for (std::size_t i = begin; i < end; ++i) {
         prefetch(input.bounds, active_[std::min(i + kPrefetchDistance, end - 1)]);
-        kernel.look(i, sink);
+        kernel.sprout_node(i, sink);
       }
     });
     ++result.rounds;
@@ -146,7 +148,7 @@ void Front::replace_sprouted() {
   const std::size_t in_place = std::min(kept.size(), sprouted.size());
   for (std::size_t i = 0; i < in_place; ++i) active_[sprouted[i]] = kept[i];
   active_.insert(active_.end(), kept.begin() + in_place, kept.end());
-  // Fewer came than went (all that is below rests): the last nodes fill the holes, from the highest hole down.
+  // More nodes were sprouted than added (all below them rest): the last nodes fill the holes, the highest hole first.
   std::sort(sprouted.begin() + in_place, sprouted.end(), std::greater<>());
   for (std::size_t i = in_place; i < sprouted.size(); ++i) {
     active_[sprouted[i]] = active_.back();

@@ -7,30 +7,29 @@
 
 namespace dismantle {
 
-/// How many node pairs an item may look at before it leaves the rest to the next round.
+/// Visits that an item may make before it leaves its remaining pairs to the next round.
 inline constexpr int kFrontWorkBudget = 512;
-/// Room for a depth-first traversal; what does not fit is left to the next round, too.
+/// Size of the stack of the depth-first traversal; pairs that do not fit are left to the next round, too.
 inline constexpr int kFrontStackSize = 96;
 
-/// S_bvh -> S_f, S_t (Du et al. 2015, section 4.3): looks at one node pair of the front; where its bounds overlap it is
-/// sprouted, depth-first, down to pairs that are apart or leaves. No pruning.
+/// S_bvh -> S_f, S_t (Du et al. 2015, section 4.3): visits one node pair of the front and, if its bounds overlap,
+/// sprouts it, depth-first, down to pairs that are apart or leaves. No pruning.
 ///
-/// The sink takes what is found (`Sink` decides how it is appended: staged on CPU threads, by the global or the local
-/// lock on a GPU):
+/// The sink receives the output and appends it (staged on CPU threads, by the global or the local lock on a GPU):
 ///   sink.sprout(i)             front node i is invalid: its descendants replace it
 ///   sink.keep(key)             a new node of the front
-///   sink.rest(key)             a new node whose components do not move against each other: it rests
+///   sink.rest(key)             a new node whose components have no relative motion: it rests
 ///   sink.triangle_pair(key)    two leaves whose bounds overlap
-///   sink.pend(key)             still to be looked at, in the next round
+///   sink.pend(key)             a pair to be visited in the next round
 struct FrontSproutKernel {
-  BvhView tree;
-  Span<const Kdop16> bounds;
-  Span<const std::uint32_t> motion_class;  ///< Of each component: equal where two do not move against each other.
-  Span<const std::uint64_t> items;         ///< The front's nodes, or what the round before left.
+  BvhView tree;                            ///< The hierarchy of all components.
+  Span<const Kdop16> bounds;               ///< Of the whole step, shape [node_count] [world].
+  Span<const std::uint32_t> motion_class;  ///< Equal for components without relative motion, shape [component_count].
+  Span<const std::uint64_t> items;         ///< Keys of the front's nodes, or those left by the round before.
 
   /// First round: item i is a node of the front.
   template <class Sink>
-  DISMANTLE_HOST_DEVICE void look(std::size_t i, Sink& sink) const {
+  DISMANTLE_HOST_DEVICE void sprout_node(std::size_t i, Sink& sink) const {
     const NodePair p = pair_of_key(items[i]);
     if (!overlaps(bounds[p.a], bounds[p.b])) return;
     if (tree.is_leaf(p.a) && tree.is_leaf(p.b)) {
@@ -41,7 +40,7 @@ struct FrontSproutKernel {
     descend(p, sink);
   }
 
-  /// Next rounds: item i is a pair that was left over.
+  /// Next rounds: item i is a pair left by the round before.
   template <class Sink>
   DISMANTLE_HOST_DEVICE void resume(std::size_t i, Sink& sink) const {
     const NodePair p = pair_of_key(items[i]);
@@ -49,7 +48,7 @@ struct FrontSproutKernel {
   }
 
  private:
-  /// True where the pair must be expanded; otherwise it has gone where it belongs.
+  /// True if the pair must be expanded; otherwise the sink has received it.
   template <class Sink>
   DISMANTLE_HOST_DEVICE bool visit(NodePair p, Sink& sink) const {
     const bool top = tree.is_top(p.a) || tree.is_top(p.b);

@@ -9,17 +9,18 @@
 
 namespace dismantle {
 
+/// A backend and the device that it runs on.
 struct ChosenStreamsBackend {
   std::unique_ptr<StreamsBackend> backend;
   std::string device;  ///< "cpu", or the CUDA device's name.
-  std::string why;     ///< Cuda was asked for: why it is the CPU all the same; else empty.
+  std::string why;     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
 };
 
-/// From so many triangles on Auto takes a CUDA device: a step takes CPUs milliseconds then (docs/evaluation.md), many
-/// times what its some fifty launches should. An estimate: no GPU was at hand to measure it on.
+/// Number of triangles from which DeviceChoice::Auto takes a CUDA device: a step then takes milliseconds on a CPU
+/// (docs/evaluation.md), many times the cost of its some fifty launches. Estimated, not measured on a GPU.
 inline constexpr std::size_t kCudaWorthTriangles = 5'000;
 
-/// The backend for an assembly, all components in the assembled state.
+/// Makes a backend for an assembly, with all components in the assembled state. @param assembly must outlive it
 ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const CollisionOptions& options,
                                             DeviceChoice choice);
 

@@ -10,16 +10,16 @@ namespace dismantle {
 
 namespace {
 
-/// The longest way that a vertex of the box goes from one transform to the other; of all points of a box a corner
-/// goes furthest.
-double longest_way(const Aabb& box, const RigidTransform& start, const RigidTransform& end) {
+/// Upper bound of the displacement of a point of the box from one transform to the other [mm]: that of a corner is the
+/// largest.
+double max_displacement(const Aabb& box, const RigidTransform& start, const RigidTransform& end) {
   if (box.empty()) return 0;
   double longest = 0;
   for (const Vec3& corner : corners_of(box)) longest = std::max(longest, length(end * corner - start * corner));
   return longest * (1 + 1e-9);
 }
 
-/// True where the two do not move against each other.
+/// True if the two have no relative motion.
 bool move_as_one(Span<const RigidTransform> start, Span<const RigidTransform> end, ComponentId a, ComponentId b) {
   const bool both_still = start[a.value] == end[a.value] && start[b.value] == end[b.value];
   return both_still || (start[a.value] == start[b.value] && end[a.value] == end[b.value]);
@@ -51,7 +51,7 @@ EmbeddedMotion EmbeddedPairs::motion(const ComponentPair& pair, const EmbeddedSt
   motion.a_closed = closed_[pair.a.value];
   motion.b_closed = closed_[pair.b.value];
   for (const ComponentId c : {pair.a, pair.b})
-    motion.displacement += longest_way(boxes_[c.value], step.start[c.value], step.end[c.value]);
+    motion.displacement += max_displacement(boxes_[c.value], step.start[c.value], step.end[c.value]);
   motion.tolerance = tolerance_;
   motion.path_deviation = step.path_deviation;
   return motion;

@@ -10,52 +10,56 @@
 
 namespace dismantle {
 
-/// One step of the whole assembly, as its embedded pairs are asked about it.
+/// One step of the whole assembly, as EmbeddedPairs takes it.
 struct EmbeddedStep {
-  const AssemblyTriangles* streams = nullptr;
-  StepTriangles triangles;
-  Span<const Kdop16> bounds;              ///< Of the whole step.
-  Span<const RigidTransform> start, end;  ///< Of each component.
-  double path_deviation = 0;              ///< How far a vertex's true path may be from the linear one [mm].
+  const AssemblyTriangles* streams = nullptr;  ///< The assembled triangles and their hierarchy.
+  StepTriangles triangles;                     ///< At the start and the end of the step.
+  Span<const Kdop16> bounds;                   ///< Of the whole step, shape [node_count] [world].
+  Span<const RigidTransform> start;            ///< World from assembled, shape [component_count].
+  Span<const RigidTransform> end;              ///< World from assembled, shape [component_count].
+  double path_deviation = 0;                   ///< Maximum distance of a vertex's true path from the linear one [mm].
 };
 
 /// An embedded pair that parts within a step.
 struct PartingPair {
-  ComponentPair pair;
-  double from = 0;                            ///< From this time of the step on it is like any other.
+  ComponentPair pair;                         ///< As in the assembled state.
+  double from = 0;                            ///< Time of the step from which on it is tested like any other pair.
   std::vector<std::uint64_t> triangle_pairs;  ///< Those of S_t that belong to it.
 };
 
-/// The intersection stream S_i (Du et al. 2015, section 4.2): the pairs of components that may be in each other until
-/// they part.
+/// The intersection stream S_i (Du et al. 2015, section 4.2): the pairs of components that may intersect until they
+/// part.
 class EmbeddedPairs {
  public:
+  /// All embedded pairs of `states`, with all components in the assembled state.
   EmbeddedPairs(const Assembly& assembly, const PairStates& states);
 
+  /// The pairs that are still embedded.
   const std::vector<ComponentPair>& pairs() const { return pairs_; }
-  /// Whether any of them move against each other on the way from `start` to `end`, one transform a component.
+  /// True if some pair has a relative motion between two states, one transform a component.
   bool any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const;
-  /// The pairs that part within the step. They stay in the stream: the step may not be made.
+  /// The pairs that part within the step. They stay in the stream, as the step may not be committed.
   /// @param triangle_pairs S_t, ascending
   /// @param intersecting those of its embedded pairs that intersect at the end of the step (TID)
   std::vector<PartingPair> parting(const EmbeddedStep& step, Span<const std::uint64_t> triangle_pairs,
                                    Span<const std::uint64_t> intersecting) const;
-  /// The pairs that are apart at the step's start.
+  /// The pairs that are apart at the start of the step.
   std::vector<ComponentPair> apart(const EmbeddedStep& step) const;
-  /// These pairs have parted: they leave the stream for good.
+  /// Removes pairs that have parted, for good.
   void part(const std::vector<ComponentPair>& parted);
 
  private:
   EmbeddedMotion motion(const ComponentPair& pair, const EmbeddedStep& step) const;
 
   double tolerance_;
-  std::vector<bool> closed_;  // of each component: whether "inside" means something
+  std::vector<bool> closed_;  // of each component: its surface is closed
   std::vector<Aabb> boxes_;   // of the components in the assembled state
   std::vector<ComponentPair> pairs_;
 };
 
-/// The triangle pairs that belong to components a < b, in the order given.
-/// @param component_of of each leaf
+/// The triangle pairs of components a < b, in the order given.
+/// @param triangle_pairs keys of leaf pairs (pair_key)
+/// @param component_of shape [leaf_count]
 std::vector<std::uint64_t> triangle_pairs_of(Span<const std::uint64_t> triangle_pairs,
                                              Span<const std::uint32_t> component_of, ComponentId a, ComponentId b);
 

@@ -8,7 +8,8 @@
 
 namespace dismantle {
 
-/// `engine`, with the guard's findings among its contacts; `engine` itself where the guard has nothing to watch.
+/// Adds a VertexDepthGuard to `engine`: vertices that get too deep block sweeps, too. Returns `engine` itself if there
+/// is nothing to watch. @param assembly must outlive the result
 std::unique_ptr<SweepEngine> make_guarded_engine(std::unique_ptr<SweepEngine> engine, const Assembly& assembly,
                                                  const PairStates& pairs, const Executor& executor);
 

@@ -7,7 +7,7 @@ namespace dismantle {
 
 namespace {
 
-/// All streams in the host's memory.
+/// A backend with all streams in host memory.
 class HostStreamsBackend final : public StreamsBackend {
  public:
   HostStreamsBackend(const Assembly& assembly, const CollisionOptions& options)

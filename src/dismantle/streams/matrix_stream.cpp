@@ -9,15 +9,15 @@ namespace dismantle {
 
 namespace {
 
-/// The numbers of a component's motion, to compare motions by.
+/// All numbers of a component's motion, for comparisons.
 using MotionKey = std::array<double, 24>;
 
 MotionKey motion_key(const RigidTransform& start, const RigidTransform& end) {
   MotionKey key;
-  auto place = key.begin();
+  auto next = key.begin();
   for (const RigidTransform* t : {&start, &end}) {
     for (const Vec3& v : {t->rotation.row[0], t->rotation.row[1], t->rotation.row[2], t->translation})
-      for (int k = 0; k < 3; ++k) *place++ = v[k];
+      for (int k = 0; k < 3; ++k) *next++ = v[k];
   }
   return key;
 }
@@ -64,7 +64,7 @@ void MatrixStream::classify_motion() {
   }
 }
 
-std::vector<ComponentId> MatrixStream::take_unfitted() {
+std::vector<ComponentId> MatrixStream::take_outdated_bounds() {
   std::vector<ComponentId> unfitted;
   for (std::uint32_t c = 0; c < motion_class_.size(); ++c) {
     if (fitted_start_[c] == start_[c] && fitted_end_[c] == end_[c]) continue;

@@ -6,36 +6,41 @@
 
 namespace dismantle {
 
-/// The streams that change from step to step: S_tm, S_v(n), S_v(n+1), S_bv and S_bvh. A step goes from the current
-/// state to a candidate next one. What has not changed since the last step is not computed again; the results are the
-/// same bits.
+/// The streams that change from step to step, on the host: S_tm, S_v(n), S_v(n+1), S_bv and S_bvh. A step goes from the
+/// current state to a candidate next one. Unchanged parts of a stream are not computed again; the results are the same
+/// bits.
 class MovingStreams {
  public:
   /// All components in the assembled state.
   MovingStreams(const Assembly& assembly, const Executor& executor);
 
-  /// S_tm -> S_v(n+1), and which components move how. @param next shape [component_count]
+  /// Sets the candidate: S_tm -> S_v(n+1), and the motion classes. @param next shape [component_count]
   void set_next(Span<const RigidTransform> next, const Executor& executor);
-  /// As set_next, from another current state.
+  /// Sets the current state and the candidate. @param state, next shape [component_count]
   void set_motion(Span<const RigidTransform> state, Span<const RigidTransform> next, const Executor& executor);
-  /// S_v(n), S_v(n+1) -> S_bv, S_bvh.
+  /// Updates the bounds: S_v(n), S_v(n+1) -> S_bv, S_bvh.
   void refit(const Executor& executor);
-  /// The candidate becomes the current state.
+  /// Makes the candidate the current state.
   void commit();
-  /// Puts the current state and the candidate at `state`; the bounds are those of that moment.
+  /// Sets the current state and the candidate to `state`, shape [component_count], and updates the bounds.
   void jump(Span<const RigidTransform> state, const Executor& executor);
 
+  /// The data that stays the same from step to step.
   const AssemblyTriangles& fixed() const { return fixed_; }
+  /// The current state, shape [component_count].
   Span<const RigidTransform> state() const { return matrices_.start(); }
+  /// S_v(n) [mm, world].
   Span<const Vec3> vertices_t0() const { return vertices_t0_; }
+  /// S_v(n+1) [mm, world].
   Span<const Vec3> vertices_t1() const { return vertices_t1_; }
+  /// S_bv and S_bvh: bounds of the step, shape [node_count] [mm, world].
   Span<const Kdop16> bounds() const { return bounds_; }
-  /// As MatrixStream has it.
+  /// See MatrixStream::motion_class().
   Span<const std::uint32_t> motion_class() const { return matrices_.motion_class(); }
 
  private:
-  void bring(std::vector<Vec3>& vertices, Span<const RigidTransform> transforms,
-             const std::vector<ComponentId>& components, const Executor& executor) const;
+  void transform(std::vector<Vec3>& vertices, Span<const RigidTransform> transforms,
+                 const std::vector<ComponentId>& components, const Executor& executor) const;
 
   AssemblyTriangles fixed_;
   MatrixStream matrices_;

@@ -7,33 +7,36 @@
 
 namespace dismantle {
 
-/// What the narrow phase looks at.
+/// Input of the narrow phase.
 struct NarrowPhaseInput {
-  Span<const std::uint64_t> triangle_pairs;  ///< S_t
-  const MovingStreams* streams = nullptr;
-  PairRulesView rules;
-  ElementaryTest test = ElementaryTest::Certified;
-  double path_deviation = 0;  ///< [mm]
+  Span<const std::uint64_t> triangle_pairs;         ///< S_t
+  const MovingStreams* streams = nullptr;           ///< The step.
+  PairRulesView rules;                              ///< The rules of the component pairs.
+  ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs with PairTest::Ordinary.
+  double path_deviation = 0;                        ///< Maximum distance of true paths from linear ones [mm].
 };
 
-/// Those of the contacts that are within kContactWindow of the first one.
+/// The contacts that are within kContactWindow of the first one.
 std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contacts);
 
-/// Runs the narrow phase over S_t and keeps what it found.
+/// The narrow phase over S_t, and its results.
 class NarrowPhase {
  public:
+  /// @param initial_capacity of each append buffer; they grow as needed
   explicit NarrowPhase(std::size_t initial_capacity) : contacts_(initial_capacity), intersections_(initial_capacity) {}
 
-  /// Tests all of S_t. It does so in rounds, each four times as large as all before: once contacts are known, the
-  /// certified tests of later rounds look no further than kContactWindow beyond the first of them. The rounds depend on
-  /// S_t alone, so results do, too.
+  /// Tests all of S_t, in rounds that are each four times as large as all before: once contacts are known, the
+  /// certified tests of later rounds end kContactWindow after the first of them. The rounds depend on S_t alone, and so
+  /// do the results.
   void run(const NarrowPhaseInput& input, const Executor& executor);
 
-  /// Every contact within kContactWindow of the first one; in no particular order: sort before use.
+  /// All contacts within kContactWindow of the first one, in no particular order.
   std::vector<TrianglePairContact> first_contacts() const { return first_of(found_); }
   /// The triangle pairs of components in S_i that intersect at the end of the step; in no particular order.
   Span<const std::uint64_t> intersecting() const { return intersecting_; }
+  /// Number of continuous tests left by the filters.
   std::size_t tests() const { return tests_; }
+  /// Number of rounds repeated because a buffer was full.
   std::size_t replays() const { return replays_; }
 
  private:
@@ -47,16 +50,15 @@ class NarrowPhase {
   std::size_t replays_ = 0;
 };
 
-/// The contacts of `pairs`, which belong to a component pair that parts at time `from`, over the rest of the step:
-/// certified, with the tolerance as allowance. In no particular order.
+/// The contacts of the triangle pairs of one component pair that parts at time `from`, over the rest of the step, by
+/// the certified test with the tolerance as allowance. In no particular order.
 std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
                                                  double from, const Executor& executor);
 
-/// The triangles of the step that the streams are at.
+/// The triangles of a step at its start and end.
 StepTriangles step_triangles(const MovingStreams& streams);
 
-/// The contacts by components and faces, in this order.
-std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams,
-                                                 Span<const TrianglePairContact> contacts);
+/// Contacts as blocking pairs, ordered by components and faces.
+std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams, Span<const TrianglePairContact> contacts);
 
 }  // namespace dismantle

@@ -15,10 +15,10 @@
 
 namespace dismantle {
 
-/// A triangle pair of S_t in contact.
+/// A triangle pair of S_t that blocks the motion, as kernels report it.
 struct TrianglePairContact {
-  std::uint64_t key = 0;  ///< pair_key of the two leaves
-  double toi = 0;
+  std::uint64_t key = 0;  ///< pair_key of the two leaves.
+  double toi = 0;         ///< As BlockingPair::toi.
   friend bool operator==(const TrianglePairContact&, const TrianglePairContact&) = default;
 };
 
@@ -36,7 +36,7 @@ DISMANTLE_HOST_DEVICE inline TriangleMotion part_of(const TriangleMotion& motion
 /// of bounds.
 inline constexpr double kAllowanceRounding = 1 - 1e-6;
 
-/// True where an axis shows that two things with these bounds are never deeper in each other than `allowed` [mm].
+/// True if an axis shows that two objects with these bounds are never deeper in each other than `allowed` [mm].
 DISMANTLE_HOST_DEVICE inline bool within_allowance(const Kdop16& a, const Kdop16& b, double allowed) {
   // A depth along a diagonal axis is sqrt(2) times as long in the axis's own measure; 1.4 is less.
   const float straight = static_cast<float>(allowed * kAllowanceRounding);
@@ -49,26 +49,28 @@ DISMANTLE_HOST_DEVICE inline bool within_allowance(const Kdop16& a, const Kdop16
   return apart != 0;
 }
 
-/// How much of an allowance the true paths may take: one deviation for each of the two components that moves.
-DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double deviation, bool a_moves, bool b_moves) {
-  const double left = allowed - ((a_moves ? deviation : 0) + (b_moves ? deviation : 0));
+/// The allowance on linear paths that keeps `allowed` on the true ones: reduced by the deviation of each moving
+/// component [mm].
+/// @param moving_components of the pair: 0, 1 or 2
+DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double deviation, int moving_components) {
+  const double left = allowed - moving_components * deviation;
   return left > 0 ? left : 0;
 }
 
-/// S_t is tested in rounds, so that what comes after the first contacts need not be looked at: where the round ends
-/// that begins at triangle pair `begin`.
+/// The end of the round of the narrow phase that begins at triangle pair `begin`. S_t is tested in rounds, so that
+/// later rounds can omit the time after the first contacts.
 DISMANTLE_HOST_DEVICE inline std::size_t narrow_phase_round_end(std::size_t begin) {
   constexpr std::size_t kFirstRound = 512, kRoundGrowth = 4;
   return begin + (kRoundGrowth * begin > kFirstRound ? kRoundGrowth * begin : kFirstRound);
 }
 
-/// How far into the step it is worth to look where the first contact known is at time `first`.
+/// The time of the step after which contacts do not matter, if the first known one is at time `first`.
 DISMANTLE_HOST_DEVICE inline double horizon_after(double first) {
   const double last = first + kContactWindow;
   return last < 1 ? last : 1;
 }
 
-/// What comes before the elementary tests of a triangle pair; makes no difference to what they find.
+/// The cull before the elementary tests of a triangle pair; it does not change their results.
 enum class PairCull : std::uint8_t {
   None,            ///< Only each feature pair's own non-penetration filter.
   SeparatingAxis,  ///< One axis for all of them: elementary_apart.
@@ -76,22 +78,24 @@ enum class PairCull : std::uint8_t {
 
 /// S_t -> contacts and intersections (Du et al. 2015, algorithm 1, lines 6 to 14): TID for pairs of S_i, a continuous
 /// test for all others.
-/// The sink takes what is found:
-///   sink.contact({key, toi})   the pair stops the motion
+/// The sink receives the output:
+///   sink.contact({key, toi})   the pair blocks the motion
 ///   sink.intersection(key)     a pair of S_i that intersects at the end of the step
-///   sink.tested(count)         elementary tests, or certified tests of a pair, that filters left
+///   sink.tested(count)         elementary tests, or certified tests of a pair, that the filters left
 struct NarrowPhaseKernel {
-  Span<const std::uint64_t> pairs;  ///< S_t
-  StepTriangles triangles;
-  Span<const Kdop16> bounds;
-  Span<const std::uint32_t> component_of;  ///< Of each leaf.
-  Span<const std::uint8_t> features;       ///< Of each leaf: the features that it stands for.
-  Span<const std::uint32_t> motion_class;  ///< Of each component: 0 where it stands still.
-  PairRulesView rules;
-  ElementaryTest test = ElementaryTest::Certified;
-  double path_deviation = 0;  ///< [mm]
-  double horizon = 1;         ///< Certified tests look no further into the step than this time.
-  PairCull cull = PairCull::SeparatingAxis;
+  Span<const std::uint64_t> pairs;                  ///< S_t
+  StepTriangles triangles;                          ///< At the start and the end of the step.
+  Span<const Kdop16> bounds;                        ///< Of the whole step, shape [node_count] [mm, world].
+  Span<const std::uint32_t> component_of;           ///< Shape [leaf_count].
+  Span<const std::uint8_t> features;                ///< Features that each leaf represents, shape [leaf_count].
+  Span<const std::uint32_t> motion_class;           ///< 0 for stationary components, shape [component_count].
+  PairRulesView rules;                              ///< The rules of the component pairs.
+  ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs with PairTest::Ordinary.
+  double path_deviation = 0;                        ///< Maximum distance of true paths from linear ones [mm].
+  double horizon = 1;                               ///< Time of the step at which certified tests end.
+  PairCull cull = PairCull::SeparatingAxis;         ///< Cull before elementary tests.
+
+  /// Tests triangle pair i.
 
   template <class Sink>
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
@@ -103,8 +107,8 @@ struct NarrowPhaseKernel {
     } else if (rule.test == PairTest::Ordinary && test == ElementaryTest::Elementary) {
       elementary(i, p, sink);
     } else {
-      const double allowed =
-          allowed_on_chords(rule.allowed_penetration, path_deviation, motion_class[a] != 0, motion_class[b] != 0);
+      const int moving = (motion_class[a] != 0) + (motion_class[b] != 0);
+      const double allowed = allowed_on_chords(rule.allowed_penetration, path_deviation, moving);
       certified(i, p, allowed, sink);
     }
   }
@@ -129,13 +133,15 @@ struct NarrowPhaseKernel {
   }
 };
 
-/// The triangle pairs of components that part at time `from` of the step, over the rest of it: certified, with an
-/// allowance of `allowed` [mm]. Item: a triangle pair; gives its contact, if there is one.
+/// Certified test of the triangle pairs of components that part within the step, over the rest of it. Item: a triangle
+/// pair.
 struct PartedPairKernel {
-  Span<const std::uint64_t> pairs;
-  StepTriangles triangles;
-  double from = 0;
-  double allowed = 0;
+  Span<const std::uint64_t> pairs;  ///< Keys of leaf pairs.
+  StepTriangles triangles;          ///< At the start and the end of the step.
+  double from = 0;                  ///< Time of the step at which the components part.
+  double allowed = 0;               ///< Allowed penetration on linear paths [mm].
+
+  /// The contact of triangle pair i, if there is one.
 
   DISMANTLE_HOST_DEVICE std::optional<TrianglePairContact> operator()(std::size_t i) const {
     const NodePair p = pair_of_key(pairs[i]);

@@ -14,18 +14,18 @@ namespace dismantle {
 
 namespace {
 
-constexpr int kVertexSamples = 64;       // vertices of each component that certificate 4 looks at
-constexpr int kMaximumIntervals = 4096;  // then what is left counts as parted
+constexpr int kVertexSamples = 64;   // vertices of each component that certificate 4 tests
+constexpr int kMaxIntervals = 4096;  // the pair counts as parted after so many
 
-/// Triangles whose vertices may be off their linear paths by `deviation`.
-struct ShakenPair {
+/// Two triangles whose vertices may deviate from their linear paths.
+struct PerturbedPair {
   const TriangleMotion& a;
   const TriangleMotion& b;
-  double determinant_change;  // what that can change a determinant of three differences of their corners by
+  double determinant_change;  // maximum effect on a determinant of three differences of their corners
 };
 
-ShakenPair shaken(const TriangleMotion& a, const TriangleMotion& b, double deviation) {
-  double longest = 0;  // difference of two corners, squared, at either end; in between none is longer
+PerturbedPair perturbed(const TriangleMotion& a, const TriangleMotion& b, double deviation) {
+  double longest = 0;  // squared difference of two corners at either end; none is longer in between
   const auto compare = [&](const TriangleMotion& m, const TriangleMotion& n) {
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l)
@@ -38,7 +38,7 @@ ShakenPair shaken(const TriangleMotion& a, const TriangleMotion& b, double devia
   return {a, b, (3 * edge * edge + 3 * edge * shift + shift * shift) * shift * (1 + 1e-9)};
 }
 
-/// The strict sign that the cubic, changed by up to `change`, certainly has all over [0, 1]; 0 where it may be any.
+/// The strict sign that the cubic, changed by up to `change`, certainly has throughout [0, 1]; 0 if there is none.
 int lasting_sign(BernsteinCubic cubic, double change) {
   cubic.error += change;
   if (!certainly_never_coplanar(cubic)) return 0;
@@ -66,7 +66,7 @@ bool pierces_throughout(const TriangleMotion& edges, int k, const TriangleMotion
   return true;
 }
 
-bool pierces_throughout(const ShakenPair& pair) {
+bool pierces_throughout(const PerturbedPair& pair) {
   for (int k = 0; k < 3; ++k) {
     if (pierces_throughout(pair.a, k, pair.b, pair.determinant_change)) return true;
     if (pierces_throughout(pair.b, k, pair.a, pair.determinant_change)) return true;
@@ -74,7 +74,7 @@ bool pierces_throughout(const ShakenPair& pair) {
   return false;
 }
 
-/// Looks at one pair of S_i at times and over intervals of a step.
+/// Queries of one pair of S_i at times and over intervals of a step.
 class PartingSearch {
  public:
   explicit PartingSearch(const EmbeddedMotion& motion) : m_(motion) {}
@@ -112,7 +112,7 @@ class PartingSearch {
       const NodePair p = pair_of_key(key);
       const TriangleMotion a = part_of(m_.step.motion(p.a), begin, end);
       const TriangleMotion b = part_of(m_.step.motion(p.b), begin, end);
-      return pierces_throughout(shaken(a, b, m_.path_deviation));
+      return pierces_throughout(perturbed(a, b, m_.path_deviation));
     });
   }
 
@@ -139,7 +139,7 @@ class PartingSearch {
     return std::any_of(keys.begin(), keys.end(), [&](std::uint64_t key) {
       const NodePair p = pair_of_key(key);
       const Triangle a = now.triangle(p.a), b = now.triangle(p.b);
-      // Depths are as exact as rounding of the coordinates; a relative 1e-6 is far above it.
+      // The error of a depth is the rounding of the coordinates; a relative 1e-6 is far above it.
       return penetration_triangle_triangle(a, b).depth > displacement * (1 + 1e-6) + 1e-9 * max_abs(a[0] - b[0]);
     });
   }
@@ -174,7 +174,7 @@ std::optional<double> parted_from(const EmbeddedMotion& motion) {
   const PartingSearch search(motion);
   double begin = 0, length = 1;
   std::vector<std::uint64_t> intersecting = search.intersecting(0);
-  for (int looks = 0; looks < kMaximumIntervals; ++looks) {
+  for (int k = 0; k < kMaxIntervals; ++k) {
     const double end = std::min(1.0, begin + length);
     if (search.certain(begin, end, intersecting)) {
       if (end == 1) return std::nullopt;

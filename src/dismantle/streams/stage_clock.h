@@ -5,17 +5,17 @@
 
 namespace dismantle {
 
-/// Times the stages of a step.
+/// A clock for the stages of a step.
 class StageClock {
  public:
-  /// The wall time since the last lap, or since the start [ms].
+  /// The wall time since the last lap, or since construction [ms].
   double lap() {
     const Clock::time_point now = Clock::now();
     const double ms = milliseconds(now - last_);
     last_ = now;
     return ms;
   }
-  /// The wall time since the start [ms].
+  /// The wall time since construction [ms].
   double total() const { return milliseconds(Clock::now() - start_); }
 
  private:

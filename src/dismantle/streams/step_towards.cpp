@@ -4,15 +4,14 @@
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/streams_motion_engine.h"
 
-
 namespace dismantle {
 
 namespace {
 
-/// How often a motion up to the contact is shortened by half where its own sweep does not come out free.
-constexpr int kMaximumTouchRetries = 4;
+/// Times that a motion up to the contact is halved if its own sweep is not free.
+constexpr int kMaxTouchRetries = 4;
 
-/// One step's sweeps: knows the engine, the set, and adds up the cost.
+/// The sweeps of one step; adds up their cost.
 class Stepper {
  public:
   Stepper(SweepEngine& engine, const RigidSet& set, StepResult& result)
@@ -94,7 +93,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
     result.blocking_pairs = std::move(swept.blocking_pairs);
     const double backoff = kBackoffShare * tolerance / (travel / cuts);
     double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
-    for (int retry = 0; retry < kMaximumTouchRetries && share > backoff; ++retry) {
+    for (int retry = 0; retry < kMaxTouchRetries && share > backoff; ++retry) {
       const Pose touching = pose_between(start, target, (k + share) / cuts);
       if (stepper.sweep(touching, deviation).free) {
         stepper.commit(touching);

@@ -11,57 +11,60 @@
 
 namespace dismantle {
 
-/// What the streams gave in one step.
+/// The output of the streams in one step.
 struct StreamsStep {
-  std::vector<TrianglePairContact> contacts;  ///< Those within kContactWindow of the first; in no particular order.
+  std::vector<TrianglePairContact> contacts;  ///< Within kContactWindow of the first one; in no particular order.
   /// The triangle pairs of components in S_i that intersect at the end of the step; in no particular order.
   std::vector<std::uint64_t> intersecting;
-  StageTimings timings;  ///< Of the stages; not overall.
-  StreamSizes sizes;    ///< Without intersection_pairs.
+  StageTimings timings;  ///< Without `overall`.
+  StreamSizes sizes;     ///< Without `intersection_pairs`.
 };
 
-/// Where the streams of Du et al. 2015 are kept and worked on: algorithm 1 but for what it says about pairs that part.
-/// Every backend gives the same contacts and intersections, bit for bit.
+/// Memory and processor of the streams of Du et al. 2015: algorithm 1 except for pairs that part. Every backend gives
+/// the same contacts and intersections, bit for bit.
 class StreamsBackend {
  public:
   virtual ~StreamsBackend() = default;
 
-  /// From now on pairs are tested by these rules. To be called before the first step; what `rules` is a view of must
-  /// not change before the next call.
+  /// Sets the rules by which pairs are tested. To be called before the first step; the table of `rules` must not change
+  /// before the next call.
   virtual void set_rules(PairRulesView rules) = 0;
-  /// The motion from the current state to `next`; the state stays as it is.
+  /// Sweeps the motion from the current state to `next`, one transform a component; the state does not change.
+  /// @param path_deviation as in SweepEngine::sweep [mm]
   virtual StreamsStep step(Span<const RigidTransform> next, double path_deviation) = 0;
-  /// The last step's next state becomes the current one.
+  /// Makes the `next` of the last step the current state.
   virtual void commit() = 0;
+  /// Sets the current state without a test, one transform a component.
   virtual void jump(Span<const RigidTransform> state) = 0;
+  /// The current state, one transform a component.
   virtual Span<const RigidTransform> state() const = 0;
 
-  /// What stays the same from step to step, on the host.
+  /// The data that stays the same from step to step, on the host.
   virtual const AssemblyTriangles& fixed() const = 0;
-  /// S_t of the last step on the host: keys, ascending. It may have to be brought there.
+  /// S_t of the last step on the host: keys, ascending. May have to be downloaded.
   virtual Span<const std::uint64_t> triangle_pairs() = 0;
-  /// The streams of the last step, or after a jump those of the state, on the host. They may have to be made there.
+  /// The streams of the last step, or after a jump those of the state, on the host. May have to be computed there.
   virtual const MovingStreams& on_host() = 0;
 };
 
-/// On the threads of the options' executor.
+/// Makes a backend on the threads of the options' executor. @param assembly must outlive it
 std::unique_ptr<StreamsBackend> make_host_streams_backend(const Assembly& assembly, const CollisionOptions& options);
 
-/// On the CUDA device. Errors: Failed with the reason alone where there is none, this build has no CUDA, or the streams
-/// do not fit into its memory.
+/// Makes a backend on the CUDA device. Errors: Failed with the reason alone if there is none, this build has no CUDA,
+/// or the streams do not fit into its memory.
 Result<std::unique_ptr<StreamsBackend>> make_cuda_streams_backend(const Assembly& assembly,
                                                                   const CollisionOptions& options);
 
-/// On a device that the threads of an executor play: all that CUDA runs but its copies and launches, where there is no
-/// GPU.
-std::unique_ptr<StreamsBackend> make_device_streams_backend(const Assembly& assembly, const CollisionOptions& options,
-                                                            const Executor& device);
+/// Makes a backend on a host emulation of a device: all code that CUDA runs, except copies and launches, on the threads
+/// of an executor. For tests without a GPU.
+std::unique_ptr<StreamsBackend> make_emulated_streams_backend(const Assembly& assembly, const CollisionOptions& options,
+                                                              const Executor& device);
 
-/// The paper's method over any backend of the same assembly, all components in the assembled state.
+/// Makes the paper's method over any backend of the same assembly, with all components in the assembled state.
 std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
                                                  const CollisionOptions& options,
                                                  std::unique_ptr<StreamsBackend> backend);
-/// The same with responses Stop and Touch. The assembly must outlive the engine.
+/// The same as a MotionEngine with responses Stop and Touch. @param assembly must outlive the engine
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options,
                                                          std::unique_ptr<StreamsBackend> backend);

@@ -9,7 +9,7 @@ namespace dismantle {
 
 namespace {
 
-/// Du et al. 2015, algorithm 1, one step at a time: what S_i says, over streams that may be anywhere.
+/// Du et al. 2015, algorithm 1, one step at a time: handles the pairs of S_i; a backend does the rest.
 class StreamsEngine final : public SweepEngine {
  public:
   StreamsEngine(const Assembly& assembly, const PairStates& pairs, const CollisionOptions& options,
@@ -38,7 +38,7 @@ class StreamsEngine final : public SweepEngine {
   PairRules rules_;
   EmbeddedPairs embedded_;  // S_i
   std::vector<RigidTransform> next_;
-  std::vector<ComponentPair> parting_;  // those that leave S_i if the last sweep is committed
+  std::vector<ComponentPair> parting_;  // pairs that leave S_i if the last sweep is committed
   bool may_commit_ = false;
 };
 

@@ -17,13 +17,14 @@ inline constexpr std::string_view kFrontStage = "front";
 inline constexpr std::string_view kIntersectionStage = "intersection_test";
 ///@}
 
-/// A collision method as the loop of a host program sees it, with responses Stop and Touch. The assembly must outlive
-/// the engine. @pre `engine` is of this assembly, all components in the assembled state; tolerance > 0 [mm]
+/// Makes a MotionEngine with responses Stop and Touch of a SweepEngine. @param assembly must outlive the result
+/// @param tolerance of the pairs [mm] @pre positive
+/// @param engine of this assembly, with all components in the assembled state
 std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
                                                           std::unique_ptr<SweepEngine> engine);
 
-/// `streams` (docs/design/0004-streams.md) with responses Stop and Touch, all components in the assembled state. The
-/// assembly must outlive the engine.
+/// Makes the method `streams` (docs/design/0004-streams.md) with responses Stop and Touch, on the threads of the
+/// options' executor, with all components in the assembled state. @param assembly must outlive the engine
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options);
 

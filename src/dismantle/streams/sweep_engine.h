@@ -14,15 +14,14 @@
 
 namespace dismantle {
 
-/// Which continuous test decides a triangle pair of components that are ordinarily apart.
+/// The continuous test for triangle pairs of components that are apart in the assembled state.
 enum class ElementaryTest {
   Certified,   ///< ccd_triangle_triangle: no miss, with the pair's allowed penetration.
   Elementary,  ///< The paper's 6 VF + 9 EE cubic tests, no penetration allowed. Pairs in contact or fit need an
                ///< allowance and are tested with Certified all the same.
 };
 
-/// A sweep reports the contacts of this part of the motion, from the first one on: what comes after it would not
-/// happen.
+/// The part of a motion, after its first contact, whose contacts a sweep reports.
 inline constexpr double kContactWindow = 0x1p-10;
 
 /// Wall times of the stages of a sweep, as in Table 1 of Du et al. 2015 [ms].
@@ -49,33 +48,33 @@ struct SweepResult {
   bool free = true;  ///< Nothing blocks the motion.
   /// Every triangle pair whose own toi is within kContactWindow of the smallest, ordered by (a, b, face_a, face_b).
   std::vector<BlockingPair> blocking_pairs;
-  StageTimings timings;
-  StreamSizes sizes;
+  StageTimings timings;  ///< Cost of the stages.
+  StreamSizes sizes;     ///< Amount of work.
 };
 
-/// Options of every method.
+/// Options of SweepEngines.
 struct CollisionOptions {
-  ElementaryTest test = ElementaryTest::Certified;
-  Executor executor;
+  ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs that are apart in the assembled state.
+  Executor executor;                                ///< Threads; the results do not depend on them.
   std::size_t initial_capacity = 1 << 16;  ///< Of every append buffer; they grow as needed. Tests start from 1.
 };
 
-/// A collision method (docs/design/0000-overview.md): holds the assembly's current state and sweeps it to candidate
-/// next states.
-///   sweep(next)  tests the motion from the current state to `next`, linear vertex paths; the state stays as it is.
-///   commit()     makes the `next` of the last sweep the current state. @pre that sweep was free
-/// Same input, same results: for every executor, thread count and initial capacity.
+/// A collision method that sweeps the whole assembly (docs/design/0000-overview.md) from its current state to candidate
+/// next states, with linear vertex paths. The results do not depend on the executor, the number of threads and the
+/// initial capacity.
 class SweepEngine {
  public:
   virtual ~SweepEngine() = default;
 
+  /// Tests the motion from the current state to `next`; the state does not change.
   /// @param next one transform a component: x_next = next[c] * x_assembled
-  /// @param path_deviation how far a vertex's true path may be from the linear one [mm]; it is taken off every allowed
-  ///        penetration, so that Free holds for the true path. @pre less than half the tolerance
+  /// @param path_deviation maximum distance of a vertex's true path from the linear one [mm]; it is subtracted from
+  ///        every allowed penetration, so that a free sweep holds for the true path. @pre at most half the tolerance
   virtual SweepResult sweep(Span<const RigidTransform> next, double path_deviation) = 0;
+  /// Makes the `next` of the last sweep the current state. @pre that sweep was free
   virtual void commit() = 0;
-  /// Puts all components at `state` without a test (undo, jump to a recorded state known to be free). Embedded pairs
-  /// that are apart there leave the intersection stream.
+  /// Sets the current state without a test (undo, or a recorded state known to be free), one transform a component.
+  /// Embedded pairs that are apart there leave the intersection stream.
   virtual void jump(Span<const RigidTransform> state) = 0;
 
   /// The current state, one transform a component.
@@ -84,7 +83,8 @@ class SweepEngine {
   virtual std::vector<ComponentPair> embedded_pairs() const = 0;
 };
 
-/// The paper's method (docs/design/0004-streams.md), all components in the assembled state.
+/// Makes the paper's method (docs/design/0004-streams.md) on the threads of the options' executor, with all components
+/// in the assembled state.
 std::unique_ptr<SweepEngine> make_streams_engine(const Assembly& assembly, const PairStates& pairs,
                                                  const CollisionOptions& options);
 

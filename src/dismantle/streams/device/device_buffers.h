@@ -12,22 +12,26 @@
 
 namespace dismantle::device_code {
 
-/// AssemblyTriangles in a device's memory: what stays the same from step to step.
+/// AssemblyTriangles in a device's memory: the data that stays the same from step to step.
 struct Geometry {
-  DeviceArray<Vec3> assembled;  ///< S_v0
-  DeviceArray<Face> faces;
-  DeviceArray<std::uint8_t> features;
-  DeviceArray<BvhChildren> children;
-  DeviceArray<BvhComponent> ranges;
-  DeviceArray<std::uint32_t> component_of_vertex, component_of_node;
-  DeviceArray<NodeIndex> parents;  ///< Of each node; kNoNode of the root.
-  NodeIndex leaf_count, top_begin;
-  int key_bits;                    ///< Low bits in which keys of leaf pairs differ.
-  std::uint64_t first_front_node;  ///< kDeadNode where there are not two components to meet.
+  DeviceArray<Vec3> assembled;                     ///< S_v0 [mm, assembled].
+  DeviceArray<Face> faces;                         ///< In leaf order.
+  DeviceArray<std::uint8_t> features;              ///< Features that each leaf represents.
+  DeviceArray<BvhChildren> children;               ///< Of the inner nodes.
+  DeviceArray<BvhComponent> ranges;                ///< Nodes of each component.
+  DeviceArray<std::uint32_t> component_of_vertex;  ///< Shape [vertex_count].
+  DeviceArray<std::uint32_t> component_of_node;    ///< As Bvh::component_of.
+  DeviceArray<NodeIndex> parents;                  ///< Shape [node_count]; kNoNode for the root.
+  NodeIndex leaf_count;                            ///< Number of leaves.
+  NodeIndex top_begin;                             ///< First node above the components.
+  int key_bits;                                    ///< Low bits in which keys of leaf pairs differ.
+  std::uint64_t first_front_node;                  ///< Key of the root pair; kDeadNode with fewer than two components.
 
+  /// Uploads everything.
   template <class Queue>
   Geometry(Queue& queue, const AssemblyTriangles& fixed);
 
+  /// A view of the hierarchy for kernels.
   BvhView tree() const {
     BvhView tree;
     tree.children = children.view();
@@ -38,12 +42,14 @@ struct Geometry {
   }
 };
 
+/// The component of each vertex.
 inline std::vector<std::uint32_t> components_of_vertices(const AssemblyTriangles& fixed) {
   std::vector<std::uint32_t> component_of;
   for (std::uint32_t c = 0; c < fixed.component_count(); ++c) component_of.resize(fixed.vertex_begin[c + 1], c);
   return component_of;
 }
 
+/// The parent of each node; kNoNode for the root.
 inline std::vector<NodeIndex> parents_of_nodes(const Bvh& bvh) {
   std::vector<NodeIndex> parents(bvh.node_count(), kNoNode);
   for (NodeIndex i = 0; i < bvh.children.size(); ++i)
@@ -66,10 +72,10 @@ Geometry::Geometry(Queue& queue, const AssemblyTriangles& fixed)
       key_bits(32 + static_cast<int>(std::bit_width(leaf_count))),
       first_front_node(top_begin < fixed.bvh.node_count() ? pair_key(fixed.bvh.root(), fixed.bvh.root()) : kDeadNode) {}
 
-/// What kernels append to, and what is made of it. Where something was full it grows, and the step is run again.
+/// The arrays that kernels append to, and those derived from them. Full arrays grow, and the step is run again.
 class Buffers {
  public:
-  /// @param capacity that everything starts with, at least 1
+  /// @param capacity initial size of all arrays, at least 1
   template <class Queue>
   Buffers(Queue& queue, std::size_t capacity)
       : front(queue, capacity),
@@ -82,21 +88,25 @@ class Buffers {
         contacts(queue, capacity),
         sort_scratch(queue, queue.sort_scratch_bytes(capacity)) {}
 
-  DeviceArray<std::uint64_t> front;  ///< S_f
-  DeviceArray<std::uint64_t> kept, sprouted, pending[2];
-  DeviceArray<std::uint64_t> triangle_pairs, sorted_pairs;  ///< S_t, as it was appended and sorted
-  DeviceArray<std::uint64_t> intersections;
-  DeviceArray<TrianglePairContact> contacts;
-  DeviceArray<std::byte> sort_scratch;
+  DeviceArray<std::uint64_t> front;           ///< S_f
+  DeviceArray<std::uint64_t> kept;            ///< New nodes of the front.
+  DeviceArray<std::uint64_t> sprouted;        ///< Slots of the front that are replaced.
+  DeviceArray<std::uint64_t> pending[2];      ///< Pairs for the next round; rounds alternate between the two.
+  DeviceArray<std::uint64_t> triangle_pairs;  ///< S_t, in the order appended.
+  DeviceArray<std::uint64_t> sorted_pairs;    ///< S_t, ascending.
+  DeviceArray<std::uint64_t> intersections;   ///< Intersecting pairs of S_i.
+  DeviceArray<TrianglePairContact> contacts;  ///< Pairs that block the motion.
+  DeviceArray<std::byte> sort_scratch;        ///< For the queue's sort.
 
+  /// The sizes of the arrays of the front.
   StepCapacity capacity() const {
     return {front.size(), triangle_pairs.size(), kept.size(), sprouted.size(), pending[0].size()};
   }
 
-  /// Makes room for what the front needed. What the front holds stays. @return true where it had not enough
+  /// Enlarges the arrays that were too small for the front, and keeps the front itself. @return true if some were
   template <class Queue>
   bool grow_front(Queue& queue, const StepCounters& needed);
-  /// Makes room for what the narrow phase found. @return true where it had not enough
+  /// Enlarges the arrays that were too small for the narrow phase. @return true if some were
   template <class Queue>
   bool grow_narrow_phase(Queue& queue, const StepCounters& needed) {
     const bool grown = grow(queue, contacts, needed.contacts);

@@ -8,68 +8,76 @@
 
 #include <cstring>
 
-/// The bodies of a step over streams that stay on a device (DeviceStreams): the kernels of method `streams`, with all
-/// counts in the device's memory, so that a step is enqueued without knowing them.
+/// The kernels of a step over streams that stay on a device (DeviceStreams). All counts are in the device's memory, so
+/// that a step is enqueued without knowing them.
 namespace dismantle::device_code {
 
-/// What the host says of a component each step: a line of S_tm.
+/// Input of a step for one component: a line of S_tm.
 struct ComponentStep {
-  RigidTransform next;
-  std::uint32_t make_vertices = 0;  ///< Not 0: S_v(n+1) is not that of `next` yet.
-  std::uint32_t fit_bounds = 0;     ///< Not 0: S_bv, S_bvh are of another motion.
+  RigidTransform next;              ///< World from assembled, at the end of the step.
+  std::uint32_t make_vertices = 0;  ///< Not 0: S_v(n+1) is outdated.
+  std::uint32_t fit_bounds = 0;     ///< Not 0: S_bv and S_bvh are outdated.
 };
 
-/// What the host says of a step.
-struct StepOrder {
-  double path_deviation = 0;        ///< [mm]
-  std::uint32_t restart_front = 0;  ///< Not 0: the front starts anew from the root.
+/// Input of a step for all components.
+struct StepInput {
+  double path_deviation = 0;        ///< Maximum distance of true paths from linear ones [mm].
+  std::uint32_t restart_front = 0;  ///< Not 0: the front is restarted from the root.
 };
 
-inline constexpr int kFrontRounds = 4;    ///< Rounds after the first that are enqueued at once.
-inline constexpr int kNarrowRounds = 16;  ///< More than triangle pairs can make: the rounds grow by a factor of five.
-inline constexpr std::size_t kReportedContacts = 256;
+inline constexpr int kFrontRounds = 4;  ///< Rounds after the first that are enqueued at once.
+inline constexpr int kNarrowRounds =
+    16;  ///< More rounds than any number of pairs needs: they grow by a factor of five.
+inline constexpr std::size_t kReportedContacts = 256;  ///< Contacts that are downloaded with the counts.
 
-/// A time of a step as a word, in the same order. @pre time >= 0
+/// A time of a step as an integer with the same order. @pre time >= 0
 DISMANTLE_HOST_DEVICE inline std::uint64_t word_of_time(double time) {
   std::uint64_t word = 0;
   if (time > 0) std::memcpy(&word, &time, sizeof word);
   return word;
 }
+/// The time of word_of_time().
 DISMANTLE_HOST_DEVICE inline double time_of_word(std::uint64_t word) {
   double time = 0;
   std::memcpy(&time, &word, sizeof time);
   return time;
 }
 
-/// The counts of a step: of what was appended, whether there was room for it or not.
+/// The counts of a step. Values appended are counted even if there was no room for them.
 struct StepCounters {
-  std::uint64_t front = 0;  ///< Nodes of S_f, those that are dead included: stays from step to step.
-  std::uint64_t triangle_pairs = 0, kept = 0, sprouted = 0;
-  std::uint64_t pending[kFrontRounds + 1] = {};  ///< What each round left to the next.
-  std::uint64_t complete = 0;                    ///< 1: nothing was left over and there was room for everything.
-  std::uint64_t contacts = 0, intersections = 0, tests = 0, reported = 0;
-  std::uint64_t first_toi[kNarrowRounds + 1] = {};  ///< word_of_time of the first contact of the rounds before each.
+  std::uint64_t front = 0;                          ///< Nodes of S_f including dead ones; kept from step to step.
+  std::uint64_t triangle_pairs = 0;                 ///< S_t
+  std::uint64_t kept = 0;                           ///< New nodes of the front.
+  std::uint64_t sprouted = 0;                       ///< Nodes of the front that are replaced.
+  std::uint64_t pending[kFrontRounds + 1] = {};     ///< Pairs left by each round to the next.
+  std::uint64_t complete = 0;                       ///< 1: nothing is pending, and there was room for everything.
+  std::uint64_t contacts = 0;                       ///< Triangle pairs that block the motion.
+  std::uint64_t intersections = 0;                  ///< Intersecting triangle pairs of S_i.
+  std::uint64_t tests = 0;                          ///< Continuous tests left by the filters.
+  std::uint64_t reported = 0;                       ///< Contacts in the report.
+  std::uint64_t first_toi[kNarrowRounds + 1] = {};  ///< word_of_time of the first contact in the rounds before each.
 };
 
-/// What comes back from a step.
+/// Output of a step.
 struct StepReport {
-  StepCounters counters;
-  TrianglePairContact contacts[kReportedContacts];  ///< The first ones, as many as there is room for.
+  StepCounters counters;                            ///< All counts.
+  TrianglePairContact contacts[kReportedContacts];  ///< The first contacts, up to the size of the array.
 };
 
-/// A node of the front that is none: those that were sprouted into nothing leave it. Never a pair of nodes.
+/// Key of a dead node of the front, in the slot of a node that was sprouted without replacement. Never a pair of nodes.
 inline constexpr std::uint64_t kDeadNode = ~std::uint64_t{0};
 
-/// Clears the counts. One item.
+/// Clears the counts, and restarts the front if asked to. One item.
 struct BeginStep {
-  StepCounters* counters;
-  const StepOrder* order;
-  Span<std::uint64_t> front;
-  std::uint64_t root;  ///< The front's first node; kDeadNode where it has none.
+  StepCounters* counters;     ///< Output: all 0, except for `front`.
+  const StepInput* input;     ///< The step.
+  Span<std::uint64_t> front;  ///< Storage of S_f.
+  std::uint64_t root;         ///< The front's first node; kDeadNode if there is none.
 
+  /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     std::uint64_t nodes = counters->front;
-    if (order->restart_front != 0) {
+    if (input->restart_front != 0) {
       nodes = root == kDeadNode ? 0 : 1;
       front[0] = root;
     }
@@ -80,27 +88,29 @@ struct BeginStep {
 
 /// S_v0, S_tm -> S_v(n+1). Item: a vertex.
 struct MoveVertices {
-  Span<const ComponentStep> components;
-  Span<const std::uint32_t> component_of;  ///< Of each vertex.
-  Span<const Vec3> assembled;
-  Span<Vec3> moved;
+  Span<const ComponentStep> components;    ///< Shape [component_count].
+  Span<const std::uint32_t> component_of;  ///< Shape [vertex_count].
+  Span<const Vec3> assembled;              ///< S_v0 [mm, assembled].
+  Span<Vec3> moved;                        ///< Output: S_v(n+1) [mm, world].
 
+  /// Vertex v.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t v) const {
     const ComponentStep& component = components[component_of[v]];
     if (component.make_vertices != 0) VertexUpdateKernel{component.next, assembled, moved}(v);
   }
 };
 
-/// S_v -> S_bv, S_bvh in one launch: whoever comes to a node second fits it and goes on to its parent (Karras 2012). A
-/// component whose bounds still fit is represented by its root. Item: a leaf.
+/// S_v -> S_bv, S_bvh in one launch: the second thread that arrives at a node refits it and goes on to its parent
+/// (Karras 2012). A component with valid bounds is represented by its root. Item: a leaf.
 struct FitBounds {
-  BvhRefitLeafKernel leaf_kernel;
-  BvhRefitNodeKernel node_kernel;
-  Span<const ComponentStep> components;
-  Span<const BvhComponent> ranges;
-  Span<const NodeIndex> parent;  ///< Of each node; kNoNode of the root.
-  Span<std::uint32_t> arrivals;  ///< Of each inner node; 0, and 0 again afterwards.
+  BvhRefitLeafKernel leaf_kernel;        ///< Fits a leaf.
+  BvhRefitNodeKernel node_kernel;        ///< Fits an inner node to its children.
+  Span<const ComponentStep> components;  ///< Shape [component_count].
+  Span<const BvhComponent> ranges;       ///< Shape [component_count].
+  Span<const NodeIndex> parent;          ///< Shape [node_count]; kNoNode for the root.
+  Span<std::uint32_t> arrivals;          ///< Shape [inner node count]; 0 before and after.
 
+  /// Leaf `leaf`.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t leaf) const {
     const BvhView& tree = node_kernel.tree;
     const std::uint32_t component = tree.component_of[leaf];
@@ -120,88 +130,104 @@ struct FitBounds {
   }
 };
 
-/// Where the front's kernel puts what it finds: the paper's global lock.
+/// Sink of FrontSproutKernel that appends by one atomic addition a value: the paper's global lock. Pairs without
+/// relative motion are dropped, as the front is restarted when that changes.
 struct FrontSink {
-  AppendView<std::uint64_t> triangle_pairs, kept, sprouted, pending;
+  AppendView<std::uint64_t> triangle_pairs;  ///< S_t, keys.
+  AppendView<std::uint64_t> kept;            ///< Keys of new nodes.
+  AppendView<std::uint64_t> sprouted;        ///< Slots of the front.
+  AppendView<std::uint64_t> pending;         ///< Keys for the next round.
 
+  ///@{ See FrontSproutKernel.
   DISMANTLE_HOST_DEVICE void sprout(std::size_t index) const { sprouted.append(index); }
   DISMANTLE_HOST_DEVICE void keep(std::uint64_t key) const { kept.append(key); }
-  /// Pairs that do not move against each other are not kept: the front starts anew when that changes.
   DISMANTLE_HOST_DEVICE void rest(std::uint64_t) const {}
   DISMANTLE_HOST_DEVICE void triangle_pair(std::uint64_t key) const { triangle_pairs.append(key); }
   DISMANTLE_HOST_DEVICE void pend(std::uint64_t key) const { pending.append(key); }
+  ///@}
 };
 
-/// S_bvh -> S_f, S_t, first round. Item: a place of the front.
-struct LookAtFront {
-  FrontSproutKernel kernel;
-  FrontSink sink;
-  const StepCounters* counters;
+/// S_bvh -> S_f, S_t, first round. Item: a slot of the front.
+struct SproutFront {
+  FrontSproutKernel kernel;      ///< Its items are all slots of the front.
+  FrontSink sink;                ///< Output.
+  const StepCounters* counters;  ///< Its `front` slots are in use.
 
+  /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    if (i < counters->front && kernel.items[i] != kDeadNode) kernel.look(i, sink);
+    if (i < counters->front && kernel.items[i] != kDeadNode) kernel.sprout_node(i, sink);
   }
 };
 
-/// Next rounds. Item: a place of what the round before left.
+/// S_bvh -> S_f, S_t, next rounds. Item: a slot of the pending pairs.
 struct ResumeFront {
-  FrontSproutKernel kernel;
-  FrontSink sink;
-  const std::uint64_t* left;
+  FrontSproutKernel kernel;   ///< Its items are all slots of the pending pairs.
+  FrontSink sink;             ///< Output.
+  const std::uint64_t* left;  ///< Number of pending pairs.
 
+  /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i < *left) kernel.resume(i, sink);
   }
 };
 
-/// More rounds are to come: what the last one left is what the next one gets. One item.
-struct PassOnPending {
-  StepCounters* counters;
+/// Prepares further rounds: the pairs left by the last round are those of the next one. One item.
+struct CarryPending {
+  StepCounters* counters;  ///< Its `pending` counts are moved.
 
+  /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->pending[0] = counters->pending[kFrontRounds];
     for (int round = 1; round <= kFrontRounds; ++round) counters->pending[round] = 0;
   }
 };
 
-/// How much room there is for what the front appends.
+/// Sizes of the arrays that the front is appended to.
 struct StepCapacity {
+  ///@{ Of the arrays of StepCounters with these names.
   std::uint64_t front = 0, triangle_pairs = 0, kept = 0, sprouted = 0, pending = 0;
+  ///@}
 
+  /// The size of the front after the step.
   DISMANTLE_HOST_DEVICE static std::uint64_t front_needed(const StepCounters& counters) {
     return counters.front + (counters.kept > counters.sprouted ? counters.kept - counters.sprouted : 0);
   }
+  /// The largest number of pairs that a round left.
   DISMANTLE_HOST_DEVICE static std::uint64_t max_pending(const StepCounters& counters) {
-    std::uint64_t most = 0;
-    for (const std::uint64_t count : counters.pending) most = count > most ? count : most;
-    return most;
+    std::uint64_t largest = 0;
+    for (const std::uint64_t count : counters.pending) largest = count > largest ? count : largest;
+    return largest;
   }
-  DISMANTLE_HOST_DEVICE bool holds_front(const StepCounters& counters) const {
+  /// True if the arrays are large enough.
+  DISMANTLE_HOST_DEVICE bool fits_front(const StepCounters& counters) const {
     return front_needed(counters) <= front && counters.triangle_pairs <= triangle_pairs && counters.kept <= kept &&
            counters.sprouted <= sprouted && max_pending(counters) <= pending;
   }
 };
 
-/// Finds out whether the front is done. One item.
+/// Sets `complete` if nothing is pending and all arrays were large enough. One item.
 struct CompleteFront {
-  StepCounters* counters;
-  StepCapacity capacity;
+  StepCounters* counters;  ///< Its `complete` is set.
+  StepCapacity capacity;   ///< Of the arrays.
 
+  /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
-    counters->complete = counters->pending[kFrontRounds] == 0 && capacity.holds_front(*counters) ? 1 : 0;
+    counters->complete = counters->pending[kFrontRounds] == 0 && capacity.fits_front(*counters) ? 1 : 0;
   }
 };
 
-/// Puts the new nodes in the place of those that were sprouted. Item: a new node or one that was sprouted.
+/// Writes the new nodes into the slots of those that were sprouted. Item: a new node, or one that was sprouted.
 struct ReplaceSprouted {
-  const StepCounters* counters;
-  Span<const std::uint64_t> kept, sprouted;
-  Span<std::uint64_t> front;
+  const StepCounters* counters;        ///< Nothing happens if not `complete`.
+  Span<const std::uint64_t> kept;      ///< Keys of new nodes.
+  Span<const std::uint64_t> sprouted;  ///< Slots of the front.
+  Span<std::uint64_t> front;           ///< Storage of S_f.
 
+  /// New node i and slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (counters->complete == 0) return;
-    const bool has_kept = i < counters->kept, has_place = i < counters->sprouted;
-    if (has_place) {
+    const bool has_kept = i < counters->kept, has_slot = i < counters->sprouted;
+    if (has_slot) {
       front[sprouted[i]] = has_kept ? kept[i] : kDeadNode;
     } else if (has_kept) {
       front[counters->front + i - counters->sprouted] = kept[i];
@@ -209,20 +235,22 @@ struct ReplaceSprouted {
   }
 };
 
-/// One item.
+/// Sets the new size of the front, if it is complete. One item.
 struct EndFront {
-  StepCounters* counters;
+  StepCounters* counters;  ///< Its `front` is set.
 
+  /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     if (counters->complete != 0) counters->front = StepCapacity::front_needed(*counters);
   }
 };
 
-/// Fills S_t's storage behind its keys, so that all of it can be sorted. Item: a place of it.
+/// Fills the unused slots of S_t with the largest key, so that all of it can be sorted. Item: a slot.
 struct PadTrianglePairs {
-  const StepCounters* counters;
-  Span<std::uint64_t> triangle_pairs;
+  const StepCounters* counters;        ///< Its `triangle_pairs` slots are in use.
+  Span<std::uint64_t> triangle_pairs;  ///< Storage of S_t.
 
+  /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i >= counters->triangle_pairs) triangle_pairs[i] = ~std::uint64_t{0};
   }
@@ -230,28 +258,30 @@ struct PadTrianglePairs {
 
 /// Clears the counts of the narrow phase. One item.
 struct BeginNarrowPhase {
-  StepCounters* counters;
+  StepCounters* counters;  ///< The counts.
 
+  /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->contacts = counters->intersections = counters->tests = counters->reported = 0;
     for (std::uint64_t& word : counters->first_toi) word = word_of_time(1);
   }
 };
 
-/// How far it is worth to look when `rounds` rounds are done.
+/// The time of the step after which contacts do not matter when `rounds` rounds are done.
 DISMANTLE_HOST_DEVICE inline double horizon_of(const StepCounters& counters, int rounds) {
   std::uint64_t first = counters.first_toi[0];
   for (int k = 1; k <= rounds; ++k) first = counters.first_toi[k] < first ? counters.first_toi[k] : first;
   return horizon_after(time_of_word(first));
 }
 
-/// Where the narrow phase's kernel puts what it finds.
+/// Sink of NarrowPhaseKernel.
 struct NarrowSink {
-  AppendView<TrianglePairContact> contacts;
-  AppendView<std::uint64_t> intersections;
-  StepCounters* counters;
-  int round;
+  AppendView<TrianglePairContact> contacts;  ///< Pairs that block the motion.
+  AppendView<std::uint64_t> intersections;   ///< Keys of intersecting pairs of S_i.
+  StepCounters* counters;                    ///< Counts of the step.
+  int round;                                 ///< Index of the round.
 
+  ///@{ See NarrowPhaseKernel.
   DISMANTLE_HOST_DEVICE void contact(const TrianglePairContact& found) const {
     contacts.append(found);
     atomic_lower(&counters->first_toi[round + 1], word_of_time(found.toi));
@@ -260,31 +290,34 @@ struct NarrowSink {
   DISMANTLE_HOST_DEVICE void tested(std::size_t count) const {
     if (count > 0) atomic_add(&counters->tests, count);
   }
+  ///@}
 };
 
 /// One round of S_t -> contacts and intersections. Item: a triangle pair of the round.
 struct TestTrianglePairs {
-  NarrowPhaseKernel kernel;  ///< Its pairs are all of S_t's storage.
-  NarrowSink sink;
-  const StepOrder* order;
-  std::size_t begin;  ///< Of the round.
+  NarrowPhaseKernel kernel;  ///< Its pairs are all slots of S_t.
+  NarrowSink sink;           ///< Output.
+  const StepInput* input;    ///< The step.
+  std::size_t begin;         ///< First triangle pair of the round.
 
+  /// Triangle pair `begin` + i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const StepCounters& counters = *sink.counters;
     if (counters.complete == 0 || begin + i >= counters.triangle_pairs) return;
     NarrowPhaseKernel own = kernel;
-    own.path_deviation = order->path_deviation;
+    own.path_deviation = input->path_deviation;
     own.horizon = horizon_of(counters, sink.round);
     own(begin + i, sink);
   }
 };
 
-/// Reports those of the contacts that come first. Item: a place of the contacts' storage.
+/// Reports the contacts within kContactWindow of the first one. Item: a slot of the contacts.
 struct ReportFirstContacts {
-  const StepCounters* counters;
-  Span<const TrianglePairContact> contacts;
-  AppendView<TrianglePairContact> reported;
+  const StepCounters* counters;              ///< Its `contacts` slots are in use.
+  Span<const TrianglePairContact> contacts;  ///< Storage of the contacts.
+  AppendView<TrianglePairContact> reported;  ///< Output.
 
+  /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i < counters->contacts && contacts[i].toi <= horizon_of(*counters, kNarrowRounds)) reported.append(contacts[i]);
   }

@@ -11,19 +11,20 @@
 
 namespace dismantle {
 
-/// All streams of method `streams` in a device's memory (Du et al. 2015, figure 3): only S_tm goes up and only contacts
-/// come down. A step is one recording of launches that is run whole, and one wait; it is run again where something was
-/// full, and goes on where the front needs more rounds than the recording has.
+/// All streams of method `streams` in a device's memory (Du et al. 2015, figure 3): only S_tm is uploaded and only
+/// contacts are downloaded. A step replays one recording of launches and waits once; it is run again if an array was
+/// full, and continued if the front needs more rounds than are recorded.
 ///
-/// `Queue` is the device: HostQueue or CudaQueue. Nothing here knows which.
+/// @tparam Queue the device: HostQueue or CudaQueue
 template <class Queue>
 class DeviceStreams {
  public:
+  /// @param fixed need not outlive this
   /// @param bounds of all nodes in the assembled state
   DeviceStreams(Queue queue, const AssemblyTriangles& fixed, Span<const Kdop16> bounds,
                 const CollisionOptions& options);
 
-  /// As StreamsBackend has them.
+  ///@{ See StreamsBackend.
   void set_rules(PairRulesView rules);
   StreamsStep step(Span<const RigidTransform> next, double path_deviation);
   void commit();
@@ -32,6 +33,7 @@ class DeviceStreams {
   std::vector<std::uint64_t> triangle_pairs() {
     return brought_down(queue_, buffers_.sorted_pairs, counters().triangle_pairs);
   }
+  ///@}
 
  private:
   enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
@@ -41,8 +43,8 @@ class DeviceStreams {
   FrontSproutKernel front_kernel(Span<const std::uint64_t> items) const;
   device_code::FrontSink front_sink(int round);
 
-  void order_vertices(Span<const RigidTransform> next);
-  void order_step(Span<const RigidTransform> next, double path_deviation);
+  void set_vertices_input(Span<const RigidTransform> next);
+  void set_step_input(Span<const RigidTransform> next, double path_deviation);
   void enqueue_vertices();
   void enqueue_bounds();
   void enqueue_rounds();
@@ -65,16 +67,16 @@ class DeviceStreams {
   double tolerance_ = 0;  // of the rules
   MirroredArray<device_code::ComponentStep> components_;
   MirroredArray<std::uint32_t> motion_class_;
-  MirroredArray<device_code::StepOrder> order_;
+  MirroredArray<device_code::StepInput> input_;
   MirroredArray<device_code::StepReport> report_;
   device_code::Buffers buffers_;
 
   std::size_t start_ = 0;
-  typename Queue::Recording recording_[2];    // of a step, for each place of S_v(n)
-  std::vector<std::uint32_t> front_classes_;  // that the front was made for
+  typename Queue::Recording recording_[2];    // of a step, for each index of S_v(n)
+  std::vector<std::uint32_t> front_classes_;  // for which the front was built
   bool restart_front_ = true;
-  std::size_t fresh_size_ = 0;  // of the front after the last start
-  std::size_t excess_ = 0;      // nodes looked at beyond that since then, summed over the steps
+  std::size_t fresh_size_ = 0;  // of the front after the last restart
+  std::size_t excess_ = 0;      // visits beyond that since then, summed over the steps
   std::size_t replays_ = 0;     // of the last step
 };
 
@@ -91,7 +93,7 @@ DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed,
       arrivals_(queue_, Span<const std::uint32_t>(std::vector<std::uint32_t>(fixed.bvh.children.size(), 0))),
       components_(queue_, fixed.component_count()),
       motion_class_(queue_, fixed.component_count()),
-      order_(queue_, 1),
+      input_(queue_, 1),
       report_(queue_, 1),
       buffers_(queue_, std::max<std::size_t>(options.initial_capacity, 1)) {
   report_.on_host()[0] = {};
@@ -119,9 +121,9 @@ void DeviceStreams<Queue>::commit() {
 
 template <class Queue>
 void DeviceStreams<Queue>::jump(Span<const RigidTransform> state) {
-  // By way of the candidate: its vertices are those that can be made. Bounds are left to the next step.
-  order_vertices(state);
-  order_.on_host()[0] = {};
+  // As a candidate that is committed: only vertices of the candidate can be computed. The next step updates the bounds.
+  set_vertices_input(state);
+  input_.on_host()[0] = {};
   enqueue_vertices();
   queue_.wait();
   commit();
@@ -129,14 +131,14 @@ void DeviceStreams<Queue>::jump(Span<const RigidTransform> state) {
 
 template <class Queue>
 StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next, double path_deviation) {
-  order_step(next, path_deviation);
+  set_step_input(next, path_deviation);
   run_step();
   watch_front_size();
   return result();
 }
 
 template <class Queue>
-void DeviceStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
+void DeviceStreams<Queue>::set_vertices_input(Span<const RigidTransform> next) {
   const Span<device_code::ComponentStep> components = components_.on_host();
   for (std::size_t c = 0; c < components.size(); ++c) components[c] = {next[c], 0, 0};
   for (const ComponentId c : matrices_.set_next(next)) components[c.value].make_vertices = 1;
@@ -145,9 +147,9 @@ void DeviceStreams<Queue>::order_vertices(Span<const RigidTransform> next) {
 }
 
 template <class Queue>
-void DeviceStreams<Queue>::order_step(Span<const RigidTransform> next, double path_deviation) {
-  order_vertices(next);
-  for (const ComponentId c : matrices_.take_unfitted()) components_.on_host()[c.value].fit_bounds = 1;
+void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next, double path_deviation) {
+  set_vertices_input(next);
+  for (const ComponentId c : matrices_.take_outdated_bounds()) components_.on_host()[c.value].fit_bounds = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
   const bool same_classes =
       front_classes_.size() == classes.size() && std::equal(classes.begin(), classes.end(), front_classes_.begin());
@@ -155,7 +157,7 @@ void DeviceStreams<Queue>::order_step(Span<const RigidTransform> next, double pa
     front_classes_.assign(classes.begin(), classes.end());
     restart_front_ = true;
   }
-  order_.on_host()[0] = {path_deviation, restart_front_ ? 1u : 0u};
+  input_.on_host()[0] = {path_deviation, restart_front_ ? 1u : 0u};
 }
 
 template <class Queue>
@@ -169,7 +171,7 @@ void DeviceStreams<Queue>::run_step() {
       enqueue_bounds();
       queue_.mark(kRefit);
       queue_.launch(buffers_.front.size(),
-                    device_code::LookAtFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
+                    device_code::SproutFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
       enqueue_rounds();
       enqueue_front_end();
       queue_.mark(kFront);
@@ -186,7 +188,7 @@ void DeviceStreams<Queue>::run_step() {
   }
 }
 
-/// Goes on with the front where it has rounds left. False where something was full: then the step must be run again.
+/// Runs the remaining rounds of the front. False if an array was full: then the step must be run again.
 template <class Queue>
 bool DeviceStreams<Queue>::finish_front() {
   while (counters().complete == 0) {
@@ -195,7 +197,7 @@ bool DeviceStreams<Queue>::finish_front() {
       forget_recordings();
       return false;
     }
-    queue_.launch(1, device_code::PassOnPending{shared_counters()});
+    queue_.launch(1, device_code::CarryPending{shared_counters()});
     enqueue_rounds();
     enqueue_front_end();
     enqueue_narrow_phase();
@@ -208,8 +210,8 @@ template <class Queue>
 void DeviceStreams<Queue>::enqueue_vertices() {
   components_.copy_up(queue_);
   motion_class_.copy_up(queue_);
-  order_.copy_up(queue_);
-  queue_.launch(1, device_code::BeginStep{shared_counters(), order_.on_device().data(), buffers_.front.view(),
+  input_.copy_up(queue_);
+  queue_.launch(1, device_code::BeginStep{shared_counters(), input_.on_device().data(), buffers_.front.view(),
                                           geometry_.first_front_node});
   queue_.launch(geometry_.assembled.size(),
                 device_code::MoveVertices{components_.on_device(), geometry_.component_of_vertex.view(),
@@ -233,7 +235,7 @@ FrontSproutKernel DeviceStreams<Queue>::front_kernel(Span<const std::uint64_t> i
   return {geometry_.tree(), bounds_.view(), motion_class_.on_device(), items};
 }
 
-/// Of the round that appends to pending[round].
+/// The sink of the round that appends to pending[round].
 template <class Queue>
 device_code::FrontSink DeviceStreams<Queue>::front_sink(int round) {
   device_code::StepCounters* counters = shared_counters();
@@ -245,7 +247,8 @@ device_code::FrontSink DeviceStreams<Queue>::front_sink(int round) {
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_rounds() {
-  static_assert(device_code::kFrontRounds % 2 == 0, "the last round leaves its pairs where the first expects them");
+  static_assert(device_code::kFrontRounds % 2 == 0,
+                "the last round leaves its pairs in the array that the first one reads");
   for (int round = 1; round <= device_code::kFrontRounds; ++round) {
     const Span<const std::uint64_t> left = std::as_const(buffers_.pending[(round - 1) % 2]).view();
     queue_.launch(left.size(), device_code::ResumeFront{front_kernel(left), front_sink(round),
@@ -285,7 +288,7 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
   queue_.launch(1, device_code::BeginNarrowPhase{counters});
   for (std::size_t begin = 0; begin < max_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
     queue_.launch(std::min(narrow_phase_round_end(begin), max_pairs) - begin,
-                  device_code::TestTrianglePairs{kernel, sink, order_.on_device().data(), begin});
+                  device_code::TestTrianglePairs{kernel, sink, input_.on_device().data(), begin});
   queue_.launch(buffers_.contacts.size(),
                 device_code::ReportFirstContacts{
                     counters,
@@ -294,7 +297,7 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
   report_.copy_down(queue_);
 }
 
-/// As Front has it: a front that has grown by too much is started anew.
+/// Restarts a front that has grown too much, by the rule of Front.
 template <class Queue>
 void DeviceStreams<Queue>::watch_front_size() {
   const std::size_t size = counters().front;

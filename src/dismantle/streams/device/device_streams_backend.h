@@ -7,11 +7,12 @@
 
 namespace dismantle {
 
-/// The streams on a device. What is asked for on the host is made there from the same matrices by the same kernels when
-/// it is asked for.
+/// A backend with the streams on a device. Streams that are needed on the host are computed there on demand, from the
+/// same matrices by the same kernels.
 template <class Queue>
 class DeviceStreamsBackend final : public StreamsBackend {
  public:
+  /// All components in the assembled state.
   DeviceStreamsBackend(Queue queue, const Assembly& assembly, const CollisionOptions& options)
       : executor_(options.executor),
         host_(assembly, executor_),
@@ -43,7 +44,7 @@ class DeviceStreamsBackend final : public StreamsBackend {
 
  private:
   Executor executor_;
-  MovingStreams host_;  // of a step that need not be the last
+  MovingStreams host_;  // of some step, not necessarily the last
   DeviceStreams<Queue> device_;
   std::vector<RigidTransform> next_;
   std::vector<std::uint64_t> triangle_pairs_;

@@ -4,8 +4,8 @@
 
 namespace dismantle {
 
-std::unique_ptr<StreamsBackend> make_device_streams_backend(const Assembly& assembly, const CollisionOptions& options,
-                                                            const Executor& device) {
+std::unique_ptr<StreamsBackend> make_emulated_streams_backend(const Assembly& assembly, const CollisionOptions& options,
+                                                              const Executor& device) {
   return std::make_unique<DeviceStreamsBackend<HostQueue>>(HostQueue(device), assembly, options);
 }
 
