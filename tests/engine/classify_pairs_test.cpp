@@ -135,7 +135,7 @@ TEST(SurfaceQueries, GiveTheSideAndTheDistanceOfAPoint) {
     if (std::abs(depth) < 0.05) continue;                          // the facets' sagitta is below this
     EXPECT_EQ(point_in_component(surface.assembled(), p, ComponentId(0)), depth > 0) << p.x << " " << p.y << " " << p.z;
     if (depth > 0) {
-      EXPECT_NEAR(surface_distance(surface, ComponentId(0), p).distance, depth, 0.05);
+      EXPECT_NEAR(surface_distance(surface, ComponentId(0), p), depth, 0.05);
     }
   }
 }
