@@ -58,8 +58,10 @@ class CertificateEngine final : public MotionEngine {
   CertificateEngine(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options = {},
                     CertificateDevice device = {});
   ~CertificateEngine() override;
+  ///@{ Movable.
   CertificateEngine(CertificateEngine&&) noexcept;
   CertificateEngine& operator=(CertificateEngine&&) noexcept;
+  ///@}
 
   void grab(Span<const ComponentId> components) override;
   Span<const ComponentId> moving_set() const override;

@@ -57,12 +57,12 @@ class Shadows {
     if (length(between - along * ahead_) > spheres) return true;
     const double reach = box_a.reach(ahead_) + box_b.reach(ahead_) + margin;
     if (-along > reach || along - whole_ > reach) return true;
-    const auto parts = [&](Vec3 half) {
+    const auto separates = [&](Vec3 half) {
       const Vec3 w = cross(ahead_, half);
       const double scale = length(w);
       return std::abs(dot(w, between)) > box_a.reach(w) + box_b.reach(w) + margin * scale && scale > 0;
     };
-    return std::any_of(box_a.half, box_a.half + 3, parts) || std::any_of(box_b.half, box_b.half + 3, parts);
+    return std::any_of(box_a.half, box_a.half + 3, separates) || std::any_of(box_b.half, box_b.half + 3, separates);
   }
 
  private:
@@ -78,14 +78,14 @@ class Shadows {
     const auto [from_a, to_a] = span(a, ahead_);
     const auto [from_b, to_b] = span(b, ahead_);
     if (from_a > to_b + margin || from_b - whole_ > to_a + margin) return true;
-    const auto parts = [&](Vec3 edge) {
+    const auto separates = [&](Vec3 edge) {
       const Vec3 w = cross(ahead_, edge);
       const auto [min_a, max_a] = span(a, w);
       const auto [min_b, max_b] = span(b, w);
       return std::max(min_a - max_b, min_b - max_a) > margin * length(w);
     };
     for (int k = 0; k < 3; ++k)
-      if (parts(a[(k + 1) % 3] - a[k]) || parts(b[(k + 1) % 3] - b[k])) return true;
+      if (separates(a[(k + 1) % 3] - a[k]) || separates(b[(k + 1) % 3] - b[k])) return true;
     return false;
   }
 

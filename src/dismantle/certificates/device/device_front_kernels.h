@@ -99,6 +99,7 @@ struct EditPages {
   Span<const PageEdit> edits;                                                                    ///< Input.
   Span<Page> pages;                                                                              ///< Output.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const PageEdit& edit = edits[i / kItems];
     const std::size_t k = i % kItems;
@@ -113,6 +114,7 @@ struct BeginSweep {
   SweepCounters* counters;        ///< To be reset.
   Span<std::uint64_t> part_gaps;  ///< Of each part, as words.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i == 0) *counters = {};
     part_gaps[i] = word_of_gap(CertificateCheck().min_gap);
@@ -164,6 +166,7 @@ struct CheckCertificates {
   Span<std::uint64_t> part_gaps;    ///< Output: of each part, as words.
   PairSink sink;                    ///< Output: the pairs that do not hold.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     constexpr std::size_t kBlock = CertificateBlocks::kBlock;
     const std::size_t k = i % kBlock;
@@ -204,6 +207,7 @@ struct NextRound {
   SweepCounters* counters;  ///< To be advanced.
   std::uint64_t capacity;   ///< Of the pairs.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->begin = counters->end;
     counters->end = counters->needed < capacity ? counters->needed : capacity;
@@ -218,6 +222,7 @@ struct SeparatePairs {
   PairSink sink;                    ///< Pairs of the round, and output: their results, and what they are split into.
   TestSink tests;                   ///< Output: tests to be made.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::size_t at = counters->begin + i;
     if (at >= counters->end || sink.pairs[at].a == PendingPair::kDead) return;
@@ -274,6 +279,7 @@ struct SeparateCandidates {
   Span<const QueriedFront> fronts;        ///< Input.
   Span<NodeSeparation> separations;       ///< Output: of each candidate.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const MergeCandidate& pair = candidates[i];
     const QueriedFront& front = fronts[pair.front];
@@ -287,6 +293,7 @@ struct NextTests {
   SweepCounters* counters;  ///< To be advanced.
   std::uint64_t capacity;   ///< Of the tests.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->tests_begin = counters->tests_end;
     counters->tests_end = counters->tests_needed < capacity ? counters->tests_needed : capacity;
@@ -300,6 +307,7 @@ struct TestTrianglePairs {
   Span<const TrianglePairSweepKernel> kernels;  ///< Input: of each front of the query.
   Span<TrianglePairResult> results;             ///< Output: of each test.
 
+  /// Runs the item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::size_t at = counters->tests_begin + i;
     if (at >= counters->tests_end) return;

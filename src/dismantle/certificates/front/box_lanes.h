@@ -16,15 +16,20 @@ constexpr float kMinCross = 0.01f;
 /// Pairs of boxes, one a lane.
 template <int kLanes>
 struct BoxPairs {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
-  V center_a, center_b;    ///< [mm]
-  V axes_a[3], axes_b[3];  ///< Unit.
-  F half_a[3], half_b[3];  ///< Half extents along the axes [mm].
-  V guard;                 ///< As BoxPairQuery::guard.
-  V cone_a, cone_b;        ///< Axes of the normal cones.
-  F ahead_a, ahead_b;      ///< As NormalCone::ahead; -1 where any axis may use the allowance.
+  V center_a;   ///< Centers of the boxes of A [mm].
+  V center_b;   ///< Centers of the boxes of B [mm].
+  V axes_a[3];  ///< Unit.
+  V axes_b[3];  ///< Unit.
+  F half_a[3];  ///< Half extents along axes_a [mm].
+  F half_b[3];  ///< Half extents along axes_b [mm].
+  V guard;      ///< As BoxPairQuery::guard.
+  V cone_a;     ///< Axes of the normal cones of A.
+  V cone_b;     ///< Axes of the normal cones of B.
+  F ahead_a;    ///< NormalCone::ahead of A; -1 where any axis may use the allowance.
+  F ahead_b;    ///< NormalCone::ahead of B.
 
   /// Gathers the boxes of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE BoxPairs(const BoxPairQuery* queries, std::size_t count) {
@@ -83,8 +88,8 @@ struct BoxPairs {
 /// The axis of the largest gap so far, with the boxes' rotation half way, ignoring normals.
 template <int kLanes>
 struct FurthestAxes {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
   V guard;            ///< As BoxPairQuery::guard.
   F apart;            ///< As LinearSweep::apart [mm].
@@ -109,12 +114,13 @@ struct FurthestAxes {
 /// Relative positions of two boxes during the sweep.
 template <int kLanes>
 struct BoxMotion {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
-  V offset_t0, offset_t1;  ///< From the center of B to that of A, at the start and the end [mm].
-  V a[3];                  ///< Axes of A with the rotation half way.
-  F cosine[3][3];          ///< Absolute cosines between a[i] and the axes of B.
+  V offset_t0;     ///< From the center of B to that of A at the start [mm].
+  V offset_t1;     ///< The same at the end [mm].
+  V a[3];          ///< Axes of A with the rotation half way.
+  F cosine[3][3];  ///< Absolute cosines between a[i] and the axes of B.
 
   /// Of these boxes in this sweep.
   DISMANTLE_HOST_DEVICE BoxMotion(const BoxPairs<kLanes>& boxes, const LinearSweep& sweep)

@@ -111,8 +111,8 @@ DISMANTLE_HOST_DEVICE auto certify(Lanes<kLanes> gap, Lanes<kLanes> kind, const 
 /// Decides by outward normals (cones of nodes, or the normals of two triangles) which axes may use the allowance.
 template <int kLanes>
 struct FacingLanes {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
   V normal_a;  ///< Of A, with the rotation half way.
   V normal_b;  ///< Of B.
@@ -133,8 +133,8 @@ struct FacingLanes {
 /// The axis of the largest gap so far, minus what FacingLanes subtracts.
 template <int kLanes>
 struct FacingAxes {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
   const FacingLanes<kLanes>& facing;  ///< Decides which axes may use the allowance.
   V guard;                            ///< As BoxPairQuery::guard.

@@ -15,8 +15,9 @@ inline constexpr std::size_t kMaxBlockedOfPair = 2;
 
 /// A pair of nodes that needs a new certificate.
 struct CertificateFront::Item {
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  std::uint32_t a = 0, b = 0;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No index.
+  std::uint32_t a = 0;                                 ///< Node of A's tree.
+  std::uint32_t b = 0;                                 ///< Node of B's tree.
   Vec3f hint;                         ///< The axis to start with; where sides are remembered only if it binds.
   std::uint32_t slot = kNone;         ///< In the part; none for what is appended.
   std::uint32_t first_child = kNone;  ///< Index of the first of two items that replace it.
@@ -28,27 +29,30 @@ struct CertificateFront::Item {
   bool on_edge = false;               ///< and found that they overlap on edge.
 };
 
+/// Everything that a sweep of one part works on.
 struct CertificateFront::Work {
-  std::vector<std::uint32_t> failing;  ///< Slots of the pairs whose certificates do not hold.
-  std::vector<Item> items;             ///< These pairs, in order, then their descendants.
-  std::vector<Certificate> proofs;
-  std::size_t front_count = 0;         ///< This many items are pairs of the front.
-  std::vector<std::uint32_t> blocked;  ///< Blocked pairs of each start.
-  std::vector<std::uint32_t> waiting;  ///< Indices of items, the next one last.
-  std::vector<std::uint32_t> batch;
-  std::vector<std::uint32_t> box_items;   ///< Items of the batch to be separated as boxes.
-  std::vector<BoxPairQuery> box_queries;  ///< Those that no device has separated.
-  std::vector<std::uint32_t> triangle_items;
-  std::vector<TrianglePairQuery> triangle_queries;
-  std::vector<NodeSeparation> separations;     ///< Of the box or triangle items, in order.
-  std::vector<NodeSeparation> computed;        ///< Of the queries.
-  Span<const PairResult> known_pairs;          ///< Results of a device, if one was used.
-  Span<const TrianglePairResult> known_tests;  ///< Its triangle-pair tests.
+  std::vector<std::uint32_t> failing;               ///< Slots of the pairs whose certificates do not hold.
+  std::vector<Item> items;                          ///< These pairs, in order, then their descendants.
+  std::vector<Certificate> proofs;                  ///< Certificates found.
+  std::size_t front_count = 0;                      ///< This many items are pairs of the front.
+  std::vector<std::uint32_t> blocked;               ///< Blocked pairs of each start.
+  std::vector<std::uint32_t> waiting;               ///< Indices of items, the next one last.
+  std::vector<std::uint32_t> batch;                 ///< Items that are examined together.
+  std::vector<std::uint32_t> box_items;             ///< Items of the batch to be separated as boxes.
+  std::vector<BoxPairQuery> box_queries;            ///< Those that no device has separated.
+  std::vector<std::uint32_t> triangle_items;        ///< Items to be separated as triangles.
+  std::vector<TrianglePairQuery> triangle_queries;  ///< Those that no device has separated.
+  std::vector<NodeSeparation> separations;          ///< Of the box or triangle items, in order.
+  std::vector<NodeSeparation> computed;             ///< Of the queries.
+  Span<const PairResult> known_pairs;               ///< Results of a device, if one was used.
+  Span<const TrianglePairResult> known_tests;       ///< Its triangle-pair tests.
 
+  /// Stores the certificate of an item.
   void prove(Item& item, const Certificate& certificate) {
     item.proof = static_cast<std::uint32_t>(proofs.size());
     proofs.push_back(certificate);
   }
+  /// How far a device got with the item.
   PairResult::Kind known_kind(const Item& item) const {
     return item.known == Item::kNone ? PairResult::None : known_pairs[item.known].kind;
   }

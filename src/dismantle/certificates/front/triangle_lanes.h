@@ -15,12 +15,13 @@ constexpr float kNoAxis = 1e-30f;
 /// Pairs of triangles, one a lane.
 template <int kLanes>
 struct TrianglePairs {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
-  V a[3], b[3];  ///< Corners [mm].
-  V guard;       ///< As TrianglePairQuery::guard.
-  F facing;      ///< 1 where TrianglePairQuery::facing is set, else 0.
+  V a[3];    ///< Corners of A [mm].
+  V b[3];    ///< Corners of B [mm].
+  V guard;   ///< As TrianglePairQuery::guard.
+  F facing;  ///< 1 where TrianglePairQuery::facing is set, else 0.
 
   /// Gathers the corners of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE TrianglePairs(const TrianglePairQuery* queries, std::size_t count) {
@@ -62,10 +63,11 @@ DISMANTLE_HOST_DEVICE Vec3T<Lanes<kLanes>> unit_or_zero(Vec3T<Lanes<kLanes>> v) 
 /// the edges.
 template <int kLanes>
 struct TriangleAxes {
-  using F = Lanes<kLanes>;
-  using V = Vec3T<F>;
+  using F = Lanes<kLanes>;  ///< A number a lane.
+  using V = Vec3T<F>;       ///< A vector a lane.
 
-  V at_t0[3], at_t1[3];         ///< Corners of A at the start and the end, in B's frame [mm].
+  V at_t0[3];                   ///< Corners of A at the start, in B's frame [mm].
+  V at_t1[3];                   ///< The same at the end [mm].
   V b[3];                       ///< Corners of B [mm].
   FacingAxes<kLanes>& well;     ///< Best axis of those that the normals clearly agree with.
   FacingAxes<kLanes>& on_edge;  ///< Best axis of those that they hardly oppose.

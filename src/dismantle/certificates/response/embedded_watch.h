@@ -17,6 +17,7 @@ class EmbeddedWatch {
   /// Watches the embedded pairs of `pairs`, in the assembled state.
   EmbeddedWatch(const Assembly& assembly, const PairStates& pairs, const Executor& executor);
 
+  /// True if no pair is embedded.
   bool empty() const { return watched_.empty(); }
   /// The pairs that are still embedded.
   std::vector<ComponentPair> pairs() const;

@@ -23,7 +23,7 @@ class GuardedMover {
   /// The sweeper and the assembly must outlive the mover.
   GuardedMover(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs);
 
-  /// Tells the component pairs that may have touched in the sweep of the motion that is made next.
+  /// Sets the component pairs that may have touched in the sweep of the motion that is made next.
   void set_near_component_pairs(std::vector<std::pair<ComponentId, ComponentId>> pairs);
   /// Moves the set along `fraction` of a motion from its pose, which the certificates allow, or as far as the other two
   /// rules let it. @return the fraction made
