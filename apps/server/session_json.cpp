@@ -34,7 +34,7 @@ Json playback_json(const Session& session) {
           {"duration", p->timeline().duration()},
           {"speed", p->speed()},
           {"playing", p->is_playing()},
-          {"move", p->place().move},
+          {"move", p->position().move},
           {"blocked", std::move(blocked)}};
 }
 

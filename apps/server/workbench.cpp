@@ -200,12 +200,12 @@ StepResult Workbench::drag(Clock::time_point now) {
 
 StepResult Workbench::advance(Clock::time_point now) {
   const std::vector<ComponentId> before(session().moving().begin(), session().moving().end());
-  const std::size_t move = session().playback() != nullptr ? session().playback()->place().move : 0;
+  const std::size_t move = session().playback() != nullptr ? session().playback()->position().move : 0;
   StepResult result = session().advance(std::min(seconds_between(stepped_at_, now), kLongestAdvance));
   stepped_at_ = now;
   const Span<const ComponentId> after = session().moving();
   changed_ |= !moves_by_itself() || !std::equal(before.begin(), before.end(), after.begin(), after.end());
-  changed_ |= session().playback() != nullptr && session().playback()->place().move != move;
+  changed_ |= session().playback() != nullptr && session().playback()->position().move != move;
   return result;
 }
 
