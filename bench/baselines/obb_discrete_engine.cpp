@@ -99,7 +99,7 @@ std::vector<BlockingPair> ObbDiscreteEngine::first_contact(const Pose& target) c
 }
 
 std::vector<BlockingPair> ObbDiscreteEngine::first_contact(ComponentId moving, const Pose& target,
-                                                               ComponentId fixed) const {
+                                                           ComponentId fixed) const {
   const BoxedComponent& x = components_[moving.value];
   const BoxedComponent& y = components_[fixed.value];
   if (x.tree.empty() || y.tree.empty()) return {};

@@ -41,10 +41,10 @@ struct TableTimes {
 struct MethodRun {
   PaperMethod method = PaperMethod::FrontBased;
   int cores = 1;
-  std::vector<TableTimes> times;    ///< Of each step but the first of each move; the shortest of the repeats.
+  std::vector<TableTimes> times;     ///< Of each step but the first of each move; the shortest of the repeats.
   std::vector<StageTimings> stages;  ///< The same steps, stage by stage, of the shortest repeat.
-  std::vector<Pose> poses;          ///< Of the moving set after each of these steps.
-  std::size_t reached = 0;          ///< Number of these steps that reached their targets.
+  std::vector<Pose> poses;           ///< Of the moving set after each of these steps.
+  std::size_t reached = 0;           ///< Number of these steps that reached their targets.
 };
 
 /// Plays the scene's motion with response Stop, `repeats` times from the assembled state.

@@ -84,7 +84,8 @@ class Engine {
   static constexpr const char* kName = "engine";
 
   void check_held() const {
-    if (engine_.moving_set().empty()) raise_usage("nothing is in hand (hold was not called, or a jump let go); call hold first");
+    if (engine_.moving_set().empty())
+      raise_usage("nothing is in hand (hold was not called, or a jump let go); call hold first");
   }
 
   CheckedHolder states_;
@@ -188,7 +189,8 @@ std::set<std::string> blocking(const StepView& step) {
 template <class Value, class Get>
 py::array_t<Value> column(const StepView& step, const Get& get) {
   py::array_t<Value> array(static_cast<py::ssize_t>(step.result.contact_points.size()));
-  for (std::size_t i = 0; i < step.result.contact_points.size(); ++i) array.mutable_data()[i] = get(step.result.contact_points[i]);
+  for (std::size_t i = 0; i < step.result.contact_points.size(); ++i)
+    array.mutable_data()[i] = get(step.result.contact_points[i]);
   return array;
 }
 

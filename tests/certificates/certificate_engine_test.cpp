@@ -251,6 +251,11 @@ TEST(CertificateEngine, NamesTheFirstOfEquallyNearComponents) {
   EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
   const Pose aside{{0, 0, 1}, {}};
   h.engine.jump(std::vector<Pose>{aside, {}, {}, aside});
+  EXPECT_TRUE(h.engine.moving_set().empty());
+  EXPECT_EQ(h.engine.clearance().distance, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(h.engine.contacts(10).empty());
+  const ComponentId block(0);
+  h.engine.grab({&block, 1});
   EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
 }
 

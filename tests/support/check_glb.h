@@ -148,8 +148,7 @@ class CheckedGlb {
         minimum = std::min(minimum, values[i]);
         maximum = std::max(maximum, values[i]);
       }
-      expect(a["min"][k].get<float>() == minimum && a["max"][k].get<float>() == maximum,
-             name + " has wrong bounds");
+      expect(a["min"][k].get<float>() == minimum && a["max"][k].get<float>() == maximum, name + " has wrong bounds");
     }
   }
 

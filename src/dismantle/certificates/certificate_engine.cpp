@@ -62,6 +62,7 @@ Clearance CertificateEngine::clearance(double limit) const {
 }
 
 FirstContact CertificateEngine::first_contact(const Pose& target) const {
+  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return dismantle::first_contact(impl_->sweeper, target);
 }
 

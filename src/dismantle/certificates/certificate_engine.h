@@ -72,9 +72,10 @@ class CertificateEngine final : public MotionEngine {
   std::vector<ComponentPair> embedded_pairs() const override;
 
   /// The contacts of the moving set at its pose: all triangle pairs nearer than `reach` [mm], by components and faces.
+  /// Empty without a moving set.
   std::vector<ContactPoint> contacts(double reach) const;
   /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
-  /// components that are equally near, the first.
+  /// components that are equally near, the first. Infinite without a moving set.
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
   /// The first contact of the one screw from the pose of the moving set to `target`; embedded pairs are free all the
   /// way. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at

@@ -36,6 +36,7 @@ struct ApartPair {
 /// The pairs that may be nearer than `limit`, by ascending bounds.
 std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double limit) {
   std::vector<ApartPair> pairs;
+  if (sweeper.moving_set().empty()) return pairs;
   const RigidTransform moving_at = transform_from_pose(sweeper.pose());
   for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
     const ComponentId fixed(k);

@@ -42,7 +42,7 @@ class HostQueue {
   DeviceMemory allocate_staging(std::size_t bytes) const { return allocate(bytes); }
 
   ///@{ Enqueues a copy of `bytes` bytes: from the host to the device, from the device to the host, or within the
-  ///device.
+  /// device.
   void copy_up(void* device, const void* host, std::size_t bytes) { copy(device, host, bytes); }
   void copy_down(void* host, const void* device, std::size_t bytes) { copy(host, device, bytes); }
   void copy(void* to, const void* from, std::size_t bytes) {

@@ -13,7 +13,7 @@ inline namespace DISMANTLE_LANES_ISA {
 inline constexpr float kLaneGapError = 12 * 0x1p-24f;
 
 ///@{ The error bounds of the coplanarity cubic's coefficients in units of M_x M_y M_z: 48 u is derived for the first
-///and
+/// and
 /// the last, 174 u for three times the others.
 inline constexpr float kLaneCornerError = 64 * 0x1p-24f;
 inline constexpr float kLaneMiddleError = 224 * 0x1p-24f;

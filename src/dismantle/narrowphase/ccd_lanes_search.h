@@ -11,7 +11,7 @@ namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
 
 ///@{ Number of times that an axis is improved, in the first and in the second pass over the motions that the guess
-///leaves.
+/// leaves.
 inline constexpr int kFewImprovements = 2;
 inline constexpr int kManyImprovements = 6;
 ///@}

@@ -338,6 +338,7 @@ void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSw
 
 std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
   std::vector<BlockedPair> pairs;
+  if (moving_.empty()) return pairs;
   CertificateSweep unused;
   const ScrewMotion rest = motion_to(pose());
   for_each_near(rest, reach, unused, [&](ComponentId moving, ComponentId fixed) {

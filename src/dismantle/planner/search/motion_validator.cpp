@@ -66,8 +66,7 @@ void MotionValidator::put_back() {
 
 StepResult MotionValidator::step(const Pose& target, ResponseKind response) {
   StepResult made = engine_.step(target, response);
-  effort_ += made.cost.tests +
-             (kSweepEffort + made.cost.pairs / kFrontShare) * static_cast<std::size_t>(made.sweeps);
+  effort_ += made.cost.tests + (kSweepEffort + made.cost.pairs / kFrontShare) * static_cast<std::size_t>(made.sweeps);
   return made;
 }
 
