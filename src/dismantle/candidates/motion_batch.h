@@ -38,9 +38,9 @@ class MotionBatch {
 
 /// A batch and the device that it runs on.
 struct ChosenMotionBatch {
-  std::unique_ptr<MotionBatch> batch;
-  std::string device;  ///< "cpu", or the CUDA device's name.
-  std::string why;     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
+  std::unique_ptr<MotionBatch> batch;  ///< Ready for set_state().
+  std::string device;                  ///< "cpu", or the CUDA device's name.
+  std::string why;                     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
 };
 
 /// Makes a batch for an assembly, which must outlive it. DeviceChoice::Auto takes a CUDA device if there is one.

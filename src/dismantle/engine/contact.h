@@ -17,29 +17,35 @@ enum class BlockingRule : std::uint8_t {
 
 /// Two triangles of different components that block a motion.
 struct BlockingPair {
-  ComponentId a, b;       ///< a < b
-  FaceId face_a, face_b;  ///< Faces of the components' own meshes.
-  double toi = 0;         ///< The pair certainly allows the motion on [0, toi] (ElementaryTest::Elementary: the root).
-  BlockingRule rule = BlockingRule::Triangles;
+  ComponentId a;   ///< The component with the smaller id.
+  ComponentId b;   ///< The other one.
+  FaceId face_a;   ///< Face of the mesh of `a`.
+  FaceId face_b;   ///< Face of the mesh of `b`.
+  double toi = 0;  ///< The pair certainly allows the motion on [0, toi] (ElementaryTest::Elementary: the root).
+  BlockingRule rule = BlockingRule::Triangles;  ///< The rule that would be broken.
   friend bool operator==(const BlockingPair&, const BlockingPair&) = default;
 };
 
 /// A point where the moving set touches another component.
 struct ContactPoint {
-  ComponentId moving, fixed;       ///< A component of the moving set, and the other one.
-  FaceId face_moving, face_fixed;  ///< Faces of the components' own meshes.
-  Vec3 point;                      ///< On the moving face [mm, world].
-  Vec3 normal;                     ///< Unit vector from the fixed component to the moving one [world].
-  double gap = 0;                  ///< Along the normal [mm]; negative where the faces overlap.
+  ComponentId moving;  ///< A component of the moving set.
+  ComponentId fixed;   ///< The other component.
+  FaceId face_moving;  ///< Face of the mesh of `moving`.
+  FaceId face_fixed;   ///< Face of the mesh of `fixed`.
+  Vec3 point;          ///< On the moving face [mm, world].
+  Vec3 normal;         ///< Unit vector from the fixed component to the moving one [world].
+  double gap = 0;      ///< Along the normal [mm]; negative where the faces overlap.
   friend bool operator==(const ContactPoint&, const ContactPoint&) = default;
 };
 
 /// The first contact of a candidate motion, which is not carried out.
 struct FirstContact {
-  double toi = 1;                  ///< The motion is certainly free on [0, toi]; 1 if all of it is.
-  bool free = true;                ///< Nothing blocks the motion.
-  ComponentId moving, fixed;       ///< The components of the earliest contact; meaningless if free.
-  FaceId face_moving, face_fixed;  ///< Its faces, of the components' own meshes; meaningless if free.
+  double toi = 1;      ///< The motion is certainly free on [0, toi]; 1 if all of it is.
+  bool free = true;    ///< Nothing blocks the motion.
+  ComponentId moving;  ///< Component of the moving set in the earliest contact; meaningless if free.
+  ComponentId fixed;   ///< The other component; meaningless if free.
+  FaceId face_moving;  ///< Face of the mesh of `moving`; meaningless if free.
+  FaceId face_fixed;   ///< Face of the mesh of `fixed`; meaningless if free.
   friend bool operator==(const FirstContact&, const FirstContact&) = default;
 };
 

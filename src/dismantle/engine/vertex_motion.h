@@ -44,7 +44,7 @@ class SurfaceFreeBalls {
 struct SphereOutcome {
   std::vector<WatchedSphere> start;  ///< Spheres that replace it before the motion.
   std::vector<WatchedSphere> end;    ///< Spheres that replace it after the motion, if no vertex gets too deep.
-  DeepVertexTime deep;
+  DeepVertexTime deep;               ///< When a vertex first gets too deep, if one does.
 };
 
 /// The motion of an inner component relative to an outer one: one screw, along which the vertices of the inner one are

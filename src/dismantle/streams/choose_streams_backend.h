@@ -11,9 +11,9 @@ namespace dismantle {
 
 /// A backend and the device that it runs on.
 struct ChosenStreamsBackend {
-  std::unique_ptr<StreamsBackend> backend;
-  std::string device;  ///< "cpu", or the CUDA device's name.
-  std::string why;     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
+  std::unique_ptr<StreamsBackend> backend;  ///< All components in the assembled state.
+  std::string device;                       ///< "cpu", or the CUDA device's name.
+  std::string why;  ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
 };
 
 /// Number of triangles from which DeviceChoice::Auto takes a CUDA device: a step then takes milliseconds on a CPU

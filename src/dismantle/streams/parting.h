@@ -12,7 +12,8 @@ struct EmbeddedMotion {
   const AssemblyTriangles* streams = nullptr;     ///< The assembled triangles and their hierarchy.
   StepTriangles step;                             ///< At the start and the end of the step.
   Span<const Kdop16> bounds;                      ///< Of the whole step, shape [node_count] [mm, world].
-  ComponentId a, b;                               ///< a < b
+  ComponentId a;                                  ///< The component with the smaller id.
+  ComponentId b;                                  ///< The other one.
   bool a_closed = false;                          ///< The surface of `a` is closed.
   bool b_closed = false;                          ///< The surface of `b` is closed.
   Span<const std::uint64_t> triangle_pairs;       ///< Those of S_t that belong to the pair.
