@@ -79,7 +79,7 @@ class CertificateEngine final : public MotionEngine {
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
   /// The first contact of the one screw from the pose of the moving set to `target`; embedded pairs are free all the
   /// way. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at
-  /// the same time.
+  /// the same time. @pre the moving set is not empty
   FirstContact first_contact(const Pose& target) const;
   /// The first contact of each of some translations of the moving set [mm, world] from its pose, in a fraction of the
   /// time of first_contact(). The motion is certainly free up to toi; the first contact may be a few tolerances beyond.
