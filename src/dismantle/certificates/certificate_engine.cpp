@@ -54,10 +54,12 @@ std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
 }
 
 std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
+  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return contacts_within(impl_->sweeper, reach);
 }
 
 Clearance CertificateEngine::clearance(double limit) const {
+  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return min_clearance(impl_->sweeper, limit);
 }
 
@@ -67,6 +69,7 @@ FirstContact CertificateEngine::first_contact(const Pose& target) const {
 }
 
 std::vector<FirstContact> CertificateEngine::straight_contacts(Span<const Vec3> displacements) const {
+  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return dismantle::straight_contacts(impl_->sweeper, displacements);
 }
 

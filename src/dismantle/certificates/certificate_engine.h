@@ -84,7 +84,7 @@ class CertificateEngine final : public MotionEngine {
   /// The first contact of each of some translations of the moving set [mm, world] from its pose, in a fraction of the
   /// time of first_contact(). The motion is certainly free up to toi; the first contact may be a few tolerances beyond.
   /// A pair that touches at the start is swept again from where it would stop, up to a few times, so that a fit comes
-  /// out. Nothing moves.
+  /// out. Nothing moves. @pre the moving set is not empty
   std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) const;
   /// The contact that blocks the translation of one component by `displacement` [mm] past one other, both in their
   /// assembled poses whatever was moved since; none if it is free, or the two are embedded. Leaves the rule of the
