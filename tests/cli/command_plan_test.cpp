@@ -90,8 +90,9 @@ TEST_F(CliPlan, OrdersStepsByThePreferencesGiven) {
     const Outcome o = run("plan parts -o all.path.json --json --fixed over under --prefer " + preferences);
     EXPECT_EQ(o.exit_code, 0) << o.err;
     EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+    const Json plan = Json::parse(o.out);
     Json names = Json::array();
-    for (const Json& step : Json::parse(o.out)["steps"]) names.push_back(step["components"]);
+    for (const Json& step : plan["steps"]) names.push_back(step["components"]);
     return names.dump();
   };
   EXPECT_EQ(order("direction"), R"([["shelf"],["cup"]])");

@@ -55,7 +55,7 @@ def test_refuses_invalid_arguments(states, tmp_path):
     path = dismantle.plan(states).path()
     for call, why in [
         (lambda: dismantle.plan(states, targets="lid"), "'lid' is unknown"),
-        (lambda: dismantle.plan(states, targets="back", fixed="back"), "it is a target, and fixed"),
+        (lambda: dismantle.plan(states, targets="back", fixed="back"), "it is both target and fixed"),
         (lambda: dismantle.plan(states, time_limit=-1), "negative"),
         (lambda: dismantle.export(states.assembly, path, tmp_path / "x.doc"), "its name tells no format"),
     ]:

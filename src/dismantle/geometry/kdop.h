@@ -67,7 +67,8 @@ DISMANTLE_HOST_DEVICE inline DoublePair max(DoublePair a, DoublePair b) {
 }
 ///@}
 #endif
-static_assert(sizeof(DoublePair) == 16 && alignof(DoublePair) == 16);
+static_assert(sizeof(DoublePair) == 16);
+static_assert(alignof(DoublePair) == 16);
 
 /// The extents of points along the axes of Kdop16, in double. Extend it by points, then take rounded_outward().
 struct KdopOfPoints {
