@@ -57,7 +57,7 @@ def test_refuses_invalid_arguments(states, tmp_path):
         (lambda: dismantle.plan(states, targets="lid"), "'lid' is unknown"),
         (lambda: dismantle.plan(states, targets="back", fixed="back"), "it is both target and fixed"),
         (lambda: dismantle.plan(states, time_limit=-1), "negative"),
-        (lambda: dismantle.export(states.assembly, path, tmp_path / "x.doc"), "its name tells no format"),
+        (lambda: dismantle.export(states.assembly, path, tmp_path / "x.doc"), "its extension is not a known format"),
     ]:
         with pytest.raises(dismantle.UsageError, match=why):
             call()
