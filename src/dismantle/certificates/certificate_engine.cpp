@@ -54,12 +54,10 @@ std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
 }
 
 std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
-  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return contacts_within(impl_->sweeper, reach);
 }
 
 Clearance CertificateEngine::clearance(double limit) const {
-  DISMANTLE_EXPECT(!impl_->sweeper.moving_set().empty());
   return min_clearance(impl_->sweeper, limit);
 }
 
