@@ -30,7 +30,7 @@ using testing_client::Client;
 /// The group of components that is moved, and those of them that are refined.
 const std::string kGroup = "tailstock";
 const std::vector<std::string> kRefined = {"tailstock", "quill"};
-/// How far the targets go along the bed and how far below its top they are [mm]; their highest speed [mm/s].
+/// Travel of the targets along the bed, their depth below its top [mm], and their highest speed [mm/s].
 constexpr double kReach = 80, kPress = 2, kSpeed = 150;
 
 struct Settings {

@@ -251,7 +251,7 @@ bool run_assemblies(const Settings& settings, const Run& run) {
   return good;
 }
 
-/// What to run: the name of the first argument.
+/// The group of cases to run, named by the first argument.
 enum class Mode { None, Cases, Turned, Products, Files };
 
 Mode parse(int argc, char** argv, Settings& settings) {

@@ -71,14 +71,14 @@ class CommandLine {
   }
   /// An option without a value: sets `flag` to true.
   void flag(const std::string& name, bool& flag) { flags_[name] = &flag; }
-  /// What is no option. @param allowed the words that may be given; empty: any
+  /// Positional arguments. @param allowed the permitted words; empty: any
   void words(std::vector<std::string>& words, std::vector<std::string> allowed = {}) {
     add_word_ = [&words, allowed = std::move(allowed)](const std::string& text) {
       words.push_back(text);
       return allowed.empty() || std::find(allowed.begin(), allowed.end(), text) != allowed.end();
     };
   }
-  /// What is no option: whole numbers above 0, in place of those that `numbers` holds.
+  /// Positional arguments that are whole numbers above 0; they replace the defaults in `numbers`.
   template <class Integer>
   void numbers(std::vector<Integer>& numbers) {
     add_word_ = [&numbers, first = true](const std::string& text) mutable {

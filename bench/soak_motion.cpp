@@ -79,7 +79,7 @@ Assembly frozen(const Assembly& assembly, Span<const Pose> poses) {
   return now;
 }
 
-/// Whether an audit lets the component go straight from where it is, with a part of every allowance.
+/// True if an audit accepts a straight motion of the component from its pose, with a part of every allowance.
 bool straight_is_free(const Assembly& now, const PairStates& states, const std::vector<ComponentPair>& embedded,
                       ComponentId moving, Vec3 displacement) {
   Path path;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop of a host program (a viewer, a haptic device, a game): a component is taken in hand and follows the hand's
+// The loop of a host program (a viewer, a haptic device, a game): a component is grabbed and follows the hand's
 // targets, sliding along what is in its way.
 //   host_loop ASSEMBLY COMPONENT [X Y Z]     the direction of the pull; without: upwards
 #include "dismantle/certificates/certificate_engine.h"
@@ -32,11 +32,11 @@ int main(int argc, char** argv) {
   Vec3 direction{0, 0, 1};
   if (argc == 6) direction = normalized(Vec3{std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5])});
 
-  // How every pair stands in the assembled state, and so how deep it may get; then an engine that keeps to it.
+  // The state of every pair in the assembled state, and so its allowed depth; then an engine that enforces it.
   const PairStates states = classify_pairs(*assembly, {}).value();
   CertificateEngine engine(*assembly, states);
 
-  // Take the component in hand. Several would move as one rigid body.
+  // Grab the component. Several would move as one rigid body.
   engine.grab({&*component, 1});
 
   // One step a target. The hand's target may lie inside a solid; the component's pose never does.
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     slowest = std::max(slowest, step.cost.ms);
     if (k % 20 != 0) continue;
 
-    // What a program draws: where the component is, what it touches, and where.
+    // Data for drawing: the pose of the component, the components that it touches, and the contact points.
     std::set<std::string> touched;
     for (const ContactPoint& contact : step.contact_points) touched.insert((*assembly)[contact.fixed].name);
     std::printf("step %3d: at (%.3f, %.3f, %.3f) mm, %zu contact points", k, step.pose.position.x, step.pose.position.y,

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-/// What the fuzz targets share. A target is one file with LLVMFuzzerTestOneInput; it feeds a parser and aborts where
-/// what came out is not sound. tools/fuzz runs them; ctest replays their corpus.
+/// Declarations that the fuzz targets share. A target is one file with LLVMFuzzerTestOneInput; it feeds a parser and
+/// aborts where what came out is not sound. tools/fuzz runs them; ctest replays their corpus.
 namespace dismantle::fuzz {
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {

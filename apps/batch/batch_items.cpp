@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kLongestFolderName = 200;
 
-/// What a file's key goes by.
+/// The properties of a file that enter its key.
 struct FileState {
   std::uint64_t bytes = 0;
   std::int64_t changed = 0;  ///< In the clock's ticks.

@@ -19,7 +19,7 @@ struct BatchItem {
   std::uint64_t bytes = 0;      ///< Of the input.
 };
 
-/// How mesh files (OBJ, STL, PLY) that lie together in a folder are read.
+/// The treatment of mesh files (OBJ, STL, PLY) in one folder.
 enum class MeshGrouping {
   Folder,  ///< As one assembly, a component a file; a mesh file alone in its folder is an assembly by itself.
   File,    ///< Each as an assembly by itself.

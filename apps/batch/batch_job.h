@@ -12,11 +12,11 @@
 
 namespace dismantle::batch {
 
-/// What is done with one item, in a process of its own: writes its files into `folder` and returns a summary, the text
+/// The work on one item, in a process of its own: writes its files into `folder` and returns a summary, the text
 /// of a flat JSON object that the table has as a row. Same input, same files. It may crash.
 using BatchWork = std::function<Result<std::string>(const BatchItem& item, const std::filesystem::path& folder)>;
 
-/// What one item may use up before it counts as failed.
+/// Resource limits of one item; exceeding one counts as a failure.
 struct BatchLimits {
   double memory_gib = 8;
   double cpu_seconds = 3600;

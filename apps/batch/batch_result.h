@@ -7,14 +7,14 @@
 
 namespace dismantle::batch {
 
-/// What became of one item: `result.json` in its folder.
+/// The result of one item: `result.json` in its folder.
 struct BatchResult {
   std::string error;    ///< One sentence; empty where it was done.
   std::string summary;  ///< What BatchWork returned; "{}" where it failed.
   bool failed() const { return !error.empty(); }
 };
 
-/// What it cost, which is different every time and so not part of the result: `timing.json`.
+/// The cost of one item, which varies from run to run and so is not part of the result: `timing.json`.
 struct BatchTiming {
   double seconds = 0;
   std::string host;
@@ -31,7 +31,7 @@ Result<Done> publish_result(const BatchJob& job, const BatchItem& item, const st
 /// Takes a result away, so that the item is done again.
 void remove_result(const BatchJob& job, const BatchItem& item);
 
-/// What a batch came to.
+/// The outcome of a batch.
 struct BatchTables {
   std::string json;  ///< batch.json
   std::string tsv;   ///< batch.tsv

@@ -43,7 +43,7 @@ std::string failure(const BatchItem& item, const IsolatedResult& result) {
   }
 }
 
-/// Whether the work was ended from outside, and tells nothing about the item.
+/// True if the work was ended from outside, which says nothing about the item.
 bool was_stopped(const IsolatedResult& result) {
   return stop_requested() || result.ending == IsolatedEnding::Cancelled ||
          result.ending == IsolatedEnding::NotStarted ||
@@ -95,7 +95,7 @@ Result<bool> make_result(const BatchJob& job, const BatchItem& item, Claim& clai
   return true;
 }
 
-/// How one look at an item ended.
+/// The outcome of one visit to an item.
 enum class Look { Found, Made, Open };
 
 Result<Look> look_at(const BatchJob& job, const BatchItem& item, ClaimFolder& claims) {

@@ -8,7 +8,7 @@
 
 namespace dismantle::batch {
 
-/// How a worker came by a result.
+/// The origin of a result.
 enum class BatchProgress : std::uint32_t {
   Found,  ///< It was there, or somebody else made it.
   Made,

@@ -22,7 +22,7 @@ class Claim {
   std::filesystem::path workplace(int attempt) const;
   /// Shows that its owner lives; does so now and then, however often it is called.
   void renew(double lease_seconds);
-  /// Whether nobody has taken the item over.
+  /// True if no other worker has taken the item over.
   bool holds() const;
   /// Removes this claim with those before it and their workplaces.
   void release();

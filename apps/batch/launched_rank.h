@@ -12,7 +12,8 @@ struct LaunchedRank {
 /// As the launcher's environment says; the only one where there is none.
 LaunchedRank launched_rank();
 
-/// How many processes can work here: the cores that this process may use, shared with the others of `rank`'s machine.
+/// Number of processes that can work here: the cores that this process may use, shared with the others of `rank`'s
+/// machine.
 int usable_cores(const LaunchedRank& rank);
 
 }  // namespace dismantle::batch

@@ -24,7 +24,7 @@ namespace {
 constexpr int kTickMilliseconds = 100;
 constexpr int kExitDone = 0, kExitFailed = 4;
 
-/// What a worker tells: short enough to be written in one piece.
+/// A message of a worker, short enough for one atomic write.
 struct Message {
   std::uint32_t item = 0;
   BatchProgress progress = BatchProgress::Found;
@@ -80,7 +80,7 @@ class Workers {
     Message message;
     while (read(line_[0], &message, sizeof message) == sizeof message) report(message.item, message.progress);
   }
-  /// How many ended since, by their ends: killed, or with an error.
+  /// Number of workers that have ended since, killed or with an error.
   struct Ended {
     int killed = 0, failed = 0;
   };

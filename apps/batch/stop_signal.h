@@ -5,7 +5,7 @@ namespace dismantle::batch {
 
 /// From now on SIGINT and SIGTERM no longer end this process and the children that it forks, but are remembered.
 void watch_stop_signal();
-/// Whether one of them came.
+/// True once one of them was received.
 bool stop_requested();
 
 }  // namespace dismantle::batch

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <string>
 
-/// What the commands of the program share. A command is one file, command_<name>.cpp, with one function
+/// Declarations that the commands share. A command is one file, command_<name>.cpp, with one function
 /// add_<name>_command(app, exit_code) that declares its options and sets the callback; main.cpp lists them.
 namespace dismantle::cli {
 
@@ -42,7 +42,7 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// Declares the positional ASSEMBLY argument.
 void add_assembly_argument(CLI::App& command, CommonOptions& options);
 
-/// Whether a file's name says that it is a path: *.path.json.
+/// True if the file name is that of a path: *.path.json.
 bool is_path_file(const std::string& file);
 /// The assembly that a path file is of, which lies beside it. Errors: Unreadable where there is none.
 Result<std::filesystem::path> assembly_beside(const std::string& path_file, const Path& path);

@@ -67,7 +67,7 @@ Result<Done> plan(const BatchCommand& command, const Assembly& assembly, const P
   return Done{};
 }
 
-/// What is done with one assembly: runs in a process of its own, whose output nobody sees.
+/// The work on one assembly, in a process of its own whose output is discarded.
 Result<std::string> examine(BatchCommand command, const batch::BatchItem& item, const fs::path& folder) {
   command.common.assembly_file = item.input.string();
   const Result<Assembly> assembly = load(command.common);

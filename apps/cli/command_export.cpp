@@ -41,7 +41,7 @@ struct ExportCommand {
   PictureOptions picture;
 };
 
-/// What is exported: an assembly, and its path where one is given.
+/// The input of an export: an assembly, and its path if there is one.
 struct Exported {
   Assembly assembly;
   std::optional<Path> path;

@@ -64,7 +64,7 @@ double quantile(std::vector<double> values, double q) {
   return *place;
 }
 
-/// What happened in one move, for the user: how far it got and who was in the way.
+/// Summary of one move for the user: how far it got and which components blocked it.
 struct MoveSummary {
   std::size_t steps = 0, reached = 0;
   double asked = 0, got = 0;  ///< How far the last target and the last pose take the middle of the components [mm].
@@ -111,7 +111,7 @@ std::string blockers_text(const MoveSummary& m) {
   return text.empty() ? "nothing" : text;
 }
 
-/// What the whole motion took.
+/// Cost of the whole motion.
 struct MoveCost {
   std::string device;
   std::vector<double> overall;  ///< Of each step [ms].

@@ -9,7 +9,7 @@
 
 namespace dismantle::cli {
 
-/// How a picture is taken.
+/// Options of a picture.
 struct PictureOptions {
   std::string view = "iso";
   std::string section;

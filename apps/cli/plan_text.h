@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What the commands plan, why and batch print alike.
+/// Output that the commands plan, why and batch share.
 namespace dismantle::cli {
 
 /// The component of that name. Errors: Usage where there is none.
@@ -24,7 +24,7 @@ nlohmann::ordered_json explanation_json(const Assembly& assembly, const Explanat
 /// The plan and what its path removes, without what it cost.
 nlohmann::ordered_json plan_json(const Assembly& assembly, const Plan& plan, const Path& path);
 
-/// How many steps each tier found.
+/// Number of steps by tier.
 std::map<PlanTier, std::size_t> tier_counts(const Plan& plan);
 
 }  // namespace dismantle::cli

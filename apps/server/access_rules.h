@@ -11,7 +11,7 @@ namespace dismantle::server {
 /// 128 random bits from the kernel as 32 hexadecimal digits.
 std::string random_token();
 
-/// Whether the two are equal, in a time that depends on their lengths only.
+/// True if the two are equal; takes a time that depends only on their lengths.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 /// Who may talk to the server (docs/wire.md, "Doors"): a web page of another origin cannot send our Host, our Origin

@@ -113,7 +113,7 @@ void EngineLoop::run() {
       std::visit([this](const auto& message) { bench_.set_wanted(message); }, wanted->message);
       unanswered_ = wanted->arrived;
     }
-    // What came before a command is done before it: the last target counts when the hand lets go.
+    // Targets before a command are processed before it: the last one counts on release.
     if (!tasks.empty() && unanswered_) make_step(Clock::now());
     for (const Task& task : tasks) task(bench_);
     tasks.clear();

@@ -16,11 +16,11 @@ namespace dismantle::server {
 struct EngineEvent {
   enum class Kind { Model, State, Log };
   Kind kind = Kind::State;
-  bool is_dragging = false;  ///< Of State: a set is in hand.
+  bool is_dragging = false;  ///< State: a set is being dragged.
   std::string text;
 };
 
-/// Whoever the engine loop tells what happens; called on the loop's thread.
+/// Receives the events of an engine loop, on the loop's thread.
 class EngineListener {
  public:
   virtual ~EngineListener() = default;

@@ -19,7 +19,7 @@ struct ExportRequest {
   bool of_guide = false;  ///< Not the recording, but the path that is followed.
 };
 
-/// What it is made of, taken while nothing moves on.
+/// The data to export, captured while nothing moves.
 struct ExportSource {
   std::shared_ptr<const Assembly> assembly;
   Path path;

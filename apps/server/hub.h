@@ -14,7 +14,7 @@
 
 namespace dismantle::server {
 
-/// What the network counts.
+/// Counters of the network.
 struct HubCounters {
   std::uint64_t pose_frames = 0;     ///< Structs `pose` that the engine made.
   std::uint64_t dropped_frames = 0;  ///< Of them, times clients: overtaken by newer ones before they were sent.
@@ -27,7 +27,7 @@ class ServerCommands {
  public:
   virtual ~ServerCommands() = default;
   virtual bool knows(std::string_view command) const = 0;
-  /// Whether it changes nothing that others see, so that every client may give it.
+  /// True if it changes nothing that others see, so that every client may send it.
   virtual bool is_question(std::string_view command) const = 0;
   /// @pre knows(command["command"])
   virtual Result<Json> execute(const Json& command) = 0;

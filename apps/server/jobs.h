@@ -13,7 +13,7 @@
 
 namespace dismantle::server {
 
-/// How long work goes on: the event `job` of docs/wire.md.
+/// The progress of a job: the event `job` of docs/wire.md.
 struct JobNews {
   enum class Status { Running, Done, Failed, Cancelled };
   std::uint32_t job = 0;
@@ -27,7 +27,7 @@ struct JobNews {
 /// Long work on a thread of its own, one at a time: imports and searches.
 class Jobs {
  public:
-  /// What makes known what a work has found.
+  /// Publishes the result of a job.
   using Finish = std::function<void()>;
   using Work = std::function<Result<Finish>(const ProgressCallback&)>;
   /// Called on the job's thread.

@@ -25,7 +25,7 @@ std::string file_name(const JournalHeader& header, int viewer) {
   return name + ".journal";
 }
 
-/// What the journal holds where it is of the session's assembly and something was done in it.
+/// The contents of the journal, if it is of the session's assembly and not empty.
 std::optional<JournalContents> read_journal(const fs::path& file, const JournalHeader& header) {
   const Result<std::string> bytes = read_file(file, kLargestJournal);
   if (!bytes) return {};

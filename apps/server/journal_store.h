@@ -19,7 +19,7 @@ class JournalStore {
   Result<bool> attach(Session& session);
   /// Ends the session's journal in order; one of nothing is removed.
   void detach(Session& session);
-  /// Whether there is a session before this one.
+  /// True if there is an earlier session.
   bool can_resume(const Session& session) const;
   /// Goes on where the session before this one was. Errors: Usage where there is none, or something is recorded
   /// already.

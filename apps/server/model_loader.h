@@ -9,7 +9,7 @@
 
 namespace dismantle::server {
 
-/// How assemblies are made ready for a session.
+/// Options for preparing assemblies for a session.
 struct ModelOptions {
   ImportOptions import;
   ClassifyOptions classify;

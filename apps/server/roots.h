@@ -10,7 +10,7 @@
 
 namespace dismantle::server {
 
-/// What a folder holds that a client may see.
+/// The entries of a folder that a client may see.
 struct RootEntry {
   enum class Kind { Folder, Assembly, Path };
   std::string name;
@@ -25,7 +25,7 @@ class Roots {
   /// Errors: Usage where one is no folder.
   static Result<Roots> create(const std::vector<std::filesystem::path>& folders);
 
-  /// What clients call them, one an index.
+  /// Their names for clients, by index.
   const std::vector<std::string>& names() const { return names_; }
   /// The file or folder `relative` of a root, links resolved. Errors: Usage where there is none, or it is outside.
   Result<std::filesystem::path> find(std::uint64_t root, const std::string& relative) const;
@@ -34,7 +34,7 @@ class Roots {
   Result<std::filesystem::path> place_for(std::uint64_t root, const std::string& relative) const;
   /// Folders first, then files that dismantle reads, by name; hidden ones are left out. Errors: as find().
   Result<std::vector<RootEntry>> list(std::uint64_t root, const std::string& folder) const;
-  /// Whether a file is below one of them, links resolved.
+  /// True if a file is below one of them, with links resolved.
   bool contain(const std::filesystem::path& file) const;
 
  private:

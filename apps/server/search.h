@@ -14,7 +14,7 @@
 
 namespace dismantle::server {
 
-/// What the planner is asked for.
+/// A request to the planner.
 enum class SearchKind {
   Plan,     ///< How the assembly comes apart, or a target out of it, from the assembled state.
   TakeOut,  ///< How some components get out from where everything is now.
@@ -24,7 +24,7 @@ enum class SearchKind {
 /// "plan", "find_path", "why": as docs/wire.md has it.
 std::string_view name_of(SearchKind kind);
 
-/// What a search looks at: some of a session's components, as an assembly of their own whose assembled state is where
+/// The input of a search: some of a session's components, as an assembly of their own whose assembled state is where
 /// they stand.
 struct Standing {
   Assembly assembly;
@@ -35,9 +35,9 @@ struct Standing {
 
 /// Everything, assembled.
 Standing assembled(const Session& session);
-/// What is not taken away, where it is now.
+/// The components that are not removed, at their present poses.
 Standing standing(const Session& session);
-/// Whether it is still what standing() would give.
+/// True if standing() would still give the same.
 bool still_stands(const Standing& standing, const Session& session);
 
 struct Search {
@@ -49,18 +49,18 @@ struct Search {
   CertificateOptions engine;
 };
 
-/// What the user sees while it goes on.
+/// The name of the search for the user.
 std::string search_name(const Search& search);
 
-/// What a search has found, in the terms of the session that it was made for.
+/// The result of a search, in terms of the session that it was made for.
 struct Finding {
   SearchKind kind = SearchKind::Plan;
   std::shared_ptr<const Standing> standing;
-  bool complete = false;  ///< All that was asked for comes out.
+  bool complete = false;  ///< Everything that was asked for can be removed.
   bool out_of_time = false;
   double seconds = 0;
   std::size_t steps = 0;
-  std::vector<Explanation> reasons;  ///< Why what shall come out does not.
+  std::vector<Explanation> reasons;  ///< Why components that were asked for cannot be removed.
   Path path;                         ///< Of Plan.
   std::vector<Removal> removals;     ///< Of TakeOut, where complete.
 };

@@ -34,7 +34,7 @@ constexpr int kPortTries = 20;
 /// More at a time are closed at once; a page has a few.
 constexpr long kMaxConnections = 256;
 constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30, kLargestGuide = std::uint64_t{256} << 20;
-/// How long the sockets' goodbyes may take when the server stops.
+/// Time limit for closing the sockets when the server stops.
 constexpr std::chrono::milliseconds kGoodbyeTime{500};
 
 Json job_event(const JobNews& news) {
@@ -207,7 +207,7 @@ class Server::Body final : public Site, private EngineListener {
     });
   }
 
-  /// What is exported is taken on the engine's thread and made on one of its own: neither a drag nor the network waits.
+  /// Export data are captured on the engine's thread and written on another one: neither a drag nor the network waits.
   void export_file(const ExportRequest& wanted, Reply done) {
     engine_.post_always([this, wanted, done = std::move(done)](Workbench& bench) {
       auto source = std::make_shared<const Result<ExportSource>>(export_source(wanted, bench.model()));

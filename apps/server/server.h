@@ -27,9 +27,9 @@ struct ServerOptions {
 /// time. It runs on threads of its own until it is stopped.
 class Server {
  public:
-  /// Listens. Errors: Failed where the port is taken; Usage where a root is no folder.
+  /// Starts listening. Errors: Failed if the port is taken; Usage if a root is not a folder.
   static Result<std::unique_ptr<Server>> start(ServerOptions options);
-  /// Stops: sockets are closed, the drag in hand is let go, imports are cancelled.
+  /// Stops: closes sockets, ends the present drag, cancels imports.
   ~Server();
 
   std::uint16_t port() const;

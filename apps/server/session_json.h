@@ -21,7 +21,7 @@ Json to_json(Span<const ComponentId> components);
 /// The event `model` of docs/wire.md.
 Json model_json(const Model& model);
 
-/// What of the event `state` comes from the session: everything but number, model, hand, search, resumed
+/// The part of the event `state` that comes from the session: everything but number, model, hand, search, resumed
 /// and resumable.
 Json state_json(const Session& session);
 

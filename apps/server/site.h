@@ -15,7 +15,7 @@
 
 namespace dismantle::server {
 
-/// What a request is answered with.
+/// The response to a request.
 struct HttpAnswer {
   unsigned status = 200;
   std::string content_type;
@@ -27,14 +27,14 @@ struct HttpAnswer {
 HttpAnswer error_answer(unsigned status, const std::string& error);
 HttpAnswer json_answer(unsigned status, const Json& json);
 
-/// What an upload was for and where it lies.
+/// The purpose of an upload and its file.
 struct Upload {
   RequestTarget target;
   std::string client;          ///< Of the header X-Client.
   std::filesystem::path file;  ///< Removed by who takes it.
 };
 
-/// What the server has to give to requests, apart from how they come. Called on the network's thread.
+/// The resources that the server offers to requests, independent of the transport. Called on the network's thread.
 class Site {
  public:
   using Reply = std::function<void(HttpAnswer)>;

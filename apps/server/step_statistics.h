@@ -31,7 +31,7 @@ class RecentValues {
   std::size_t count_ = 0;
 };
 
-/// What the engine loop's steps cost.
+/// The cost of the engine loop's steps.
 class StepStatistics {
  public:
   using Clock = std::chrono::steady_clock;

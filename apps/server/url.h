@@ -8,7 +8,7 @@
 
 namespace dismantle::server {
 
-/// What a request line asks for, decoded.
+/// The target of a request line, decoded.
 struct RequestTarget {
   std::string path;                          ///< "/api/open"
   std::map<std::string, std::string> query;  ///< "name" -> "vice.step"; of a repeat the first

@@ -14,7 +14,7 @@
 /// The structs of docs/wire.md, protocol `dismantle.1`: their one source. tests/server/golden has their bytes.
 namespace dismantle::server {
 
-/// What the hand asks for.
+/// The pose that a pointer or hand asks for.
 struct TargetMessage {
   std::uint32_t grip = 0;
   std::uint32_t number = 0;
@@ -22,7 +22,7 @@ struct TargetMessage {
   friend bool operator==(const TargetMessage&, const TargetMessage&) = default;
 };
 
-/// What a 3D mouse or gamepad asks for.
+/// The velocity that a 3D mouse or gamepad asks for.
 struct RateMessage {
   std::uint32_t grip = 0;
   std::uint32_t number = 0;

@@ -12,7 +12,7 @@ namespace dismantle::server {
 
 namespace {
 
-/// How long a rate holds that is not renewed, and the longest time that one step integrates it over [s].
+/// Lifetime of a rate that is not renewed, and the longest time over which one step integrates it [s].
 constexpr double kRateLife = 0.15, kLongestRateStep = 0.02;
 /// Of stop and touch, which give no contact points: how far to look for them, in tolerances.
 constexpr double kContactReach = 2;

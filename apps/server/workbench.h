@@ -42,21 +42,21 @@ class Workbench {
 
   /// Does a command of a client in control. @return the answer's members, or the error
   Result<Json> execute(const Json& command);
-  /// Whether a command changes nothing, so that every client may give it.
+  /// True if a command changes nothing, so that every client may send it.
   static bool is_question(std::string_view command);
 
   bool is_dragging() const { return model_ && session().activity() == SessionActivity::Drag; }
-  /// Lets go of what is in hand, and ends what moves by itself: its client is gone.
+  /// Ends the drag and the automatic motion of a client that has gone.
   void let_go();
-  /// Does what a search was for: the plan becomes the guide, the components go their way, the reason is told.
+  /// Uses the result of a search: a plan becomes the guide, a path is followed, a reason is reported.
   void take_finding(const Finding& finding);
-  /// Opens a path file as the guide. Errors: of read_path and Session::set_guide; Usage where nothing is open.
+  /// Opens a path file as the guide. Errors: as read_path and Session::set_guide; Usage if nothing is open.
   Result<Done> open_guide(const std::filesystem::path& file, const std::string& name);
 
-  /// What the hand asks for; passed over where it is not of the set in hand, or older than what is known.
+  /// Sets the wanted pose; ignored if it is not for the dragged set, or older than the last one.
   void set_wanted(const TargetMessage& target);
   void set_wanted(const RateMessage& rate);
-  /// Whether step() has something to do.
+  /// True if step() has something to do.
   bool wants_step() const;
   /// Moves on by one step. @return the struct to send, or nothing where it is as before
   std::optional<PoseMessage> step(Clock::time_point now);

@@ -44,7 +44,7 @@ class Arguments {
     return ids;
   }
 
-  /// What is preferred, the first counts most; absent: nothing.
+  /// The preferences, the most important first; absent: none.
   Result<std::vector<StepPreference>> preferences() const {
     std::vector<StepPreference> preferences;
     const auto found = command_.find("prefer");
@@ -303,7 +303,7 @@ class WorkbenchCommands {
     return Json::object();
   }
 
-  /// What goes by itself begins now.
+  /// Starts an automatic motion.
   Result<Json> begin(const Result<Done>& begun) {
     bench_.drop_targets();
     bench_.stepped_at_ = Workbench::Clock::now();

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// What the parts of the Python module share.
+/// Declarations that the parts of the Python module share.
 namespace dismantle::python {
 
 namespace py = pybind11;
@@ -32,7 +32,7 @@ void bind_engine(py::module_& module);
 void bind_session(py::module_& module);
 void bind_plan(py::module_& module);
 
-/// How the pairs of an assembly stand; what everything that moves components begins with.
+/// The pair states of an assembly; input of everything that moves components.
 struct CheckedAssembly {
   std::shared_ptr<Assembly> assembly;
   PairStates pairs;

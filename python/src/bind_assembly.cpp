@@ -45,11 +45,11 @@ TriangleMesh mesh_of(const std::string& name, const DoubleArray& vertices, const
   mesh.vertices.assign(points, points + vertices.shape(0));
   mesh.faces.assign(triangles, triangles + faces.shape(0));
   for (const Vec3& p : mesh.vertices)
-    if (!is_finite(p)) raise_usage("the mesh of '" + name + "' cannot be read (a vertex is not finite); mend it");
+    if (!is_finite(p)) raise_usage("the mesh of '" + name + "' cannot be read (a vertex is not finite); correct it");
   for (const Face& f : mesh.faces)
     for (const std::uint32_t v : f.v)
       if (v >= mesh.vertices.size())
-        raise_usage("the mesh of '" + name + "' cannot be read (a face names a vertex that it has not); mend it");
+        raise_usage("the mesh of '" + name + "' cannot be read (a face has an index without a vertex); correct it");
   return mesh;
 }
 

@@ -22,10 +22,10 @@ class Engine {
   void hold(const py::object& keys) {
     const Turn turn(mutex_, kName);
     const std::vector<ComponentId> set = components_of(assembly(), keys);
-    if (set.empty()) raise_usage("nothing can be taken in hand (no component is named); name at least one");
+    if (set.empty()) raise_usage("nothing can be grabbed (no component is named); name at least one");
     for (const ComponentId c : set)
       if (engine_.poses()[c.value] != engine_.poses()[set[0].value])
-        raise_usage("'" + assembly()[c].name + "' cannot be taken in hand with '" + assembly()[set[0]].name +
+        raise_usage("'" + assembly()[c].name + "' cannot be grabbed with '" + assembly()[set[0]].name +
                     "' (their poses differ); move them one after the other");
     without_gil([&] { engine_.grab(set); });
   }
@@ -85,7 +85,7 @@ class Engine {
 
   void check_held() const {
     if (engine_.moving_set().empty())
-      raise_usage("nothing is in hand (hold was not called, or a jump let go); call hold first");
+      raise_usage("no component is held (hold was not called, or a jump released it); call hold first");
   }
 
   CheckedHolder states_;
@@ -131,10 +131,10 @@ class Batch {
     const Turn turn(mutex_, kName);
     check_state();
     if (ways.ndim() != 2 || ways.shape(1) != 3)
-      raise_usage("the ways cannot be read (their shape is not (k, 3)); mend it");
+      raise_usage("the displacements cannot be read (their shape is not (k, 3)); correct it");
     const Span<const Vec3> span(reinterpret_cast<const Vec3*>(ways.data()), static_cast<std::size_t>(ways.shape(0)));
     for (const Vec3& way : span)
-      if (!is_finite(way)) raise_usage("a way cannot be gone (it is not finite); mend it");
+      if (!is_finite(way)) raise_usage("a displacement cannot be used (it is not finite); correct it");
     return without_gil([&] { return chosen_.batch->straight_contacts(span); });
   }
   std::vector<FirstContact> screws(const DoubleArray& targets) {
@@ -244,12 +244,12 @@ void bind_contacts(py::module_& module) {
   py::class_<FirstContactArrays>(module, "FirstContacts", "How far each candidate motion gets: an entry a candidate.")
       .def_readonly("toi", &FirstContactArrays::toi, "Free on [0, toi] of the motion.")
       .def_readonly("free", &FirstContactArrays::free)
-      .def_readonly("moving", &FirstContactArrays::moving, "Index of a component; of no meaning where free.")
+      .def_readonly("moving", &FirstContactArrays::moving, "Index of a component; meaningless if free.")
       .def_readonly("fixed", &FirstContactArrays::fixed)
       .def_readonly("face_moving", &FirstContactArrays::face_moving)
       .def_readonly("face_fixed", &FirstContactArrays::face_fixed)
       .def("__len__", [](const FirstContactArrays& a) { return a.toi.size(); });
-  py::class_<Clearance>(module, "Clearance", "The least distance between the set in hand and the rest.")
+  py::class_<Clearance>(module, "Clearance", "The minimum distance between the moving set and all other components.")
       .def_readonly("distance", &Clearance::distance, "[mm]")
       .def_property_readonly("moving", [](const Clearance& c) { return c.moving.value; })
       .def_property_readonly("fixed", [](const Clearance& c) { return c.fixed.value; })
@@ -268,7 +268,7 @@ ResponseKind response_of(const std::string& name) {
 void bind_engine(py::module_& module) {
   bind_step(module);
   bind_contacts(module);
-  py::class_<Engine>(module, "Engine", "Takes components in hand and moves them towards targets.")
+  py::class_<Engine>(module, "Engine", "Grabs components and moves them towards targets, with collision handling.")
       .def(py::init<CheckedHolder, int>(), py::arg("states"), py::kw_only(), py::arg("threads") = 1)
       .def("hold", &Engine::hold, py::arg("components"))
       .def("step", &Engine::step, py::arg("target"), py::arg("response") = "slide")
@@ -278,9 +278,9 @@ void bind_engine(py::module_& module) {
       .def(
           "first_contacts",
           [](Engine& engine, const DoubleArray& targets) { return arrays_of(engine.first_contacts(targets)); },
-          py::arg("targets"), "The earliest contact on the way to each target, shape (k, 7). Nothing moves.")
+          py::arg("targets"), "The first contact of the screw motion to each target, shape (k, 7). Nothing moves.")
       .def("clearance", &Engine::clearance)
-      .def("contacts", &Engine::contacts, py::arg("reach"), "All that is nearer than `reach` [mm].");
+      .def("contacts", &Engine::contacts, py::arg("reach"), "All contacts nearer than `reach` [mm].");
   py::class_<Batch>(module, "MotionBatch", "Many candidate motions of one set, on CPU threads or a CUDA device.")
       .def(py::init<CheckedHolder, std::string, int>(), py::arg("states"), py::kw_only(), py::arg("device") = "auto",
            py::arg("threads") = 0)
@@ -288,7 +288,7 @@ void bind_engine(py::module_& module) {
       .def("set_state", &Batch::set_state, py::arg("moving"), py::arg("poses") = py::none())
       .def(
           "straight_contacts", [](Batch& b, const DoubleArray& ways) { return arrays_of(b.straight(ways)); },
-          py::arg("ways"), "Straight ways [mm], shape (k, 3).")
+          py::arg("ways"), "First contacts of translations by these displacements [mm], shape (k, 3).")
       .def(
           "screw_contacts", [](Batch& b, const DoubleArray& targets) { return arrays_of(b.screws(targets)); },
           py::arg("targets"), "Screws to poses, shape (k, 7).");

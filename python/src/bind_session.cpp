@@ -30,7 +30,7 @@ class SessionObject {
   StepView drag(const DoubleArray& target, double time) {
     const Turn turn(mutex_, kName);
     if (session_.activity() != SessionActivity::Drag)
-      raise_usage("nothing can be dragged (nothing is in hand); call hold first");
+      raise_usage("nothing can be dragged (no component is held); call hold first");
     const Pose pose = pose_of(target);
     return {states_->assembly, without_gil([&] { return session_.drag(pose, time); })};
   }

@@ -40,11 +40,11 @@ PyObject* new_error(py::module_& module, const char* name, const char* doc, cons
 const char* const kPoseShape =
     "a pose cannot be read (it is not seven numbers); give x, y, z, and a quaternion w, x, y, z";
 
-/// How far the quaternion's squared length is off 1. Raises where a number is not finite.
+/// Deviation of the quaternion's squared length from 1. Raises if a number is not finite.
 double quaternion_fault(const Pose& pose) {
   const double fault = std::fabs(dot(pose.rotation, pose.rotation) - 1);
   if (!is_finite(pose.position) || !(fault <= 2 * kUnitQuaternionTolerance))
-    raise_usage("a pose cannot be used (it is not finite, or its quaternion is not of unit length); mend it");
+    raise_usage("a pose cannot be used (it is not finite, or its quaternion is not of unit length); correct it");
   return fault;
 }
 
@@ -162,7 +162,7 @@ Pose pose_of(const DoubleArray& array) {
 Vec3 vector_of(const DoubleArray& array) {
   if (array.size() != 3) raise_usage("a vector cannot be read (it is not three numbers); give x, y, z");
   const Vec3 v{array.data()[0], array.data()[1], array.data()[2]};
-  if (!is_finite(v)) raise_usage("a vector cannot be used (it is not finite); mend it");
+  if (!is_finite(v)) raise_usage("a vector cannot be used (it is not finite); correct it");
   return v;
 }
 

@@ -6,7 +6,7 @@
 
 namespace dismantle::python {
 
-/// What a step gave, with the names of its assembly.
+/// The result of a step, with the names of its assembly.
 struct StepView {
   std::shared_ptr<const Assembly> assembly;
   StepResult result;

@@ -44,7 +44,7 @@ const Entry kEntries[] = {
     {{"lathe", "bench lathe: spindle in roller bearings, three-jaw chuck, lead screw, tool turret, tailstock"},
      {dismantle_lathe_step, dismantle_lathe_step_end},
      {dismantle_lathe_motion, dismantle_lathe_motion_end}},
-    {{"robot", "six-axis arm: planetary gear stages, bearings, motors, gripper on ways"},
+    {{"robot", "six-axis arm: planetary gear stages, bearings, motors, gripper on linear guides"},
      {dismantle_robot_step, dismantle_robot_step_end},
      {dismantle_robot_motion, dismantle_robot_motion_end}},
 };

@@ -10,13 +10,13 @@ namespace dismantle::samples {
 Solid cap_screw(double diameter, double length);
 /// The same with its thread modelled over the last `thread_length`.
 Solid threaded_cap_screw(double diameter, double pitch, double length, double thread_length);
-/// What to cut for a cap screw whose head is sunk in flush below z = 0: counterbore, and clearance hole down to -depth.
+/// The cut for a cap screw with its head flush below z = 0: counterbore, and clearance hole down to -depth.
 Solid cap_screw_counterbore(double diameter, double depth);
 /// Clearance hole from z = 0 down to -depth.
 Solid clearance_hole(double diameter, double depth);
 /// Tapped hole for a cosmetic thread, from z = 0 down to -depth: kThreadOverlap narrower than the screw.
 Solid tapped_hole(double diameter, double depth);
-/// How much narrower than its screw a tapped hole with a cosmetic thread is [mm, on the diameter]: a `fit`.
+/// Difference of the diameters of a screw and its tapped hole with a cosmetic thread [mm]: a `fit`.
 inline constexpr double kThreadOverlap = 0.24;
 /// Hexagon head screw (ISO 4017), its head standing on the plane z = 0, its shank down to z = -length.
 Solid hex_screw(double diameter, double length);

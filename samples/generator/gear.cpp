@@ -54,7 +54,7 @@ double tip_diameter(const GearShape& gear) {
 }
 
 double meshing_turn(const GearShape& first, double first_turn, const GearShape& second, double direction) {
-  // How many pitches the line of centres lies past a tooth of the first gear; the second turns the other way.
+  // Offset of the line of centres from a tooth of the first gear, in pitches; the second turns the other way.
   const double past_tooth = (direction - first_turn) * first.teeth / 360;
   return direction + 180 + (past_tooth + 0.5) * 360 / second.teeth;
 }

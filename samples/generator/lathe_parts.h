@@ -4,7 +4,7 @@
 #include "samples/generator/sample_model.h"
 #include "samples/generator/thread.h"
 
-// What the pieces of the lathe share. The spindle's axis is x, the operator stands at -y, the floor is z = 0.
+// Dimensions that the parts of the lathe share. The spindle's axis is x, the operator stands at -y, the floor is z = 0.
 namespace dismantle::samples::lathe {
 
 inline constexpr double kBedLow = 80, kWays = 160;  ///< Flat way's height; the V stands on it in front.
@@ -26,7 +26,7 @@ inline ThreadForm lead_thread() {
 
 /// The idler of the change gears in (y, z): at meshing distance from the spindle and from the lead screw.
 gp_XYZ idler_place();
-/// What the V of the bed takes away from a part that sits on the ways, between two places along x.
+/// The cut of the bed's V in a part that sits on the ways, between two positions along x.
 Solid vee(double x0, double x1);
 
 void add_bed(SampleModel& model);

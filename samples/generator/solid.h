@@ -42,7 +42,7 @@ class Solid {
   /// Union; faces that lie in one surface are merged.
   Solid operator+(const Solid& other) const;
   Solid operator+(const std::vector<Solid>& others) const;
-  /// What is left of this after the other is taken away.
+  /// This solid without the other one.
   Solid operator-(const Solid& other) const;
   Solid operator-(const std::vector<Solid>& others) const;
   /// The common part.

@@ -26,7 +26,7 @@ namespace dismantle::samples {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// How well the helices' splines follow the true helix [mm]: coarse, for few knots, and far below any clearance.
+/// Deviation of the helices' splines from the true helix [mm]: coarse, for few knots, and far below any clearance.
 constexpr double kHelixTolerance = 1e-4;
 
 using Cylinder = Handle(Geom_CylindricalSurface);

@@ -7,6 +7,7 @@
 #include "dismantle/math/vec3f.h"
 #include "tests/support/large_scenes.h"
 #include "tests/support/slide_drags.h"
+#include "tests/support/tested_device.h"
 
 #include <gtest/gtest.h>
 
@@ -18,16 +19,10 @@ namespace {
 
 using namespace scenes;
 
-struct Device {
-  const char* name;
-  std::optional<Executor> emulated_by;  ///< None for the CUDA device.
-  friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
-};
-
-const Device kDevices[] = {{"Serial", Executor()},
-                           {"Shuffled", Executor(ExecutorKind::Shuffled)},
-                           {"Threads3", Executor(ExecutorKind::Threads, 3)},
-                           {"Cuda", std::nullopt}};
+const TestedDevice kDevices[] = {{"Serial", Executor()},
+                                 {"Shuffled", Executor(ExecutorKind::Shuffled)},
+                                 {"Threads3", Executor(ExecutorKind::Threads, 3)},
+                                 {"Cuda", std::nullopt}};
 
 /// Counts of a device's queries.
 struct QueryCounts {
@@ -90,7 +85,7 @@ class CountedDevice final : public FrontDevice {
   QueryCounts& counts_;
 };
 
-class DeviceCertificates : public testing::TestWithParam<Device> {
+class DeviceCertificates : public testing::TestWithParam<TestedDevice> {
  protected:
   void SetUp() override {
     if (GetParam().emulated_by) return;
@@ -137,7 +132,7 @@ class DeviceCertificates : public testing::TestWithParam<Device> {
   }
 };
 
-std::string name_of_device(const testing::TestParamInfo<Device>& device) {
+std::string name_of_device(const testing::TestParamInfo<TestedDevice>& device) {
   return device.param.name;
 }
 

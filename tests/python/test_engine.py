@@ -82,8 +82,8 @@ def test_measures_the_clearance(states):
 def test_refuses_invalid_arguments(states):
     engine = dismantle.Engine(states)
     for call, why in [
-        (lambda: engine.step(HOME), "nothing is in hand"),
-        (lambda: engine.first_contacts([HOME]), "nothing is in hand"),
+        (lambda: engine.step(HOME), "no component is held"),
+        (lambda: engine.first_contacts([HOME]), "no component is held"),
         (lambda: engine.hold([]), "no component is named"),
         (lambda: engine.hold("lid"), "'lid' is unknown"),
         (lambda: engine.jump([HOME]), "give 7, one a component"),
@@ -115,7 +115,7 @@ def test_releases_the_moving_set_when_a_jump_moves_it(states):
     poses[1] = at(60, 0, 0)
     engine.jump(poses)
     assert engine.held == []
-    with pytest.raises(dismantle.UsageError, match="nothing is in hand"):
+    with pytest.raises(dismantle.UsageError, match="no component is held"):
         engine.step(HOME)
 
 

@@ -53,7 +53,7 @@ def test_takes_out_and_puts_back(states):
 def test_refuses_invalid_arguments(states):
     session = dismantle.Session(states)
     for call, why in [
-        (lambda: session.drag(HOME), "nothing is in hand"),
+        (lambda: session.drag(HOME), "no component is held"),
         (lambda: session.hold([]), "no component is named"),
         (lambda: session.undo(), "undo|take back|nothing"),
         (lambda: session.take_out("front", direction=[0, 0, 0]), "the direction is zero"),

@@ -4,6 +4,7 @@
 #include "dismantle/streams/streams_backend.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/tested_device.h"
 
 #include <gtest/gtest.h>
 
@@ -18,17 +19,11 @@ using scenes::shift;
 
 constexpr double kTolerance = 0.01;
 
-struct Device {
-  const char* name;
-  std::optional<Executor> emulated_by;  ///< None for the CUDA device.
-  friend std::ostream& operator<<(std::ostream& out, const Device& device) { return out << device.name; }
-};
-
-const Device kDevices[] = {{"Serial", Executor()},
-                           {"Shuffled", Executor(ExecutorKind::Shuffled)},
-                           {"Threads2", Executor(ExecutorKind::Threads, 2)},
-                           {"Threads7", Executor(ExecutorKind::Threads, 7)},
-                           {"Cuda", std::nullopt}};
+const TestedDevice kDevices[] = {{"Serial", Executor()},
+                                 {"Shuffled", Executor(ExecutorKind::Shuffled)},
+                                 {"Threads2", Executor(ExecutorKind::Threads, 2)},
+                                 {"Threads7", Executor(ExecutorKind::Threads, 7)},
+                                 {"Cuda", std::nullopt}};
 
 /// Sweeps both to the same candidates and expects equal results.
 class Comparison {
@@ -68,7 +63,7 @@ class Comparison {
   std::unique_ptr<SweepEngine> expected_, engine_;
 };
 
-class DeviceStreams : public testing::TestWithParam<Device> {
+class DeviceStreams : public testing::TestWithParam<TestedDevice> {
  protected:
   void SetUp() override {
     if (GetParam().emulated_by) return;
@@ -85,7 +80,7 @@ class DeviceStreams : public testing::TestWithParam<Device> {
   }
 };
 
-std::string name_of_device(const testing::TestParamInfo<Device>& device) {
+std::string name_of_device(const testing::TestParamInfo<TestedDevice>& device) {
   return device.param.name;
 }
 

@@ -41,7 +41,7 @@ struct SweepTimes {
   std::vector<MotionSegment> segments;                 ///< In order.
 };
 
-/// The task of b against a, which stands still at `pose_a`.
+/// The task of b against a, which is stationary at `pose_a`.
 PairTask make_task(const SweepContext& context, const SweepTimes& times, std::uint32_t a, std::uint32_t b,
                    const Pose& pose_a);
 

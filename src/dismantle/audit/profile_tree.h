@@ -31,7 +31,8 @@ double gap(const Arc& p, const Arc& q, double circumference);
 
 /// Directions in the profile plane of a helical motion. With r the distance from the axis, theta the angle about it and
 /// z the position along it, the motion changes neither r nor the helix phase u = z - pitch * theta, which is defined up
-/// to whole turns. In the plane of r and u a thread is one profile, whatever its number of turns and its angle.
+/// to whole turns. In the plane of r and u, all turns of a thread coincide in one profile, independent of
+/// theta.
 struct ProfileFrame {
   static constexpr int kDirections = 8;  ///< Number of directions.
   ///@{ Coordinates of the directions in the plane of r and u; the first is that of r.

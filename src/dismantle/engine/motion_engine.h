@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// How one step towards a target ended, and what it cost.
+/// The result and the cost of one step towards a target.
 struct StepResult {
   Pose pose;             ///< Pose of the moving set after the step.
   bool reached = false;  ///< `pose` is the target.

@@ -13,7 +13,7 @@ struct StageTime {
   double ms = 0;           ///< Summed over the sweeps of the step [ms].
 };
 
-/// What one step of a MotionEngine cost. A method leaves what it does not have at 0.
+/// The cost of one step of a MotionEngine. Members that do not apply to a method are 0.
 struct StepCost {
   double ms = 0;                   ///< Wall time of the whole step [ms].
   std::size_t pairs = 0;           ///< Pairs of hierarchy nodes that the last sweep visited: the size of the front.

@@ -46,7 +46,7 @@ class IsolatedLine {
   double last_report_ = -1;  ///< [s], of a monotonic clock
 };
 
-/// How the child ended.
+/// The ways in which a child process can end.
 enum class IsolatedEnding {
   Done,         ///< The work returned; its bytes are whole.
   Refused,      ///< The work returned an Error.
@@ -58,7 +58,7 @@ enum class IsolatedEnding {
   NotStarted,   ///< The system could not start a process.
 };
 
-/// How a child process ended, and its result.
+/// The ending and the result of a child process.
 struct IsolatedResult {
   IsolatedEnding ending = IsolatedEnding::NotStarted;  ///< How it ended.
   int signal = 0;                                      ///< Crashed: the signal that ended it, or 0.

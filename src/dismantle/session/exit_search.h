@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// How far a set can move straight along one direction.
+/// The free distance of a set along one direction.
 struct FreeDirection {
   Vec3 direction;          ///< Unit [world].
   bool free = false;       ///< The set can leave the assembly's bounding box.
@@ -29,7 +29,7 @@ class ExitSearch {
   /// Distance along a unit direction after which the set is outside the bounding box of the assembled assembly, with a
   /// margin [mm].
   double exit_distance(const Vec3& direction) const;
-  /// How far the set can move along each unit direction.
+  /// The free distance of the set along each unit direction.
   std::vector<FreeDirection> free_distances(Span<const Vec3> directions) const;
   /// Candidate directions: coordinate axes and the normals of contacts within `contact_reach` [mm]. Free ones first,
   /// then by descending distance; those along which the set can hardly move are left out.

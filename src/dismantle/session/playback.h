@@ -33,7 +33,7 @@ class Playback {
         component_count_(assembly.components.size()),
         tolerance_(tolerance) {}
 
-  /// What is played.
+  /// The source of the playback.
   PlaybackSource source() const { return source_; }
   /// Its moves.
   const Timeline& timeline() const { return timeline_; }

@@ -132,8 +132,8 @@ class Session {
   AutomaticKind automatic() const { return automatic_->kind; }
   /// Ends the automatic motion where it is; the motion so far is an entry.
   void halt();
-  /// How far a set can move straight, free directions first. Errors: Usage if the set is empty, its components have
-  /// different poses, or another set is being dragged.
+  /// The free distances of a set along candidate directions, free ones first. Errors: Usage if the set is empty, its
+  /// components have different poses, or another set is being dragged.
   Result<std::vector<FreeDirection>> free_directions(Span<const ComponentId> components);
 
   /// Opens a playback of the source, unless it is open, and plays; backward if `speed` is negative. A recording opens

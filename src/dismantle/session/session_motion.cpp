@@ -65,10 +65,10 @@ std::vector<Frame> targets_along(const Removal& removal, const Pose& start) {
   return targets;
 }
 
-/// How much there is to do from one pose to the next: turns count as if at `lever` [mm].
-double effort(const Pose& a, const Pose& b, double lever) {
+/// Length of the motion from one pose to the next, with rotations counted at `characteristic_length` [mm].
+double effort(const Pose& a, const Pose& b, double characteristic_length) {
   const Screw screw = screw_between(a, b);
-  return length(b.position - a.position) + lever * screw.angle;
+  return length(b.position - a.position) + characteristic_length * screw.angle;
 }
 
 }  // namespace
@@ -171,12 +171,12 @@ std::vector<Frame> Session::way_back(ComponentId component) const {
     for (std::size_t k = entry.frames.size(); k-- > 0;)
       if (!(entry.frames[k].pose == way.back())) way.push_back(entry.frames[k].pose);
   }
-  const double lever = diagonal(assembled_bounds((*assembly_)[component])) / 2;
+  const double characteristic_length = diagonal(assembled_bounds((*assembly_)[component])) / 2;
   double whole = 0, made = 0;
-  for (std::size_t i = 1; i < way.size(); ++i) whole += effort(way[i - 1], way[i], lever);
+  for (std::size_t i = 1; i < way.size(); ++i) whole += effort(way[i - 1], way[i], characteristic_length);
   std::vector<Frame> frames{{0, way[0]}};
   for (std::size_t i = 1; i < way.size(); ++i) {
-    made += effort(way[i - 1], way[i], lever);
+    made += effort(way[i - 1], way[i], characteristic_length);
     frames.push_back({whole > 0 ? kHomeTime * made / whole : 0, way[i]});
   }
   return frames;

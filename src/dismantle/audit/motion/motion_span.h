@@ -10,7 +10,7 @@
 
 namespace dismantle::audit {
 
-/// One screw motion of a move, from frame to frame. The last segment of a move stands still at the last frame, so that
+/// One screw motion of a move, from frame to frame. The last segment of a move is at rest at the last frame, so that
 /// every frame is the start of a segment.
 struct MotionSegment {
   std::size_t frame = 0;  ///< Index of the frame at its start.

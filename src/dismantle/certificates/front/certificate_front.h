@@ -24,7 +24,7 @@ struct TrianglePairCandidate {
   const TrianglePairResult* known = nullptr;  ///< A device's result for the whole sweep; null if it has none.
 };
 
-/// What a front has to know of the test of two triangles.
+/// The part of a triangle pair's test result that a front uses.
 struct TrianglePairVerdict {
   bool free = true;    ///< The two are certainly allowed during all of the sweep.
   float gap = -3e38f;  ///< Lower bound of their distance during the sweep [mm]; below 0: they may overlap.

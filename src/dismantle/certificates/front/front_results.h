@@ -23,7 +23,7 @@ struct FrontQuery {
 
 /// Device result for a pair of nodes whose certificate does not hold.
 struct PairResult {
-  /// How far the device got with the pair.
+  /// The stage that the device reached with the pair.
   enum Kind : std::uint32_t {
     None,       ///< Not evaluated: left to the host.
     Boxes,      ///< `separation` certifies the pair as boxes.

@@ -52,7 +52,7 @@ struct CertificateFront::Work {
     item.proof = static_cast<std::uint32_t>(proofs.size());
     proofs.push_back(certificate);
   }
-  /// How far a device got with the item.
+  /// The stage that a device reached with the item.
   PairResult::Kind known_kind(const Item& item) const {
     return item.known == Item::kNone ? PairResult::None : known_pairs[item.known].kind;
   }

@@ -7,7 +7,7 @@
 
 namespace dismantle {
 
-/// How pairs that overlap within the allowance are kept from changing sides (docs/design/0006-certificates.md,
+/// The rule that keeps pairs that overlap within the allowance from changing sides (docs/design/0006-certificates.md,
 /// "Sides").
 enum class SideRule {
   /// Closed solids: an axis that uses the allowance has to agree with the outward normals. Any such axis may be used,

@@ -14,7 +14,7 @@ namespace dismantle {
 /// these do not cover: embedded pairs that part, and vertices that get too deep in closed components.
 class GuardedMover {
  public:
-  /// What advance() does with a motion further along which a vertex would get too deep.
+  /// The treatment by advance() of a motion along which a vertex would get too deep.
   enum class Shortening {
     Allowed,  ///< Makes the part before that.
     None,     ///< Makes nothing of it.

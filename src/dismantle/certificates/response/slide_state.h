@@ -3,7 +3,7 @@
 
 #include "dismantle/certificates/response/certificate_response.h"
 
-/// What the sources of CertificateResponse share.
+/// Declarations that the sources of CertificateResponse share.
 namespace dismantle {
 
 /// Motions shorter than this share of the tolerance are not made: a resting set keeps its pose bit for bit.

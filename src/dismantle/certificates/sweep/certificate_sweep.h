@@ -47,7 +47,7 @@ struct CertificateSweep {
   std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs;
 };
 
-/// How much work a sweep may do. All budgets are safe; smaller ones are faster, but may block earlier.
+/// The amount of work that a sweep may do. All budgets are safe; smaller ones are faster, but may block earlier.
 enum class SweepBudget {
   Exhaustive,      ///< Tests each triangle pair to its end, and finds all blocked pairs.
   Sampled,         ///< The same for a sample of the blocked pairs.
