@@ -51,7 +51,7 @@ def test_accepts_meshes_of_any_number_type_and_order():
 
 @pytest.mark.parametrize("vertices, faces, why", [
     (np.zeros((3, 2)), [[0, 1, 2]], "another shape"),
-    (np.zeros((3, 3)), [[0, 1, 3]], "names a vertex that it has not"),
+    (np.zeros((3, 3)), [[0, 1, 3]], "a face has an index without a vertex"),
     (np.full((3, 3), np.nan), [[0, 1, 2]], "not finite"),
 ])
 def test_refuses_invalid_meshes(vertices, faces, why):
