@@ -58,7 +58,7 @@ std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double lim
 
 std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach) {
   std::vector<ContactPoint> contacts;
-  for (const BlockedPair& pair : sweeper.near_pairs(reach)) {
+  for (const SweepContact& pair : sweeper.near_pairs(reach)) {
     const Triangle moving = placed(sweeper, pair.moving, pair.face_moving);
     const Triangle fixed = placed(sweeper, pair.fixed, pair.face_fixed);
     const TriangleDistance apart = distance_triangle_triangle(moving, fixed);
@@ -99,7 +99,7 @@ FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target
         sweeper.motion_between(whole.at(static_cast<double>(k) / cuts), whole.at(static_cast<double>(k + 1) / cuts));
     const CertificateSweep found = sweeper.sweep_const(motion, 0);
     if (found.free) continue;
-    const BlockedPair& pair = found.blocked.front();
+    const SweepContact& pair = found.blocked.front();
     return {(k + pair.toi) / cuts, false, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed};
   }
   return first;
@@ -126,7 +126,7 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
     const CertificateSweep found = sweeper.sweep_linear(motion, from, to);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
-                                        [](const BlockedPair& a, const BlockedPair& b) { return a.toi < b.toi; });
+                                        [](const SweepContact& a, const SweepContact& b) { return a.toi < b.toi; });
     to = std::max(from, std::min(from + (to - from) * first->toi, to - shorter));
     shorter *= 2;
     Triangle moving = at(sweeper.solid(motion.moving).triangle(first->face_moving.value), motion.pose_moving);

@@ -64,7 +64,7 @@ double CertificateResponse::advance(const ScrewMotion& motion, double fraction, 
 
 void CertificateResponse::report(const CertificateSweep& sweep, StepResult& result) const {
   result.blocking_pairs.clear();
-  for (const BlockedPair& b : sweep.blocked) {
+  for (const SweepContact& b : sweep.blocked) {
     if (b.toi > sweep.toi + kContactWindow) continue;
     result.blocking_pairs.push_back(blocking_pair_of(b, b.toi));
   }

@@ -68,8 +68,8 @@ class CertificateResponse {
 
   CertificateSweeper& sweeper_;
   GuardedMover mover_;
-  SlideContacts contacts_;             ///< Of the last step of response Slide.
-  std::vector<BlockedPair> stopping_;  ///< The pairs that stopped the last motion of Stop or Touch.
+  SlideContacts contacts_;              ///< Of the last step of response Slide.
+  std::vector<SweepContact> stopping_;  ///< The pairs that stopped the last motion of Stop or Touch.
   double reach_;               ///< Slide and Touch try motions of at most this length [mm]; it grows after free ones.
   unsigned hardly_moved_ = 0;  ///< Times that contacts let the set hardly move since it last did.
 };

@@ -35,15 +35,15 @@ constexpr double kInside = 1e-3;
 /// The smallest cosine of the angle between a cylinder and its bore, up to its sign.
 constexpr double kMinAhead = 0.99;
 
-bool same_faces(const BlockedPair& x, const BlockedPair& y) {
+bool same_faces(const SweepContact& x, const SweepContact& y) {
   return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
 }
 
 }  // namespace
 
-bool SlideContacts::add(const BlockedPair& pair) {
+bool SlideContacts::add(const SweepContact& pair) {
   if (length_squared(pair.axis) == 0) return false;
-  for (BlockedPair& known : pairs_) {
+  for (SweepContact& known : pairs_) {
     if (!same_faces(known, pair)) continue;
     const bool changed = 1 - dot(known.axis, pair.axis) > kSameAxis;
     known = pair;
@@ -53,8 +53,8 @@ bool SlideContacts::add(const BlockedPair& pair) {
   return geometry(pair).patch.count > 0;
 }
 
-bool SlideContacts::add_vertex(const BlockedPair& pair) {
-  for (const BlockedPair& known : vertices_)
+bool SlideContacts::add_vertex(const SweepContact& pair) {
+  for (const SweepContact& known : vertices_)
     if (same_faces(known, pair)) return false;
   vertices_.push_back(pair);
   return geometry(pair).patch.count > 0;
@@ -75,7 +75,7 @@ void SlideContacts::drop_vertices() {
 }
 
 void SlideContacts::choose_axes(const ScrewMotion& motion) {
-  std::erase_if(pairs_, [&](BlockedPair& pair) {
+  std::erase_if(pairs_, [&](SweepContact& pair) {
     const TrianglePairResult found = sweeper_.sweep_pair(pair, motion);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
@@ -83,7 +83,7 @@ void SlideContacts::choose_axes(const ScrewMotion& motion) {
   });
 }
 
-double SlideContacts::fraction_within_reserve(const BlockedPair& pair) const {
+double SlideContacts::fraction_within_reserve(const SweepContact& pair) const {
   if (length_squared(pair.axis) == 0) return 0;
   const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = geometry(pair).gap;
   const double available = gap + allowed - kArcShare * sweeper_.tolerance();
@@ -93,7 +93,7 @@ double SlideContacts::fraction_within_reserve(const BlockedPair& pair) const {
   return pair.toi * std::max(share, kShareBeyondReserve);
 }
 
-SlideContacts::PairGeometry SlideContacts::geometry(const BlockedPair& pair) const {
+SlideContacts::PairGeometry SlideContacts::geometry(const SweepContact& pair) const {
   const RigidTransform moving = transform_from_pose(sweeper_.pose());
   const Pose& fixed_pose = sweeper_.poses()[pair.fixed.value];
   const RigidTransform fixed = transform_from_pose(fixed_pose);
@@ -114,7 +114,7 @@ SlideContacts::PairGeometry SlideContacts::geometry(const BlockedPair& pair) con
 }
 
 void SlideContacts::drop_beyond(double reach) {
-  std::erase_if(pairs_, [&](const BlockedPair& pair) { return geometry(pair).gap > reach; });
+  std::erase_if(pairs_, [&](const SweepContact& pair) { return geometry(pair).gap > reach; });
   std::erase_if(fits_, [&](const BlockedFit& fit) {
     const std::vector<FitEnd> both = ends(fit);
     return std::all_of(both.begin(), both.end(), [reach](const FitEnd& end) { return end.gap > reach; });
@@ -174,7 +174,7 @@ bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double cha
   return bounded;
 }
 
-void SlideContacts::bound(const BlockedPair& pair, double allowed, double characteristic_length,
+void SlideContacts::bound(const SweepContact& pair, double allowed, double characteristic_length,
                           std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
   const PairGeometry s = geometry(pair);
@@ -192,9 +192,9 @@ void SlideContacts::bound(const BlockedPair& pair, double allowed, double charac
 
 SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) const {
   std::vector<HalfSpace> bounds;
-  for (const BlockedPair& pair : pairs_)
+  for (const SweepContact& pair : pairs_)
     bound(pair, sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
-  for (const BlockedPair& pair : vertices_)
+  for (const SweepContact& pair : vertices_)
     bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
   std::vector<BoundingFit> bounding_fits;
   for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
@@ -235,7 +235,7 @@ ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) cons
 
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
   std::vector<ContactPoint> points;
-  for (const BlockedPair& pair : pairs_) {
+  for (const SweepContact& pair : pairs_) {
     const PairGeometry s = geometry(pair);
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.

@@ -29,7 +29,7 @@ class SlideContacts {
   /// True if there are no pairs of triangles.
   bool empty() const { return pairs_.empty(); }
   /// Adds a pair of triangles, or replaces its axis. @return true if it bounds the twist in a new way
-  bool add(const BlockedPair& pair);
+  bool add(const SweepContact& pair);
   /// Adds a cylinder in its bore: one bound at each end instead of those of dozens of triangles.
   /// @return true if it bounds the twist in a new way
   bool add_fit(const BlockedFit& fit);
@@ -38,7 +38,7 @@ class SlideContacts {
   /// Adds a vertex that would get too deep behind a face, until drop_vertices(): no triangle-pair test finds it.
   /// @param pair a face of the vertex and that face
   /// @return true if it bounds the twist in a new way
-  bool add_vertex(const BlockedPair& pair);
+  bool add_vertex(const SweepContact& pair);
   /// Removes all vertices.
   void drop_vertices();
   /// Gives every pair the axis that lets a motion go furthest, and removes pairs that do not block it.
@@ -58,7 +58,7 @@ class SlideContacts {
   Twist nearest(const Twist& wanted, double characteristic_length) const;
 
   /// The fraction of a motion on which `pair` is blocked that should be made, so that kSlideReserve is kept if it can.
-  double fraction_within_reserve(const BlockedPair& pair) const;
+  double fraction_within_reserve(const SweepContact& pair) const;
 
   /// The contacts with a gap of at most `reach` [mm] at the present pose, by components and faces.
   std::vector<ContactPoint> points(double reach) const;
@@ -70,10 +70,10 @@ class SlideContacts {
     ContactPatch patch;  ///< The moving triangle above the fixed one [world].
     double gap = 0;      ///< Along the normal [mm].
   };
-  PairGeometry geometry(const BlockedPair& pair) const;
+  PairGeometry geometry(const SweepContact& pair) const;
   /// Adds the rows of nearest_twist() by which the pair bounds the twist.
   /// @param allowed depth [mm]
-  void bound(const BlockedPair& pair, double allowed, double characteristic_length,
+  void bound(const SweepContact& pair, double allowed, double characteristic_length,
              std::vector<HalfSpace>& bounds) const;
 
   /// An end of the part of a cylinder that is in its bore.
@@ -101,8 +101,8 @@ class SlideContacts {
   Twist solve(const Twist& wanted, double characteristic_length, const std::vector<HalfSpace>& bounds) const;
 
   const CertificateSweeper& sweeper_;
-  std::vector<BlockedPair> pairs_;
-  std::vector<BlockedPair> vertices_;
+  std::vector<SweepContact> pairs_;
+  std::vector<SweepContact> vertices_;
   std::vector<BlockedFit> fits_;
 };
 

@@ -93,7 +93,7 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
                                        const CertificateSweep& found, SlideState& state, StepResult& result) {
   bool news = false;
   double fraction = found.toi;
-  for (const BlockedPair& pair : found.blocked) {
+  for (const SweepContact& pair : found.blocked) {
     news |= contacts_.add(pair);
     fraction = std::min(fraction, contacts_.fraction_within_reserve(pair));
   }
@@ -142,7 +142,7 @@ bool CertificateResponse::add_blocking_vertices(StepResult& result) {
   bool news = false;
   for (const BlockingPair& c : mover_.blocking_vertices()) {
     const bool a_moves = sweeper_.moves(c.a);
-    BlockedPair pair{
+    SweepContact pair{
         a_moves ? c.a : c.b, a_moves ? c.b : c.a, a_moves ? c.face_a : c.face_b, a_moves ? c.face_b : c.face_a, 0, {}};
     // Out of the face that the vertex is behind.
     const bool moving_is_outer = (c.rule == BlockingRule::VertexOfB) == a_moves;

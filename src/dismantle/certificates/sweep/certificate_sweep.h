@@ -10,15 +10,16 @@
 
 namespace dismantle {
 
-/// Two triangles that a sweep has found to get too deep into each other.
-struct BlockedPair {
+/// A contact of two triangles that blocks a sweep: they get deeper than their allowance. The engine reports it
+/// as a BlockingPair, which has no axis.
+struct SweepContact {
   ComponentId moving;  ///< A component of the moving set.
   ComponentId fixed;   ///< The other component.
   FaceId face_moving;  ///< Face of the moving component's mesh.
   FaceId face_fixed;   ///< Face of the fixed component's mesh.
   double toi = 0;      ///< The pair certainly allows the motion on [0, toi].
-  /// Unit, from the moving to the fixed triangle [assembled frame of the fixed component]; zero if no axis separates
-  /// them.
+  /// Last separating axis: unit, from the moving to the fixed triangle [assembled frame of the fixed component]; zero
+  /// if no axis separates them.
   Vec3 axis;
 };
 
@@ -36,12 +37,12 @@ struct CertificateSweep {
   /// False if blocked pairs were left out: `toi` may then be too late, and `blocked` lacks some. A free sweep is always
   /// complete.
   bool complete = true;
-  std::vector<BlockedPair> blocked;  ///< Pairs blocked within the window after the first; by components and faces.
-  std::vector<BlockedFit> fits;      ///< SweepBudget::WholeCylinders: blocked cylinders, taken as one contact each.
-  double clearance = 0;              ///< Lower bound of all distances during the sweep [mm]; 0 if not free.
-  std::size_t front = 0;             ///< Node pairs of the fronts used.
-  std::size_t triangle_tests = 0;    ///< Triangle-pair tests made.
-  std::size_t device_tests = 0;      ///< Those of them that a device made.
+  std::vector<SweepContact> blocked;  ///< Pairs blocked within the window after the first; by components and faces.
+  std::vector<BlockedFit> fits;       ///< SweepBudget::WholeCylinders: blocked cylinders, taken as one contact each.
+  double clearance = 0;               ///< Lower bound of all distances during the sweep [mm]; 0 if not free.
+  std::size_t front = 0;              ///< Node pairs of the fronts used.
+  std::size_t triangle_tests = 0;     ///< Triangle-pair tests made.
+  std::size_t device_tests = 0;       ///< Those of them that a device made.
   /// Moving and fixed: component pairs of which some triangles were neither certainly apart throughout nor met face on
   /// face.
   std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs;

@@ -27,8 +27,8 @@ Pose seen_from(const Pose& frame, const Pose& pose) {
 
 }  // namespace
 
-void sort_blocked(std::vector<BlockedPair>& pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const BlockedPair& x, const BlockedPair& y) {
+void sort_blocked(std::vector<SweepContact>& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const SweepContact& x, const SweepContact& y) {
     if (x.moving != y.moving) return x.moving < y.moving;
     if (x.fixed != y.fixed) return x.fixed < y.fixed;
     if (x.face_moving != y.face_moving) return x.face_moving < y.face_moving;
@@ -159,8 +159,8 @@ TrianglePairTest CertificateSweeper::triangle_pair_test(const PairSweep& pair, P
 
 void CertificateSweeper::finish(CertificateSweep& result, double window) {
   sort_blocked(result.blocked);
-  for (const BlockedPair& b : result.blocked) result.toi = std::min(result.toi, b.toi);
-  std::erase_if(result.blocked, [&](const BlockedPair& b) { return b.toi > result.toi + window; });
+  for (const SweepContact& b : result.blocked) result.toi = std::min(result.toi, b.toi);
+  std::erase_if(result.blocked, [&](const SweepContact& b) { return b.toi > result.toi + window; });
   result.free = result.blocked.empty() && result.fits.empty();
   result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
@@ -264,17 +264,17 @@ void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, co
   });
 }
 
-TrianglePairResult CertificateSweeper::sweep_pair(const BlockedPair& pair, const ScrewMotion& motion) const {
+TrianglePairResult CertificateSweeper::sweep_pair(const SweepContact& pair, const ScrewMotion& motion) const {
   return triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Bounded)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
-CertificateSweep CertificateSweeper::sweep_pairs(Span<const BlockedPair> pairs, const ScrewMotion& motion,
+CertificateSweep CertificateSweeper::sweep_pairs(Span<const SweepContact> pairs, const ScrewMotion& motion,
                                                  double window) const {
   CertificateSweep result;
   std::optional<TrianglePairSweep> triangle_pairs;
-  const BlockedPair* last = nullptr;
-  for (const BlockedPair& pair : pairs) {
+  const SweepContact* last = nullptr;
+  for (const SweepContact& pair : pairs) {
     if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
       triangle_pairs.emplace(triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Exhaustive));
     last = &pair;
@@ -328,7 +328,7 @@ void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSw
                                      CertificateSweep& result) const {
   PartTask task{0, 0, std::min(1.0, result.toi + window), {}, {}, 0};
   const FrontSweep found = front.sweep_const(pair.sweep, kernels_, triangle_pair_test(pair, task, window));
-  for (const BlockedPair& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
+  for (const SweepContact& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
   result.clearance = std::min<double>(result.clearance, found.min_gap - pair.sweep.error);
   result.complete &= found.complete;
@@ -336,8 +336,8 @@ void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSw
   result.front += front.size();
 }
 
-std::vector<BlockedPair> CertificateSweeper::near_pairs(double reach) const {
-  std::vector<BlockedPair> pairs;
+std::vector<SweepContact> CertificateSweeper::near_pairs(double reach) const {
+  std::vector<SweepContact> pairs;
   if (moving_.empty()) return pairs;
   CertificateSweep unused;
   const ScrewMotion rest = motion_to(pose());

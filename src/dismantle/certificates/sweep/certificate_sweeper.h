@@ -44,14 +44,14 @@ class CertificateSweeper {
   /// necessarily the first. Independent of the moving set and of all poses. Free while the two are embedded.
   /// @param from, to the part, as fractions of the displacement
   CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to) const;
-  /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
-  std::vector<BlockedPair> near_pairs(double reach) const;
+  /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more; without axes.
+  std::vector<SweepContact> near_pairs(double reach) const;
   /// Tests one pair of triangles along a motion from the present pose, with SweepBudget::Bounded.
   /// @param pair with the axis to start with
-  TrianglePairResult sweep_pair(const BlockedPair& pair, const ScrewMotion& motion) const;
+  TrianglePairResult sweep_pair(const SweepContact& pair, const ScrewMotion& motion) const;
   /// Tests only these pairs along a motion from the present pose, with SweepBudget::Exhaustive.
   /// @param pairs those of the same components in a row
-  CertificateSweep sweep_pairs(Span<const BlockedPair> pairs, const ScrewMotion& motion, double window) const;
+  CertificateSweep sweep_pairs(Span<const SweepContact> pairs, const ScrewMotion& motion, double window) const;
 
   /// Puts the moving set at `pose` without a test.
   void move_to(const Pose& pose);

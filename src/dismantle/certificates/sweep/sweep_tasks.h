@@ -21,15 +21,15 @@ struct CertificateSweeper::PairSweep {
 
 /// The sweep of one part of one front, and its result.
 struct CertificateSweeper::PartTask {
-  std::size_t pair;                  ///< Index of the PairSweep.
-  std::size_t part;                  ///< Index of the part in its front.
-  double horizon = 1;                ///< Contacts after this time do not matter.
-  FrontSweep found;                  ///< Result of the front.
-  std::vector<BlockedPair> blocked;  ///< Triangle pairs that block the motion.
-  std::size_t device_tests = 0;      ///< Triangle-pair tests that a device made.
+  std::size_t pair;                   ///< Index of the PairSweep.
+  std::size_t part;                   ///< Index of the part in its front.
+  double horizon = 1;                 ///< Contacts after this time do not matter.
+  FrontSweep found;                   ///< Result of the front.
+  std::vector<SweepContact> blocked;  ///< Triangle pairs that block the motion.
+  std::size_t device_tests = 0;       ///< Triangle-pair tests that a device made.
 };
 
 /// Sorts by components and faces.
-void sort_blocked(std::vector<BlockedPair>& pairs);
+void sort_blocked(std::vector<SweepContact>& pairs);
 
 }  // namespace dismantle
