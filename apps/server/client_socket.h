@@ -6,24 +6,25 @@
 
 namespace dismantle::server {
 
-/// Bytes that several clients are sent.
+/// Bytes that are sent to several clients.
 using SharedText = std::shared_ptr<const std::string>;
 
 /// Why the server closes a socket.
 enum class CloseReason {
-  Stopping,   ///< The server ends.
-  Replaced,   ///< The same client has connected anew.
-  Malformed,  ///< It sent too much that could not be understood.
+  Stopping,   ///< The server stops.
+  Replaced,   ///< The same client has connected again.
+  Malformed,  ///< The client sent too many malformed messages.
 };
 
-/// The line to one connected client.
+/// The connection to one client. For the network's thread.
 class ClientSocket {
  public:
   virtual ~ClientSocket() = default;
-  /// Queues a text message; closes the socket where too much is queued already.
+  /// Queues a text message; drops the connection if too much is queued already.
   virtual void send_text(SharedText text) = 0;
-  /// Sends a struct `pose` when the line is free; takes the place of one that waits.
+  /// Sends a struct `pose` after the queued texts; replaces one that has not been sent yet.
   virtual void send_pose(SharedText bytes) = 0;
+  /// Closes the connection with the WebSocket close code of the reason.
   virtual void close(CloseReason reason) = 0;
 };
 

@@ -12,19 +12,19 @@ constexpr std::size_t kMaxTasks = 1000;
 EngineLoop::EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals, Jobs& jobs)
     : listener_(listener),
       bench_(std::move(roots), std::move(journals),
-             [this, &jobs](const Search& wanted) { return search(jobs, wanted); }),
+             [this, &jobs](const SearchRequest& request) { return start_search(jobs, request); }),
       thread_([this] { run(); }) {}
 
 EngineLoop::~EngineLoop() {
   stop();
 }
 
-Result<std::uint32_t> EngineLoop::search(Jobs& jobs, const Search& wanted) {
-  return jobs.start(search_name(wanted), [this, wanted](const ProgressCallback& progress) -> Result<Jobs::Finish> {
-    Result<Finding> found = run_search(wanted, progress);
+Result<std::uint32_t> EngineLoop::start_search(Jobs& jobs, const SearchRequest& request) {
+  return jobs.start(search_name(request), [this, request](const ProgressCallback& progress) -> Result<Jobs::Finish> {
+    Result<SearchResult> found = run_search(request, progress);
     if (!found) return found.error();
-    return Jobs::Finish([this, finding = std::move(*found)] {
-      post_always([finding](Workbench& bench) { bench.take_finding(finding); });
+    return Jobs::Finish([this, result = std::move(*found)] {
+      post_always([result](Workbench& bench) { bench.apply_search_result(result); });
     });
   });
 }
@@ -47,18 +47,18 @@ void EngineLoop::post_always(Task task) {
   wake_.notify_one();
 }
 
-void EngineLoop::set_wanted(const std::variant<TargetMessage, RateMessage>& wanted) {
+void EngineLoop::set_input(const DragInput& input) {
   {
     const std::lock_guard lock(mutex_);
-    wanted_ = Wanted{wanted, Clock::now()};
+    input_ = PendingInput{input, Clock::now()};
   }
   wake_.notify_one();
 }
 
-void EngineLoop::adopt(Model model) {
-  // std::function wants what it holds to be copyable.
+void EngineLoop::set_model(Model model) {
+  // std::function requires copyable captures.
   post_always([this, shared = std::make_shared<Model>(std::move(model))](Workbench& bench) {
-    bench.adopt(std::move(*shared));
+    bench.set_model(std::move(*shared));
     listener_.on_event({EngineEvent::Kind::Model, false, text_of(model_json(*bench.model()))});
   });
 }
@@ -72,16 +72,16 @@ void EngineLoop::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-bool EngineLoop::take_work(std::deque<Task>& tasks, std::optional<Wanted>& wanted) {
+bool EngineLoop::take_work(std::deque<Task>& tasks, std::optional<PendingInput>& input) {
   std::unique_lock lock(mutex_);
-  const auto has_work = [this] { return stopping_ || !tasks_.empty() || wanted_; };
-  if (!bench_.wants_step()) {
+  const auto has_work = [this] { return stopping_ || !tasks_.empty() || input_; };
+  if (!bench_.needs_step()) {
     wake_.wait(lock, has_work);
   } else {
     wake_.wait_until(lock, next_step_, [this] { return stopping_ || !tasks_.empty(); });
   }
   tasks.swap(tasks_);
-  wanted = std::exchange(wanted_, {});
+  input = std::exchange(input_, {});
   return !stopping_ || !tasks.empty();
 }
 
@@ -98,29 +98,29 @@ void EngineLoop::make_step(Clock::time_point now) {
   std::optional<PoseMessage> pose = bench_.step(now);
   if (!pose) return;
   const Clock::time_point end = Clock::now();
-  if (unanswered_)
-    bench_.statistics().add_answer(std::chrono::duration<double, std::micro>(end - *unanswered_).count());
-  unanswered_.reset();
+  if (input_arrival_)
+    bench_.statistics().add_latency(std::chrono::duration<double, std::micro>(end - *input_arrival_).count());
+  input_arrival_.reset();
   pose->steps_per_second = static_cast<float>(bench_.statistics().steps_per_second(end));
   listener_.on_pose(encode(*pose));
 }
 
 void EngineLoop::run() {
   std::deque<Task> tasks;
-  std::optional<Wanted> wanted;
-  while (take_work(tasks, wanted)) {
-    if (wanted) {
-      std::visit([this](const auto& message) { bench_.set_wanted(message); }, wanted->message);
-      unanswered_ = wanted->arrived;
+  std::optional<PendingInput> input;
+  while (take_work(tasks, input)) {
+    if (input) {
+      std::visit([this](const auto& message) { bench_.set_input(message); }, input->message);
+      input_arrival_ = input->arrival;
     }
-    // Targets before a command are processed before it: the last one counts on release.
-    if (!tasks.empty() && unanswered_) make_step(Clock::now());
+    // The input before a command is processed first: the last target counts on release.
+    if (!tasks.empty() && input_arrival_) make_step(Clock::now());
     for (const Task& task : tasks) task(bench_);
     tasks.clear();
     publish_state();
     if (const Clock::time_point now = Clock::now(); now >= next_step_) make_step(now);
-    publish_state();  // what ended by itself
-    if (!bench_.wants_step()) unanswered_.reset();
+    publish_state();  // an automatic motion may have ended
+    if (!bench_.needs_step()) input_arrival_.reset();
   }
 }
 

@@ -14,70 +14,75 @@ namespace dismantle::server {
 
 /// An event of docs/wire.md.
 struct EngineEvent {
+  /// The events `model`, `state` and `log`.
   enum class Kind { Model, State, Log };
-  Kind kind = Kind::State;
+  Kind kind = Kind::State;   ///< Which event it is.
   bool is_dragging = false;  ///< State: a set is being dragged.
-  std::string text;
+  std::string text;          ///< The JSON message.
 };
 
 /// Receives the events of an engine loop, on the loop's thread.
 class EngineListener {
  public:
   virtual ~EngineListener() = default;
-  /// A struct `pose`; only the newest matters.
+  /// Receives a struct `pose`, encoded. It may be dropped when a newer one follows.
   virtual void on_pose(std::string bytes) = 0;
-  /// None may be lost.
+  /// Receives an event. Events must not be dropped.
   virtual void on_event(EngineEvent event) = 0;
 };
 
-/// The thread that owns the workbench: at most a thousand steps a second while something moves, asleep while nothing
-/// does. Apart from the network, so that neither waits for the other.
+/// The thread that owns the workbench. It makes at most a thousand steps a second while something moves, and sleeps
+/// while nothing does. Separate from the network's thread, so that neither waits for the other. All public functions
+/// may be called from any thread, unless they say otherwise.
 class EngineLoop {
  public:
+  /// Work for the loop's thread.
   using Task = std::function<void(Workbench&)>;
 
-  /// Starts the thread. `listener` and `jobs`, which searches are done by, must outlive the loop. The others: as of
-  /// Workbench.
+  /// Starts the thread. `listener`, and `jobs`, which runs the searches, must outlive the loop. The other parameters
+  /// are those of Workbench.
   EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals, Jobs& jobs);
   ~EngineLoop();
   EngineLoop(const EngineLoop&) = delete;
   EngineLoop& operator=(const EngineLoop&) = delete;
 
-  /// Has the task done on the loop's thread; tasks are done in order. @return false where too many wait already
+  /// Queues a task, which runs on the loop's thread; tasks run in order. @return false if too many are queued
   bool post(Task task);
-  /// As post(), for the few tasks that must not be refused.
+  /// As post(), without the limit on queued tasks.
   void post_always(Task task);
-  /// Replaces the target that the loop has not looked at yet.
-  void set_wanted(const std::variant<TargetMessage, RateMessage>& wanted);
-  /// Tells the listener of the state, where it has changed. For tasks that have to say so before they answer.
+  /// Sets the target or the velocity of the dragged set; replaces an input that has not been processed yet.
+  void set_input(const DragInput& input);
+  /// Emits the event `state` if the state has changed, and a `log` event for a new warning. Called by tasks whose reply
+  /// must come after the state. @pre called on the loop's thread
   void publish_state();
-  /// Opens a model and tells the listener.
-  void adopt(Model model);
-  /// Ends the thread after the tasks that wait. Safe to call twice.
+  /// Replaces the model and emits the event `model`.
+  void set_model(Model model);
+  /// Runs the queued tasks and ends the thread. Safe to call twice.
   void stop();
 
  private:
   using Clock = Workbench::Clock;
-  struct Wanted {
-    std::variant<TargetMessage, RateMessage> message;
-    Clock::time_point arrived;
+  struct PendingInput {
+    DragInput message;
+    Clock::time_point arrival;
   };
 
-  Result<std::uint32_t> search(Jobs& jobs, const Search& wanted);
+  /// Starts a job that runs the search and applies its result on the loop's thread.
+  Result<std::uint32_t> start_search(Jobs& jobs, const SearchRequest& request);
   void run();
-  /// Waits for something to do and takes it; false where the loop shall end.
-  bool take_work(std::deque<Task>& tasks, std::optional<Wanted>& wanted);
+  /// Waits for tasks, an input or the next step, and takes the tasks and the input; false if the loop must end.
+  bool take_work(std::deque<Task>& tasks, std::optional<PendingInput>& input);
   void make_step(Clock::time_point now);
 
   EngineListener& listener_;
-  Workbench bench_;
+  Workbench bench_;  ///< Of the loop's thread.
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Task> tasks_;
-  std::optional<Wanted> wanted_;
+  std::optional<PendingInput> input_;
   bool stopping_ = false;
   Clock::time_point next_step_ = Clock::now();
-  std::optional<Clock::time_point> unanswered_;  ///< When the target came that no step was made for.
+  std::optional<Clock::time_point> input_arrival_;  ///< Of the newest input, until a step has been made for it.
   std::thread thread_;
 };
 

@@ -8,7 +8,7 @@ namespace dismantle::server {
 
 namespace {
 
-constexpr std::string_view kDoor = "/api/export/";
+constexpr std::string_view kExportPrefix = "/api/export/";
 
 struct ExportName {
   std::string_view name;
@@ -32,9 +32,9 @@ bool has(const RequestTarget& target, const std::string& name, std::string_view 
 }  // namespace
 
 std::optional<ExportRequest> parse_export(const RequestTarget& target) {
-  if (target.path.compare(0, kDoor.size(), kDoor) != 0) return {};
+  if (target.path.compare(0, kExportPrefix.size(), kExportPrefix) != 0) return {};
   for (const ExportName& known : kNames) {
-    if (target.path.compare(kDoor.size(), std::string::npos, known.name) != 0) continue;
+    if (target.path.compare(kExportPrefix.size(), std::string::npos, known.name) != 0) continue;
     const bool is_reversed = has(target, "reverse", "1") && depends_on_direction(known.format);
     return ExportRequest{known.format, std::string(known.content_type),
                          is_reversed ? PathDirection::Reversed : PathDirection::Forward,
@@ -62,12 +62,12 @@ Result<ExportSource> export_source(const ExportRequest& request, const Model* mo
   return source;
 }
 
-HttpAnswer export_answer(const ExportRequest& request, const ExportSource& source) {
+HttpResponse export_response(const ExportRequest& request, const ExportSource& source) {
   ExportOptions options;
   options.direction = request.direction;
   options.viewer = viewer_files();
   Result<std::string> file = exported_file(request.format, *source.assembly, source.path, options);
-  if (!file) return error_answer(500, file.error().message);
+  if (!file) return error_response(500, file.error().message);
   return {200, request.content_type, std::make_shared<const std::string>(std::move(*file)), {}};
 }
 

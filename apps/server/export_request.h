@@ -11,27 +11,28 @@
 
 namespace dismantle::server {
 
-/// A file that a client asks for under /api/export/ (docs/wire.md).
+/// A request for a file under /api/export/ (docs/wire.md).
 struct ExportRequest {
-  ExportFormat format = ExportFormat::Glb;
-  std::string content_type;
-  PathDirection direction = PathDirection::Forward;
-  bool of_guide = false;  ///< Not the recording, but the path that is followed.
+  ExportFormat format = ExportFormat::Glb;           ///< Of the file.
+  std::string content_type;                          ///< MIME type of the response.
+  PathDirection direction = PathDirection::Forward;  ///< Reversed: assembly instead of disassembly.
+  bool of_guide = false;                             ///< Exports the guide instead of the recording.
 };
 
-/// The data to export, captured while nothing moves.
+/// The data to export: a copy, so that the file can be made on any thread.
 struct ExportSource {
-  std::shared_ptr<const Assembly> assembly;
-  Path path;
+  std::shared_ptr<const Assembly> assembly;  ///< The open assembly.
+  Path path;                                 ///< The recording or the guide; may have no moves.
 };
 
-/// None where there is no such file.
+/// Parses a request target; none if it is not an export.
 std::optional<ExportRequest> parse_export(const RequestTarget& target);
 
-/// Errors: Usage where nothing is open, or there is no path; Unreadable as of parse_path.
+/// Captures the data to export. `model` is null if no assembly is open. Call on the engine loop's thread. Errors: Usage
+/// if no assembly is open, or there is no path; Unreadable as of parse_path.
 Result<ExportSource> export_source(const ExportRequest& request, const Model* model);
 
-/// Makes the file; may take seconds.
-HttpAnswer export_answer(const ExportRequest& request, const ExportSource& source);
+/// Makes the file and the response with it; 500 if that fails. May take seconds. For any thread.
+HttpResponse export_response(const ExportRequest& request, const ExportSource& source);
 
 }  // namespace dismantle::server

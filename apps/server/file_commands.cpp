@@ -28,13 +28,13 @@ std::string_view name_of(RootEntry::Kind kind) {
   return "";
 }
 
-/// A text member; empty where there is none.
+/// A text member; empty if it is missing.
 std::string text_member(const Json& command, const char* name) {
   const auto found = command.find(name);
   return found != command.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// A whole number; more than any list has where there is none.
+/// An index; the largest number, which is beyond every list, if it is missing.
 std::uint64_t index_member(const Json& command, const char* name) {
   const auto found = command.find(name);
   return found != command.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
@@ -65,8 +65,8 @@ bool FileCommands::knows(std::string_view command) const {
   return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
 }
 
-bool FileCommands::is_question(std::string_view command) const {
-  return knows(command) && command != "open";
+bool FileCommands::needs_control(std::string_view command) const {
+  return command == "open";
 }
 
 Result<Json> FileCommands::execute(const Json& command) {
@@ -94,7 +94,7 @@ Result<Json> FileCommands::files(const Json& command) const {
 
 std::vector<fs::path> FileCommands::recent_in_roots() const {
   std::vector<fs::path> files = recent_.list();
-  std::erase_if(files, [this](const fs::path& file) { return !roots_.contain(file); });
+  std::erase_if(files, [this](const fs::path& file) { return !roots_.contains(file); });
   return files;
 }
 
@@ -128,7 +128,7 @@ Result<Json> FileCommands::cancel(const Json& command) {
 Result<Jobs::Finish> FileCommands::load(const fs::path& file, const ProgressCallback& progress) const {
   Result<Model> model = load_model(file, options_, progress);
   if (!model) return model.error();
-  // std::function wants what it holds to be copyable.
+  // std::function requires copyable captures.
   return Jobs::Finish([this, shared = std::make_shared<Model>(std::move(*model))] { on_model_(std::move(*shared)); });
 }
 

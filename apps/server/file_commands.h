@@ -12,10 +12,13 @@
 
 namespace dismantle::server {
 
-/// The commands of docs/wire.md that are about files: samples, files, recent, open, cancel.
+/// The file commands of docs/wire.md: samples, files, recent, open, cancel. For the network's thread.
 class FileCommands final : public ServerCommands {
  public:
-  /// @param jobs must outlive this; `on_model` is called on a job's thread
+  /// @param roots the folders that clients may read
+  /// @param options for loading assemblies
+  /// @param jobs runs the imports; must outlive this
+  /// @param on_model receives each loaded model, on the job's thread
   FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs& jobs, std::function<void(Model)> on_model)
       : roots_(std::move(roots)),
         options_(std::move(options)),
@@ -24,15 +27,17 @@ class FileCommands final : public ServerCommands {
         on_model_(std::move(on_model)) {}
 
   bool knows(std::string_view command) const override;
-  bool is_question(std::string_view command) const override;
+  bool needs_control(std::string_view command) const override;
   Result<Json> execute(const Json& command) override;
 
+  /// The folders that clients may read.
   const Roots& roots() const { return roots_; }
-  /// Opens a file that need not be below a root. @return the job's number. Errors: Usage where one is being opened.
+  /// Starts a job that loads a file, below a root or not. @return the job's number. Errors: Usage if a job is running.
   Result<std::uint32_t> open_file(const std::filesystem::path& file);
-  /// As open_file(), and removes the file and its folder afterwards.
+  /// As open_file(), and removes the file and its folder in any case.
   Result<std::uint32_t> open_upload(const std::filesystem::path& file);
-  /// Errors: also Usage where there is no such sample.
+  /// As open_file(), for a bundled sample. Errors: also Usage if there is no such sample, Failed if no temporary file
+  /// can be written.
   Result<std::uint32_t> open_sample(const std::string& name);
 
  private:
@@ -51,10 +56,10 @@ class FileCommands final : public ServerCommands {
   std::function<void(Model)> on_model_;
 };
 
-/// Removes an upload and the folder that was made for it.
+/// Removes a file and then its folder, if that is empty. Errors are ignored.
 void remove_with_folder(const std::filesystem::path& file);
 
-/// A new folder of our own in the system's folder for temporary files. Errors: Failed.
+/// Creates a folder with a unique name in the system's folder for temporary files. Errors: Failed.
 Result<std::filesystem::path> new_temporary_folder();
 
 }  // namespace dismantle::server

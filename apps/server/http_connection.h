@@ -9,9 +9,9 @@
 
 namespace dismantle::server {
 
-/// Serves the requests of a connection until it ends or becomes a socket. `site` must outlive the io_context's run.
-/// Requests that break a rule of docs/wire.md are answered before anything of their body is read.
-/// @param count held as long as the connection is: its owner counts the holders
+/// Serves the requests of a connection until it is closed or upgraded to a WebSocket. `site` must outlive the run of
+/// the io_context. Requests that break a rule of docs/wire.md are rejected before their body is read.
+/// @param count held for the lifetime of the connection: its use count gives the number of connections
 void serve_connection(boost::asio::ip::tcp::socket socket, Site& site, std::shared_ptr<const void> count);
 
 }  // namespace dismantle::server

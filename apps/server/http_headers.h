@@ -9,8 +9,8 @@
 
 namespace dismantle::server {
 
-/// The headers that every answer has, the socket's handshake too (docs/wire.md, "Doors").
-inline void add_safety_headers(boost::beast::http::fields& headers) {
+/// Sets the security headers of every response, also of the WebSocket handshake (docs/wire.md, "Access").
+inline void add_security_headers(boost::beast::http::fields& headers) {
   headers.set("Content-Security-Policy", AccessRules::content_security_policy().data());
   headers.set("X-Content-Type-Options", "nosniff");
   headers.set("Cross-Origin-Opener-Policy", "same-origin");

@@ -7,18 +7,19 @@ namespace dismantle::server {
 
 namespace {
 
-constexpr std::size_t kAnswersKept = 256;
-constexpr int kMaxFaults = 100;
-constexpr std::chrono::seconds kControlKept{10};
-/// Clients that were gone for longer are forgotten.
-constexpr std::chrono::minutes kClientKept{10};
+constexpr std::size_t kMaxReplies = 256;
+constexpr int kMaxMalformed = 100;
+/// A client that is disconnected for longer loses control.
+constexpr std::chrono::seconds kControlTimeout{10};
+/// A client that is disconnected for longer is forgotten.
+constexpr std::chrono::minutes kClientTimeout{10};
 
 SharedText shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
 }
 
-/// That a socket was closed before the command of this id was sent again; its answer is not known any more.
-Error forgotten() {
+/// The error for a repeated command whose reply is no longer stored.
+Error expired_reply() {
   return {ErrorKind::Failed,
           "the reply to this command is no longer stored (it was sent long ago); look at the "
           "state"};
@@ -29,7 +30,7 @@ Error forgotten() {
 Hub::Hub(EngineLoop& engine, ServerCommands& commands, Post post)
     : engine_(engine), commands_(commands), post_(std::move(post)) {}
 
-void Hub::set_greeting(const Json& hello) {
+void Hub::set_hello(const Json& hello) {
   hello_ = shared(text_of(hello));
 }
 
@@ -41,45 +42,46 @@ std::size_t Hub::client_count() const {
 void Hub::connect(const std::string& key, ClientSocket& socket) {
   const auto [place, is_new] = clients_.try_emplace(key);
   Client& client = place->second;
-  if (is_new) client.arrival = ++arrivals_;
+  if (is_new) client.order = ++known_clients_;
   if (client.socket != nullptr) client.socket->close(CloseReason::Replaced);
   client.socket = &socket;
-  client.faults = 0;
+  client.malformed_messages = 0;
   if (controller_.empty()) controller_ = key;
 
   socket.send_text(hello_);
   send_control();
   if (model_) socket.send_text(model_);
   for (const auto& [job, text] : jobs_) socket.send_text(text);
-  // A state of now: while something moves, the last one is of before.
-  engine_.post_always([](Workbench& bench) { bench.tell_state(); });
+  // While something moves, the last state is outdated.
+  engine_.post_always([](Workbench& bench) { bench.request_state(); });
 }
 
 void Hub::disconnect(const std::string& key, ClientSocket& socket) {
   const auto found = clients_.find(key);
   if (found == clients_.end() || found->second.socket != &socket) return;
   found->second.socket = nullptr;
-  found->second.lost_at = Clock::now();
+  found->second.disconnected_at = Clock::now();
   send_control();
 }
 
 void Hub::tick(Clock::time_point now) {
   const auto controller = clients_.find(controller_);
   if (controller != clients_.end() && controller->second.socket == nullptr &&
-      now - controller->second.lost_at > kControlKept)
+      now - controller->second.disconnected_at > kControlTimeout)
     give_control({});
   std::erase_if(clients_, [&](const auto& entry) {
-    return entry.second.socket == nullptr && entry.first != controller_ && now - entry.second.lost_at > kClientKept;
+    return entry.second.socket == nullptr && entry.first != controller_ &&
+           now - entry.second.disconnected_at > kClientTimeout;
   });
 }
 
 void Hub::give_control(const std::string& key) {
-  engine_.post_always([](Workbench& bench) { bench.let_go(); });
+  engine_.post_always([](Workbench& bench) { bench.stop_motion(); });
   controller_ = key;
-  if (key.empty()) {  // to whoever has been here longest
+  if (key.empty()) {  // to the client that has been known longest
     const Client* oldest = nullptr;
     for (const auto& [name, client] : clients_) {
-      if (client.socket == nullptr || (oldest != nullptr && oldest->arrival < client.arrival)) continue;
+      if (client.socket == nullptr || (oldest != nullptr && oldest->order < client.order)) continue;
       oldest = &client;
       controller_ = name;
     }
@@ -105,80 +107,81 @@ Result<Json> Hub::take_control(const std::string& key) {
   return Json::object();
 }
 
-void Hub::fault(Client& client, const std::string& why) {
+void Hub::report_malformed(Client& client, const std::string& why) {
   if (client.socket == nullptr) return;
   client.socket->send_text(shared(text_of(Json{{"event", "error"}, {"error", why}})));
-  if (++client.faults >= kMaxFaults) client.socket->close(CloseReason::Malformed);
+  if (++client.malformed_messages >= kMaxMalformed) client.socket->close(CloseReason::Malformed);
 }
 
-void Hub::take_binary(const std::string& key, std::string_view bytes) {
+void Hub::receive_binary(const std::string& key, std::string_view bytes) {
   counters_.bytes_in += bytes.size();
   const auto found = clients_.find(key);
   if (found == clients_.end()) return;
   const auto message = decode_from_client(bytes);
   if (!message) {
-    fault(found->second,
-          "a binary message was not understood (it is not a struct of docs/wire.md, or its values are invalid); "
-          "correct the client");
+    report_malformed(
+        found->second,
+        "a binary message was not understood (it is not a struct of docs/wire.md, or its values are invalid); "
+        "correct the client");
   } else if (key == controller_) {
-    engine_.set_wanted(*message);
+    engine_.set_input(*message);
   }
 }
 
-void Hub::take_text(const std::string& key, std::string_view text) {
+void Hub::receive_text(const std::string& key, std::string_view text) {
   counters_.bytes_in += text.size();
   const auto found = clients_.find(key);
   if (found == clients_.end()) return;
   const Json command = Json::parse(text, nullptr, false);
   if (!command.is_object() || !command.contains("id") || !command["id"].is_number_unsigned() ||
       !command.contains("command") || !command["command"].is_string())
-    return fault(
+    return report_malformed(
         found->second,
         "a text message was not understood (it is not a JSON object with an id and a command); correct the client");
-  take_command(key, found->second, command);
+  receive_command(key, found->second, command);
 }
 
-void Hub::take_command(const std::string& key, Client& client, const Json& command) {
+void Hub::receive_command(const std::string& key, Client& client, const Json& command) {
   const auto id = command["id"].get<std::uint64_t>();
   if (id > client.last_id) {
     client.last_id = id;
     return run_command(key, id, command);
   }
-  // Sent again after a reconnect: an answer that is still to come goes to the new socket by itself.
-  const auto known = client.answers.find(id);
-  if (known == client.answers.end()) return answer(key, id, forgotten());
+  // Repeated after a reconnect. A reply that is still pending goes to the new socket.
+  const auto known = client.replies.find(id);
+  if (known == client.replies.end()) return reply(key, id, expired_reply());
   if (known->second) client.socket->send_text(known->second);
 }
 
 void Hub::run_command(const std::string& key, std::uint64_t id, const Json& command) {
   Client& client = clients_.at(key);
-  client.answers[id] = nullptr;
-  while (client.answers.size() > kAnswersKept) client.answers.erase(client.answers.begin());
+  client.replies[id] = nullptr;
+  while (client.replies.size() > kMaxReplies) client.replies.erase(client.replies.begin());
 
   const auto name = command["command"].get<std::string>();
-  if (name == "take_control") return answer(key, id, take_control(key));
-  const bool is_question = commands_.knows(name) ? commands_.is_question(name) : Workbench::is_question(name);
-  if (key != controller_ && !is_question)
-    return answer(
+  if (name == "take_control") return reply(key, id, take_control(key));
+  const bool needs_control = commands_.knows(name) ? commands_.needs_control(name) : Workbench::needs_control(name);
+  if (key != controller_ && needs_control)
+    return reply(
         key, id,
         Error{ErrorKind::Usage, "'" + name + "' cannot be done (another page is in control); take control first"});
-  if (commands_.knows(name)) return answer(key, id, commands_.execute(command));
-  ask_engine(key, id, command);
+  if (commands_.knows(name)) return reply(key, id, commands_.execute(command));
+  post_to_engine(key, id, command);
 }
 
-void Hub::ask_engine(const std::string& key, std::uint64_t id, const Json& command) {
+void Hub::post_to_engine(const std::string& key, std::uint64_t id, const Json& command) {
   const bool is_metrics = command["command"] == "metrics";
   const bool posted = engine_.post([this, key, id, command, is_metrics](Workbench& bench) {
     Result<Json> result = bench.execute(command);
-    engine_.publish_state();  // so that who reads the answer has read the state
+    engine_.publish_state();  // the state precedes the reply
     post_([this, key, id, is_metrics, result = std::move(result)] {
-      is_metrics&& result ? answer_metrics(key, id, *result) : answer(key, id, result);
+      is_metrics&& result ? reply_metrics(key, id, *result) : reply(key, id, result);
     });
   });
-  if (!posted) answer(key, id, Error{ErrorKind::Failed, "the command was rejected (too many are pending); try again"});
+  if (!posted) reply(key, id, Error{ErrorKind::Failed, "the command was rejected (too many are pending); try again"});
 }
 
-void Hub::answer_metrics(const std::string& key, std::uint64_t id, Json json) {
+void Hub::reply_metrics(const std::string& key, std::uint64_t id, Json json) {
   json["uptime"] = std::chrono::duration<double>(Clock::now() - started_).count();
   json["clients"] = client_count();
   json["pose_frames"] = counters_.pose_frames;
@@ -186,10 +189,10 @@ void Hub::answer_metrics(const std::string& key, std::uint64_t id, Json json) {
   json["bytes_in"] = counters_.bytes_in;
   json["bytes_out"] = counters_.bytes_out;
   json["refused"] = counters_.refused;
-  answer(key, id, json);
+  reply(key, id, json);
 }
 
-void Hub::answer(const std::string& key, std::uint64_t id, const Result<Json>& result) {
+void Hub::reply(const std::string& key, std::uint64_t id, const Result<Json>& result) {
   const auto found = clients_.find(key);
   if (found == clients_.end()) return;
   Json json{{"reply", id}, {"ok", result.ok()}};
@@ -199,7 +202,7 @@ void Hub::answer(const std::string& key, std::uint64_t id, const Result<Json>& r
     json["error"] = result.error().message;
   }
   SharedText text = shared(text_of(json));
-  if (const auto kept = found->second.answers.find(id); kept != found->second.answers.end()) kept->second = text;
+  if (const auto kept = found->second.replies.find(id); kept != found->second.replies.end()) kept->second = text;
   if (found->second.socket != nullptr) found->second.socket->send_text(std::move(text));
 }
 

@@ -14,73 +14,87 @@
 
 namespace dismantle::server {
 
-/// Counters of the network.
+/// Counters of the network, for the command `metrics`.
 struct HubCounters {
-  std::uint64_t pose_frames = 0;     ///< Structs `pose` that the engine made.
-  std::uint64_t dropped_frames = 0;  ///< Of them, times clients: overtaken by newer ones before they were sent.
-  std::uint64_t bytes_in = 0, bytes_out = 0;
-  std::uint64_t refused = 0;  ///< Requests and sockets without the right Host, Origin or token.
+  std::uint64_t pose_frames = 0;     ///< Structs `pose` from the engine.
+  std::uint64_t dropped_frames = 0;  ///< Poses replaced by newer ones before they were sent, counted for each client.
+  std::uint64_t bytes_in = 0;        ///< Bytes of messages received.
+  std::uint64_t bytes_out = 0;       ///< Bytes sent.
+  std::uint64_t refused = 0;         ///< Requests rejected because of Host, Origin, token or target.
 };
 
-/// The commands that are the server's and not the engine's: files, imports.
+/// Commands that the server executes itself, without the engine: files and imports. For the network's thread.
 class ServerCommands {
  public:
   virtual ~ServerCommands() = default;
+  /// True if it executes commands of this name.
   virtual bool knows(std::string_view command) const = 0;
-  /// True if it changes nothing that others see, so that every client may send it.
-  virtual bool is_question(std::string_view command) const = 0;
-  /// @pre knows(command["command"])
+  /// True if only the client in control may send the command. @pre knows(command)
+  virtual bool needs_control(std::string_view command) const = 0;
+  /// Executes a command. @return the members of its reply, or the error. @pre knows(command["command"])
   virtual Result<Json> execute(const Json& command) = 0;
 };
 
-/// The clients of the server: who is in control, what each was answered, what those who come later must be told.
-/// Everything on the network's thread.
+/// The clients of the server: routes their commands and inputs, stores the replies for clients that reconnect, decides
+/// which client is in control, and broadcasts events and poses. For the network's thread.
 class Hub {
  public:
+  /// The clock of tick().
   using Clock = std::chrono::steady_clock;
-  /// Runs something on the network's thread.
+  /// Queues a function, which runs on the network's thread. Called from any thread.
   using Post = std::function<void(std::function<void()>)>;
 
+  /// A hub without clients. `engine` and `commands` must outlive it.
   Hub(EngineLoop& engine, ServerCommands& commands, Post post);
 
-  /// A client is there (again). Sends it what it must know.
+  /// Adds the socket of a new or a returning client, and sends it the events that docs/wire.md lists. A previous socket
+  /// of the client is closed. `socket` must live until disconnect() or until it is replaced.
   void connect(const std::string& key, ClientSocket& socket);
-  /// A socket is gone.
+  /// Removes a closed socket; ignored if the client has connected again since.
   void disconnect(const std::string& key, ClientSocket& socket);
-  void take_text(const std::string& key, std::string_view text);
-  void take_binary(const std::string& key, std::string_view bytes);
+  /// Executes a text message of a client: a command.
+  void receive_text(const std::string& key, std::string_view text);
+  /// Processes a binary message of a client: a target or a velocity, ignored unless the client is in control.
+  void receive_binary(const std::string& key, std::string_view bytes);
 
+  /// Sends an event to all clients.
   void broadcast_event(EngineEvent event);
+  /// Sends an encoded struct `pose` to all clients.
   void broadcast_pose(std::string bytes);
-  /// An event `job`: as broadcast_event(), and told to those who come while the job runs.
+  /// Sends an event `job` to all clients, and to those that connect while the job runs.
   void broadcast_job(std::uint32_t job, std::string text, bool running);
-  /// To be called now and then: gives control away whose client was gone for too long.
+  /// Passes on the control of a client that has been disconnected for too long, and forgets old clients. Call about
+  /// once a second.
   void tick(Clock::time_point now);
+  /// Closes all sockets.
   void close_all(CloseReason reason);
 
+  /// True if the client is in control.
   bool is_in_control(const std::string& key) const { return key == controller_; }
+  /// Number of connected clients.
   std::size_t client_count() const;
+  /// Counters, which the connections update too.
   HubCounters& counters() { return counters_; }
-  /// The event `hello`. @pre set before the first client connects
-  void set_greeting(const Json& hello);
+  /// Sets the event `hello`. @pre called before the first client connects
+  void set_hello(const Json& hello);
 
  private:
   struct Client {
     ClientSocket* socket = nullptr;               ///< null: not connected
     std::uint64_t last_id = 0;                    ///< Of the newest command.
-    std::map<std::uint64_t, SharedText> answers;  ///< Of the last commands.
-    int faults = 0;
-    std::uint64_t arrival = 0;  ///< Clients in the order in which they came first.
-    Clock::time_point lost_at;
+    std::map<std::uint64_t, SharedText> replies;  ///< Of the last commands, by id; null: pending.
+    int malformed_messages = 0;                   ///< Since the client connected.
+    std::uint64_t order = 0;                      ///< Position among the clients, by first connection.
+    Clock::time_point disconnected_at;
   };
 
-  void take_command(const std::string& key, Client& client, const Json& command);
+  void receive_command(const std::string& key, Client& client, const Json& command);
   void run_command(const std::string& key, std::uint64_t id, const Json& command);
-  void ask_engine(const std::string& key, std::uint64_t id, const Json& command);
-  void answer_metrics(const std::string& key, std::uint64_t id, Json engine);
-  void answer(const std::string& key, std::uint64_t id, const Result<Json>& result);
+  void post_to_engine(const std::string& key, std::uint64_t id, const Json& command);
+  void reply_metrics(const std::string& key, std::uint64_t id, Json engine);
+  void reply(const std::string& key, std::uint64_t id, const Result<Json>& result);
   void broadcast(const SharedText& event);
-  static void fault(Client& client, const std::string& why);
+  static void report_malformed(Client& client, const std::string& why);
   Result<Json> take_control(const std::string& key);
   void give_control(const std::string& key);
   void send_control();
@@ -91,8 +105,8 @@ class Hub {
   Clock::time_point started_ = Clock::now();
   std::map<std::string, Client> clients_;
   std::string controller_;
-  bool dragging_ = false;  ///< As the last event `state` said.
-  std::uint64_t arrivals_ = 0;
+  bool dragging_ = false;  ///< As of the last event `state`.
+  std::uint64_t known_clients_ = 0;
   SharedText hello_, model_;
   std::map<std::uint32_t, SharedText> jobs_;
   HubCounters counters_;

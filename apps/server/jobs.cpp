@@ -8,11 +8,11 @@ namespace dismantle::server {
 
 namespace {
 
-/// Between two pieces of news of one stage.
-constexpr std::chrono::milliseconds kNewsInterval{100};
+/// Minimum interval between two updates of one stage.
+constexpr std::chrono::milliseconds kUpdateInterval{100};
 
-/// Does a work; what it throws is an Error.
-Result<Jobs::Finish> guarded(const std::string& name, const Jobs::Work& work, const ProgressCallback& progress) {
+/// Does the work; exceptions become errors.
+Result<Jobs::Finish> run_guarded(const std::string& name, const Jobs::Work& work, const ProgressCallback& progress) {
   try {
     return work(progress);
   } catch (const std::bad_alloc&) {
@@ -51,30 +51,30 @@ Result<Done> Jobs::cancel(std::uint32_t job) {
 }
 
 void Jobs::run(const std::string& name, const Work& work) {
-  JobNews news{last_, name, "starting", -1, JobNews::Status::Running, {}};
-  on_news_(news);
-  auto told = std::chrono::steady_clock::now();
-  const Result<Finish> result = guarded(name, work, [&](std::string_view stage, double fraction) {
+  JobUpdate update{last_, name, "starting", -1, JobUpdate::Status::Running, {}};
+  on_update_(update);
+  auto last_update = std::chrono::steady_clock::now();
+  const Result<Finish> result = run_guarded(name, work, [&](std::string_view stage, double fraction) {
     const auto now = std::chrono::steady_clock::now();
-    if (stage != news.stage || now - told >= kNewsInterval) {
-      told = now;
-      news.stage = stage;
-      news.fraction = fraction;
-      on_news_(news);
+    if (stage != update.stage || now - last_update >= kUpdateInterval) {
+      last_update = now;
+      update.stage = stage;
+      update.fraction = fraction;
+      on_update_(update);
     }
     return !cancelled_.load();
   });
 
-  running_ = false;  // who hears of what was found may start the next at once; start() waits for this thread
-  news.fraction = 1;
-  news.status = JobNews::Status::Done;
+  running_ = false;  // Finish may cause the start of another job; start() waits for this thread
+  update.fraction = 1;
+  update.status = JobUpdate::Status::Done;
   if (!result) {
-    news.status = cancelled_ ? JobNews::Status::Cancelled : JobNews::Status::Failed;
-    news.error = result.error().message;
+    update.status = cancelled_ ? JobUpdate::Status::Cancelled : JobUpdate::Status::Failed;
+    update.error = result.error().message;
   } else {
     (*result)();
   }
-  on_news_(news);
+  on_update_(update);
 }
 
 }  // namespace dismantle::server

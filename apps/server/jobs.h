@@ -13,44 +13,47 @@
 
 namespace dismantle::server {
 
-/// The progress of a job: the event `job` of docs/wire.md.
-struct JobNews {
+/// The state of a job: the event `job` of docs/wire.md.
+struct JobUpdate {
+  /// The status of a job.
   enum class Status { Running, Done, Failed, Cancelled };
-  std::uint32_t job = 0;
-  std::string name;
-  std::string stage;
-  double fraction = -1;
-  Status status = Status::Running;
-  std::string error;
+  std::uint32_t job = 0;            ///< Number of the job.
+  std::string name;                 ///< Name for the user.
+  std::string stage;                ///< What it does now, for the user.
+  double fraction = -1;             ///< Fraction of the stage that is done; negative: unknown.
+  Status status = Status::Running;  ///< All but Running are final.
+  std::string error;                ///< Failed, Cancelled: the message.
 };
 
-/// Long work on a thread of its own, one at a time: imports and searches.
+/// Runs imports and searches on a thread of its own, one at a time.
 class Jobs {
  public:
   /// Publishes the result of a job.
   using Finish = std::function<void()>;
+  /// Does the work of a job and returns the function that publishes the result.
   using Work = std::function<Result<Finish>(const ProgressCallback&)>;
-  /// Called on the job's thread.
-  using Listener = std::function<void(const JobNews&)>;
+  /// Receives updates, on the job's thread.
+  using Listener = std::function<void(const JobUpdate&)>;
 
-  explicit Jobs(Listener on_news) : on_news_(std::move(on_news)) {}
+  /// @param on_update receives an update when a job starts, changes its stage, progresses, and ends
+  explicit Jobs(Listener on_update) : on_update_(std::move(on_update)) {}
   ~Jobs() { stop(); }
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Starts one. Its Finish is called on the job's thread, when another may be started and before the last news.
-  /// For any thread. @return its number. Errors: Usage where one is running.
+  /// Starts a job. Its Finish is called on the job's thread before the last update; from then on another job may be
+  /// started. For any thread. @return the number of the job. Errors: Usage if one is running.
   Result<std::uint32_t> start(std::string name, Work work);
-  /// Cancels the one that runs; of others nothing. For any thread. Errors: Usage where it does not run.
+  /// Requests the cancellation of a job. For any thread. Errors: Usage if it is not running.
   Result<Done> cancel(std::uint32_t job);
-  /// Cancels what runs, waits for it, and starts no more.
+  /// Cancels the running job and waits for its end; no other can be started. For any thread but the job's.
   void stop();
 
  private:
   void run(const std::string& name, const Work& work);
 
-  Listener on_news_;
-  std::mutex mutex_;  ///< Of starting and stopping.
+  Listener on_update_;
+  std::mutex mutex_;  ///< Guards thread_ and stopped_.
   std::thread thread_;
   bool stopped_ = false;
   std::atomic<std::uint32_t> last_ = 0;

@@ -9,8 +9,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLargestJournal = std::size_t{2} << 30;
-/// Viewers of one assembly that run at the same time.
+constexpr std::size_t kMaxJournalBytes = std::size_t{2} << 30;
+/// Maximum number of viewers of one assembly that run at the same time.
 constexpr int kMaxViewers = 8;
 constexpr std::size_t kHashDigits = 24;
 
@@ -18,7 +18,7 @@ std::string stem_of(const JournalHeader& header) {
   return header.assembly_sha256.substr(0, kHashDigits) + '-' + std::to_string(header.component_count);
 }
 
-/// The file of the first viewer of an assembly, or of another beside it.
+/// Name of the journal of the first viewer of an assembly, or of a further one that runs at the same time.
 std::string file_name(const JournalHeader& header, int viewer) {
   std::string name = stem_of(header);
   if (viewer > 1) name.append(1, '-').append(std::to_string(viewer));
@@ -27,7 +27,7 @@ std::string file_name(const JournalHeader& header, int viewer) {
 
 /// The contents of the journal, if it is of the session's assembly and not empty.
 std::optional<JournalContents> read_journal(const fs::path& file, const JournalHeader& header) {
-  const Result<std::string> bytes = read_file(file, kLargestJournal);
+  const Result<std::string> bytes = read_file(file, kMaxJournalBytes);
   if (!bytes) return {};
   std::optional<JournalContents> contents = parse_journal(*bytes);
   if (!contents || !(contents->header == header) || contents->entries.empty()) return {};
@@ -48,10 +48,10 @@ Result<bool> JournalStore::attach(Session& session) {
   for (int viewer = 1; viewer <= kMaxViewers && !journal; ++viewer) {
     file_ = *folder_ / file_name(header, viewer);
     contents = read_journal(file_, header);
-    const bool goes_on = contents && !contents->is_closed;
-    if (contents && !goes_on) fs::rename(file_, *folder_ / (stem_of(header) + ".previous"), error);
-    journal = goes_on ? Journal::go_on(file_, *contents) : Journal::create(file_, header);
-    if (!goes_on) contents.reset();
+    const bool crashed = contents && !contents->is_closed;
+    if (contents && !crashed) fs::rename(file_, *folder_ / (stem_of(header) + ".previous"), error);
+    journal = crashed ? Journal::go_on(file_, *contents) : Journal::create(file_, header);
+    if (!crashed) contents.reset();
   }
   if (!journal) return journal.error();
   if (contents) session.restore(std::move(*contents));

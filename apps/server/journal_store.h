@@ -8,28 +8,29 @@
 
 namespace dismantle::server {
 
-/// Where the journals of sessions are kept: of each assembly the one that is being written, and the one before.
+/// The folder with the journals of sessions: for each assembly the one that is being written, and the previous one. For
+/// the engine loop's thread.
 class JournalStore {
  public:
-  /// Without a folder nothing is kept. The folder is made where it is missing.
+  /// Without a folder nothing is stored. The folder is created if it is missing.
   explicit JournalStore(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
-  /// Gives a new session its journal. Where the last session of the assembly did not end in order, this one goes on
-  /// where that was. @return whether it did. Errors: Failed where no journal can be written.
+  /// Gives a new session its journal. If the last session of the assembly crashed, its state is restored. @return true
+  /// if it was restored. Errors: Failed if no journal can be written.
   Result<bool> attach(Session& session);
-  /// Ends the session's journal in order; one of nothing is removed.
+  /// Closes the session's journal; removes it if it is empty.
   void detach(Session& session);
-  /// True if there is an earlier session.
+  /// True if a previous session of the assembly is stored.
   bool can_resume(const Session& session) const;
-  /// Goes on where the session before this one was. Errors: Usage where there is none, or something is recorded
-  /// already.
+  /// Restores the state of the previous session of the assembly. Errors: Usage if there is none, or this session has
+  /// moves or is not idle.
   Result<Done> resume(Session& session) const;
 
  private:
   std::optional<JournalContents> previous(const Session& session) const;
 
   std::optional<std::filesystem::path> folder_;
-  std::filesystem::path file_;  ///< Of the session that is attached.
+  std::filesystem::path file_;  ///< Journal of the attached session.
 };
 
 }  // namespace dismantle::server

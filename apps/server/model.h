@@ -9,12 +9,12 @@
 
 namespace dismantle::server {
 
-/// An assembly that is open in the viewer, with everything that loading it made.
+/// An assembly that is open in the viewer.
 struct Model {
-  std::uint32_t number = 0;  ///< Counts up within a run of the server.
-  std::shared_ptr<const Assembly> assembly;
-  std::shared_ptr<const std::string> glb;  ///< The assembly in assembled position.
-  std::unique_ptr<Session> session;        ///< Of the assembly; never null once loaded.
+  std::uint32_t number = 0;                  ///< Counts up within a run of the server.
+  std::shared_ptr<const Assembly> assembly;  ///< Never null once loaded.
+  std::shared_ptr<const std::string> glb;    ///< The assembly in assembled position as binary glTF.
+  std::unique_ptr<Session> session;          ///< Of the assembly; never null once loaded.
 };
 
 }  // namespace dismantle::server

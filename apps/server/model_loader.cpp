@@ -37,7 +37,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   classify.progress = progress;
   Result<PairStates> pairs = classify_pairs(*assembly, classify);
   if (!pairs) return pairs.error();
-  if (!report_progress(progress, "preparing", -1)) return Error{ErrorKind::Failed, "cancelled"};
+  if (!report_progress(progress, "preparing the view", -1)) return Error{ErrorKind::Failed, "cancelled"};
   Result<std::string> glb = glb_from_assembly(*assembly);
   if (!glb) return glb.error();
   model.glb = std::make_shared<const std::string>(std::move(*glb));

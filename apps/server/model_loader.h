@@ -11,15 +11,15 @@ namespace dismantle::server {
 
 /// Options for preparing assemblies for a session.
 struct ModelOptions {
-  ImportOptions import;
-  ClassifyOptions classify;
-  std::size_t simplify = 0;  ///< To about so many triangles; 0: as they are.
-  Executor executor;
+  ImportOptions import;      ///< Of reading the file.
+  ClassifyOptions classify;  ///< Of the pair states.
+  std::size_t simplify = 0;  ///< Approximate number of triangles to simplify to; 0: no simplification.
+  Executor executor;         ///< Of simplification and of the session's engine.
 };
 
-/// Reads an assembly and makes its model, all but the number. A file is parsed in a child process with limits on memory
-/// and time: what crashes, hangs or lies there is an Error here. Errors: of load_assembly and classify_pairs; Failed
-/// where `progress` cancelled.
+/// Loads an assembly and makes its model, without a number. The file is parsed in a child process with limits on memory
+/// and time, so that a crash, a hang or malformed data becomes an error. Errors: of load_isolated, simplify_assembly,
+/// classify_pairs and glb_from_assembly; Failed if `progress` cancels.
 Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& options,
                          const ProgressCallback& progress);
 

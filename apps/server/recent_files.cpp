@@ -13,14 +13,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxRecent = 20;
-constexpr std::size_t kLargestList = 1 << 20;
+constexpr std::size_t kMaxListBytes = 1 << 20;
 
 }  // namespace
 
 std::vector<fs::path> RecentFiles::list() const {
   std::vector<fs::path> files;
   if (file_.empty()) return files;
-  const Result<std::string> text = read_file(file_, kLargestList);
+  const Result<std::string> text = read_file(file_, kMaxListBytes);
   if (!text) return files;
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
   if (!json.is_array()) return files;

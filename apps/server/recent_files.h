@@ -7,17 +7,18 @@
 
 namespace dismantle::server {
 
-/// The assemblies that were opened last, newest first, kept in a file from run to run.
+/// The recently opened assemblies, newest first, stored in a file. Errors of that file are ignored. Not thread-safe
+/// between processes: the last writer wins.
 class RecentFiles {
  public:
-  /// Without a folder nothing is kept.
+  /// Without a folder the list is always empty.
   explicit RecentFiles(const std::optional<std::filesystem::path>& folder) {
     if (folder) file_ = *folder / "recent.json";
   }
 
-  /// Those that are still there.
+  /// Those that still exist, newest first.
   std::vector<std::filesystem::path> list() const;
-  /// Puts a file first. What cannot be written is not kept.
+  /// Puts a file first; the oldest ones are dropped.
   void add(const std::filesystem::path& opened) const;
 
  private:

@@ -76,10 +76,10 @@ Result<fs::path> Roots::find(std::uint64_t root, const std::string& relative) co
   return real;
 }
 
-Result<fs::path> Roots::place_for(std::uint64_t root, const std::string& relative) const {
-  const fs::path asked(relative);
-  const Result<fs::path> folder = find(root, asked.parent_path().string());
-  const std::string name = asked.filename().string();
+Result<fs::path> Roots::output_path(std::uint64_t root, const std::string& relative) const {
+  const fs::path requested(relative);
+  const Result<fs::path> folder = find(root, requested.parent_path().string());
+  const std::string name = requested.filename().string();
   if (!folder || name.empty() || name == "." || name == "..")
     return Error{ErrorKind::Usage, "'" + relative +
                                        "' cannot be written (the server's folders have no such path); choose "
@@ -111,7 +111,7 @@ Result<std::vector<RootEntry>> Roots::list(std::uint64_t root, const std::string
   return entries;
 }
 
-bool Roots::contain(const fs::path& file) const {
+bool Roots::contains(const fs::path& file) const {
   std::error_code error;
   const fs::path real = fs::canonical(file, error);
   if (error) return false;

@@ -10,32 +10,34 @@
 
 namespace dismantle::server {
 
-/// The entries of a folder that a client may see.
+/// An entry of a folder that clients may list.
 struct RootEntry {
+  /// The kinds of entries; other files are not listed.
   enum class Kind { Folder, Assembly, Path };
-  std::string name;
-  Kind kind = Kind::Assembly;
-  std::uint64_t bytes = 0;
+  std::string name;            ///< Without its folder.
+  Kind kind = Kind::Assembly;  ///< By the extension.
+  std::uint64_t bytes = 0;     ///< Size of the file; 0 for a folder.
 };
 
-/// The folders whose files clients may open. Nothing outside them can be reached: not by "..", not by an absolute path,
-/// not by a symbolic link that leads out.
+/// The folders whose files clients may open. Files outside them cannot be reached: not by "..", by an absolute path, or
+/// by a symbolic link that leads out. Unchanging, so usable on any thread.
 class Roots {
  public:
-  /// Errors: Usage where one is no folder.
+  /// The roots of these folders. Errors: Usage if one is not a readable folder.
   static Result<Roots> create(const std::vector<std::filesystem::path>& folders);
 
-  /// Their names for clients, by index.
+  /// The names of the roots for clients, by index.
   const std::vector<std::string>& names() const { return names_; }
-  /// The file or folder `relative` of a root, links resolved. Errors: Usage where there is none, or it is outside.
+  /// The file or folder `relative` in a root, with links resolved. Errors: Usage if there is none, or it is outside.
   Result<std::filesystem::path> find(std::uint64_t root, const std::string& relative) const;
-  /// Where a file `relative` of a root may be written; it need not exist. Errors: Usage where its folder is missing or
-  /// outside, or something other than a regular file has its name.
-  Result<std::filesystem::path> place_for(std::uint64_t root, const std::string& relative) const;
-  /// Folders first, then files that dismantle reads, by name; hidden ones are left out. Errors: as find().
+  /// The path at which a file `relative` in a root may be written; it need not exist. Errors: Usage if its folder is
+  /// missing or outside, or something other than a regular file has its name.
+  Result<std::filesystem::path> output_path(std::uint64_t root, const std::string& relative) const;
+  /// The entries of a folder: folders first, then the files that dismantle reads, by name; without hidden ones. Errors:
+  /// as find().
   Result<std::vector<RootEntry>> list(std::uint64_t root, const std::string& folder) const;
-  /// True if a file is below one of them, with links resolved.
-  bool contain(const std::filesystem::path& file) const;
+  /// True if a file is below one of the roots, with links resolved.
+  bool contains(const std::filesystem::path& file) const;
 
  private:
   std::vector<std::filesystem::path> folders_;  // canonical

@@ -14,61 +14,62 @@
 
 namespace dismantle::server {
 
-/// A request to the planner.
+/// The kinds of searches of the planner.
 enum class SearchKind {
-  Plan,     ///< How the assembly comes apart, or a target out of it, from the assembled state.
-  TakeOut,  ///< How some components get out from where everything is now.
-  Why,      ///< What keeps a component where it is now.
+  Plan,     ///< A disassembly sequence of everything or of targets, from the assembled state.
+  TakeOut,  ///< Removal paths of components, from the current state.
+  Why,      ///< The blockers of one component in the current state.
 };
 
-/// "plan", "find_path", "why": as docs/wire.md has it.
+/// The name of a kind in docs/wire.md: "plan", "find_path", "why".
 std::string_view name_of(SearchKind kind);
 
-/// The input of a search: some of a session's components, as an assembly of their own whose assembled state is where
-/// they stand.
-struct Standing {
-  Assembly assembly;
-  PairStates pairs;
-  std::vector<ComponentId> components;  ///< Of the session, ordered; index: component of `assembly`.
-  std::vector<Pose> poses;              ///< Where they stand, in the session's terms.
+/// A copy of a session's state for a search, which runs beside the session: some of its components as an assembly of
+/// their own, whose assembled state is their current poses.
+struct SessionSnapshot {
+  Assembly assembly;                    ///< The components at their current poses.
+  PairStates pairs;                     ///< Of `assembly`.
+  std::vector<ComponentId> components;  ///< Ids in the session, ascending; index: component of `assembly`.
+  std::vector<Pose> poses;              ///< Poses in the session; index as above.
 };
 
-/// Everything, assembled.
-Standing assembled(const Session& session);
-/// The components that are not removed, at their present poses.
-Standing standing(const Session& session);
-/// True if standing() would still give the same.
-bool still_stands(const Standing& standing, const Session& session);
+/// A snapshot of all components in the assembled state.
+SessionSnapshot assembled_snapshot(const Session& session);
+/// A snapshot of the components that are not removed, at their current poses.
+SessionSnapshot current_snapshot(const Session& session);
+/// True if current_snapshot() would return the same components and poses.
+bool is_current(const SessionSnapshot& snapshot, const Session& session);
 
-struct Search {
-  SearchKind kind = SearchKind::Plan;
-  std::shared_ptr<const Standing> standing;
-  std::vector<ComponentId> targets;  ///< Of the session, all in `standing`; of Why: one; of Plan none: everything.
-  std::vector<ComponentId> fixed;    ///< Of the session, none of them a target. These never move.
-  std::vector<StepPreference> preferences;  ///< See PlanOptions.
-  CertificateOptions engine;
+/// A search to run. Component ids are those of the session.
+struct SearchRequest {
+  SearchKind kind = SearchKind::Plan;               ///< What to search for.
+  std::shared_ptr<const SessionSnapshot> snapshot;  ///< The state to search from; never null when run.
+  std::vector<ComponentId> targets;                 ///< All in `snapshot`. Why: one; Plan: none for everything.
+  std::vector<ComponentId> fixed;                   ///< Plan: components that never move, none of them a target.
+  std::vector<StepPreference> preferences;          ///< See PlanOptions.
+  CertificateOptions engine;                        ///< Of the session's engine; one thread is left to the session.
 };
 
-/// The name of the search for the user.
-std::string search_name(const Search& search);
+/// The name of the job, for the user. @pre the request has a snapshot
+std::string search_name(const SearchRequest& request);
 
-/// The result of a search, in terms of the session that it was made for.
-struct Finding {
-  SearchKind kind = SearchKind::Plan;
-  std::shared_ptr<const Standing> standing;
-  bool complete = false;  ///< Everything that was asked for can be removed.
-  bool out_of_time = false;
-  double seconds = 0;
-  std::size_t steps = 0;
-  std::vector<Explanation> reasons;  ///< Why components that were asked for cannot be removed.
-  Path path;                         ///< Of Plan.
-  std::vector<Removal> removals;     ///< Of TakeOut, where complete.
+/// The result of a search. Component ids and poses are those of the session.
+struct SearchResult {
+  SearchKind kind = SearchKind::Plan;               ///< As requested.
+  std::shared_ptr<const SessionSnapshot> snapshot;  ///< As requested.
+  bool complete = false;                            ///< All targets can be removed.
+  bool out_of_time = false;                         ///< The search reached its time limit.
+  double seconds = 0;                               ///< Duration of the search [s].
+  std::size_t steps = 0;                            ///< Number of steps of the plan.
+  std::vector<Explanation> reasons;                 ///< The blockers of each target that cannot be removed.
+  Path path;                                        ///< The path of the plan.
+  std::vector<Removal> removals;                    ///< TakeOut, if complete: the motions to carry out.
 };
 
-/// Takes seconds to minutes. Errors: Failed where `progress` cancelled.
-Result<Finding> run_search(const Search& search, const ProgressCallback& progress);
+/// Runs a search, which takes seconds to minutes. For any thread. Errors: Failed if `progress` cancels.
+Result<SearchResult> run_search(const SearchRequest& request, const ProgressCallback& progress);
 
 /// The member `search` of the event `state`.
-Json search_json(const Finding& finding);
+Json search_json(const SearchResult& result);
 
 }  // namespace dismantle::server

@@ -30,18 +30,19 @@ using ErrorCode = boost::system::error_code;
 namespace {
 
 constexpr std::chrono::seconds kTick{1};
-constexpr int kPortTries = 20;
-/// More at a time are closed at once; a page has a few.
+constexpr int kMaxPortTries = 20;
+/// Further connections are closed at once; a page has a few.
 constexpr long kMaxConnections = 256;
-constexpr std::uint64_t kLargestUpload = std::uint64_t{1} << 30, kLargestGuide = std::uint64_t{256} << 20;
+constexpr std::uint64_t kMaxUploadBytes = std::uint64_t{1} << 30, kMaxGuideBytes = std::uint64_t{256} << 20;
 /// Time limit for closing the sockets when the server stops.
-constexpr std::chrono::milliseconds kGoodbyeTime{500};
+constexpr std::chrono::milliseconds kCloseTimeout{500};
 
-Json job_event(const JobNews& news) {
+Json job_event(const JobUpdate& update) {
   static constexpr const char* kStatus[] = {"running", "done", "failed", "cancelled"};
-  Json json{{"event", "job"},      {"job", news.job},           {"name", news.name},
-            {"stage", news.stage}, {"fraction", news.fraction}, {"status", kStatus[static_cast<int>(news.status)]}};
-  if (!news.error.empty()) json["error"] = news.error;
+  Json json{
+      {"event", "job"},        {"job", update.job},           {"name", update.name},
+      {"stage", update.stage}, {"fraction", update.fraction}, {"status", kStatus[static_cast<int>(update.status)]}};
+  if (!update.error.empty()) json["error"] = update.error;
   return json;
 }
 
@@ -52,22 +53,22 @@ Error cannot_listen(std::uint16_t port, const std::string& why) {
 
 }  // namespace
 
-/// Everything on the network's thread but where it says otherwise.
-class Server::Body final : public Site, private EngineListener {
+/// Functions are called on the network's thread unless they say otherwise.
+class Server::Impl final : public Site, private EngineListener {
  public:
-  Body(ServerOptions options, Roots roots)
+  Impl(ServerOptions options, Roots roots)
       : pages_(options.web_folder),
         idle_time_(options.idle_time),
-        jobs_([this](const JobNews& news) { tell_of(news); }),
+        jobs_([this](const JobUpdate& update) { publish_job(update); }),
         engine_(*this, roots, journal_folder(options), jobs_),
         files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), jobs_,
-               [this](Model model) { adopt(std::move(model)); }),
+               [this](Model model) { on_model(std::move(model)); }),
         hub_(engine_, files_, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
         v4_(io_),
         v6_(io_),
         tick_(io_) {}
 
-  ~Body() override {
+  ~Impl() override {
     asio::post(io_, [this] { begin_stop(); });
     if (thread_.joinable()) thread_.join();
     engine_.stop();
@@ -76,14 +77,14 @@ class Server::Body final : public Site, private EngineListener {
 
   Result<Done> listen(std::uint16_t port) {
     std::string why = "no free port was found";
-    for (int tries = 0; tries < kPortTries; ++tries) {
+    for (int tries = 0; tries < kMaxPortTries; ++tries) {
       ErrorCode error = open(v4_, Tcp::endpoint(asio::ip::address_v4::loopback(), port));
       if (error) return cannot_listen(port, error.message());
       const std::uint16_t chosen = v4_.local_endpoint().port();
       error = open(v6_, Tcp::endpoint(asio::ip::address_v6::loopback(), chosen));
       const bool has_v6 =
           error != asio::error::address_family_not_supported && error != boost::system::errc::address_not_available;
-      if (error && has_v6) {  // somebody else's on ::1
+      if (error && has_v6) {  // taken on ::1
         if (port != 0) return cannot_listen(port, error.message());
         ErrorCode ignored;
         v4_.close(ignored);
@@ -98,7 +99,7 @@ class Server::Body final : public Site, private EngineListener {
   void run() {
     Json roots = Json::array();
     for (const std::string& name : files_.roots().names()) roots.push_back(name);
-    hub_.set_greeting({{"event", "hello"}, {"version", DISMANTLE_VERSION}, {"roots", std::move(roots)}});
+    hub_.set_hello({{"event", "hello"}, {"version", DISMANTLE_VERSION}, {"roots", std::move(roots)}});
     accept(v4_);
     if (v6_.is_open()) accept(v6_);
     tick();
@@ -109,44 +110,47 @@ class Server::Body final : public Site, private EngineListener {
   Hub& hub() override { return hub_; }
   std::chrono::milliseconds idle_time() const override { return idle_time_; }
   FileCommands& files() { return files_; }
-  /// Of the model that comes first. @pre before anything is opened
-  void follow(const fs::path& guide) { first_guide_ = guide; }
+  /// Sets the path file that becomes the guide of the first model. @pre nothing was opened before
+  void set_first_guide(const fs::path& guide) { first_guide_ = guide; }
 
-  void get(const RequestTarget& target, Reply done) override {
-    if (target.path == "/api/model.glb") return done(model_answer(target));
+  void get(const RequestTarget& target, ResponseCallback respond) override {
+    if (target.path == "/api/model.glb") return respond(model_response(target));
     if (target.path == "/api/path.json")
-      return send_text(&Workbench::recording_text, "there is no recording (no assembly is open); open one first", done);
+      return send_text(&Workbench::recording_text, "there is no recording (no assembly is open); open one first",
+                       respond);
     if (target.path == "/api/guide.json")
-      return send_text(&Workbench::guide_text, "there is no guide (no path file is open); open one first", done);
-    if (const std::optional<ExportRequest> wanted = parse_export(target)) return export_file(*wanted, std::move(done));
-    if (target.path.substr(0, 5) == "/api/") return done(not_found(target.path));
-    if (std::optional<HttpAnswer> file = pages_.find(target.path)) return done(std::move(*file));
-    done(not_found(target.path));
+      return send_text(&Workbench::guide_text, "there is no guide (no path file is open); open one first", respond);
+    if (const std::optional<ExportRequest> request = parse_export(target))
+      return export_file(*request, std::move(respond));
+    if (target.path.substr(0, 5) == "/api/") return respond(not_found(target.path));
+    if (std::optional<HttpResponse> file = pages_.find(target.path)) return respond(std::move(*file));
+    respond(not_found(target.path));
   }
 
-  std::variant<UploadPlace, HttpAnswer> begin_upload(const RequestTarget& target, const std::string& client) override {
+  std::variant<UploadTarget, HttpResponse> begin_upload(const RequestTarget& target,
+                                                        const std::string& client) override {
     const bool is_guide = target.path == "/api/guide";
     if (!is_guide && target.path != "/api/open") return not_found(target.path);
     if (!hub_.is_in_control(client))
-      return error_answer(403, "nothing can be opened (another page is in control); take control first");
+      return error_response(403, "nothing can be opened (another page is in control); take control first");
     const auto name = target.query.find("name");
     const std::string base = name == target.query.end() ? "" : fs::path(name->second).filename().string();
     if (base.empty() || base[0] == '.')
-      return error_answer(400, "the upload has no name (its extension gives the format); give ?name=FILE");
+      return error_response(400, "the upload has no name (its extension gives the format); give ?name=FILE");
     const Result<fs::path> folder = new_temporary_folder();
-    if (!folder) return error_answer(500, folder.error().message);
-    return UploadPlace{*folder / base, is_guide ? kLargestGuide : kLargestUpload};
+    if (!folder) return error_response(500, folder.error().message);
+    return UploadTarget{*folder / base, is_guide ? kMaxGuideBytes : kMaxUploadBytes};
   }
 
-  void finish_upload(const Upload& upload, Reply done) override {
-    if (upload.target.path == "/api/guide") return open_guide(upload.file, std::move(done));
+  void finish_upload(const Upload& upload, ResponseCallback respond) override {
+    if (upload.target.path == "/api/guide") return open_guide(upload.file, std::move(respond));
     const Result<std::uint32_t> job = files_.open_upload(upload.file);
-    done(job ? json_answer(202, {{"job", *job}}) : error_answer(409, job.error().message));
+    respond(job ? json_response(202, {{"job", *job}}) : error_response(409, job.error().message));
   }
 
  private:
-  static HttpAnswer not_found(const std::string& path) {
-    return error_answer(404, "there is no " + path + " (no file of the page has this name); see docs/wire.md");
+  static HttpResponse not_found(const std::string& path) {
+    return error_response(404, "there is no " + path + " (no file of the page has this name); see docs/wire.md");
   }
 
   static ErrorCode open(Tcp::acceptor& acceptor, const Tcp::endpoint& endpoint) {
@@ -187,44 +191,47 @@ class Server::Body final : public Site, private EngineListener {
     v4_.close(ignored);
     v6_.close(ignored);
     hub_.close_all(CloseReason::Stopping);
-    tick_.expires_after(kGoodbyeTime);
+    tick_.expires_after(kCloseTimeout);
     tick_.async_wait([this](ErrorCode) { io_.stop(); });
   }
 
-  HttpAnswer model_answer(const RequestTarget& target) const {
+  HttpResponse model_response(const RequestTarget& target) const {
     const auto number = target.query.find("model");
     if (!glb_ || (number != target.query.end() && number->second != std::to_string(model_number_)))
-      return error_answer(404, "there is no such model (another one or none is open); see the event model");
+      return error_response(404, "there is no such model (another one or none is open); see the event model");
     return {200, "model/gltf-binary", glb_, {}};
   }
 
-  void send_text(std::optional<std::string> (Workbench::*text)() const, const std::string& otherwise, Reply done) {
-    engine_.post_always([this, text, otherwise, done = std::move(done)](Workbench& bench) {
-      HttpAnswer answer = error_answer(404, otherwise);
+  void send_text(std::optional<std::string> (Workbench::*text)() const, const std::string& otherwise,
+                 ResponseCallback respond) {
+    engine_.post_always([this, text, otherwise, respond = std::move(respond)](Workbench& bench) {
+      HttpResponse response = error_response(404, otherwise);
       if (const std::optional<std::string> found = (bench.*text)())
-        answer = {200, "application/json", std::make_shared<const std::string>(*found), bench.recording_name()};
-      asio::post(io_, [done, answer] { done(answer); });
+        response = {200, "application/json", std::make_shared<const std::string>(*found), bench.recording_name()};
+      asio::post(io_, [respond, response] { respond(response); });
     });
   }
 
-  /// Export data are captured on the engine's thread and written on another one: neither a drag nor the network waits.
-  void export_file(const ExportRequest& wanted, Reply done) {
-    engine_.post_always([this, wanted, done = std::move(done)](Workbench& bench) {
-      auto source = std::make_shared<const Result<ExportSource>>(export_source(wanted, bench.model()));
-      asio::post(exporter_, [this, wanted, source, done] {
-        HttpAnswer answer = *source ? export_answer(wanted, **source) : error_answer(409, source->error().message);
-        asio::post(io_, [done, answer] { done(answer); });
+  /// The data is captured on the engine's thread and the file made on another one, so that neither a drag nor the
+  /// network waits.
+  void export_file(const ExportRequest& request, ResponseCallback respond) {
+    engine_.post_always([this, request, respond = std::move(respond)](Workbench& bench) {
+      auto source = std::make_shared<const Result<ExportSource>>(export_source(request, bench.model()));
+      asio::post(export_thread_, [this, request, source, respond] {
+        HttpResponse response =
+            *source ? export_response(request, **source) : error_response(409, source->error().message);
+        asio::post(io_, [respond, response] { respond(response); });
       });
     });
   }
 
-  void open_guide(const fs::path& file, Reply done) {
-    engine_.post_always([this, file, done = std::move(done)](Workbench& bench) {
+  void open_guide(const fs::path& file, ResponseCallback respond) {
+    engine_.post_always([this, file, respond = std::move(respond)](Workbench& bench) {
       const Result<Done> opened = bench.open_guide(file, file.filename().string());
       remove_with_folder(file);
       engine_.publish_state();
-      HttpAnswer answer = opened ? json_answer(200, Json::object()) : error_answer(422, opened.error().message);
-      asio::post(io_, [done, answer] { done(answer); });
+      HttpResponse response = opened ? json_response(200, Json::object()) : error_response(422, opened.error().message);
+      asio::post(io_, [respond, response] { respond(response); });
     });
   }
 
@@ -234,21 +241,21 @@ class Server::Body final : public Site, private EngineListener {
   }
 
   /// On the job's thread.
-  void tell_of(const JobNews& news) {
-    const bool running = news.status == JobNews::Status::Running;
-    asio::post(io_, [this, job = news.job, text = text_of(job_event(news)), running] {
+  void publish_job(const JobUpdate& update) {
+    const bool running = update.status == JobUpdate::Status::Running;
+    asio::post(io_, [this, job = update.job, text = text_of(job_event(update)), running] {
       hub_.broadcast_job(job, text, running);
     });
   }
 
   /// On the job's thread.
-  void adopt(Model model) {
+  void on_model(Model model) {
     model.number = ++models_;
     asio::post(io_, [this, glb = model.glb, number = model.number] {
       glb_ = glb;
       model_number_ = number;
     });
-    engine_.adopt(std::move(model));
+    engine_.set_model(std::move(model));
     const fs::path guide = std::exchange(first_guide_, {});
     if (guide.empty()) return;
     engine_.post_always([this, guide](Workbench& bench) {
@@ -275,46 +282,47 @@ class Server::Body final : public Site, private EngineListener {
     asio::post(io_, [this, event = std::move(event)] { hub_.broadcast_event(event); });
   }
 
-  std::shared_ptr<const int> connections_ = std::make_shared<const int>(0);  ///< Its other holders are connections.
+  /// Shared by the open connections: its use count is their number, plus 1.
+  std::shared_ptr<const int> connections_ = std::make_shared<const int>(0);
   asio::io_context io_{1};
   StaticFiles pages_;
   const std::chrono::milliseconds idle_time_;
   std::optional<AccessRules> rules_;
   std::mutex pose_mutex_;
-  std::optional<std::string> pose_;  ///< The newest that the network's thread has not taken yet.
+  std::optional<std::string> pose_;  ///< The newest, until the network's thread takes it.
   std::atomic<std::uint32_t> models_ = 0;
-  fs::path first_guide_;  ///< Empty, or of the model that is still to come; of the job's thread then.
+  fs::path first_guide_;  ///< Guide of the first model; used by the job's thread.
   SharedText glb_;
   std::uint32_t model_number_ = 0;
   Jobs jobs_;
   EngineLoop engine_;
   FileCommands files_;
   Hub hub_;
-  asio::thread_pool exporter_{1};
+  asio::thread_pool export_thread_{1};
   Tcp::acceptor v4_, v6_;
   asio::steady_timer tick_;
   std::thread thread_;
 };
 
-Server::Server(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Server::~Server() = default;
 
 Result<std::unique_ptr<Server>> Server::start(ServerOptions options) {
   Result<Roots> roots = Roots::create(options.roots);
   if (!roots) return roots.error();
   const std::uint16_t port = options.port;
-  auto body = std::make_unique<Body>(std::move(options), std::move(*roots));
-  if (Result<Done> listening = body->listen(port); !listening) return listening.error();
-  body->run();
-  return std::unique_ptr<Server>(new Server(std::move(body)));
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(*roots));
+  if (Result<Done> listening = impl->listen(port); !listening) return listening.error();
+  impl->run();
+  return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 
 std::uint16_t Server::port() const {
-  return body_->rules().port();
+  return impl_->rules().port();
 }
 
 const std::string& Server::token() const {
-  return body_->rules().token();
+  return impl_->rules().token();
 }
 
 std::string Server::url() const {
@@ -322,18 +330,18 @@ std::string Server::url() const {
 }
 
 Result<Done> Server::open_file(const fs::path& file) {
-  const Result<std::uint32_t> job = body_->files().open_file(file);
+  const Result<std::uint32_t> job = impl_->files().open_file(file);
   if (!job) return job.error();
   return Done{};
 }
 
 Result<Done> Server::open_guided(const fs::path& file, const fs::path& guide) {
-  body_->follow(guide);
+  impl_->set_first_guide(guide);
   return open_file(file);
 }
 
 Result<Done> Server::open_sample(const std::string& name) {
-  const Result<std::uint32_t> job = body_->files().open_sample(name);
+  const Result<std::uint32_t> job = impl_->files().open_sample(name);
   if (!job) return job.error();
   return Done{};
 }

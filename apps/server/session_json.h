@@ -7,25 +7,27 @@
 
 namespace dismantle::server {
 
+/// JSON that keeps the order of members.
 using Json = nlohmann::ordered_json;
 
-/// The text of a message; names that are no UTF-8 have their wrong bytes replaced.
+/// The text of a message, in one line; bytes that are not UTF-8 are replaced.
 std::string text_of(const Json& json);
 
-/// [x, y, z] and [x, y, z, w, x, y, z].
+/// The array [x, y, z].
 Json to_json(const Vec3& v);
+/// The array [x, y, z, w, x, y, z]: position [mm] and quaternion.
 Json to_json(const Pose& pose);
-/// The indices.
+/// The array of the components' indices.
 Json to_json(Span<const ComponentId> components);
 
-/// The event `model` of docs/wire.md.
+/// The event `model` of docs/wire.md. @pre the model is loaded
 Json model_json(const Model& model);
 
-/// The part of the event `state` that comes from the session: everything but number, model, hand, search, resumed
-/// and resumable.
+/// The members of the event `state` that depend on the session only: all but number, model, hand, search, resumed and
+/// resumable.
 Json state_json(const Session& session);
 
-/// The answer to `check`.
+/// The members of the reply to `check`.
 Json pairs_json(const PairStates& pairs);
 
 }  // namespace dismantle::server

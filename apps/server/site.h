@@ -15,45 +15,54 @@
 
 namespace dismantle::server {
 
-/// The response to a request.
-struct HttpAnswer {
-  unsigned status = 200;
-  std::string content_type;
-  SharedText body;
-  std::string file_name;  ///< Where it is to be saved as a file: its name.
+/// A response to an HTTP request.
+struct HttpResponse {
+  unsigned status = 200;     ///< The status code.
+  std::string content_type;  ///< The MIME type of the body.
+  SharedText body;           ///< Never null when sent.
+  std::string file_name;     ///< Name under which browsers save the body; empty: they show it.
 };
 
-/// An answer with a body {"error": ...}.
-HttpAnswer error_answer(unsigned status, const std::string& error);
-HttpAnswer json_answer(unsigned status, const Json& json);
+/// A response with the body {"error": ...}.
+HttpResponse error_response(unsigned status, const std::string& error);
+/// A response with a JSON body.
+HttpResponse json_response(unsigned status, const Json& json);
 
-/// The purpose of an upload and its file.
+/// A received upload.
 struct Upload {
-  RequestTarget target;
-  std::string client;          ///< Of the header X-Client.
-  std::filesystem::path file;  ///< Removed by who takes it.
+  RequestTarget target;        ///< Of the POST request.
+  std::string client;          ///< The header X-Client.
+  std::filesystem::path file;  ///< The received body; empty: none.
 };
 
-/// The resources that the server offers to requests, independent of the transport. Called on the network's thread.
+/// The server as its connections see it: access rules, clients, and responses to HTTP requests. For the network's
+/// thread.
 class Site {
  public:
-  using Reply = std::function<void(HttpAnswer)>;
+  /// Receives the response to a request.
+  using ResponseCallback = std::function<void(HttpResponse)>;
 
   virtual ~Site() = default;
+  /// The access rules of this run.
   virtual const AccessRules& rules() const = 0;
+  /// The clients.
   virtual Hub& hub() = 0;
   /// ServerOptions::idle_time.
   virtual std::chrono::milliseconds idle_time() const = 0;
-  /// Answers GET, now or later on the same thread.
-  virtual void get(const RequestTarget& target, Reply reply) = 0;
-  /// Where the body of a POST of at most how many bytes goes; or why it is refused.
-  struct UploadPlace {
-    std::filesystem::path file;
-    std::uint64_t limit = 0;
+  /// Responds to a GET request, now or later, on the network's thread.
+  virtual void get(const RequestTarget& target, ResponseCallback respond) = 0;
+  /// The file that receives the body of a POST request.
+  struct UploadTarget {
+    std::filesystem::path file;  ///< To be created, in a new folder of its own.
+    std::uint64_t limit = 0;     ///< Maximum size [bytes].
   };
-  virtual std::variant<UploadPlace, HttpAnswer> begin_upload(const RequestTarget& target,
-                                                             const std::string& client) = 0;
-  virtual void finish_upload(const Upload& upload, Reply reply) = 0;
+  /// Accepts or rejects a POST request before its body is read. @return the file for the body, or the rejection
+  /// @param client the header X-Client
+  virtual std::variant<UploadTarget, HttpResponse> begin_upload(const RequestTarget& target,
+                                                                const std::string& client) = 0;
+  /// Processes a complete upload and responds, now or later, on the network's thread. Takes over the file and removes
+  /// it with its folder.
+  virtual void finish_upload(const Upload& upload, ResponseCallback respond) = 0;
 };
 
 }  // namespace dismantle::server

@@ -12,7 +12,7 @@ namespace dismantle::server {
 
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{64} << 20;
+constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTypes = {{
     {".html", "text/html; charset=utf-8"},
     {".js", "text/javascript; charset=utf-8"},
@@ -34,24 +34,24 @@ std::string content_type_of(const std::string& path) {
   return "application/octet-stream";
 }
 
-std::optional<HttpAnswer> from_folder(const std::filesystem::path& folder, const std::string& path) {
+std::optional<HttpResponse> from_folder(const std::filesystem::path& folder, const std::string& path) {
   const Result<Roots> root = Roots::create({folder});
   if (!root) return {};
   const Result<std::filesystem::path> file = root->find(0, path.substr(1));
   if (!file) return {};
-  Result<std::string> bytes = read_file(*file, kLargestFile);
+  Result<std::string> bytes = read_file(*file, kMaxFileBytes);
   if (!bytes) return {};
-  return HttpAnswer{200, content_type_of(path), std::make_shared<const std::string>(std::move(*bytes)), {}};
+  return HttpResponse{200, content_type_of(path), std::make_shared<const std::string>(std::move(*bytes)), {}};
 }
 
 }  // namespace
 
-std::optional<HttpAnswer> StaticFiles::find(const std::string& path) const {
-  const std::string wanted = path == "/" ? "/index.html" : path;
-  if (folder_) return from_folder(*folder_, wanted);
+std::optional<HttpResponse> StaticFiles::find(const std::string& path) const {
+  const std::string requested = path == "/" ? "/index.html" : path;
+  if (folder_) return from_folder(*folder_, requested);
   for (const WebFile& file : web_files())
-    if (file.path == wanted)
-      return HttpAnswer{200, std::string(file.content_type), std::make_shared<const std::string>(file.bytes), {}};
+    if (file.path == requested)
+      return HttpResponse{200, std::string(file.content_type), std::make_shared<const std::string>(file.bytes), {}};
   return {};
 }
 

@@ -8,13 +8,14 @@
 
 namespace dismantle::server {
 
-/// The page's files: those in the program, or those of a folder for work on the page.
+/// The files of the page: those embedded in the program, or those of a folder, for work on the page.
 class StaticFiles {
  public:
+  /// Without a folder, the embedded files.
   explicit StaticFiles(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
-  /// The file of a request's path; "/" is "/index.html". None where there is no such file.
-  std::optional<HttpAnswer> find(const std::string& path) const;
+  /// The response with the file of a path; "/" is "/index.html". None if there is no such file.
+  std::optional<HttpResponse> find(const std::string& path) const;
 
  private:
   std::optional<std::filesystem::path> folder_;

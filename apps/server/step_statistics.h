@@ -11,11 +11,12 @@
 
 namespace dismantle::server {
 
-/// The last so many of a series of measurements.
+/// The last 4096 values of a series of measurements.
 class RecentValues {
  public:
+  /// Adds a value; replaces the oldest one if there are 4096.
   void add(double value) { values_[count_++ % values_.size()] = value; }
-  /// The value below which the share `q` of them lies; 0 where there are none.
+  /// The quantile `q`, from 0 (minimum) to 1 (maximum); 0 if there are no values.
   double quantile(double q) const {
     std::vector<double> sorted(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(size()));
     if (sorted.empty()) return 0;
@@ -31,24 +32,29 @@ class RecentValues {
   std::size_t count_ = 0;
 };
 
-/// The cost of the engine loop's steps.
+/// Statistics of the engine loop's steps. For the loop's thread.
 class StepStatistics {
  public:
+  /// The clock of the rates.
   using Clock = std::chrono::steady_clock;
 
+  /// Adds a step, which ended at `now`, and its duration [us].
   void add_step(double microseconds, Clock::time_point now) {
     step_us_.add(microseconds);
     ++steps_;
     ++in_this_second_;
     roll(now);
   }
-  /// From a target's arrival to the pose that answers it.
-  void add_answer(double microseconds) { hand_to_pose_us_.add(microseconds); }
+  /// Adds the time from the arrival of a target to the pose that results from it [us].
+  void add_latency(double microseconds) { latency_us_.add(microseconds); }
 
+  /// Number of steps so far.
   std::uint64_t steps() const { return steps_; }
+  /// Durations of the last steps [us].
   const RecentValues& step_us() const { return step_us_; }
-  const RecentValues& hand_to_pose_us() const { return hand_to_pose_us_; }
-  /// In the last whole second.
+  /// The last times from a target's arrival to the resulting pose [us].
+  const RecentValues& latency_us() const { return latency_us_; }
+  /// Steps in the last complete second.
   double steps_per_second(Clock::time_point now) {
     roll(now);
     return per_second_;
@@ -63,7 +69,7 @@ class StepStatistics {
     second_began_ = now;
   }
 
-  RecentValues step_us_, hand_to_pose_us_;
+  RecentValues step_us_, latency_us_;
   std::uint64_t steps_ = 0;
   double in_this_second_ = 0, per_second_ = 0;
   Clock::time_point second_began_ = Clock::now();

@@ -11,10 +11,10 @@ namespace dismantle::server {
 /// The target of a request line, decoded.
 struct RequestTarget {
   std::string path;                          ///< "/api/open"
-  std::map<std::string, std::string> query;  ///< "name" -> "vice.step"; of a repeat the first
+  std::map<std::string, std::string> query;  ///< "name" -> "vice.step"; the first value if repeated
 };
 
-/// Takes "/path?a=b&c=d" apart. None where it does not begin with a slash, an escape is broken, or it holds a zero
+/// Parses "/path?a=b&c=d". None if it does not begin with a slash, has a malformed escape sequence, or contains a zero
 /// byte.
 std::optional<RequestTarget> parse_target(std::string_view text);
 

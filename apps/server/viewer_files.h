@@ -5,7 +5,7 @@
 
 namespace dismantle::server {
 
-/// The files of the viewer's page that is in the program, for pages that are to do without it.
+/// The files of the embedded viewer page that an exported page contains.
 ViewerFiles viewer_files();
 
 }  // namespace dismantle::server

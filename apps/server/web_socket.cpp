@@ -19,31 +19,30 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using ErrorCode = boost::system::error_code;
 
-constexpr std::size_t kLargestMessage = std::size_t{1} << 20;
-constexpr std::size_t kMaxUnread = std::size_t{16} << 20;  // queued for a client that does not read [bytes]
-constexpr std::chrono::seconds kHandshakeTime{10};
+constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxUnsentBytes = std::size_t{16} << 20;  // queued for a slow client
+constexpr std::chrono::seconds kHandshakeTimeout{10};
 
-/// A connected socket. It lives as long as something is read or written; the hub knows it from its handshake to its
-/// end.
+/// A connected WebSocket. Its pending operations own it; it is registered with the hub from the handshake to the close.
 class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSocket> {
  public:
   WebSocket(beast::tcp_stream stream, SocketOwner owner, Site& site)
       : stream_(std::move(stream)), count_(std::move(owner.count)), key_(std::move(owner.key)), site_(site) {}
 
   void accept(const http::request<http::string_body>& upgrade) {
-    websocket::stream_base::timeout times{kHandshakeTime, site_.idle_time(), /*keep_alive_pings=*/true};
+    websocket::stream_base::timeout times{kHandshakeTimeout, site_.idle_time(), /*keep_alive_pings=*/true};
     beast::get_lowest_layer(stream_).expires_never();
     beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
     stream_.set_option(times);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, kProtocol.data());
-      add_safety_headers(response);
+      add_security_headers(response);
     }));
-    stream_.read_message_max(kLargestMessage);
+    stream_.read_message_max(kMaxMessageBytes);
     stream_.auto_fragment(false);
     stream_.async_accept(upgrade, [self = shared_from_this()](ErrorCode error) {
       if (error) return;
-      self->is_known_ = true;
+      self->is_registered_ = true;
       self->site_.hub().connect(self->key_, *self);
       self->read();
     });
@@ -51,8 +50,8 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
 
   void send_text(SharedText text) override {
     if (is_closing_) return;
-    unread_ += text->size();
-    if (unread_ > kMaxUnread) return drop();
+    unsent_bytes_ += text->size();
+    if (unsent_bytes_ > kMaxUnsentBytes) return drop();
     texts_.push_back(std::move(text));
     write();
   }
@@ -69,7 +68,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
     is_closing_ = true;
     close_code_ =
         reason == CloseReason::Malformed ? websocket::close_code::policy_error : websocket::close_code::going_away;
-    if (!is_writing_) say_goodbye();
+    if (!is_writing_) send_close();
   }
 
  private:
@@ -78,17 +77,17 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   }
 
   void on_read(ErrorCode error) {
-    if (error) return forget();
+    if (error) return unregister();
     const auto data = buffer_.cdata();
     const std::string_view message(static_cast<const char*>(data.data()), data.size());
     if (!is_closing_) {
-      stream_.got_text() ? site_.hub().take_text(key_, message) : site_.hub().take_binary(key_, message);
+      stream_.got_text() ? site_.hub().receive_text(key_, message) : site_.hub().receive_binary(key_, message);
     }
     buffer_.consume(buffer_.size());
     read();
   }
 
-  /// Texts in their order; between them the newest pose.
+  /// Sends the next text or, if there is none, the newest pose.
   void write() {
     if (is_writing_ || is_closing_ || (texts_.empty() && !pose_)) return;
     is_writing_ = true;
@@ -96,7 +95,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
     if (is_text) {
       sending_ = std::move(texts_.front());
       texts_.pop_front();
-      unread_ -= sending_->size();
+      unsent_bytes_ -= sending_->size();
     } else {
       sending_ = std::move(pose_);
       pose_.reset();
@@ -105,26 +104,26 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
     stream_.async_write(boost::asio::buffer(*sending_), [self = shared_from_this()](ErrorCode error, std::size_t sent) {
       self->is_writing_ = false;
       self->site_.hub().counters().bytes_out += sent;
-      if (error) return self->forget();
-      self->is_closing_ ? self->say_goodbye() : self->write();
+      if (error) return self->unregister();
+      self->is_closing_ ? self->send_close() : self->write();
     });
   }
 
-  void say_goodbye() {
-    stream_.async_close(close_code_, [self = shared_from_this()](ErrorCode) { self->forget(); });
+  void send_close() {
+    stream_.async_close(close_code_, [self = shared_from_this()](ErrorCode) { self->unregister(); });
   }
 
-  /// Ends the connection at once: the other side does not read.
+  /// Closes the connection without a handshake, as the client does not read.
   void drop() {
     is_closing_ = true;
     texts_.clear();
     beast::get_lowest_layer(stream_).close();
-    forget();
+    unregister();
   }
 
-  void forget() {
+  void unregister() {
     is_closing_ = true;
-    if (std::exchange(is_known_, false)) site_.hub().disconnect(key_, *this);
+    if (std::exchange(is_registered_, false)) site_.hub().disconnect(key_, *this);
   }
 
   websocket::stream<beast::tcp_stream> stream_;
@@ -134,8 +133,8 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   beast::flat_buffer buffer_;
   std::deque<SharedText> texts_;
   SharedText pose_, sending_;
-  std::size_t unread_ = 0;  ///< Bytes in texts_.
-  bool is_known_ = false, is_writing_ = false, is_closing_ = false;
+  std::size_t unsent_bytes_ = 0;  ///< In texts_.
+  bool is_registered_ = false, is_writing_ = false, is_closing_ = false;
   websocket::close_code close_code_ = websocket::close_code::normal;
 };
 

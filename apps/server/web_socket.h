@@ -15,13 +15,14 @@
 
 namespace dismantle::server {
 
-/// Who a socket is of.
+/// The client that a WebSocket belongs to.
 struct SocketOwner {
-  std::string key;                    ///< Of the client.
-  std::shared_ptr<const void> count;  ///< As of serve_connection().
+  std::string key;                    ///< The client's key.
+  std::shared_ptr<const void> count;  ///< As for serve_connection().
 };
 
-/// Makes a socket of a connection whose upgrade request was let through, and ties it to the hub as its client.
+/// Upgrades a connection to a WebSocket and connects it to the hub until it is closed. `site` must outlive the run of
+/// the io_context. @pre the upgrade request satisfies the access rules
 void serve_socket(boost::beast::tcp_stream stream,
                   const boost::beast::http::request<boost::beast::http::string_body>& upgrade, SocketOwner owner,
                   Site& site);

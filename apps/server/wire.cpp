@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint8_t kTarget = 1, kRate = 2, kPose = 16;
 constexpr double kUnitTolerance = 1e-6;
 
-/// Appends numbers to bytes.
+/// Encodes numbers, little-endian.
 class Writer {
  public:
   template <class T>
@@ -35,7 +35,7 @@ class Writer {
   std::string bytes_;
 };
 
-/// Takes numbers from bytes that are long enough.
+/// Decodes numbers, little-endian. The bytes must be long enough.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : at_(bytes.data()) {}
@@ -57,11 +57,11 @@ class Reader {
   const char* at_;
 };
 
-bool is_sane(const Vec3& v) {
-  return max_abs(v) <= kLargestWireNumber && std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+bool is_in_range(const Vec3& v) {
+  return max_abs(v) <= kMaxWireNumber && std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Makes the rotation one of unit length; false where it is far from that.
+/// Normalizes a quaternion; false if its length is too far from 1.
 bool make_unit(Quat& q) {
   const double length = std::sqrt(dot(q, q));
   if (!(std::fabs(length - 1) <= kUnitTolerance)) return false;
@@ -69,8 +69,8 @@ bool make_unit(Quat& q) {
   return true;
 }
 
-/// The head that the client's structs share; false where a byte that must be 0 is not.
-bool read_head(Reader& in, std::uint32_t& grip, std::uint32_t& number) {
+/// Reads the header of a client's struct; false if a byte that must be 0 is not.
+bool read_header(Reader& in, std::uint32_t& grip, std::uint32_t& number) {
   std::uint32_t type = 0, zero = 0;
   in >> type >> grip >> number >> zero;
   return type <= 0xff && zero == 0;
@@ -100,21 +100,21 @@ std::string encode(const PoseMessage& m) {
   return out.take();
 }
 
-std::optional<std::variant<TargetMessage, RateMessage>> decode_from_client(std::string_view bytes) {
+std::optional<DragInput> decode_from_client(std::string_view bytes) {
   if (bytes.empty()) return {};
   Reader in(bytes);
   if (bytes[0] == kTarget && bytes.size() == kTargetBytes) {
     TargetMessage m;
-    if (!read_head(in, m.grip, m.number)) return {};
+    if (!read_header(in, m.grip, m.number)) return {};
     in >> m.pose;
-    if (!is_sane(m.pose.position) || !make_unit(m.pose.rotation)) return {};
+    if (!is_in_range(m.pose.position) || !make_unit(m.pose.rotation)) return {};
     return m;
   }
   if (bytes[0] == kRate && bytes.size() == kRateBytes) {
     RateMessage m;
-    if (!read_head(in, m.grip, m.number)) return {};
+    if (!read_header(in, m.grip, m.number)) return {};
     in >> m.velocity >> m.angular_velocity;
-    if (!is_sane(m.velocity) || !is_sane(m.angular_velocity)) return {};
+    if (!is_in_range(m.velocity) || !is_in_range(m.angular_velocity)) return {};
     return m;
   }
   return {};

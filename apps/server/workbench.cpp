@@ -12,14 +12,14 @@ namespace dismantle::server {
 
 namespace {
 
-/// Lifetime of a rate that is not renewed, and the longest time over which one step integrates it [s].
-constexpr double kRateLife = 0.15, kLongestRateStep = 0.02;
-/// Of stop and touch, which give no contact points: how far to look for them, in tolerances.
+/// Lifetime of a velocity, and the maximum time over which one step integrates it [s].
+constexpr double kRateLifetime = 0.15, kMaxRateStep = 0.02;
+/// Distance within which contacts are reported for responses Stop and Touch, in tolerances.
 constexpr double kContactReach = 2;
-constexpr std::chrono::microseconds kDragInterval{1000}, kByItselfInterval{8000};
-/// A motion by itself that was held up does not make up for more than this [s].
-constexpr double kLongestAdvance = 0.1;
-constexpr std::size_t kLargestGuide = std::size_t{256} << 20;
+constexpr std::chrono::microseconds kDragInterval{1000}, kAutomaticInterval{8000};
+/// Maximum time by which one step advances an automatic motion or a playback [s].
+constexpr double kMaxAdvance = 0.1;
+constexpr std::size_t kMaxGuideBytes = std::size_t{256} << 20;
 
 double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -39,11 +39,11 @@ Workbench::~Workbench() {
   if (model_) journals_.detach(session());
 }
 
-void Workbench::adopt(Model model) {
+void Workbench::set_model(Model model) {
   if (model_) journals_.detach(session());
   model_ = std::move(model);
-  finding_.reset();
-  drop_targets();
+  search_result_.reset();
+  drop_input();
   const Result<bool> attached = journals_.attach(session());
   is_resumed_ = attached && *attached;
   is_resumable_ = journals_.can_resume(session());
@@ -54,12 +54,12 @@ void Workbench::adopt(Model model) {
 
 Result<Done> Workbench::open_guide(const std::filesystem::path& file, const std::string& name) {
   if (!model_) return Error{ErrorKind::Usage, "no path can be opened (no assembly is open); open the assembly first"};
-  Result<std::string> text = read_file(file, kLargestGuide);
+  Result<std::string> text = read_file(file, kMaxGuideBytes);
   if (!text) return text.error();
   const Result<Path> path = parse_path(*text, name);
   if (!path) return path.error();
   changed_ = true;
-  drop_targets();
+  drop_input();
   return session().set_guide(name, std::move(*text), *path);
 }
 
@@ -68,14 +68,14 @@ std::optional<std::string> Workbench::guide_text() const {
   return session().guide()->text;
 }
 
-Result<Json> Workbench::search(Search wanted) {
-  const SearchKind kind = wanted.kind;
-  for (const ComponentId c : wanted.targets) {
+Result<Json> Workbench::search(SearchRequest request) {
+  const SearchKind kind = request.kind;
+  for (const ComponentId c : request.targets) {
     const std::string& name = session().assembly()[c].name;
     if (kind != SearchKind::Plan && session().is_removed(c))
       return Error{ErrorKind::Usage,
                    "nothing can be searched for '" + name + "' (it was taken out); put it back first"};
-    if (std::find(wanted.fixed.begin(), wanted.fixed.end(), c) != wanted.fixed.end())
+    if (std::find(request.fixed.begin(), request.fixed.end(), c) != request.fixed.end())
       return Error{ErrorKind::Usage,
                    "'" + name + "' cannot be removed (it is both target and fixed); leave out one of the two"};
   }
@@ -83,71 +83,72 @@ Result<Json> Workbench::search(Search wanted) {
     if (session().playback() != nullptr)
       return Error{ErrorKind::Usage, "the path cannot be followed now (a playback is open); stop it first"};
     session().release();
-    drop_targets();
+    drop_input();
   }
-  wanted.standing =
-      std::make_shared<const Standing>(kind == SearchKind::Plan ? assembled(session()) : standing(session()));
-  wanted.engine = session().options();
-  const Result<std::uint32_t> job = begin_search_(wanted);
+  request.snapshot = std::make_shared<const SessionSnapshot>(kind == SearchKind::Plan ? assembled_snapshot(session())
+                                                                                      : current_snapshot(session()));
+  request.engine = session().options();
+  const Result<std::uint32_t> job = start_search_(request);
   if (!job) return job.error();
   return Json{{"job", *job}};
 }
 
-void Workbench::take_finding(const Finding& finding) {
-  if (!model_ || finding.standing->assembly.source_sha256 != model_->assembly->source_sha256) return;
+void Workbench::apply_search_result(const SearchResult& result) {
+  if (!model_ || result.snapshot->assembly.source_sha256 != model_->assembly->source_sha256) return;
   changed_ = true;
-  finding_ = finding;
-  if (finding.kind == SearchKind::Plan && finding.steps > 0) {
-    const Result<Done> guided = session().set_guide("plan.path.json", path_text(finding.path), finding.path);
+  search_result_ = result;
+  if (result.kind == SearchKind::Plan && result.steps > 0) {
+    const Result<Done> guided = session().set_guide("plan.path.json", path_text(result.path), result.path);
     if (!guided) warning_ = guided.error().message;
   }
-  if (finding.kind == SearchKind::TakeOut && finding.complete) go_out(finding);
+  if (result.kind == SearchKind::TakeOut && result.complete) follow_removals(result);
 }
 
-void Workbench::go_out(const Finding& finding) {
-  finding_.reset();
-  Result<Done> gone = Error{ErrorKind::Usage,
-                            "a path was found but not followed (components were moved meanwhile); "
-                            "search again"};
-  if (session().activity() == SessionActivity::Idle && still_stands(*finding.standing, session()))
-    gone = session().take_out_along(finding.removals);
-  if (!gone) warning_ = gone.error().message;
-  drop_targets();
+void Workbench::follow_removals(const SearchResult& result) {
+  search_result_.reset();
+  Result<Done> followed = Error{ErrorKind::Usage,
+                                "a path was found but not followed (components were moved meanwhile); "
+                                "search again"};
+  if (session().activity() == SessionActivity::Idle && is_current(*result.snapshot, session()))
+    followed = session().take_out_along(result.removals);
+  if (!followed) warning_ = followed.error().message;
+  drop_input();
   stepped_at_ = Clock::now();
 }
 
-void Workbench::forget_old_finding() {
-  if (!finding_) return;
-  const bool holds = finding_->kind == SearchKind::Plan ? session().guide() != nullptr || finding_->steps == 0
-                                                        : still_stands(*finding_->standing, session());
-  if (!holds) finding_.reset();
+void Workbench::drop_outdated_result() {
+  if (!search_result_) return;
+  const bool valid = search_result_->kind == SearchKind::Plan
+                         ? session().guide() != nullptr || search_result_->steps == 0
+                         : is_current(*search_result_->snapshot, session());
+  if (!valid) search_result_.reset();
 }
 
-void Workbench::drop_targets() {
+void Workbench::drop_input() {
   target_.reset();
   rate_.reset();
   number_ = 0;
   settled_ = true;
 }
 
-void Workbench::let_go() {
+void Workbench::stop_motion() {
   if (!model_) return;
   session().pause();
   session().release();
-  drop_targets();
+  drop_input();
   changed_ = true;
 }
 
-Result<Json> Workbench::hold(const std::vector<ComponentId>& components) {
-  const Result<Done> held = session().hold(components);
-  drop_targets();
-  if (!held) return held.error();
+Result<Json> Workbench::grab(const std::vector<ComponentId>& components) {
+  const Result<Done> grabbed = session().hold(components);
+  drop_input();
+  if (!grabbed) return grabbed.error();
   ++grip_;
-  held_at_ = stepped_at_ = Clock::now();
+  grabbed_at_ = stepped_at_ = Clock::now();
   return Json{{"grip", grip_}};
 }
 
-void Workbench::set_wanted(const TargetMessage& target) {
+void Workbench::set_input(const TargetMessage& target) {
   if (!is_dragging() || target.grip != grip_ || target.number <= number_) return;
   target_ = target;
   rate_.reset();
@@ -155,7 +156,7 @@ void Workbench::set_wanted(const TargetMessage& target) {
   settled_ = false;
 }
 
-void Workbench::set_wanted(const RateMessage& rate) {
+void Workbench::set_input(const RateMessage& rate) {
   if (!is_dragging() || rate.grip != grip_ || rate.number <= number_) return;
   if (!rate_) stepped_at_ = Clock::now();
   rate_ = rate;
@@ -165,23 +166,23 @@ void Workbench::set_wanted(const RateMessage& rate) {
   settled_ = false;
 }
 
-bool Workbench::moves_by_itself() const {
+bool Workbench::moves_automatically() const {
   if (!model_) return false;
   return session().activity() == SessionActivity::Automatic ||
          (session().playback() != nullptr && session().playback()->is_playing());
 }
 
-bool Workbench::wants_step() const {
-  return moves_by_itself() || (is_dragging() && !settled_ && (target_ || rate_));
+bool Workbench::needs_step() const {
+  return moves_automatically() || (is_dragging() && !settled_ && (target_ || rate_));
 }
 
 std::chrono::microseconds Workbench::step_interval() const {
-  return moves_by_itself() ? kByItselfInterval : kDragInterval;
+  return moves_automatically() ? kAutomaticInterval : kDragInterval;
 }
 
-Pose Workbench::wanted_pose(Clock::time_point now) {
+Pose Workbench::target_pose(Clock::time_point now) {
   if (target_) return target_->pose;
-  const double dt = std::min(seconds_between(stepped_at_, now), kLongestRateStep);
+  const double dt = std::min(seconds_between(stepped_at_, now), kMaxRateStep);
   const Pose& pose = session().poses()[session().moving()[0].value];
   const Vec3 center = session().moving_center();
   const double angle = dt * length(rate_->angular_velocity);
@@ -191,36 +192,36 @@ Pose Workbench::wanted_pose(Clock::time_point now) {
 
 StepResult Workbench::drag(Clock::time_point now) {
   const bool by_rate = rate_.has_value();
-  StepResult result = session().drag(wanted_pose(now), seconds_between(held_at_, now));
+  StepResult result = session().drag(target_pose(now), seconds_between(grabbed_at_, now));
   stepped_at_ = now;
   settled_ = result.reached || result.poses.empty();
-  if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLife;
+  if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLifetime;
   return result;
 }
 
 StepResult Workbench::advance(Clock::time_point now) {
   const std::vector<ComponentId> before(session().moving().begin(), session().moving().end());
   const std::size_t move = session().playback() != nullptr ? session().playback()->position().move : 0;
-  StepResult result = session().advance(std::min(seconds_between(stepped_at_, now), kLongestAdvance));
+  StepResult result = session().advance(std::min(seconds_between(stepped_at_, now), kMaxAdvance));
   stepped_at_ = now;
   const Span<const ComponentId> after = session().moving();
-  changed_ |= !moves_by_itself() || !std::equal(before.begin(), before.end(), after.begin(), after.end());
+  changed_ |= !moves_automatically() || !std::equal(before.begin(), before.end(), after.begin(), after.end());
   changed_ |= session().playback() != nullptr && session().playback()->position().move != move;
   return result;
 }
 
 std::optional<PoseMessage> Workbench::step(Clock::time_point now) {
-  if (!wants_step()) return {};
-  const StepResult result = moves_by_itself() ? advance(now) : drag(now);
+  if (!needs_step()) return {};
+  const StepResult result = moves_automatically() ? advance(now) : drag(now);
   const Clock::time_point end = Clock::now();
   statistics_.add_step(1e6 * seconds_between(now, end), end);
-  watch_journal();
+  check_journal();
   PoseMessage message = pose_message(result, now);
   message.step_us = static_cast<float>(1e6 * seconds_between(now, end));
   return message;
 }
 
-void Workbench::watch_journal() {
+void Workbench::check_journal() {
   const Journal* journal = session().journal();
   if (journal_failed_ || journal == nullptr || !journal->has_failed()) return;
   journal_failed_ = true;
@@ -233,7 +234,7 @@ PoseMessage Workbench::pose_message(const StepResult& step, Clock::time_point no
   m.state = state_number_;
   m.grip = is_dragging() ? grip_ : 0;
   m.answered = number_;
-  m.time = seconds_between(held_at_, now);
+  m.time = seconds_between(grabbed_at_, now);
   if (const Playback* playback = session().playback()) {
     m.flags |= kPlayback;
     m.time = playback->time();
@@ -273,12 +274,12 @@ std::string Workbench::recording_name() const {
 std::optional<std::string> Workbench::take_state() {
   if (!model_ || !changed_) return {};
   changed_ = false;
-  forget_old_finding();
+  drop_outdated_result();
   Json json{{"event", "state"}, {"number", ++state_number_}, {"model", model_->number}};
   json["hand"] = nullptr;
   if (is_dragging()) json["hand"] = {{"grip", grip_}, {"components", to_json(session().moving())}};
   json.update(state_json(session()));
-  json["search"] = finding_ ? search_json(*finding_) : Json(nullptr);
+  json["search"] = search_result_ ? search_json(*search_result_) : Json(nullptr);
   json["resumed"] = is_resumed_;
   json["resumable"] = is_resumable_ && session().done().empty();
   return text_of(json);

@@ -19,77 +19,89 @@
 
 namespace dismantle::server {
 
-/// The session that the server's clients share, as docs/wire.md tells of it: commands and targets in, poses and states
-/// out. Knows no network and no threads; the engine loop calls it.
+/// The session that the clients share, with the commands, inputs, poses and states of docs/wire.md. Independent of
+/// network and threads: all functions are for the engine loop's thread.
 class Workbench {
  public:
+  /// The clock of steps.
   using Clock = std::chrono::steady_clock;
 
-  /// Begins a search whose finding is given to take_finding() later. @return the job's number
-  using BeginSearch = std::function<Result<std::uint32_t>(const Search&)>;
+  /// Starts a search, whose result is passed to apply_search_result() later. @return the job's number. Errors: Usage if
+  /// another job is running.
+  using StartSearch = std::function<Result<std::uint32_t>(const SearchRequest&)>;
 
-  /// @param roots where recordings are saved and paths are read
-  /// @param journals the folder of the sessions' journals; none: they are not kept
-  Workbench(Roots roots, std::optional<std::filesystem::path> journals, BeginSearch begin_search)
-      : roots_(std::move(roots)), journals_(std::move(journals)), begin_search_(std::move(begin_search)) {}
+  /// @param roots folders in which recordings are saved and paths are read
+  /// @param journals the folder of the sessions' journals; none: not stored
+  Workbench(Roots roots, std::optional<std::filesystem::path> journals, StartSearch start_search)
+      : roots_(std::move(roots)), journals_(std::move(journals)), start_search_(std::move(start_search)) {}
+  /// Closes the journal.
   ~Workbench();
   Workbench(const Workbench&) = delete;
   Workbench& operator=(const Workbench&) = delete;
 
-  /// Opens another assembly; the session before ends in order.
-  void adopt(Model model);
+  /// Replaces the assembly; the previous session ends normally. @pre the model is loaded
+  void set_model(Model model);
+  /// The open assembly; null if there is none.
   const Model* model() const { return model_ ? &*model_ : nullptr; }
 
-  /// Does a command of a client in control. @return the answer's members, or the error
+  /// Executes a command of a client that may send it. @return the members of the reply. Errors: Usage if the command is
+  /// malformed or not possible now, Failed if a file cannot be written.
   Result<Json> execute(const Json& command);
-  /// True if a command changes nothing, so that every client may send it.
-  static bool is_question(std::string_view command);
+  /// True if only the client in control may send the command: it changes the session, or is unknown.
+  static bool needs_control(std::string_view command);
 
+  /// True during a drag.
   bool is_dragging() const { return model_ && session().activity() == SessionActivity::Drag; }
-  /// Ends the drag and the automatic motion of a client that has gone.
-  void let_go();
-  /// Uses the result of a search: a plan becomes the guide, a path is followed, a reason is reported.
-  void take_finding(const Finding& finding);
+  /// Ends a drag or an automatic motion and pauses a playback: the client in control changes.
+  void stop_motion();
+  /// Applies the result of a search: a plan becomes the guide, a removal path is followed, reasons are reported in the
+  /// state. Ignored if another assembly is open.
+  void apply_search_result(const SearchResult& result);
   /// Opens a path file as the guide. Errors: as read_path and Session::set_guide; Usage if nothing is open.
   Result<Done> open_guide(const std::filesystem::path& file, const std::string& name);
 
-  /// Sets the wanted pose; ignored if it is not for the dragged set, or older than the last one.
-  void set_wanted(const TargetMessage& target);
-  void set_wanted(const RateMessage& rate);
+  /// Sets the target pose of the drag; ignored if it is of another drag, or older than the last input.
+  void set_input(const TargetMessage& target);
+  /// Sets the target velocity of the drag; ignored as above. Valid for 150 ms.
+  void set_input(const RateMessage& rate);
   /// True if step() has something to do.
-  bool wants_step() const;
-  /// Moves on by one step. @return the struct to send, or nothing where it is as before
+  bool needs_step() const;
+  /// Makes one step of the drag, the automatic motion or the playback. @return the struct to send; none if nothing
+  /// moves
   std::optional<PoseMessage> step(Clock::time_point now);
 
-  /// Between two steps of what goes on.
+  /// Minimum interval between two steps of the present activity.
   std::chrono::microseconds step_interval() const;
-  /// The recording as docs/formats.md has it and a name for its file; none where nothing is open.
+  /// The recording as a path file (docs/formats.md); none if no assembly is open.
   std::optional<std::string> recording_text() const;
+  /// A name for the file of the recording, in printable ASCII.
   std::string recording_name() const;
-  /// Has the next take_state() give one even where nothing has changed: for clients that are new.
-  void tell_state() { changed_ = true; }
-  /// The event `state`, where it has changed since it was taken last.
+  /// Makes the next take_state() return the state even if it has not changed: for new clients.
+  void request_state() { changed_ = true; }
+  /// The event `state`, if it has changed since the last call.
   std::optional<std::string> take_state();
-  /// The guide's file; none where there is no guide.
+  /// The contents of the guide's file; none if there is no guide.
   std::optional<std::string> guide_text() const;
-  /// A warning for the users, where there is a new one.
+  /// Sets a warning for the users; replaces one that has not been taken yet.
   void warn(std::string text) { warning_ = std::move(text); }
+  /// The warning, if there is a new one.
   std::optional<std::string> take_warning() { return std::exchange(warning_, {}); }
+  /// Statistics of the steps.
   StepStatistics& statistics() { return statistics_; }
 
  private:
   friend class WorkbenchCommands;
 
-  Result<Json> search(Search wanted);
-  void go_out(const Finding& finding);
-  void forget_old_finding();
-  Result<Json> hold(const std::vector<ComponentId>& components);
-  void drop_targets();
-  Pose wanted_pose(Clock::time_point now);
-  bool moves_by_itself() const;
+  Result<Json> search(SearchRequest request);
+  void follow_removals(const SearchResult& result);
+  void drop_outdated_result();
+  Result<Json> grab(const std::vector<ComponentId>& components);
+  void drop_input();
+  Pose target_pose(Clock::time_point now);
+  bool moves_automatically() const;
   StepResult drag(Clock::time_point now);
   StepResult advance(Clock::time_point now);
-  void watch_journal();
+  void check_journal();
   PoseMessage pose_message(const StepResult& step, Clock::time_point now) const;
   std::vector<ContactMessage> contact_messages(const StepResult& step) const;
   Session& session() { return *model_->session; }
@@ -97,20 +109,20 @@ class Workbench {
 
   Roots roots_;
   JournalStore journals_;
-  BeginSearch begin_search_;
+  StartSearch start_search_;
   std::optional<Model> model_;
-  std::optional<Finding> finding_;  ///< Of the last search, while it is true.
+  std::optional<SearchResult> search_result_;  ///< Of the last search, while it is valid.
   bool is_resumed_ = false, is_resumable_ = false;
   bool journal_failed_ = false;
   std::optional<std::string> warning_;
   bool changed_ = false;
   std::uint32_t state_number_ = 0;
-  std::uint32_t grip_ = 0;  ///< Of the last hold.
-  Clock::time_point held_at_, rate_at_, stepped_at_;
+  std::uint32_t grip_ = 0;  ///< Number of the last grab.
+  Clock::time_point grabbed_at_, rate_at_, stepped_at_;
   std::optional<TargetMessage> target_;
   std::optional<RateMessage> rate_;
-  std::uint32_t number_ = 0;  ///< Of the newest target or rate.
-  bool settled_ = true;       ///< The last step to the present target got no further.
+  std::uint32_t number_ = 0;  ///< Of the newest input of the drag.
+  bool settled_ = true;       ///< Further steps with this input would not move the set.
   StepStatistics statistics_;
 };
 

@@ -18,19 +18,19 @@ Error usage(const std::string& problem, const std::string& why, const std::strin
   return {ErrorKind::Usage, problem + " (" + why + "); " + advice};
 }
 
-/// The members of a command. What is missing or of a wrong kind is an error that names it.
+/// The members of a command. Errors: Usage, with the name of a member that is missing or of a wrong type.
 class Arguments {
  public:
   Arguments(const Json& command, std::size_t component_count) : command_(command), component_count_(component_count) {}
 
-  /// One at least.
+  /// The member `components`, with at least one component.
   Result<std::vector<ComponentId>> components() const {
     Result<std::vector<ComponentId>> ids = list("components");
     if (ids && ids->empty()) return wrong("components", "a list of indices");
     return ids;
   }
 
-  /// Indices of components; absent: none.
+  /// A list of components; empty if it is missing.
   Result<std::vector<ComponentId>> list(const char* name) const {
     std::vector<ComponentId> ids;
     const auto found = command_.find(name);
@@ -44,41 +44,41 @@ class Arguments {
     return ids;
   }
 
-  /// The preferences, the most important first; absent: none.
+  /// The member `prefer`, the most important first; empty if it is missing.
   Result<std::vector<StepPreference>> preferences() const {
     std::vector<StepPreference> preferences;
     const auto found = command_.find("prefer");
     if (found == command_.end()) return preferences;
-    const std::string wanted = "a list of direction, upright, groups, support, each once at most";
-    if (!found->is_array()) return wrong("prefer", wanted);
+    const std::string expected = "a list of direction, upright, groups, support, each once at most";
+    if (!found->is_array()) return wrong("prefer", expected);
     for (const Json& one : *found) {
       const auto known = one.is_string() ? step_preferences().find(one.get<std::string>()) : step_preferences().end();
       if (known == step_preferences().end() ||
           std::find(preferences.begin(), preferences.end(), known->second) != preferences.end())
-        return wrong("prefer", wanted);
+        return wrong("prefer", expected);
       preferences.push_back(known->second);
     }
     return preferences;
   }
 
-  /// [x, y, z]; nothing where it is absent or null.
+  /// The member `direction`; none if it is missing or null.
   Result<std::optional<Vec3>> direction() const {
     const auto found = command_.find("direction");
     if (found == command_.end() || found->is_null()) return std::optional<Vec3>{};
     Vec3 v;
-    bool is_fine = found->is_array() && found->size() == 3;
-    for (int k = 0; is_fine && k < 3; ++k) {
+    bool is_valid = found->is_array() && found->size() == 3;
+    for (int k = 0; is_valid && k < 3; ++k) {
       const Json& one = (*found)[static_cast<std::size_t>(k)];
-      is_fine = one.is_number() && std::fabs(one.get<double>()) <= kLargestWireNumber;
-      if (is_fine) v[k] = one.get<double>();
+      is_valid = one.is_number() && std::fabs(one.get<double>()) <= kMaxWireNumber;
+      if (is_valid) v[k] = one.get<double>();
     }
-    if (!is_fine) return wrong("direction", "three numbers");
+    if (!is_valid) return wrong("direction", "three numbers");
     return std::optional<Vec3>{v};
   }
 
   Result<double> number(const char* name) const {
     const auto found = command_.find(name);
-    if (found == command_.end() || !found->is_number() || std::fabs(found->get<double>()) > kLargestWireNumber)
+    if (found == command_.end() || !found->is_number() || std::fabs(found->get<double>()) > kMaxWireNumber)
       return wrong(name, "a number");
     return found->get<double>();
   }
@@ -95,7 +95,7 @@ class Arguments {
     return found->get<std::uint64_t>();
   }
 
-  /// Absent: the recording.
+  /// The member `source`; the recording if it is missing.
   Result<PlaybackSource> source() const {
     const auto found = command_.find("source");
     if (found == command_.end() || *found == "recording") return PlaybackSource::Recording;
@@ -111,15 +111,16 @@ class Arguments {
   }
 
  private:
-  static Error wrong(const std::string& member, const std::string& wanted) {
-    return usage("the command was not understood", "'" + member + "' must be " + wanted, "see docs/wire.md");
+  static Error wrong(const std::string& member, const std::string& expected) {
+    return usage("the command was not understood", "'" + member + "' must be " + expected, "see docs/wire.md");
   }
 
   const Json& command_;
   std::size_t component_count_;
 };
 
-Result<Json> answer(const Result<Done>& done) {
+/// A reply without members, or the error.
+Result<Json> empty_reply(const Result<Done>& done) {
   if (!done) return done.error();
   return Json::object();
 }
@@ -135,7 +136,7 @@ Json clearance_json(const Clearance& c) {
 
 }  // namespace
 
-/// The commands of docs/wire.md, a function each.
+/// The commands of docs/wire.md: a function of the same name for each.
 class WorkbenchCommands {
  public:
   WorkbenchCommands(Workbench& bench, const Json& command)
@@ -143,16 +144,16 @@ class WorkbenchCommands {
 
   Result<Json> hold() {
     const auto components = in_.components();
-    return components ? bench_.hold(*components) : components.error();
+    return components ? bench_.grab(*components) : components.error();
   }
   Result<Json> release() {
     session_.release();
-    bench_.drop_targets();
+    bench_.drop_input();
     return Json::object();
   }
   Result<Json> cancel_drag() {
     session_.cancel_drag();
-    bench_.drop_targets();
+    bench_.drop_input();
     return Json::object();
   }
   Result<Json> set_response() {
@@ -162,23 +163,23 @@ class WorkbenchCommands {
     return Json::object();
   }
   Result<Json> undo() {
-    bench_.drop_targets();
-    return answer(session_.undo());
+    bench_.drop_input();
+    return empty_reply(session_.undo());
   }
   Result<Json> redo() {
-    bench_.drop_targets();
-    return answer(session_.redo());
+    bench_.drop_input();
+    return empty_reply(session_.redo());
   }
   Result<Json> take_out() {
     const auto components = in_.components();
     if (!components) return components.error();
     const auto direction = in_.direction();
     if (!direction) return direction.error();
-    return begin(session_.take_out(*components, *direction));
+    return start_motion(session_.take_out(*components, *direction));
   }
   Result<Json> put_back() {
     const auto components = in_.components();
-    return components ? begin(session_.put_back(*components)) : components.error();
+    return components ? start_motion(session_.put_back(*components)) : components.error();
   }
   Result<Json> halt() {
     session_.halt();
@@ -221,7 +222,7 @@ class WorkbenchCommands {
     const auto source = in_.source();
     if (!source) return source.error();
     const auto speed = in_.number("speed");
-    return speed ? begin(session_.play(*source, *speed)) : speed.error();
+    return speed ? start_motion(session_.play(*source, *speed)) : speed.error();
   }
   Result<Json> pause() {
     session_.pause();
@@ -232,7 +233,7 @@ class WorkbenchCommands {
     if (!source) return source.error();
     if (const Playback* open = session_.playback()) source = open->source();
     const auto time = in_.number("time");
-    return time ? begin(session_.seek(*source, *time)) : time.error();
+    return time ? start_motion(session_.seek(*source, *time)) : time.error();
   }
   Result<Json> stop() {
     session_.stop_playback();
@@ -245,15 +246,15 @@ class WorkbenchCommands {
   Result<Json> resume() {
     const Result<Done> done = bench_.journals_.resume(session_);
     bench_.is_resumed_ |= done.ok();
-    return answer(done);
+    return empty_reply(done);
   }
   Result<Json> open_path() {
     const auto file = find_file(&Roots::find);
     if (!file) return file.error();
-    return answer(bench_.open_guide(*file, file->filename().string()));
+    return empty_reply(bench_.open_guide(*file, file->filename().string()));
   }
   Result<Json> save() {
-    const auto file = find_file(&Roots::place_for);
+    const auto file = find_file(&Roots::output_path);
     if (!file) return file.error();
     const std::string name = file->filename().string(), suffix = ".path.json";
     if (name.size() <= suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
@@ -272,11 +273,11 @@ class WorkbenchCommands {
   }
   Result<Json> reset() {
     session_.reset();
-    bench_.drop_targets();
+    bench_.drop_input();
     return Json::object();
   }
   Result<Json> check() { return pairs_json(session_.pairs()); }
-  /// Of the engine; the hub adds what the network counts.
+  /// The engine's metrics; the hub adds those of the network.
   Result<Json> metrics() {
     StepStatistics& s = bench_.statistics_;
     const auto quantiles = [](const RecentValues& values) {
@@ -285,7 +286,7 @@ class WorkbenchCommands {
     return Json{{"steps", s.steps()},
                 {"steps_per_second", s.steps_per_second(Workbench::Clock::now())},
                 {"step_us", quantiles(s.step_us())},
-                {"hand_to_pose_us", quantiles(s.hand_to_pose_us())},
+                {"hand_to_pose_us", quantiles(s.latency_us())},
                 {"front_size", session_.engine().front_size()},
                 {"device", "cpu"}};
   }
@@ -304,10 +305,10 @@ class WorkbenchCommands {
   }
 
   /// Starts an automatic motion.
-  Result<Json> begin(const Result<Done>& begun) {
-    bench_.drop_targets();
+  Result<Json> start_motion(const Result<Done>& started) {
+    bench_.drop_input();
     bench_.stepped_at_ = Workbench::Clock::now();
-    return answer(begun);
+    return empty_reply(started);
   }
 
   Result<std::filesystem::path> find_file(Result<std::filesystem::path> (Roots::*find)(std::uint64_t,
@@ -327,40 +328,40 @@ namespace {
 
 struct CommandEntry {
   std::string_view name;
-  bool is_question;
-  Result<Json> (WorkbenchCommands::*run)();
+  bool changes_session;
+  Result<Json> (WorkbenchCommands::*execute)();
 };
 
 constexpr std::array kCommands = {
-    CommandEntry{"hold", false, &WorkbenchCommands::hold},
-    CommandEntry{"release", false, &WorkbenchCommands::release},
-    CommandEntry{"cancel_drag", false, &WorkbenchCommands::cancel_drag},
-    CommandEntry{"set_response", false, &WorkbenchCommands::set_response},
-    CommandEntry{"undo", false, &WorkbenchCommands::undo},
-    CommandEntry{"redo", false, &WorkbenchCommands::redo},
-    CommandEntry{"take_out", false, &WorkbenchCommands::take_out},
-    CommandEntry{"put_back", false, &WorkbenchCommands::put_back},
-    CommandEntry{"halt", false, &WorkbenchCommands::halt},
-    CommandEntry{"free_directions", true, &WorkbenchCommands::free_directions},
-    CommandEntry{"plan", false, &WorkbenchCommands::plan},
-    CommandEntry{"find_path", false, &WorkbenchCommands::find_path},
-    CommandEntry{"why", false, &WorkbenchCommands::why},
-    CommandEntry{"play", false, &WorkbenchCommands::play},
-    CommandEntry{"pause", false, &WorkbenchCommands::pause},
-    CommandEntry{"seek", false, &WorkbenchCommands::seek},
-    CommandEntry{"stop", false, &WorkbenchCommands::stop},
-    CommandEntry{"close_guide", false, &WorkbenchCommands::close_guide},
-    CommandEntry{"resume", false, &WorkbenchCommands::resume},
-    CommandEntry{"open_path", false, &WorkbenchCommands::open_path},
-    CommandEntry{"save", false, &WorkbenchCommands::save},
-    CommandEntry{"hide", false, &WorkbenchCommands::hide},
-    CommandEntry{"show", false, &WorkbenchCommands::show},
-    CommandEntry{"isolate", false, &WorkbenchCommands::isolate},
-    CommandEntry{"restore", false, &WorkbenchCommands::restore},
-    CommandEntry{"reset", false, &WorkbenchCommands::reset},
-    CommandEntry{"check", true, &WorkbenchCommands::check},
-    CommandEntry{"clearance", true, &WorkbenchCommands::clearance},
-    CommandEntry{"metrics", true, &WorkbenchCommands::metrics},
+    CommandEntry{"hold", true, &WorkbenchCommands::hold},
+    CommandEntry{"release", true, &WorkbenchCommands::release},
+    CommandEntry{"cancel_drag", true, &WorkbenchCommands::cancel_drag},
+    CommandEntry{"set_response", true, &WorkbenchCommands::set_response},
+    CommandEntry{"undo", true, &WorkbenchCommands::undo},
+    CommandEntry{"redo", true, &WorkbenchCommands::redo},
+    CommandEntry{"take_out", true, &WorkbenchCommands::take_out},
+    CommandEntry{"put_back", true, &WorkbenchCommands::put_back},
+    CommandEntry{"halt", true, &WorkbenchCommands::halt},
+    CommandEntry{"free_directions", false, &WorkbenchCommands::free_directions},
+    CommandEntry{"plan", true, &WorkbenchCommands::plan},
+    CommandEntry{"find_path", true, &WorkbenchCommands::find_path},
+    CommandEntry{"why", true, &WorkbenchCommands::why},
+    CommandEntry{"play", true, &WorkbenchCommands::play},
+    CommandEntry{"pause", true, &WorkbenchCommands::pause},
+    CommandEntry{"seek", true, &WorkbenchCommands::seek},
+    CommandEntry{"stop", true, &WorkbenchCommands::stop},
+    CommandEntry{"close_guide", true, &WorkbenchCommands::close_guide},
+    CommandEntry{"resume", true, &WorkbenchCommands::resume},
+    CommandEntry{"open_path", true, &WorkbenchCommands::open_path},
+    CommandEntry{"save", true, &WorkbenchCommands::save},
+    CommandEntry{"hide", true, &WorkbenchCommands::hide},
+    CommandEntry{"show", true, &WorkbenchCommands::show},
+    CommandEntry{"isolate", true, &WorkbenchCommands::isolate},
+    CommandEntry{"restore", true, &WorkbenchCommands::restore},
+    CommandEntry{"reset", true, &WorkbenchCommands::reset},
+    CommandEntry{"check", false, &WorkbenchCommands::check},
+    CommandEntry{"clearance", false, &WorkbenchCommands::clearance},
+    CommandEntry{"metrics", false, &WorkbenchCommands::metrics},
 };
 
 const CommandEntry* find_command(std::string_view name) {
@@ -371,9 +372,9 @@ const CommandEntry* find_command(std::string_view name) {
 
 }  // namespace
 
-bool Workbench::is_question(std::string_view command) {
+bool Workbench::needs_control(std::string_view command) {
   const CommandEntry* entry = find_command(command);
-  return entry != nullptr && entry->is_question;
+  return entry == nullptr || entry->changes_session;
 }
 
 Result<Json> Workbench::execute(const Json& command) {
@@ -383,8 +384,8 @@ Result<Json> Workbench::execute(const Json& command) {
     return usage("the command was not understood", "there is no command '" + name + "'", "see docs/wire.md");
   if (!model_) return usage("'" + name + "' cannot be done", "no assembly is open", "open one first");
   WorkbenchCommands commands(*this, command);
-  Result<Json> result = (commands.*entry->run)();
-  changed_ |= !entry->is_question;
+  Result<Json> result = (commands.*entry->execute)();
+  changed_ |= entry->changes_session;
   return result;
 }
 
