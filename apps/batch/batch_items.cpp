@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLongestFolderName = 200;
+constexpr std::size_t kMaxFolderName = 200;
 
-/// The properties of a file that enter its key.
+/// The properties of a file that its key covers.
 struct FileState {
   std::uint64_t bytes = 0;
-  std::int64_t changed = 0;  ///< In the clock's ticks.
+  std::int64_t changed = 0;  ///< Modification time in ticks of the clock.
 };
 
 /// All files below the root, by name.
@@ -58,7 +58,7 @@ Result<FileTree> walk(const fs::path& root, const fs::path& except) {
   return files;
 }
 
-/// The files whose names begin so.
+/// The files whose names begin with `prefix`.
 std::pair<FileTree::const_iterator, FileTree::const_iterator> below(const FileTree& files, const std::string& prefix) {
   const auto first = files.lower_bound(prefix);
   auto last = first;
@@ -71,7 +71,7 @@ bool is_single_file_assembly(const std::string& extension) {
          extension == ".urdf";
 }
 
-/// The names of the assemblies, and of each the files that are its own.
+/// The files of each assembly, by the assembly's name.
 std::map<std::string, std::vector<std::string>> group(const FileTree& files, MeshGrouping meshes) {
   std::map<std::string, std::vector<std::string>> items, folders;
   for (const auto& [name, state] : files) {
@@ -105,13 +105,13 @@ std::string key_of(const std::string& item, const std::vector<std::string>& own,
   return hash.finish();
 }
 
-/// A name for a folder, of a path: "a/b.step" -> "a__b.step".
+/// The name of the result folder: "a/b.step" -> "a__b.step".
 std::string folder_name(const std::string& item) {
   if (item == ".") return "all";
   std::string name;
   for (const char c : item) name += c == '/' ? std::string("__") : std::string(1, c);
-  if (name.size() <= kLongestFolderName) return name;
-  return name.substr(0, kLongestFolderName) + "~" + sha256(item).substr(0, 16);
+  if (name.size() <= kMaxFolderName) return name;
+  return name.substr(0, kMaxFolderName) + "~" + sha256(item).substr(0, 16);
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ Result<std::vector<BatchItem>> find_batch_items(const fs::path& root, const Batc
   }
   if (items.empty())
     return Error{ErrorKind::Unreadable, root.string() +
-                                            " holds nothing to work on (no STEP, glTF, URDF, OBJ, STL or PLY file" +
+                                            " contains no assembly (no STEP, glTF, URDF, OBJ, STL or PLY file" +
                                             (selection.only.empty() ? "" : " of a name like '" + selection.only + "'") +
                                             "); give another folder"};
   return items;

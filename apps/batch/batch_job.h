@@ -12,27 +12,28 @@
 
 namespace dismantle::batch {
 
-/// The work on one item, in a process of its own: writes its files into `folder` and returns a summary, the text
-/// of a flat JSON object that the table has as a row. Same input, same files. It may crash.
+/// The work on one item, in a process of its own: writes files into `folder` and returns a summary, the text of a flat
+/// JSON object whose members become columns of the table. Equal input gives equal files. A crash is reported as a
+/// failure of the item.
 using BatchWork = std::function<Result<std::string>(const BatchItem& item, const std::filesystem::path& folder)>;
 
 /// Resource limits of one item; exceeding one counts as a failure.
 struct BatchLimits {
-  double memory_gib = 8;
-  double cpu_seconds = 3600;
-  int attempts = 3;  ///< Of processes that died over it, for whatever reason.
+  double memory_gib = 8;      ///< Memory of the process [GiB].
+  double cpu_seconds = 3600;  ///< Processor time of the process [s].
+  int attempts = 3;           ///< The item fails after this many workers died while they worked on it.
 };
 
-/// A batch as all who work on it see it.
+/// A batch. All workers of one output folder need the same one.
 struct BatchJob {
-  std::vector<BatchItem> items;
-  std::filesystem::path output;
-  BatchWork work;
-  BatchLimits limits;
-  double lease_seconds = 120;  ///< A machine that is silent for so long has lost its item.
+  std::vector<BatchItem> items;  ///< In the order of the tables.
+  std::filesystem::path output;  ///< The folder with the results.
+  BatchWork work;                ///< Done for each item.
+  BatchLimits limits;            ///< Of each item.
+  double lease_seconds = 120;    ///< A worker that gives no sign of life for this long loses its item [s].
 
-  /// Where claims and what is being made are.
-  std::filesystem::path workshop() const { return output / ".batch"; }
+  /// The folder with claims and unfinished results.
+  std::filesystem::path work_folder() const { return output / ".batch"; }
 };
 
 }  // namespace dismantle::batch

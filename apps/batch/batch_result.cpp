@@ -16,21 +16,21 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kLargestResult = std::size_t{1} << 20;
+constexpr std::size_t kMaxResultBytes = std::size_t{1} << 20;
 constexpr int kMoveAttempts = 10;
 
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// The object in a file; nothing where there is none.
+/// The JSON object in a file; empty if there is none.
 Json read_json(const fs::path& file) {
-  const Result<std::string> text = read_file(file, kLargestResult);
+  const Result<std::string> text = read_file(file, kMaxResultBytes);
   Json json = text ? Json::parse(*text, nullptr, false) : Json();
   return json.is_object() ? json : Json::object();
 }
 
-/// A member that is text.
+/// A text member; empty if it is missing.
 std::string text_in(const Json& object, const char* name) {
   const auto member = object.find(name);
   return member != object.end() && member->is_string() ? member->get<std::string>() : std::string();
@@ -40,7 +40,7 @@ fs::path folder_of(const BatchJob& job, const BatchItem& item) {
   return job.output / item.folder;
 }
 
-/// A field of a row: tabs and line breaks would part it.
+/// A field of a row, with tabs and line breaks replaced by spaces.
 std::string tsv_field(const Json& value) {
   std::string text;
   if (value.is_string()) text = value.get<std::string>();
@@ -50,7 +50,7 @@ std::string tsv_field(const Json& value) {
   return text;
 }
 
-/// A header and a row an object, with a column for every member that any of them has, in order of appearance.
+/// A table with a header, a row for each object and a column for each member of any object, in order of appearance.
 std::string tsv_of(const Json& rows) {
   std::vector<std::string> columns;
   for (const Json& row : rows)
@@ -76,21 +76,21 @@ std::optional<BatchResult> find_result(const BatchJob& job, const BatchItem& ite
   return BatchResult{text_in(json, "error"), summary != json.end() ? summary->dump() : "{}"};
 }
 
-Result<Done> publish_result(const BatchJob& job, const BatchItem& item, const fs::path& workplace,
+Result<Done> publish_result(const BatchJob& job, const BatchItem& item, const fs::path& scratch_folder,
                             const BatchResult& result, const BatchTiming& timing) {
   Json json{{"format", "dismantle-batch-result"}, {"version", 1}, {"assembly", item.name}, {"key", item.key}};
   json["status"] = result.failed() ? "failed" : "done";
   json["error"] = result.failed() ? Json(result.error) : Json(nullptr);
   json["summary"] = Json::parse(result.summary, nullptr, false);
   const Json cost{{"seconds", timing.seconds}, {"host", timing.host}};
-  if (Result<Done> written = write_file(workplace / "timing.json", text_of(cost)); !written) return written;
-  if (Result<Done> written = write_file(workplace / "result.json", text_of(json)); !written) return written;
+  if (Result<Done> written = write_file(scratch_folder / "timing.json", text_of(cost)); !written) return written;
+  if (Result<Done> written = write_file(scratch_folder / "result.json", text_of(json)); !written) return written;
 
   std::error_code error;
   for (int attempt = 0; attempt < kMoveAttempts; ++attempt) {
-    fs::rename(workplace, folder_of(job, item), error);
+    fs::rename(scratch_folder, folder_of(job, item), error);
     if (!error || find_result(job, item)) return Done{};
-    remove_result(job, item);  // an older one is in the way
+    remove_result(job, item);  // an outdated one exists
   }
   return Error{ErrorKind::Failed, folder_of(job, item).string() + " cannot be written (" + error.message() +
                                       "); check the folder, its permissions and the free space"};
@@ -100,7 +100,7 @@ void remove_result(const BatchJob& job, const BatchItem& item) {
   std::error_code ignored;
   const auto now = fs::file_time_type::clock::now().time_since_epoch().count();
   const fs::path old =
-      job.workshop() / (item.folder + ".old." + std::to_string(::getpid()) + "." + std::to_string(now));
+      job.work_folder() / (item.folder + ".old." + std::to_string(::getpid()) + "." + std::to_string(now));
   fs::rename(folder_of(job, item), old, ignored);
   fs::remove_all(old, ignored);
 }

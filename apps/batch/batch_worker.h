@@ -8,18 +8,18 @@
 
 namespace dismantle::batch {
 
-/// The origin of a result.
+/// Origin of a result.
 enum class BatchProgress : std::uint32_t {
-  Found,  ///< It was there, or somebody else made it.
-  Made,
+  Found,  ///< It existed, or another worker made it.
+  Made,   ///< This worker made it.
 };
 
-/// Called with an item's index where its result is there.
+/// Called with the index of each item when its result exists.
 using BatchReport = std::function<void(std::uint32_t item, BatchProgress progress)>;
 
-/// Works on the items, the largest first, that nobody else works on, until all have their results or a stop is
-/// requested; then what was begun is dropped. Any number of workers, on any number of machines, may do so for one
-/// output folder. Forks for each item: the caller has no threads. Errors: Failed where results cannot be written.
-Result<Done> work_through(const BatchJob& job, const BatchReport& report);
+/// Processes the items that no other worker has claimed, the largest first, until all have results or a stop is
+/// requested; then the unfinished item is dropped. Any number of workers, on any number of machines, may share one
+/// output folder. Forks for each item. Errors: Failed if results cannot be written. @pre the process has one thread
+Result<Done> run_worker(const BatchJob& job, const BatchReport& report);
 
 }  // namespace dismantle::batch

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr double kRenewalsALease = 10;
+constexpr double kRenewalsPerLease = 10;
 
 fs::path link_of(const fs::path& base, int attempt) {
   return base.string() + ".claim." + std::to_string(attempt);
@@ -32,16 +32,16 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// When a process was started, in ticks since the machine was: tells a process from a later one of the same number.
+/// Start time of a process in ticks since boot: distinguishes processes with the same id.
 std::string start_of(const std::string& pid) {
   const std::string stat = first_line("/proc/" + pid + "/stat");
-  std::istringstream fields(stat.substr(stat.rfind(')') + 1));  // the name before may hold anything
+  std::istringstream fields(stat.substr(stat.rfind(')') + 1));  // the process name before may contain anything
   std::string field;
   for (int k = 0; k < 20; ++k) fields >> field;
   return field;
 }
 
-/// A started machine, or a container in it: process numbers mean something there and nowhere else.
+/// Identifies this boot of the machine and the container: the scope in which process ids are valid.
 std::string this_machine() {
   std::error_code ignored;
   return first_line("/proc/sys/kernel/random/boot_id") + "," + fs::read_symlink("/proc/self/ns/pid", ignored).string();
@@ -52,7 +52,7 @@ std::string this_process() {
   return this_machine() + " " + pid + " " + start_of(pid);
 }
 
-/// True where it is certain.
+/// True if the owner has certainly ended.
 bool is_dead(const std::string& owner) {
   std::istringstream words(owner);
   std::string machine, pid, start;
@@ -68,7 +68,7 @@ std::string owner_of(const fs::path& link) {
   return fs::read_symlink(link, ignored).string();
 }
 
-/// When a link was last made or renewed.
+/// Time at which a link was created or touched last.
 fs::file_time_type change_of(const fs::path& link) {
   struct stat status {};
   if (::lstat(link.c_str(), &status) != 0) return {};
@@ -85,24 +85,24 @@ double seconds_since(Clock::time_point then) {
 Claim::Claim(fs::path base, int attempt, std::string owner)
     : base_(std::move(base)), attempt_(attempt), owner_(std::move(owner)), renewed_(Clock::now()) {}
 
-fs::path Claim::workplace(int attempt) const {
+fs::path Claim::scratch_folder(int attempt) const {
   return link_of(base_, attempt).string() + ".work";
 }
 
 void Claim::renew(double lease_seconds) {
-  if (seconds_since(renewed_) < lease_seconds / kRenewalsALease) return;
+  if (seconds_since(renewed_) < lease_seconds / kRenewalsPerLease) return;
   renewed_ = Clock::now();
   ::utimensat(AT_FDCWD, link_of(base_, attempt_).c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
 }
 
-bool Claim::holds() const {
+bool Claim::is_held() const {
   return owner_of(link_of(base_, attempt_)) == owner_ && !fs::is_symlink(link_of(base_, attempt_ + 1));
 }
 
 void Claim::release() {
   std::error_code ignored;
   for (int attempt = 1; attempt <= attempt_; ++attempt) {
-    fs::remove_all(workplace(attempt), ignored);
+    fs::remove_all(scratch_folder(attempt), ignored);
     if (attempt < attempt_ || owner_of(link_of(base_, attempt)) == owner_) fs::remove(link_of(base_, attempt), ignored);
   }
 }
@@ -110,7 +110,7 @@ void Claim::release() {
 ClaimFolder::ClaimFolder(fs::path folder, double lease_seconds)
     : folder_(std::move(folder)), lease_seconds_(lease_seconds), owner_(this_process()) {}
 
-bool ClaimFolder::is_lost(const std::string& item, int attempt, const fs::path& link) {
+bool ClaimFolder::is_expired(const std::string& item, int attempt, const fs::path& link) {
   if (is_dead(owner_of(link))) return true;
   const fs::file_time_type changed = change_of(link);
   Seen& seen = seen_[item];
@@ -118,17 +118,17 @@ bool ClaimFolder::is_lost(const std::string& item, int attempt, const fs::path& 
   return seconds_since(seen.since) > lease_seconds_;
 }
 
-std::optional<Claim> ClaimFolder::take(const std::string& item) {
+std::optional<Claim> ClaimFolder::try_claim(const std::string& item) {
   const fs::path base = folder_ / item;
   int attempt = 1;
   while (fs::is_symlink(link_of(base, attempt))) ++attempt;
-  if (attempt > 1 && !is_lost(item, attempt - 1, link_of(base, attempt - 1))) return {};
+  if (attempt > 1 && !is_expired(item, attempt - 1, link_of(base, attempt - 1))) return {};
 
   const fs::path link = link_of(base, attempt);
-  // A network file system may have made the link and, asked again, say that it was there.
+  // A network file system may create the link and, when the request is repeated, report that it exists.
   const int failure = ::symlink(owner_.c_str(), link.c_str()) == 0 ? 0 : errno;
   std::error_code ignored;
-  if (failure == ENOENT) fs::create_directories(folder_, ignored);  // for the next try
+  if (failure == ENOENT) fs::create_directories(folder_, ignored);  // for the next attempt
   if (failure != 0 && (failure != EEXIST || owner_of(link) != owner_)) return {};
   return Claim(base, attempt, owner_);
 }

@@ -9,22 +9,25 @@
 
 namespace dismantle::batch {
 
-/// Somebody works on an item: a symbolic link FOLDER/ITEM.claim.N whose target says who, made in one step that only one
-/// can succeed in. N counts the attempts: who finds the latest one's owner dead or silent makes the next.
+/// A worker's claim on an item: a symbolic link FOLDER/ITEM.claim.N whose target names the worker. Creating a link is
+/// atomic, so only one worker succeeds. N counts the attempts: a worker that finds the latest owner dead or silent
+/// creates the next.
 class Claim {
  public:
+  /// The claim whose link exists. @param base FOLDER/ITEM
   Claim(std::filesystem::path base, int attempt, std::string owner);
 
-  /// 1 where nobody worked on it before; else how many did not come to an end.
+  /// Number of the attempt, from 1; the earlier ones did not finish.
   int attempt() const { return attempt_; }
-  /// A place for what is being made, of this claim alone. Those of earlier attempts are removed with the claims.
-  std::filesystem::path workplace() const { return workplace(attempt_); }
-  std::filesystem::path workplace(int attempt) const;
-  /// Shows that its owner lives; does so now and then, however often it is called.
+  /// A folder for the unfinished result, used by this claim only.
+  std::filesystem::path scratch_folder() const { return scratch_folder(attempt_); }
+  /// The same for another attempt.
+  std::filesystem::path scratch_folder(int attempt) const;
+  /// Gives a sign of life by touching the link, at most ten times a lease.
   void renew(double lease_seconds);
-  /// True if no other worker has taken the item over.
-  bool holds() const;
-  /// Removes this claim with those before it and their workplaces.
+  /// True unless another worker has taken over the item.
+  bool is_held() const;
+  /// Removes this claim and the earlier ones, with their scratch folders.
   void release();
 
  private:
@@ -34,17 +37,17 @@ class Claim {
   std::chrono::steady_clock::time_point renewed_;
 };
 
-/// The claims of one batch, as one process sees them. Needs nothing of the file system but that a symbolic link is made
-/// in one step, so that many hosts can share it. Two may come to work on one item (a host is silent for longer than the
-/// lease, and goes on): then their results are the same, and one is dropped.
+/// The claims of one batch, used by one process. The only requirement on the file system is that symbolic links are
+/// created atomically, so many hosts can share it. Two workers may process one item (a host is silent for longer than
+/// the lease, then continues): their results are equal, and one is dropped.
 class ClaimFolder {
  public:
-  /// @param lease_seconds Whoever showed no life for so long has lost its item; within one machine that is seen at
-  /// once.
+  /// @param lease_seconds an owner without a sign of life for this long has lost its item [s]; a process of the same
+  /// machine that has ended loses it at once
   ClaimFolder(std::filesystem::path folder, double lease_seconds);
 
-  /// The claim on an item, where nobody who lives has it.
-  std::optional<Claim> take(const std::string& item);
+  /// Claims an item; none if a live worker has it.
+  std::optional<Claim> try_claim(const std::string& item);
 
  private:
   struct Seen {
@@ -52,7 +55,7 @@ class ClaimFolder {
     std::filesystem::file_time_type changed;
     std::chrono::steady_clock::time_point since;
   };
-  bool is_lost(const std::string& item, int attempt, const std::filesystem::path& link);
+  bool is_expired(const std::string& item, int attempt, const std::filesystem::path& link);
 
   std::filesystem::path folder_;
   double lease_seconds_;

@@ -12,7 +12,7 @@ namespace dismantle::batch {
 
 namespace {
 
-/// The first of these variables that is set.
+/// The value of the first of these variables that is set.
 int number_of(std::initializer_list<const char*> variables, int otherwise) {
   for (const char* variable : variables)
     if (const char* text = std::getenv(variable)) return std::atoi(text);

@@ -3,17 +3,17 @@
 
 namespace dismantle::batch {
 
-/// Where this process stands among those that mpirun (Open MPI) or srun (Slurm) started together.
+/// The rank of this process among those that mpirun (Open MPI) or srun (Slurm) started together.
 struct LaunchedRank {
-  int rank = 0;        ///< The first one speaks for all.
-  int local_size = 1;  ///< How many of them are on this machine.
+  int rank = 0;        ///< From 0; rank 0 prints the results.
+  int local_size = 1;  ///< Number of them on this machine.
 };
 
-/// As the launcher's environment says; the only one where there is none.
+/// The rank according to the launcher's environment variables; {0, 1} without a launcher.
 LaunchedRank launched_rank();
 
-/// Number of processes that can work here: the cores that this process may use, shared with the others of `rank`'s
-/// machine.
+/// Number of workers that this process should start: the cores that it may use, at most its share of the machine. At
+/// least 1.
 int usable_cores(const LaunchedRank& rank);
 
 }  // namespace dismantle::batch

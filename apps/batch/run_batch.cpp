@@ -30,41 +30,41 @@ struct Message {
   BatchProgress progress = BatchProgress::Found;
 };
 
-[[noreturn]] void be_worker(const BatchJob& job, int line, pid_t parent) {
+[[noreturn]] void worker_process(const BatchJob& job, int pipe, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kExitFailed);
-  const auto tell = [line](std::uint32_t item, BatchProgress progress) {
+  const auto report = [pipe](std::uint32_t item, BatchProgress progress) {
     const Message message{item, progress};
-    while (write(line, &message, sizeof message) < 0 && errno == EINTR) {
+    while (write(pipe, &message, sizeof message) < 0 && errno == EINTR) {
     }
   };
-  const Result<Done> done = work_through(job, tell);
+  const Result<Done> done = run_worker(job, report);
   if (!done) std::fprintf(stderr, "dismantle: %s\n", done.error().message.c_str());
   _exit(done ? kExitDone : kExitFailed);
 }
 
-/// The workers of this machine, and the line on which they tell.
+/// The workers of this process, and the pipe for their messages.
 class Workers {
  public:
   explicit Workers(const BatchJob& job) : job_(job) {
-    if (pipe2(line_, O_CLOEXEC | O_NONBLOCK) != 0) line_[0] = line_[1] = -1;
+    if (pipe2(pipe_, O_CLOEXEC | O_NONBLOCK) != 0) pipe_[0] = pipe_[1] = -1;
   }
   ~Workers() {
     for (const pid_t worker : running_) kill(worker, SIGTERM);
     for (const pid_t worker : running_) waitpid(worker, nullptr, 0);
-    for (const int end : line_) close(end);
+    for (const int end : pipe_) close(end);
   }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// False where the system gives no process.
+  /// Starts a worker. @return false if the system cannot create a process
   bool start_one() {
-    if (line_[0] < 0) return false;
+    if (pipe_[0] < 0) return false;
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child == 0) {
-      fcntl(line_[1], F_SETFL, 0);
-      be_worker(job_, line_[1], parent);
+      fcntl(pipe_[1], F_SETFL, 0);
+      worker_process(job_, pipe_[1], parent);
     }
     if (child > 0) running_.insert(child);
     return child > 0;
@@ -73,14 +73,14 @@ class Workers {
   void stop() const {
     for (const pid_t worker : running_) kill(worker, SIGTERM);
   }
-  /// Waits a little for what they tell.
-  void listen(const BatchReport& report) const {
-    pollfd line{line_[0], POLLIN, 0};
-    poll(&line, 1, kTickMilliseconds);
+  /// Waits for messages for a short time and reports them.
+  void receive(const BatchReport& report) const {
+    pollfd readable{pipe_[0], POLLIN, 0};
+    poll(&readable, 1, kTickMilliseconds);
     Message message;
-    while (read(line_[0], &message, sizeof message) == sizeof message) report(message.item, message.progress);
+    while (read(pipe_[0], &message, sizeof message) == sizeof message) report(message.item, message.progress);
   }
-  /// Number of workers that have ended since, killed or with an error.
+  /// Number of workers that have ended since the last call, killed or with an error.
   struct Ended {
     int killed = 0, failed = 0;
   };
@@ -101,17 +101,17 @@ class Workers {
 
  private:
   const BatchJob& job_;
-  int line_[2];
+  int pipe_[2];
   std::set<pid_t> running_;
 };
 
 Error no_process() {
-  return {ErrorKind::Failed, "the batch cannot go on (the system gives no process); close something"};
+  return {ErrorKind::Failed, "the batch cannot continue (the system cannot create a process); close other programs"};
 }
 
 Result<Done> prepare(const BatchJob& job, const BatchRunOptions& options) {
   std::error_code error;
-  fs::create_directories(job.workshop(), error);
+  fs::create_directories(job.work_folder(), error);
   if (error)
     return Error{ErrorKind::Failed, job.output.string() + " cannot be written (" + error.message() +
                                         "); check the folder, its permissions and the free space"};
@@ -123,15 +123,15 @@ Result<Done> prepare(const BatchJob& job, const BatchRunOptions& options) {
   return Done{};
 }
 
-/// Until every worker has ended.
+/// Starts the workers and waits until all have ended.
 Result<Done> supervise(const BatchJob& job, const BatchRunOptions& options) {
-  std::vector<bool> reported(job.items.size(), false), was_there;
-  for (const BatchItem& item : job.items) was_there.push_back(find_result(job, item).has_value());
+  std::vector<bool> reported(job.items.size(), false), existed;
+  for (const BatchItem& item : job.items) existed.push_back(find_result(job, item).has_value());
   const auto report_once = [&](std::uint32_t item, BatchProgress) {
     if (reported[item]) return;
     reported[item] = true;
-    // A worker finds what another has just made: to the run that is made.
-    if (options.report) options.report(item, was_there[item] ? BatchProgress::Found : BatchProgress::Made);
+    // A result that another worker of this run has just made counts as made.
+    if (options.report) options.report(item, existed[item] ? BatchProgress::Found : BatchProgress::Made);
   };
   Workers workers(job);
   const auto wanted = std::min<std::size_t>(static_cast<std::size_t>(options.workers), job.items.size());
@@ -139,22 +139,22 @@ Result<Done> supervise(const BatchJob& job, const BatchRunOptions& options) {
     if (!workers.start_one()) return no_process();
 
   int restarts = static_cast<int>(wanted) + static_cast<int>(job.items.size()) * job.limits.attempts;
-  bool told = false, failed = false;
+  bool stopping = false, failed = false;
   while (workers.any()) {
-    workers.listen(report_once);
+    workers.receive(report_once);
     const Workers::Ended ended = workers.collect();
     failed = failed || ended.failed > 0;
-    if ((stop_requested() || failed) && !told) {
-      told = true;
+    if ((stop_requested() || failed) && !stopping) {
+      stopping = true;
       workers.stop();
     }
-    for (int k = 0; k < ended.killed && !told; ++k)
+    for (int k = 0; k < ended.killed && !stopping; ++k)
       if (--restarts < 0 || !workers.start_one()) return no_process();
   }
-  workers.listen(report_once);
+  workers.receive(report_once);
   if (stop_requested())
-    return Error{ErrorKind::Failed, "the batch is not done (cancelled); start it again, and it goes on"};
-  if (failed) return Error{ErrorKind::Failed, "the batch is not done (see above); start it again, and it goes on"};
+    return Error{ErrorKind::Failed, "the batch is incomplete (cancelled); start it again to continue"};
+  if (failed) return Error{ErrorKind::Failed, "the batch is incomplete (see above); start it again to continue"};
   return Done{};
 }
 
@@ -166,7 +166,7 @@ Result<BatchTables> run_batch(const BatchJob& job, const BatchRunOptions& option
   if (Result<Done> done = supervise(job, options); !done) return done.error();
   Result<BatchTables> tables = write_tables(job);
   std::error_code ignored;
-  fs::remove(job.workshop(), ignored);  // where nobody else works in it any more
+  fs::remove(job.work_folder(), ignored);  // fails if another worker still uses it
   return tables;
 }
 

@@ -7,15 +7,16 @@
 
 namespace dismantle::batch {
 
+/// Options of a run.
 struct BatchRunOptions {
-  int workers = 1;            ///< Processes that work here.
+  int workers = 1;            ///< Number of worker processes.
   bool retry_failed = false;  ///< Retry assemblies that failed.
-  BatchReport report;         ///< Called once an item; Found: it was there before the run.
+  BatchReport report;         ///< Called once for each item; Found: the result existed before the run.
 };
 
-/// Has a batch worked through by processes of this machine, together with whoever else works on the same output
-/// folder, and writes the tables. Processes that die are started again. Forks: the caller has no threads. Errors:
-/// Failed where it was stopped (what is done stays, and is not done again), or the output cannot be written.
+/// Processes a batch with worker processes, together with other machines that use the same output folder, and writes
+/// the tables. Workers that die are restarted. Errors: Failed if it was stopped by SIGINT or SIGTERM (finished results
+/// are kept), or the output cannot be written. @pre the process has one thread
 Result<BatchTables> run_batch(const BatchJob& job, const BatchRunOptions& options);
 
 }  // namespace dismantle::batch

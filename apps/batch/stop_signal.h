@@ -3,9 +3,9 @@
 
 namespace dismantle::batch {
 
-/// From now on SIGINT and SIGTERM no longer end this process and the children that it forks, but are remembered.
+/// Installs handlers with which SIGINT and SIGTERM do not end this process and its forked children, but set a flag.
 void watch_stop_signal();
-/// True once one of them was received.
+/// True if one of these signals was received.
 bool stop_requested();
 
 }  // namespace dismantle::batch

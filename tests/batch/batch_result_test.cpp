@@ -11,11 +11,11 @@ class BatchResults : public BatchFolder {
   void SetUp() override {
     BatchFolder::SetUp();
     job_ = job(2, {});
-    fs::create_directories(job_.workshop() / "work");
+    fs::create_directories(job_.work_folder() / "work");
   }
   void publish(const BatchItem& item, const BatchResult& result) {
-    fs::create_directories(job_.workshop() / "work");
-    const Result<Done> done = publish_result(job_, item, job_.workshop() / "work", result, {1.5, "host"});
+    fs::create_directories(job_.work_folder() / "work");
+    const Result<Done> done = publish_result(job_, item, job_.work_folder() / "work", result, {1.5, "host"});
     EXPECT_TRUE(done.ok()) << done.error().message;
   }
   BatchJob job_;
@@ -31,7 +31,7 @@ TEST_F(BatchResults, AreReusedUntilTheirKeyChanges) {
 }
 
 TEST_F(BatchResults, ReplaceOlderOnesEntirely) {
-  std::ofstream(job_.workshop() / "work" / "only-of-the-first.txt") << "x";
+  std::ofstream(job_.work_folder() / "work" / "only-of-the-first.txt") << "x";
   publish(job_.items[0], {"", "{}"});
   EXPECT_TRUE(fs::exists(job_.output / "a" / "only-of-the-first.txt"));
   job_.items[0].key = "of other options";

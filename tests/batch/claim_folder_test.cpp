@@ -23,29 +23,29 @@ class Claims : public BatchFolder {
 
 TEST_F(Claims, BelongToOneProcessOnly) {
   ClaimFolder folder(root_, kLongLease);
-  std::optional<Claim> claim = folder.take("item");
+  std::optional<Claim> claim = folder.try_claim("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 1);
-  EXPECT_TRUE(claim->holds());
-  EXPECT_FALSE(ClaimFolder(root_, kLongLease).take("item")) << "its owner is alive";
-  EXPECT_TRUE(folder.take("another"));
+  EXPECT_TRUE(claim->is_held());
+  EXPECT_FALSE(ClaimFolder(root_, kLongLease).try_claim("item")) << "its owner is alive";
+  EXPECT_TRUE(folder.try_claim("another"));
   claim->release();
-  EXPECT_FALSE(claim->holds());
-  EXPECT_TRUE(ClaimFolder(root_, kLongLease).take("item"));
+  EXPECT_FALSE(claim->is_held());
+  EXPECT_TRUE(ClaimFolder(root_, kLongLease).try_claim("item"));
 }
 
 TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
   const pid_t child = fork();
   if (child == 0) {
-    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).take("item");
-    fs::create_directories(claim->workplace());
+    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+    fs::create_directories(claim->scratch_folder());
     kill(getpid(), SIGKILL);
   }
   waitpid(child, nullptr, 0);
-  std::optional<Claim> claim = ClaimFolder(root_, kLongLease).take("item");
+  std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 2);
-  EXPECT_TRUE(fs::exists(claim->workplace(1)));
+  EXPECT_TRUE(fs::exists(claim->scratch_folder(1)));
   claim->release();
   EXPECT_TRUE(fs::is_empty(root_));
 }
@@ -53,9 +53,9 @@ TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
 TEST_F(Claims, OfAnotherMachineExpireWithoutRenewal) {
   claim_from_elsewhere();
   ClaimFolder folder(root_, 0.05);
-  EXPECT_FALSE(folder.take("item")) << "it has not been silent long enough";
+  EXPECT_FALSE(folder.try_claim("item")) << "it has not been silent long enough";
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  const std::optional<Claim> claim = folder.take("item");
+  const std::optional<Claim> claim = folder.try_claim("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 2);
 }
@@ -64,16 +64,16 @@ TEST_F(Claims, OfAnotherMachineLastWhileItRenewsThem) {
   claim_from_elsewhere();
   ClaimFolder folder(root_, 0.05);
   for (int k = 1; k <= 3; ++k) {
-    EXPECT_FALSE(folder.take("item"));
+    EXPECT_FALSE(folder.try_claim("item"));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const timespec times[2] = {{k, 0}, {k, 0}};  // its clock may be wrong
     utimensat(AT_FDCWD, (root_ / "item.claim.1").c_str(), times, AT_SYMLINK_NOFOLLOW);
   }
-  EXPECT_FALSE(folder.take("item"));
+  EXPECT_FALSE(folder.try_claim("item"));
 }
 
 TEST_F(Claims, AreRenewedByTheirOwner) {
-  Claim claim = *ClaimFolder(root_, kLongLease).take("item");
+  Claim claim = *ClaimFolder(root_, kLongLease).try_claim("item");
   const timespec long_ago[2] = {{1, 0}, {1, 0}};
   const std::string link = (root_ / "item.claim.1").string();
   utimensat(AT_FDCWD, link.c_str(), long_ago, AT_SYMLINK_NOFOLLOW);
@@ -87,9 +87,9 @@ TEST_F(Claims, AreRenewedByTheirOwner) {
 }
 
 TEST_F(Claims, AreReportedLostToTheirFormerOwner) {
-  Claim claim = *ClaimFolder(root_, kLongLease).take("item");
+  Claim claim = *ClaimFolder(root_, kLongLease).try_claim("item");
   fs::create_symlink("another-machine 1 1", root_ / "item.claim.2");
-  EXPECT_FALSE(claim.holds());
+  EXPECT_FALSE(claim.is_held());
   claim.release();
   EXPECT_TRUE(fs::is_symlink(root_ / "item.claim.2")) << "that is not its own";
 }

@@ -99,7 +99,7 @@ TEST_F(RunBatch, StopsAnItemThatExceedsItsTime) {
   const Result<BatchTables> tables = run_batch(batch, {2, false, {}});
   ASSERT_TRUE(tables.ok()) << tables.error().message;
   EXPECT_EQ(tables->failed, 1u);
-  EXPECT_NE(tables->tsv.find("came to no end"), std::string::npos);
+  EXPECT_NE(tables->tsv.find("did not finish"), std::string::npos);
 }
 
 TEST_F(RunBatch, RedoesTheItemOfAKilledWorker) {
