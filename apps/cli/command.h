@@ -19,22 +19,28 @@
 /// add_<name>_command(app, exit_code) that declares its options and sets the callback; main.cpp lists them.
 namespace dismantle::cli {
 
-/// docs/cli.md.
-enum class ExitCode { Done = 0, No = 1, Usage = 2, Unreadable = 3, Failed = 4 };
+/// Exit codes of the program (docs/cli.md).
+enum class ExitCode {
+  Done = 0,
+  No = 1,     ///< The command ran, and its result is negative: violations, an incomplete plan, a blocked component.
+  Usage = 2,  ///< Wrong arguments.
+  Unreadable = 3,  ///< The input cannot be read.
+  Failed = 4,      ///< Anything else: cancelled, out of memory, the output cannot be written.
+};
 
-/// The options that every command knows.
+/// The options that all commands have in common.
 struct CommonOptions {
-  std::string assembly_file;
-  ImportOptions import;
-  double tolerance = 0;
-  double fit = 0;
-  ClassifyRule pairs = ClassifyRule::Auto;
-  std::size_t simplify = 0;
-  DeviceChoice device = DeviceChoice::Auto;
-  bool uses_device = false;  ///< The command does what `device` says; else it is computed on the CPU.
-  int threads = 0;
-  bool json = false;
-  bool quiet = false;
+  std::string assembly_file;                 ///< The argument ASSEMBLY.
+  ImportOptions import;                      ///< --units, --deflection, --angular-deflection.
+  double tolerance = 0;                      ///< [mm]; 0: default.
+  double fit = 0;                            ///< [mm]; 0: default.
+  ClassifyRule pairs = ClassifyRule::Auto;   ///< What overlapping pairs may do.
+  std::size_t simplify = 0;                  ///< Approximate number of triangles; 0: no simplification.
+  DeviceChoice device = DeviceChoice::Auto;  ///< --device.
+  bool uses_device = false;                  ///< The command can use a device; otherwise it computes on the CPU.
+  int threads = 0;                           ///< 0: all cores.
+  bool json = false;                         ///< Print the result as JSON.
+  bool quiet = false;                        ///< Do not print progress.
 };
 
 /// Declares the common options on a command. `options` must outlive the parse.
@@ -44,28 +50,30 @@ void add_assembly_argument(CLI::App& command, CommonOptions& options);
 
 /// True if the file name is that of a path: *.path.json.
 bool is_path_file(const std::string& file);
-/// The assembly that a path file is of, which lies beside it. Errors: Unreadable where there is none.
+/// The assembly file of a path, in the folder of the path file. Errors: Unreadable if it is not there.
 Result<std::filesystem::path> assembly_beside(const std::string& path_file, const Path& path);
 
-/// Says on stderr where a path was made from another version of the assembly.
+/// Prints a note on stderr if the path was made for another version of the assembly.
 void note_other_version(const Path& path, const Assembly& assembly);
 
-/// Prints progress on one line of stderr where that is a terminal, and cancels on Ctrl+C.
+/// Prints progress on one line of stderr if that is a terminal and --quiet is not given, and cancels at Ctrl+C.
+/// Installs the handler of SIGINT.
 ProgressCallback progress_printer(const CommonOptions& options);
 
-/// Says on stderr that it is the CPU, where a CUDA device was asked for.
+/// Prints a note on stderr that the CPU is used, with the reason, if --device cuda was given.
 void note_cpu(const CommonOptions& options, const std::string& why);
 
-/// The threads that the user asked for.
+/// The executor for --threads.
 Executor make_executor(const CommonOptions& options);
 
-/// Loads and, where asked for, simplifies the assembly.
+/// Loads the assembly; simplifies it if --simplify is given. Errors: of load_assembly and simplify_assembly.
 Result<Assembly> load(const CommonOptions& options);
 
-/// The pair states by the user's tolerance, fit and rule.
+/// Classifies the pairs with --tolerance, --fit and --pairs. Pairs within `clearance` [mm] are near. Errors: of
+/// classify_pairs.
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance = 0);
 
-/// Prints "dismantle: <message>" on stderr and gives the exit code of the error's kind.
+/// Prints "dismantle: <message>" on stderr. @return the exit code for the error's kind
 ExitCode report(const Error& error);
 
 }  // namespace dismantle::cli

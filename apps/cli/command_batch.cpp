@@ -35,7 +35,7 @@ struct BatchCommand {
   bool check_only = false, retry = false;
 };
 
-/// All that a result depends on but its input.
+/// Everything but the input that a result depends on.
 std::string options_text(const BatchCommand& c) {
   return fmt::format(
       "dismantle {} units={} deflection={} angular={} tolerance={} fit={} pairs={} simplify={} "
@@ -49,7 +49,7 @@ Result<Done> write_json(const fs::path& file, const Json& json) {
   return write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-/// Adds to the summary what planning gives.
+/// Plans, writes the plan and adds its numbers to the summary.
 Result<Done> plan(const BatchCommand& command, const Assembly& assembly, const PairStates& states,
                   const fs::path& folder, Json& summary) {
   const Executor executor = make_executor(command.common);
@@ -67,8 +67,8 @@ Result<Done> plan(const BatchCommand& command, const Assembly& assembly, const P
   return Done{};
 }
 
-/// The work on one assembly, in a process of its own whose output is discarded.
-Result<std::string> examine(BatchCommand command, const batch::BatchItem& item, const fs::path& folder) {
+/// Checks and plans one assembly, in a process whose output is discarded.
+Result<std::string> process_item(BatchCommand command, const batch::BatchItem& item, const fs::path& folder) {
   command.common.assembly_file = item.input.string();
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
@@ -90,7 +90,7 @@ Result<std::string> examine(BatchCommand command, const batch::BatchItem& item, 
   return summary.dump();
 }
 
-/// One line of what became of an item.
+/// The result of an item in one line.
 std::string report_line(const batch::BatchResult& result) {
   if (result.failed()) return "failed: " + result.error;
   const Json s = Json::parse(result.summary, nullptr, false);
@@ -102,7 +102,7 @@ std::string report_line(const batch::BatchResult& result) {
   return line;
 }
 
-/// Prints a line an item, to stderr where stdout gets JSON.
+/// Prints a line for each item, on stderr if stdout gets JSON.
 batch::BatchReport line_printer(const BatchCommand& command, const batch::BatchJob& job) {
   auto count = std::make_shared<std::size_t>(0);
   std::FILE* const stream = command.common.json ? stderr : stdout;
@@ -122,7 +122,7 @@ Result<ExitCode> run(const BatchCommand& command, const batch::LaunchedRank& ran
   if (!items) return items.error();
   batch::BatchJob job{std::move(*items), command.output, {}, command.limits, command.lease_seconds};
   job.work = [&command](const batch::BatchItem& item, const fs::path& folder) {
-    return examine(command, item, folder);
+    return process_item(command, item, folder);
   };
   batch::BatchRunOptions options;
   options.workers = command.workers > 0 ? command.workers : batch::usable_cores(rank);
@@ -130,9 +130,9 @@ Result<ExitCode> run(const BatchCommand& command, const batch::LaunchedRank& ran
   if (rank.rank == 0 && !command.common.quiet) options.report = line_printer(command, job);
 
   const Result<batch::BatchTables> tables = batch::run_batch(job, options);
-  if (!tables && rank.rank != 0 && batch::stop_requested()) return ExitCode::Failed;  // the first one says so
+  if (!tables && rank.rank != 0 && batch::stop_requested()) return ExitCode::Failed;  // rank 0 reports it
   if (!tables) return tables.error();
-  if (rank.rank != 0) return ExitCode::Done;  // the first one answers for all
+  if (rank.rank != 0) return ExitCode::Done;  // rank 0 prints the results
   if (command.common.json) {
     fmt::print("{}", tables->json);
   } else {

@@ -35,14 +35,14 @@ struct ExportCommand {
   std::optional<ExportFormat> format;
   bool reverse = false;
   bool clearance = false;
-  std::size_t step = 0;  ///< From 1; 0: none in particular.
-  double within = 0;     ///< [mm]; 0: by the size.
-  std::string product;   ///< For the title; empty: by the file.
+  std::size_t step = 0;  ///< From 1; 0: not given.
+  double within = 0;     ///< [mm]; 0: default.
+  std::string product;   ///< For the title; empty: the file's name.
   PictureOptions picture;
 };
 
 /// The input of an export: an assembly, and its path if there is one.
-struct Exported {
+struct ExportInput {
   Assembly assembly;
   std::optional<Path> path;
   Timeline timeline;    ///< Of the path.
@@ -83,7 +83,7 @@ Result<ExportFormat> check(const ExportCommand& command) {
   return *format;
 }
 
-/// A file's name; of a folder, which may be called just "parts", with that of the folder it is in.
+/// The name of a file. For a folder, its path from the parent folder, because it may be called just "parts".
 std::string product_name(const fs::path& assembly_file) {
   std::error_code error;
   const fs::path full = fs::canonical(assembly_file, error);
@@ -92,9 +92,9 @@ std::string product_name(const fs::path& assembly_file) {
   return (parent.empty() ? full.filename() : parent / full.filename()).generic_string();
 }
 
-/// Reads what the command names. A path alone is of the assembly beside it.
-Result<Exported> read(ExportCommand command) {
-  Exported exported;
+/// Reads the input. For a path without an assembly, the assembly in its folder.
+Result<ExportInput> read(ExportCommand command) {
+  ExportInput exported;
   if (!command.path_file.empty()) {
     Result<Path> path = read_path(command.path_file);
     if (!path) return path.error();
@@ -126,7 +126,7 @@ Error no_such_step(std::size_t step, std::size_t count) {
   return {ErrorKind::Usage, fmt::format("there is no step {} (the path has {}); give one from 1 to that", step, count)};
 }
 
-Result<std::string> png(const Exported& exported, const ExportCommand& command) {
+Result<std::string> png(const ExportInput& exported, const ExportCommand& command) {
   const Executor executor = make_executor(command.common);
   const std::size_t count = exported.timeline.moves().size();
   if (command.step > count) return no_such_step(command.step, count);
@@ -143,7 +143,7 @@ Result<std::string> png(const Exported& exported, const ExportCommand& command) 
   return std::string(bytes.begin(), bytes.end());
 }
 
-Result<std::vector<MoveClearance>> clearances(const Exported& exported, const CommonOptions& common) {
+Result<std::vector<MoveClearance>> clearances(const ExportInput& exported, const CommonOptions& common) {
   const Result<PairStates> states = classify(exported.assembly, common);
   if (!states) return states.error();
   const Executor executor = make_executor(common);
@@ -153,7 +153,7 @@ Result<std::vector<MoveClearance>> clearances(const Exported& exported, const Co
   return std::move(*found);
 }
 
-Result<std::string> instructions(ExportFormat format, const Exported& exported, const ExportCommand& command) {
+Result<std::string> instructions(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
   const Result<PairStates> states = classify(exported.assembly, command.common);
   if (!states) return states.error();
   WorkInstructionsOptions options;
@@ -167,7 +167,7 @@ Result<std::string> instructions(ExportFormat format, const Exported& exported, 
   return instructions_page(*made);
 }
 
-Result<std::string> content(ExportFormat format, const Exported& exported, const ExportCommand& command) {
+Result<std::string> content(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
   if (has_own_writer(format)) return instructions(format, exported, command);
   ExportOptions options;
@@ -182,7 +182,7 @@ Result<std::string> content(ExportFormat format, const Exported& exported, const
   return exported_file(format, exported.assembly, exported.path.value_or(Path{}), options);
 }
 
-Result<SweptVolume> swept(const Exported& exported, const ExportCommand& command) {
+Result<SweptVolume> swept(const ExportInput& exported, const ExportCommand& command) {
   const std::size_t count = exported.timeline.moves().size();
   if (command.step == 0 && count != 1)
     return Error{ErrorKind::Usage,
@@ -192,8 +192,8 @@ Result<SweptVolume> swept(const Exported& exported, const ExportCommand& command
   return swept_volume(exported.assembly, move, {command.within, progress_printer(command.common)});
 }
 
-/// Writes what a move passes, and tells how near to that it is.
-Result<Done> write_swept(const Exported& exported, const ExportCommand& command) {
+/// Writes the swept volume of a move and prints its error bound.
+Result<Done> write_swept(const ExportInput& exported, const ExportCommand& command) {
   Result<SweptVolume> volume = swept(exported, command);
   if (!volume) return volume.error();
   const std::size_t triangles = volume->mesh.faces.size();
@@ -219,7 +219,7 @@ Result<Done> write_swept(const Exported& exported, const ExportCommand& command)
 Result<Done> run(const ExportCommand& command) {
   const Result<ExportFormat> format = check(command);
   if (!format) return format.error();
-  const Result<Exported> exported = read(command);
+  const Result<ExportInput> exported = read(command);
   if (!exported) return exported.error();
   if (*format == ExportFormat::SweptStl) return write_swept(*exported, command);
   const Result<std::string> bytes = content(*format, *exported, command);
@@ -243,7 +243,7 @@ Result<Done> run(const ExportCommand& command) {
   return Done{};
 }
 
-/// A path alone stands where the assembly is expected.
+/// Handles a path given alone, in place of the assembly.
 void sort_arguments(ExportCommand& command) {
   if (command.path_file.empty() && is_path_file(command.common.assembly_file))
     std::swap(command.path_file, command.common.assembly_file);
@@ -274,8 +274,8 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("-o,--output", options->output,
                    "File to write: .glb (animated), .html (a page that plays it), .pdf or instructions.html (work "
-                   "instructions), .png (a picture), .stl (all that a move "
-                   "passes), .csv (a row a move), bom.csv or "
+                   "instructions), .png (a picture), .stl (the swept volume of "
+                   "a move), .csv (a row a move), bom.csv or "
                    "bom.json (bill of materials), "
                    ".path.json")
       ->required()
@@ -286,7 +286,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--reverse", options->reverse,
                     "Assembly instead of disassembly: moves reversed, last first (.path.json: both)");
   command->add_flag("--clearance", options->clearance, "Table of moves: add the minimum clearance of each");
-  command->add_option("--step", options->step, "Picture, swept volume: of step N, with its motion")
+  command->add_option("--step", options->step, "Picture or swept volume of step N")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command

@@ -32,14 +32,14 @@ struct MoveOptions {
   std::string timing_file;
 };
 
-/// The time of a stage for the table; empty for methods that do not have it.
+/// The time of a stage [ms]; empty if the method has no such stage.
 std::string stage_text(const StepCost& cost, std::string_view stage) {
   for (const StageTime& time : cost.stages)
     if (time.stage == stage) return fmt::format("{:.4f}", time.ms);
   return "";
 }
 
-/// A row a simulation step: Table 1 of the paper, and the sizes of the streams.
+/// A row for each simulation step: the columns of Table 1 of the paper, and the sizes of the streams.
 std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
   std::string csv =
       "step,move,target,time_s,components,reached,contacts,sweeps,vertices_ms,bvh_refit_ms,front_ms,intersection_test_"
@@ -67,12 +67,13 @@ double quantile(std::vector<double> values, double q) {
 /// Summary of one move for the user: how far it got and which components blocked it.
 struct MoveSummary {
   std::size_t steps = 0, reached = 0;
-  double asked = 0, got = 0;  ///< How far the last target and the last pose take the middle of the components [mm].
+  double requested = 0;                        ///< Displacement of the center by the last target [mm].
+  double travelled = 0;                        ///< Displacement of the center by the last pose [mm].
   std::map<std::string, std::size_t> blocked;  ///< Steps that each component stopped.
 };
 
-/// The middle of the components' common box, assembled [mm].
-Vec3 middle_of(const Assembly& assembly, const std::vector<std::string>& names) {
+/// Center of the common box of the components in the assembled state [mm].
+Vec3 center_of(const Assembly& assembly, const std::vector<std::string>& names) {
   Aabb box;
   for (const std::string& name : names)
     if (const std::optional<ComponentId> id = assembly.find(name)) box.extend(assembled_bounds(assembly[*id]));
@@ -96,11 +97,11 @@ std::vector<MoveSummary> summarize(const Assembly& assembly, const Motion& motio
     for (const std::string& name : blockers) ++m.blocked[name];
   }
   for (std::size_t m = 0; m < moves.size(); ++m) {
-    const Vec3 middle = middle_of(assembly, motion.moves[m].components);
-    const auto at = [&](const Pose& pose) { return transform_from_pose(pose) * middle; };
+    const Vec3 center = center_of(assembly, motion.moves[m].components);
+    const auto at = [&](const Pose& pose) { return transform_from_pose(pose) * center; };
     const Vec3 start = at(played.path.moves[m].frames.front().pose);
-    if (!motion.moves[m].targets.empty()) moves[m].asked = length(at(motion.moves[m].targets.back().pose) - start);
-    moves[m].got = length(at(played.path.moves[m].frames.back().pose) - start);
+    if (!motion.moves[m].targets.empty()) moves[m].requested = length(at(motion.moves[m].targets.back().pose) - start);
+    moves[m].travelled = length(at(played.path.moves[m].frames.back().pose) - start);
   }
   return moves;
 }
@@ -126,8 +127,8 @@ Json to_json(const MoveOptions& o, const Path& path, const std::vector<MoveSumma
     list.push_back({{"label", path.moves[m].label},
                     {"steps", moves[m].steps},
                     {"reached", moves[m].reached},
-                    {"asked_mm", moves[m].asked},
-                    {"got_mm", moves[m].got},
+                    {"asked_mm", moves[m].requested},
+                    {"got_mm", moves[m].travelled},
                     {"blocked_by", blocked}});
   }
   return {{"format", "dismantle-move"},
@@ -150,7 +151,7 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
              "asked mm", "got mm");
   for (std::size_t m = 0; m < moves.size(); ++m)
     fmt::print("{:<{}}  {:>6}  {:>7}  {:>10.3f}  {:>10.3f}  {}\n", path.moves[m].label, width, moves[m].steps,
-               moves[m].reached, moves[m].asked, moves[m].got, blockers_text(moves[m]));
+               moves[m].reached, moves[m].requested, moves[m].travelled, blockers_text(moves[m]));
   fmt::print("\n{} steps, {:.3f} ms a step (median), {:.3f} ms (p99), on {}; tolerance {:.4g} mm\n",
              cost.overall.size(), quantile(cost.overall, 0.5), quantile(cost.overall, 0.99), cost.device,
              path.tolerance);
@@ -162,7 +163,7 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
   fmt::print("wrote {}\n", o.output);
 }
 
-/// The method that was asked for, and what it is computed on.
+/// The engine of the requested method, and the name of its device.
 struct MoveEngine {
   std::unique_ptr<MotionEngine> engine;
   std::string device = "cpu";
@@ -209,7 +210,7 @@ Result<ExitCode> run(const MoveOptions& o) {
   const Result<PlayedMotion> played =
       play_motion(*assembly, *states, motion, *moving.engine, progress_printer(o.common));
   if (!played) return played.error();
-  if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; the path holds what was moved until then\n");
+  if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; the path contains the motion so far\n");
 
   const Result<Done> written = write_path(o.output, played->path);
   if (!written) return written.error();

@@ -38,12 +38,12 @@ Result<Done> check_graph(const std::string& file) {
                file + " cannot be written (its extension is not a known format); use .svg, .dot or .json"};
 }
 
-/// Writes which step has to come before which. @return how many ranks there are
+/// Writes the precedence graph of the steps. @return the number of ranks
 Result<std::size_t> write_graph(const std::string& file, const Assembly& a, const PairStates& states, const Plan& plan,
                                 const CommonOptions& common) {
   const ProgressCallback progress = progress_printer(common);
-  const auto go_on = [&] { return report_progress(progress, "finding the precedence of steps", -1); };
-  const PrecedenceGraph graph = precedence_graph(a, states, plan, {make_executor(common), widest_lanes()}, go_on);
+  const auto keep_going = [&] { return report_progress(progress, "finding the precedence of steps", -1); };
+  const PrecedenceGraph graph = precedence_graph(a, states, plan, {make_executor(common), widest_lanes()}, keep_going);
   const auto text = ends_with(file, ".svg")   ? precedence_svg
                     : ends_with(file, ".dot") ? precedence_dot
                                               : precedence_json;
@@ -70,9 +70,9 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   }
   fmt::print("{}{} steps in {:.2f} s:", plan.steps.empty() ? "" : "\n", plan.steps.size(), plan.seconds);
   for (const auto& [tier, count] : tier_counts(plan)) fmt::print(" {} {};", count, name_of(tier));
-  fmt::print(" {}\n", plan.complete() ? "everything asked for can be removed" : "not everything can be removed");
+  fmt::print(" {}\n", plan.complete() ? "all targets can be removed" : "not all targets can be removed");
   for (const Explanation& e : plan.staying) fmt::print("  {}\n", explanation_text(a, e));
-  if (plan.out_of_time) fmt::print("The search was ended early; the path holds what it found until then.\n");
+  if (plan.out_of_time) fmt::print("The search ended early; the path contains the steps found so far.\n");
   fmt::print("wrote {}\n", command.output);
 }
 
@@ -148,7 +148,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("TIMES")
       ->check(CLI::Range(0.0, 1e6));
   add_common_options(*command, options->common);
-  command->footer("Exit code 0: everything asked for can be removed; 1: not everything, with the reasons.");
+  command->footer("Exit code 0: all targets can be removed; 1: not all, with the reasons.");
   command->callback([options, &exit_code] {
     const Result<ExitCode> result = run(*options);
     exit_code = result ? *result : report(result.error());

@@ -31,7 +31,7 @@ struct ViewOptions {
   bool no_journal = false;
 };
 
-/// SIGINT and SIGTERM for this thread alone: it waits for them while others serve.
+/// Blocks SIGINT and SIGTERM in this thread and those that it starts: the main thread waits for them.
 sigset_t block_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -41,11 +41,11 @@ sigset_t block_signals() {
   return set;
 }
 
-void say_no_browser() {
+void report_no_browser() {
   std::fprintf(stderr, "No browser can be opened: open the address above in a browser on this machine.\n");
 }
 
-/// Starts a program that is not to inherit the signals that are blocked here. None where it cannot be started.
+/// Starts a program without the blocked signals. None if it cannot be started.
 std::optional<pid_t> spawn(std::string program, std::string argument) {
   char* arguments[] = {program.data(), argument.data(), nullptr};
   posix_spawnattr_t attributes;
@@ -61,20 +61,20 @@ std::optional<pid_t> spawn(std::string program, std::string argument) {
   return child;
 }
 
-/// Starts the user's browser where there is a screen; says so where that cannot be. The URL holds the token: it is the
-/// browser's argument, as with every program that does this, and of no use from other machines.
+/// Opens the URL in the user's browser if there is a display; prints a note if that fails. The URL contains the token,
+/// which is thus visible in the list of processes, but useless on other machines.
 void open_browser(const std::string& url) {
-  const bool has_screen = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  const std::optional<pid_t> child = has_screen ? spawn("xdg-open", url) : std::nullopt;
-  if (!child) return say_no_browser();
+  const bool has_display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  const std::optional<pid_t> child = has_display ? spawn("xdg-open", url) : std::nullopt;
+  if (!child) return report_no_browser();
   std::thread([pid = *child] {  // some browsers end only when they are closed
     int status = 0;
-    if (waitpid(pid, &status, 0) == pid && status != 0) say_no_browser();
+    if (waitpid(pid, &status, 0) == pid && status != 0) report_no_browser();
   })
       .detach();
 }
 
-/// Where programs keep what a user would not miss: XDG's state folder.
+/// The folder for persistent state (XDG base directories); none if the environment does not give one.
 std::optional<fs::path> state_folder() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && fs::path(state).is_absolute())
     return fs::path(state) / "dismantle";
@@ -102,7 +102,7 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   return options;
 }
 
-/// Opens what the command line names. Of a path file, the assembly that it is of, which lies beside it.
+/// Opens the sample or file of the command line. For a path file, the assembly in its folder, with the path as guide.
 Result<Done> open(server::Server& server, const ViewOptions& o) {
   const std::string& file = o.common.assembly_file;
   if (!o.sample.empty()) return server.open_sample(o.sample);

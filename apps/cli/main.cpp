@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' lists the options of a command."};
   app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 the answer is \"no\", 2 wrong usage, 3 unreadable input, 4 failed on the way.");
+  app.footer("Exit codes: 0 done, 1 negative result, 2 wrong usage, 3 unreadable input, 4 failed.");
 
   ExitCode exit_code = ExitCode::Done;
   add_info_command(app, exit_code);

@@ -12,9 +12,9 @@ namespace dismantle::cli {
 
 namespace {
 
-constexpr int kLargestSide = 16384;  // of a picture [pixels]
+constexpr int kMaxSide = 16384;  // of a picture [pixels]
 
-/// Reads a whole word as a number.
+/// Parses a complete text as a number.
 template <class T>
 bool parse_number(std::string_view text, T& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -25,22 +25,22 @@ Result<Done> parse_size(std::string_view text, RenderOptions& options) {
   const std::size_t cross = text.find('x');
   if (cross == std::string_view::npos || !parse_number(text.substr(0, cross), options.width) ||
       !parse_number(text.substr(cross + 1), options.height) || options.width < 1 || options.height < 1 ||
-      options.width > kLargestSide || options.height > kLargestSide)
+      options.width > kMaxSide || options.height > kMaxSide)
     return Error{ErrorKind::Usage, fmt::format("--size {} is not a picture size (two numbers from 1 to {}); "
                                                "write it like 1200x900",
-                                               text, kLargestSide)};
+                                               text, kMaxSide)};
   return Done{};
 }
 
-/// "Y" cuts through the middle, "Y=12.5" there.
-Result<SectionPlane> parse_section(std::string_view text, const Camera& camera, Vec3 middle) {
+/// Parses a section plane: "Y" goes through `center`, "Y=12.5" through that position.
+Result<SectionPlane> parse_section(std::string_view text, const Camera& camera, Vec3 center) {
   const char letter = text.empty() ? ' ' : static_cast<char>(text[0] | 0x20);
   const int axis = letter - 'x';
-  Vec3 direction, point = middle;
+  Vec3 direction, point = center;
   const bool has_axis = axis >= 0 && axis < 3;
   if (has_axis) direction[axis] = 1;
-  const bool has_place = has_axis && text.size() > 2 && text[1] == '=' && parse_number(text.substr(2), point[axis]);
-  if (!has_axis || !(has_place || text.size() == 1))
+  const bool has_position = has_axis && text.size() > 2 && text[1] == '=' && parse_number(text.substr(2), point[axis]);
+  if (!has_axis || !(has_position || text.size() == 1))
     return Error{ErrorKind::Usage,
                  fmt::format("--section {} is not a plane (an axis and a position in mm); write it like Y=12.5", text)};
   return section_facing(camera, direction, point);
@@ -60,7 +60,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
   command.add_flag("--perspective", options.perspective, "Perspective instead of parallel projection");
 }
 
-Result<Image> take_picture(RenderScene scene, const Aabb& middle_of, const PictureOptions& options,
+Result<Image> take_picture(RenderScene scene, const Aabb& bounds, const PictureOptions& options,
                            const Executor& executor) {
   RenderOptions render_options;
   if (const Result<Done> size = parse_size(options.size, render_options); !size) return size.error();
@@ -71,7 +71,7 @@ Result<Image> take_picture(RenderScene scene, const Aabb& middle_of, const Pictu
   fit.aspect = static_cast<double>(render_options.width) / render_options.height;
   const Camera camera = fit_camera(item_points(scene.items), fit);
   if (!options.section.empty()) {
-    const Result<SectionPlane> plane = parse_section(options.section, camera, middle_of.center());
+    const Result<SectionPlane> plane = parse_section(options.section, camera, bounds.center());
     if (!plane) return plane.error();
     scene.section = *plane;
   }

@@ -9,20 +9,20 @@
 
 namespace dismantle::cli {
 
-/// Options of a picture.
+/// Options of a picture, as given on the command line.
 struct PictureOptions {
-  std::string view = "iso";
-  std::string section;
-  std::string size = "1200x900";
-  bool perspective = false;
+  std::string view = "iso";       ///< Name of a standard view.
+  std::string section;            ///< "X|Y|Z[=MM]"; empty: no section plane.
+  std::string size = "1200x900";  ///< "WIDTHxHEIGHT" in pixels.
+  bool perspective = false;       ///< Perspective instead of parallel projection.
 };
 
 /// Declares --view, --size, --section and --perspective on a command. `options` must outlive the parse.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// The picture of a scene that is all seen; cuts go through the middle of `middle_of` where no place is given. Errors:
-/// Usage.
-Result<Image> take_picture(RenderScene scene, const Aabb& middle_of, const PictureOptions& options,
+/// Renders a whole scene. A section plane without a position goes through the center of `bounds`. Errors: Usage if an
+/// option is malformed.
+Result<Image> take_picture(RenderScene scene, const Aabb& bounds, const PictureOptions& options,
                            const Executor& executor);
 
 }  // namespace dismantle::cli

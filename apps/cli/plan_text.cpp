@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kNamesInFull = 4;
+constexpr std::size_t kMaxNames = 4;
 
 }  // namespace
 
@@ -21,9 +21,9 @@ Result<ComponentId> find_component(const Assembly& assembly, const std::string& 
 
 std::string names_text(const Assembly& assembly, const std::vector<ComponentId>& components) {
   std::string text;
-  for (std::size_t i = 0; i < components.size() && i < kNamesInFull; ++i)
+  for (std::size_t i = 0; i < components.size() && i < kMaxNames; ++i)
     text += (i > 0 ? ", " : "") + assembly[components[i]].name;
-  if (components.size() > kNamesInFull) text += " and " + std::to_string(components.size() - kNamesInFull) + " more";
+  if (components.size() > kMaxNames) text += " and " + std::to_string(components.size() - kMaxNames) + " more";
   return text;
 }
 

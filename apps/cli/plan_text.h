@@ -13,15 +13,17 @@
 /// Output that the commands plan, why and batch share.
 namespace dismantle::cli {
 
-/// The component of that name. Errors: Usage where there is none.
+/// The component of a name. Errors: Usage if there is none.
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name);
 
-/// The names, the first few in full.
+/// The names as text: the first four, and the number of the others.
 std::string names_text(const Assembly& assembly, const std::vector<ComponentId>& components);
 
+/// The names as a JSON array.
 nlohmann::ordered_json names_json(const Assembly& assembly, const std::vector<ComponentId>& components);
+/// An explanation as the JSON object of `why --json` and `plan --json`.
 nlohmann::ordered_json explanation_json(const Assembly& assembly, const Explanation& explanation);
-/// The plan and what its path removes, without what it cost.
+/// A plan as the JSON object of `plan --json`, without the time it took. @param path of the plan
 nlohmann::ordered_json plan_json(const Assembly& assembly, const Plan& plan, const Path& path);
 
 /// Number of steps by tier.

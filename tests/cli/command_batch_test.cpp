@@ -80,7 +80,7 @@ TEST_F(CliBatch, PrintsTheTableAsJson) {
 TEST_F(CliBatch, RefusesInvalidArguments) {
   expect_error("batch missing -o out", 3, "missing cannot be read");
   fs::create_directories(in("empty"));
-  expect_error("batch empty -o out", 3, "empty holds nothing to work on");
+  expect_error("batch empty -o out", 3, "empty contains no assembly");
   EXPECT_EQ(run("batch products").exit_code, 2);
   EXPECT_EQ(run("batch products -o out --workers 0").exit_code, 2);
 }
