@@ -73,8 +73,10 @@ struct PoseMessage {
   friend bool operator==(const PoseMessage&, const PoseMessage&) = default;
 };
 
-/// Sizes of the encoded structs [bytes]; a pose has kContactBytes more for each contact.
-inline constexpr std::size_t kTargetBytes = 72, kRateBytes = 64, kPoseBytes = 96, kContactBytes = 48;
+inline constexpr std::size_t kTargetBytes = 72;   ///< Size of an encoded TargetMessage [bytes].
+inline constexpr std::size_t kRateBytes = 64;     ///< Size of an encoded RateMessage [bytes].
+inline constexpr std::size_t kPoseBytes = 96;     ///< Size of an encoded PoseMessage without contacts [bytes].
+inline constexpr std::size_t kContactBytes = 48;  ///< Size of an encoded ContactMessage [bytes].
 /// Maximum number of contacts of a PoseMessage.
 inline constexpr std::size_t kMaxContacts = 64;
 /// Larger numbers of a client are rejected: positions [mm], velocities [mm/s].

@@ -75,7 +75,7 @@ TEST_F(ServerClients, KeepsADragForAClientThatComesBack) {
   EXPECT_EQ(state["hand"]["grip"], grip);
   EXPECT_EQ(state["components"][0]["pose"][0], -5.0);
   client.send_binary(target_at(grip, 6, {-6, 0, 0}));
-  EXPECT_EQ(client.pose_answering(6).pose.position.x, -6);
+  EXPECT_EQ(client.pose_for_target(6).pose.position.x, -6);
 }
 
 TEST_F(ServerClients, GivesControlOnWhenItsClientStaysAway) {
@@ -109,14 +109,14 @@ TEST_F(ServerClients, DoesACommandOnceThatIsSentAgain) {
     client.command("release");
     drag(client, hold(client, 0), {-5, 0, 0}, {-7, 0, 0}, 2);
     client.command("release");
-    id = client.give("undo");
+    id = client.send_command("undo");
     client.drop();  // its response is lost
   }
   Client client(address());
   client.state();
   client.set_last_id(id - 1);
-  EXPECT_EQ(client.give("undo"), id);
-  EXPECT_TRUE(client.answer(id)["ok"]);
+  EXPECT_EQ(client.send_command("undo"), id);
+  EXPECT_TRUE(client.reply(id)["ok"]);
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);  // one of the two is left
   client.set_last_id(0);
   EXPECT_TRUE(client.command("hold", {{"components", {0}}})["ok"]);  // id 1: the stored response
@@ -158,8 +158,8 @@ TEST_F(ServerClients, SaysGoodbyeWhenItStops) {
 TEST_F(ServerClients, StopsWhileThingsMoveAndLoad) {
   Client client(address());
   client.state();
-  client.give("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}});
-  client.give("open", {{"sample", "robot"}});
+  client.send_command("take_out", {{"components", {0}}, {"direction", {0, 1, 0}}});
+  client.send_command("open", {{"sample", "robot"}});
   client.pose();
   server_.reset();
   client.wait_for_end();

@@ -77,7 +77,7 @@ TEST_F(ServerCrash, ResumesAfterItWasKilledDuringADrag) {
     client.command("release");
     drag(client, hold(client, 0), {}, {15, 7, 0}, 40);  // into the wall and along it, without release
     client.send_text(R"({"id": 90, "command": "check"})");
-    client.answer(90);
+    client.reply(90);
     before = Json::parse(testing_client::get(viewer.address(), "/api/path.json").body);
     EXPECT_EQ(viewer.end(SIGKILL), 128 + SIGKILL);
   }

@@ -37,7 +37,7 @@ class ServerRobustness : public ServerScene {
     ASSERT_TRUE(client.command("check")["ok"]);
     const std::uint32_t grip = hold(client, 0);
     client.send_binary(target_at(grip, 1, {-1, 0, 0}));
-    EXPECT_EQ(client.pose_answering(1).pose.position.x, -1);
+    EXPECT_EQ(client.pose_for_target(1).pose.position.x, -1);
     EXPECT_TRUE(client.command("release")["ok"]);
   }
 
@@ -103,18 +103,18 @@ TEST_F(ServerRobustness, TakesJsonOfAnyKindForNoMoreThanItIs) {
   for (const Json& wrong : {Json(nullptr), Json(-1), Json("x"), Json::array(), Json::object(), Json(1e300)}) {
     for (const char* command : {"hold", "take_out", "put_back", "play", "seek", "set_response", "open", "files", "save",
                                 "open_path", "cancel", "free_directions", "hide"}) {
-      const Json answer = client.command(command, {{"components", wrong},
-                                                   {"direction", wrong},
-                                                   {"speed", wrong},
-                                                   {"time", wrong},
-                                                   {"response", wrong},
-                                                   {"sample", wrong},
-                                                   {"root", wrong},
-                                                   {"file", wrong},
-                                                   {"folder", wrong},
-                                                   {"job", wrong},
-                                                   {"source", wrong}});
-      EXPECT_FALSE(answer["ok"]) << command << wrong;
+      const Json reply = client.command(command, {{"components", wrong},
+                                                  {"direction", wrong},
+                                                  {"speed", wrong},
+                                                  {"time", wrong},
+                                                  {"response", wrong},
+                                                  {"sample", wrong},
+                                                  {"root", wrong},
+                                                  {"file", wrong},
+                                                  {"folder", wrong},
+                                                  {"job", wrong},
+                                                  {"source", wrong}});
+      EXPECT_FALSE(reply["ok"]) << command << wrong;
     }
   }
 }
@@ -134,7 +134,7 @@ TEST_F(ServerRobustness, TakesNoMessageOfMoreThanAMegabyte) {
   std::string just_fits = "{\"id\":1000,\"command\":\"check\"}";
   just_fits.resize(1 << 20, ' ');
   other.send_text(just_fits);
-  EXPECT_TRUE(other.answer(1000)["ok"]);
+  EXPECT_TRUE(other.reply(1000)["ok"]);
 }
 
 TEST_F(ServerRobustness, DropsAClientThatDoesNotRead) {

@@ -49,9 +49,9 @@ class ServerScene : public testing::Test {
   }
   /// Grabs a component. @return the grip
   static std::uint32_t hold(testing_client::Client& client, std::uint32_t component) {
-    const Json answer = client.command("hold", {{"components", {component}}});
-    EXPECT_TRUE(answer["ok"]) << answer;
-    return answer.value("grip", 0u);
+    const Json reply = client.command("hold", {{"components", {component}}});
+    EXPECT_TRUE(reply["ok"]) << reply;
+    return reply.value("grip", 0u);
   }
   /// Drags along a straight line in steps, waiting for each pose.
   static PoseMessage drag(testing_client::Client& client, std::uint32_t grip, const Vec3& from, const Vec3& to,
@@ -59,7 +59,7 @@ class ServerScene : public testing::Test {
     PoseMessage last;
     for (std::uint32_t i = 1; i <= steps; ++i) {
       client.send_binary(target_at(grip, i, from + (static_cast<double>(i) / steps) * (to - from)));
-      last = client.pose_answering(i);
+      last = client.pose_for_target(i);
     }
     return last;
   }

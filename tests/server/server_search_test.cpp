@@ -21,10 +21,10 @@ class ServerSearch : public ServerScene {
   }
   /// Gives a command that starts a search and waits for its end. @return its last event
   static Json search(Client& client, const std::string& name, const Json& arguments) {
-    const Json answer = client.command(name, arguments);
-    EXPECT_TRUE(answer["ok"]) << answer;
+    const Json reply = client.command(name, arguments);
+    EXPECT_TRUE(reply["ok"]) << reply;
     return client.event_where("job",
-                              [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
+                              [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
   }
   static Json state_where(Client& client, const char* member) {
     return client.event_where("state", [member](const Json& s) { return !s[member].is_null(); });
@@ -163,14 +163,14 @@ TEST_F(ServerSearch, CanBeCancelledAndAllowsDraggingMeanwhile) {
   start_with(scenes::stack_in_tube(60));
   Client client(address());
   client.state();
-  const Json answer = client.command("plan");
-  ASSERT_TRUE(answer["ok"]);
+  const Json reply = client.command("plan");
+  ASSERT_TRUE(reply["ok"]);
   EXPECT_FALSE(client.command("plan")["ok"]);  // one at a time
   const std::uint32_t grip = hold(client, 60);
   EXPECT_NEAR(drag(client, grip, {}, {0, 0, 30}, 30).pose.position.z, 30, 1e-9);
-  ASSERT_TRUE(client.command("cancel", {{"job", answer["job"]}})["ok"]);
+  ASSERT_TRUE(client.command("cancel", {{"job", reply["job"]}})["ok"]);
   const Json last =
-      client.event_where("job", [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
+      client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
   EXPECT_EQ(last["status"], "cancelled");
   client.command("release");
   EXPECT_TRUE(client.state()["guide"].is_null());
@@ -180,8 +180,8 @@ TEST_F(ServerSearch, PlaysNoPathFoundBeforeSomethingMoved) {
   start_with(scenes::stack_in_tube(40));
   Client client(address());
   client.state();
-  const Json answer = client.command("find_path", {{"components", {39}}});
-  ASSERT_TRUE(answer["ok"]);
+  const Json reply = client.command("find_path", {{"components", {39}}});
+  ASSERT_TRUE(reply["ok"]);
   const std::uint32_t grip = hold(client, 40);
   drag(client, grip, {}, {0, 0, 2}, 2);
   client.command("release");

@@ -39,7 +39,7 @@ TEST_F(ServerSession, DragsABlockIntoTheWallAndSaysWhatItTouches) {
   EXPECT_TRUE(free.contacts.empty());
   EXPECT_GT(free.clearance, 0);
   client.send_binary(target_at(grip, 6, {30, 0, 0}));
-  const PoseMessage stopped = client.pose_answering(6);
+  const PoseMessage stopped = client.pose_for_target(6);
   EXPECT_NEAR(stopped.pose.position.x, 10.5, 0.01);
   EXPECT_EQ(stopped.flags & kStopped, kStopped);
   ASSERT_FALSE(stopped.contacts.empty());
@@ -140,10 +140,10 @@ TEST_F(ServerSession, OpensASampleAndTellsHowItGoes) {
   client.state();
   EXPECT_EQ(client.command("samples")["samples"].size(), 4u);
   EXPECT_FALSE(client.command("open", {{"sample", "spaceship"}})["ok"]);
-  const Json answer = client.command("open", {{"sample", "microscope"}});
-  ASSERT_TRUE(answer["ok"]) << answer;
+  const Json reply = client.command("open", {{"sample", "microscope"}});
+  ASSERT_TRUE(reply["ok"]) << reply;
   const Json done =
-      client.event_where("job", [&](const Json& j) { return j["job"] == answer["job"] && j["status"] != "running"; });
+      client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
   EXPECT_EQ(done["status"], "done") << done;
   const Json model = client.event_where("model", [](const Json& j) { return j["name"] == "microscope.step"; });
   EXPECT_GT(model["components"].size(), 20u);

@@ -82,7 +82,7 @@ HttpReply request(const ServerAddress& address, const std::string& method, const
     done = true;
   });
   run_until(
-      io, [&] { return done; }, "an answer");
+      io, [&] { return done; }, "a reply");
   if (error) throw boost::system::system_error(error);
   HttpReply reply{parser.get().result_int(), parser.get().body(), {}};
   for (const auto& field : parser.get()) reply.headers[text_of(field.name_string())] = text_of(field.value());
@@ -112,20 +112,20 @@ std::string exchange(const ServerAddress& address, const std::string& bytes, std
   return reply.substr(0, size);
 }
 
-class SilentConnection::Body {
+class SilentConnection::Impl {
  public:
   asio::io_context io;
   beast::tcp_stream stream{io};
 };
 
-SilentConnection::SilentConnection(const ServerAddress& address) : body_(std::make_unique<Body>()) {
-  connect(body_->stream, address.port);
+SilentConnection::SilentConnection(const ServerAddress& address) : impl_(std::make_unique<Impl>()) {
+  connect(impl_->stream, address.port);
 }
 SilentConnection::~SilentConnection() = default;
 
-class Client::Body {
+class Client::Impl {
  public:
-  Body(const ServerAddress& address, const std::string& key, const Headers& headers) : stream_(io_) {
+  Impl(const ServerAddress& address, const std::string& key, const Headers& headers) : stream_(io_) {
     connect(stream_.next_layer(), address.port);
     stream_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
       request.set(http::field::host, address.host());
@@ -221,84 +221,84 @@ class Client::Body {
 };
 
 Client::Client(const ServerAddress& address, std::string key, const Headers& headers)
-    : body_(std::make_unique<Body>(address, key, headers)) {}
+    : impl_(std::make_unique<Impl>(address, key, headers)) {}
 Client::~Client() = default;
 Client::Client(Client&&) noexcept = default;
 
 unsigned Client::status() const {
-  return body_->status_;
+  return impl_->status_;
 }
 
 const std::string& Client::protocol() const {
-  return body_->protocol_;
+  return impl_->protocol_;
 }
 
 bool Client::is_open() const {
-  return !body_->ended_;
+  return !impl_->ended_;
 }
 
 int Client::pings() const {
-  return body_->pings_;
+  return impl_->pings_;
 }
 
 unsigned Client::close_code() const {
-  return body_->stream_.reason().code;
+  return impl_->stream_.reason().code;
 }
 
 void Client::send_text(const std::string& text) {
-  body_->write(text, true);
+  impl_->write(text, true);
 }
 
 void Client::send_binary(const std::string& bytes) {
-  body_->write(bytes, false);
+  impl_->write(bytes, false);
 }
 
-std::uint64_t Client::give(const std::string& name, Json arguments) {
-  arguments["id"] = ++body_->last_id_;
+std::uint64_t Client::send_command(const std::string& name, Json arguments) {
+  arguments["id"] = ++impl_->last_id_;
   arguments["command"] = name;
   send_text(server::text_of(arguments));
-  return body_->last_id_;
+  return impl_->last_id_;
 }
 
-Json Client::answer(std::uint64_t id) {
-  return body_->take([&](const Json& j) { return j.value("reply", std::uint64_t{0}) == id; }, "an answer");
+Json Client::reply(std::uint64_t id) {
+  return impl_->take([&](const Json& j) { return j.value("reply", std::uint64_t{0}) == id; }, "a reply");
 }
 
 Json Client::event(const std::string& name) {
-  return body_->take([&](const Json& j) { return j.value("event", "") == name; }, name.c_str());
+  return impl_->take([&](const Json& j) { return j.value("event", "") == name; }, name.c_str());
 }
 
 Json Client::state() {
-  Json& latest = body_->latest_state_;
-  while (body_->has_event("state") || latest.is_null()) latest = event("state");
+  Json& latest = impl_->latest_state_;
+  while (impl_->has_event("state") || latest.is_null()) latest = event("state");
   return latest;
 }
 
 PoseMessage Client::pose() {
   run_until(
-      body_->io_, [&] { return !body_->poses_.empty() || body_->ended_; }, "a pose");
-  if (body_->poses_.empty()) throw std::runtime_error("the socket ended while a pose was awaited");
-  PoseMessage message = body_->poses_.front();
-  body_->poses_.pop_front();
+      impl_->io_, [&] { return !impl_->poses_.empty() || impl_->ended_; }, "a pose");
+  if (impl_->poses_.empty()) throw std::runtime_error("the socket ended while a pose was awaited");
+  PoseMessage message = impl_->poses_.front();
+  impl_->poses_.pop_front();
   return message;
 }
 
 void Client::wait_for_end() {
   run_until(
-      body_->io_, [&] { return body_->ended_; }, "the end of the socket");
+      impl_->io_, [&] { return impl_->ended_; }, "the end of the socket");
 }
 
 void Client::idle(std::chrono::milliseconds time) {
-  body_->io_.restart();
-  body_->io_.run_for(time);
+  impl_->io_.restart();
+  impl_->io_.run_for(time);
 }
 
 void Client::drop() {
-  body_->stream_.next_layer().close();
+  impl_->stream_.next_layer().close();
 }
 
 void Client::set_last_id(std::uint64_t id) {
-  body_->last_id_ = id;
+  impl_->last_id_ = id;
 }
 
 }  // namespace dismantle::server::testing_client

@@ -51,8 +51,8 @@ class SilentConnection {
   ~SilentConnection();
 
  private:
-  class Body;
-  std::unique_ptr<Body> body_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// A client as docs/wire.md describes it.
@@ -77,11 +77,12 @@ class Client {
 
   /// Sends a command and waits for its response.
   Json command(const std::string& name, Json arguments = Json::object()) {
-    return answer(give(name, std::move(arguments)));
+    return reply(send_command(name, std::move(arguments)));
   }
   /// Sends a command. @return its id
-  std::uint64_t give(const std::string& name, Json arguments = Json::object());
-  Json answer(std::uint64_t id);
+  std::uint64_t send_command(const std::string& name, Json arguments = Json::object());
+  /// Waits for the reply to a command.
+  Json reply(std::uint64_t id);
   /// The next unread event of that name.
   Json event(const std::string& name);
   /// Reads events of that name until `is_it`.
@@ -95,7 +96,7 @@ class Client {
   /// The next struct `pose`.
   PoseMessage pose();
   /// Reads poses until the one for the target of that number.
-  PoseMessage pose_answering(std::uint32_t number) {
+  PoseMessage pose_for_target(std::uint32_t number) {
     for (;;)
       if (const PoseMessage message = pose(); message.answered == number) return message;
   }
@@ -108,8 +109,8 @@ class Client {
   void set_last_id(std::uint64_t id);
 
  private:
-  class Body;
-  std::unique_ptr<Body> body_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace dismantle::server::testing_client
