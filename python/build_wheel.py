@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the wheel for pip (PEP 517): builds the target dismantle_python with CMake and packs what it gives.
+"""Makes the wheel for pip (PEP 517): builds the target dismantle_python with CMake and packs the module.
 
-It needs what ./run needs, pybind11-dev and python3-dev, and nothing from a package index. It builds in build/python;
-`--config-settings build-dir=DIR` takes a build folder that is there, as it is configured.
+It needs the build packages of tools/packages.txt, and nothing from a package index. It builds in build/python;
+`--config-settings build-dir=DIR` uses an existing, configured build folder.
 """
 import base64
 import hashlib
@@ -48,7 +48,7 @@ def _build(settings):
 
 
 def _files(package):
-    """What goes into the wheel: {name in it: bytes}."""
+    """The contents of the wheel: {name: bytes}."""
     module = "_dismantle" + sysconfig.get_config_var("EXT_SUFFIX")
     files = {f"{NAME}/{part}": (package / part).read_bytes() for part in PARTS}
     binary = package / module

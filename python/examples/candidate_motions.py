@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""candidate_motions.py ASSEMBLY COMPONENT: how far it gets along a thousand directions, and what it meets first."""
+"""candidate_motions.py ASSEMBLY COMPONENT: the free travel of a component along a thousand directions, and its blockers."""
 import sys
 
 import dismantle
@@ -23,15 +23,15 @@ def main(file, component):
 
     batch = dismantle.MotionBatch(states)
     batch.set_state(component)
-    ways = directions(1000)
-    found = batch.straight_contacts(reach * ways)
+    units = directions(1000)
+    found = batch.straight_contacts(reach * units)
 
-    print(f"{component}: {np.count_nonzero(found.free)} of {len(ways)} directions are free, on {batch.device}")
+    print(f"{component}: {np.count_nonzero(found.free)} of {len(units)} directions are free, on {batch.device}")
     best = np.argmax(found.toi)
-    print(f"it gets {found.toi[best] * reach:.3f} mm along {np.round(ways[best], 3)}")
+    print(f"it moves {found.toi[best] * reach:.3f} mm along {np.round(units[best], 3)}")
     names = np.array(assembly.names)
     for name in np.unique(names[found.fixed[~found.free]]):
-        print(f"  in the way: {name}")
+        print(f"  blocked by: {name}")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""take_apart.py ASSEMBLY FOLDER: plans how it comes apart, has the path audited, and writes it with an animation."""
+"""take_apart.py ASSEMBLY FOLDER: plans the disassembly, audits the path, and writes it with an animation."""
 import pathlib
 import sys
 

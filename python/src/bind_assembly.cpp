@@ -98,41 +98,47 @@ void bind_component(py::module_& module) {
   const auto owner = [](const Mesh& mesh) {
     return py::capsule(new Mesh(mesh), [](void* p) { delete static_cast<Mesh*>(p); });
   };
-  py::class_<ComponentView>(module, "Component", "One rigid part of an assembly.")
-      .def_property_readonly("name", [](const ComponentView& c) { return c.get().name; })
-      .def_property_readonly("index", [](const ComponentView& c) { return c.id.value; })
+  py::class_<ComponentView>(module, "Component", "A rigid component of an assembly.")
+      .def_property_readonly(
+          "name", [](const ComponentView& c) { return c.get().name; }, "Unique in the assembly.")
+      .def_property_readonly(
+          "index", [](const ComponentView& c) { return c.id.value; }, "Index in Assembly.components.")
       .def_property_readonly(
           "vertices",
           [owner](const ComponentView& c) {
             const Mesh& mesh = c.get().mesh;
-            return look_at<double, Vec3>(reinterpret_cast<const double*>(mesh->vertices.data()), mesh->vertices.size(),
-                                         owner(mesh), 3);
+            return array_view<double, Vec3>(reinterpret_cast<const double*>(mesh->vertices.data()),
+                                            mesh->vertices.size(), owner(mesh), 3);
           },
-          "Positions [mm] in the component's own frame, shape (n, 3): the mesh itself, not a copy; read-only.")
+          "Vertices of the mesh [mm, component frame], shape (n, 3), float64. A read-only view, not a copy.")
       .def_property_readonly(
           "faces",
           [owner](const ComponentView& c) {
             const Mesh& mesh = c.get().mesh;
-            return look_at<std::uint32_t, Face>(reinterpret_cast<const std::uint32_t*>(mesh->faces.data()),
-                                                mesh->faces.size(), owner(mesh), 3);
+            return array_view<std::uint32_t, Face>(reinterpret_cast<const std::uint32_t*>(mesh->faces.data()),
+                                                   mesh->faces.size(), owner(mesh), 3);
           },
-          "Vertex indices, shape (m, 3): the mesh itself, not a copy; read-only.")
+          "Triangles as vertex indices, shape (m, 3), uint32. A read-only view, not a copy.")
       .def_property_readonly(
           "transform", [](const ComponentView& c) { return transform_array(c.get().assembly_from_mesh); },
-          "From the component's own frame to the assembled state, shape (4, 4).")
+          "Homogeneous transform from the component frame to the assembly frame [mm], shape (4, 4).")
       .def_property_readonly(
           "assembled_vertices",
           [](const ComponentView& c) {
-            auto [kept, first] = keep(assembled_vertices(c.get()));
-            return look_at<double, Vec3>(&first->x, c.get().mesh->vertices.size(), kept, 3);
+            auto [kept, first] = make_owner(assembled_vertices(c.get()));
+            return array_view<double, Vec3>(&first->x, c.get().mesh->vertices.size(), kept, 3);
           },
-          "Positions [mm] in the assembled state, shape (n, 3).")
-      .def_property_readonly("color",
-                             [](const ComponentView& c) {
-                               const Color& color = c.get().color;
-                               return std::array<float, 4>{color.r, color.g, color.b, color.a};
-                             })
-      .def_property_readonly("is_closed", [](const ComponentView& c) { return c.get().faults.closed(); })
+          "Vertices in the assembled state [mm, assembly frame], shape (n, 3).")
+      .def_property_readonly(
+          "color",
+          [](const ComponentView& c) {
+            const Color& color = c.get().color;
+            return std::array<float, 4>{color.r, color.g, color.b, color.a};
+          },
+          "Red, green, blue, alpha, each from 0 to 1.")
+      .def_property_readonly(
+          "is_closed", [](const ComponentView& c) { return c.get().faults.closed(); },
+          "True if the mesh bounds a volume.")
       .def("__repr__", [](const ComponentView& c) {
         return "<dismantle.Component '" + c.get().name + "', " + std::to_string(c.get().mesh->faces.size()) +
                " triangles>";
@@ -141,32 +147,39 @@ void bind_component(py::module_& module) {
 
 void bind_assembly_class(py::module_& module) {
   using Holder = std::shared_ptr<Assembly>;
-  py::class_<Assembly, Holder>(module, "Assembly", "A CAD assembly in its assembled state.")
+  py::class_<Assembly, Holder>(
+      module, "Assembly",
+      "A list of components in the assembled state. `assembly[key]` is the component with a name or an index.")
       .def_static("from_meshes", &from_meshes, py::arg("meshes"), py::kw_only(), py::arg("units") = "mm",
-                  "An assembly of meshes {name: (vertices (n, 3), faces (m, 3))}, in their assembled places.")
-      .def_property_readonly("names",
-                             [](const Assembly& a) {
-                               std::vector<std::string> names;
-                               for (const Component& c : a.components) names.push_back(c.name);
-                               return names;
-                             })
-      .def_property_readonly("components",
-                             [](const Holder& a) {
-                               std::vector<ComponentView> views;
-                               for (std::uint32_t i = 0; i < a->components.size(); ++i)
-                                 views.push_back({a, ComponentId(i)});
-                               return views;
-                             })
-      .def_property_readonly("triangle_count", &triangle_count)
-      .def_property_readonly("default_tolerance", &default_tolerance, "[mm]")
+                  "Makes an assembly from meshes {name: (vertices, faces)}, of shapes (n, 3) and (m, 3), in assembled "
+                  "position. "
+                  "`units`: unit of the vertices (mm, cm, m, um, in, ft).")
+      .def_property_readonly(
+          "names",
+          [](const Assembly& a) {
+            std::vector<std::string> names;
+            for (const Component& c : a.components) names.push_back(c.name);
+            return names;
+          },
+          "Names of the components, by index.")
+      .def_property_readonly(
+          "components",
+          [](const Holder& a) {
+            std::vector<ComponentView> views;
+            for (std::uint32_t i = 0; i < a->components.size(); ++i) views.push_back({a, ComponentId(i)});
+            return views;
+          },
+          "The components, by index.")
+      .def_property_readonly("triangle_count", &triangle_count, "Number of triangles of all components.")
+      .def_property_readonly("default_tolerance", &default_tolerance, "Tolerance that check() uses by default [mm].")
       .def_property_readonly(
           "bounds",
           [](const Assembly& a) {
             const Aabb box = assembled_bounds(a);
             return py::make_tuple(to_array(box.lower), to_array(box.upper));
           },
-          "The lower and upper corner of the box around it [mm].")
-      .def_readonly("source_file", &Assembly::source_file)
+          "Lower and upper corner of the bounding box in the assembled state [mm], each of shape (3,).")
+      .def_readonly("source_file", &Assembly::source_file, "Name of the file that it was read from.")
       .def("__len__", [](const Assembly& a) { return a.components.size(); })
       .def(
           "__getitem__",
@@ -186,40 +199,49 @@ struct PairView {
 };
 
 void bind_pairs(py::module_& module) {
-  py::class_<PairView>(module, "Pair", "How two components stand to each other in the assembled state.")
-      .def_readonly("a", &PairView::a)
-      .def_readonly("b", &PairView::b)
+  py::class_<PairView>(module, "Pair", "State of a pair of components in the assembled state.")
+      .def_readonly("a", &PairView::a, "Name of the first component.")
+      .def_readonly("b", &PairView::b, "Name of the second component.")
       .def_property_readonly(
           "state", [](const PairView& p) { return std::string(name_of(p.pair.state)); },
-          "'near', 'contact', 'fit' or 'embedded'")
+          "'near', 'contact', 'fit' or 'embedded'.")
       .def_property_readonly(
-          "distance", [](const PairView& p) { return p.pair.distance; }, "[mm]")
+          "distance", [](const PairView& p) { return p.pair.distance; }, "Distance [mm]; 0 if they overlap.")
       .def_property_readonly(
-          "penetration", [](const PairView& p) { return p.pair.penetration; }, "[mm]")
+          "penetration", [](const PairView& p) { return p.pair.penetration; },
+          "Largest penetration depth of an intersecting triangle pair [mm].")
       .def_property_readonly(
           "allowed_penetration", [](const PairView& p) { return p.pair.allowed_penetration; },
-          "[mm]; infinite where embedded")
-      .def_property_readonly("triangle_pairs", [](const PairView& p) { return p.pair.triangle_pairs; })
+          "Depth to which motions may take the pair [mm]; infinite if embedded.")
+      .def_property_readonly(
+          "triangle_pairs", [](const PairView& p) { return p.pair.triangle_pairs; },
+          "Number of intersecting triangle pairs.")
       .def("__repr__", [](const PairView& p) {
         return "<dismantle.Pair '" + p.a + "', '" + p.b + "': " + std::string(name_of(p.pair.state)) + ">";
       });
-  py::class_<CheckedAssembly, CheckedHolder>(module, "PairStates", "Every pair of components that is not clear.")
+  py::class_<CheckedAssembly, CheckedHolder>(module, "PairStates",
+                                             "The states of all pairs of components that are near, touch or overlap. "
+                                             "Needed by everything that moves components.")
       .def_property_readonly(
-          "tolerance", [](const CheckedAssembly& c) { return c.pairs.tolerance; }, "[mm]")
-      .def_property_readonly("assembly", [](const CheckedAssembly& c) { return c.assembly; })
-      .def_property_readonly("pairs",
-                             [](const CheckedAssembly& c) {
-                               std::vector<PairView> views;
-                               for (const ComponentPair& p : c.pairs.pairs)
-                                 views.push_back({p, (*c.assembly)[p.a].name, (*c.assembly)[p.b].name});
-                               return views;
-                             })
+          "tolerance", [](const CheckedAssembly& c) { return c.pairs.tolerance; },
+          "Penetration depth that counts as touching [mm].")
+      .def_property_readonly(
+          "assembly", [](const CheckedAssembly& c) { return c.assembly; }, "The assembly.")
+      .def_property_readonly(
+          "pairs",
+          [](const CheckedAssembly& c) {
+            std::vector<PairView> views;
+            for (const ComponentPair& p : c.pairs.pairs)
+              views.push_back({p, (*c.assembly)[p.a].name, (*c.assembly)[p.b].name});
+            return views;
+          },
+          "The pairs.")
       .def(
           "report", [](const CheckedAssembly& c) { return check_report_text(*c.assembly, c.pairs); },
-          "The clash report for a terminal.")
+          "The report as text, as printed by 'dismantle check'.")
       .def(
           "report_json", [](const CheckedAssembly& c) { return check_report_json(*c.assembly, c.pairs); },
-          "As 'dismantle check --json'.")
+          "The report as JSON, as printed by 'dismantle check --json'.")
       .def("__len__", [](const CheckedAssembly& c) { return c.pairs.pairs.size(); });
 }
 
@@ -231,11 +253,16 @@ void bind_assembly(py::module_& module) {
   bind_pairs(module);
   module.def("load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
              py::arg("angular_deflection") = 0.0, py::arg("progress") = py::none(),
-             "Reads STEP, glTF, OBJ, STL, PLY, URDF or a folder of meshes.");
-  module.def("check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("fit") = 0.0,
-             py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0,
-             py::arg("progress") = py::none(),
-             "How every pair of components stands in the assembled state, and so how deep it may get.");
+             "Reads a STEP, glTF, OBJ, STL, PLY or URDF file, or a folder of meshes. `units`: unit of the coordinates "
+             "(mm, cm, "
+             "m, um, in, ft; default: by the format). STEP: `deflection` [mm] and `angular_deflection` [rad] of the "
+             "tessellation; 0: default.");
+  module.def(
+      "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("fit") = 0.0,
+      py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
+      "Classifies all pairs of components in the assembled state, which decides how deep each may get. `tolerance` and "
+      "`fit` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: the rule, 'auto' or "
+      "'paper'.");
 }
 
 }  // namespace dismantle::python

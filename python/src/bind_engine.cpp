@@ -9,7 +9,7 @@ namespace dismantle::python {
 
 namespace {
 
-/// The method `certificates`, for one thread at a time.
+/// An engine of the method `certificates`, used by one thread at a time.
 class Engine {
  public:
   Engine(const CheckedHolder& states, int threads)
@@ -20,7 +20,7 @@ class Engine {
   const Assembly& assembly() const { return *states_->assembly; }
 
   void hold(const py::object& keys) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     const std::vector<ComponentId> set = components_of(assembly(), keys);
     if (set.empty()) raise_usage("nothing can be grabbed (no component is named); name at least one");
     for (const ComponentId c : set)
@@ -31,7 +31,7 @@ class Engine {
   }
 
   StepView step(const DoubleArray& target, const std::string& response) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_held();
     const Pose pose = pose_of(target);
     const ResponseKind kind = response_of(response);
@@ -39,22 +39,22 @@ class Engine {
   }
 
   void jump(const DoubleArray& array) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     const Poses poses(array);
     if (poses.span().size() != assembly().components.size())
-      raise_usage("the state cannot be taken on (it has " + std::to_string(poses.span().size()) + " poses); give " +
-                  std::to_string(assembly().components.size()) + ", one a component");
+      raise_usage("the poses cannot be used (there are " + std::to_string(poses.span().size()) + "); give " +
+                  std::to_string(assembly().components.size()) + ", one for each component");
     without_gil([&] { engine_.jump(poses.span()); });
   }
 
   py::array_t<double> poses() {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     return to_array(engine_.poses());
   }
   std::vector<std::string> held() const { return component_names(assembly(), engine_.moving_set()); }
 
   std::vector<FirstContact> first_contacts(const DoubleArray& targets) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_held();
     const Poses poses(targets);
     std::vector<FirstContact> found(poses.span().size());
@@ -65,15 +65,15 @@ class Engine {
   }
 
   Clearance clearance() {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_held();
     return without_gil([&] { return engine_.clearance(); });
   }
 
   StepView contacts(double reach) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_held();
-    if (!(reach >= 0)) raise_usage("contacts cannot be looked for (the reach is negative); give 0 or more");
+    if (!(reach >= 0)) raise_usage("contacts cannot be found (the reach is negative); give 0 or more");
     StepView view{states_->assembly, {}};
     view.result.pose = engine_.poses()[engine_.moving_set()[0].value];
     view.result.contact_points = without_gil([&] { return engine_.contacts(reach); });
@@ -109,14 +109,14 @@ class Batch {
   const std::string& device() const { return chosen_.device; }
 
   void set_state(const py::object& moving, const py::object& poses) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     const Assembly& assembly = *states_->assembly;
     const std::vector<ComponentId> set = components_of(assembly, moving);
     std::vector<Pose> all(assembly.components.size());
     if (!poses.is_none()) {
       const Poses given(poses.cast<DoubleArray>());
       if (given.span().size() != all.size())
-        raise_usage("the state cannot be used (it needs a pose a component); give all");
+        raise_usage("the state cannot be used (it needs a pose for each component); give all");
       all.assign(given.span().begin(), given.span().end());
     }
     if (set.empty()) raise_usage("nothing can move (no component is named); name at least one");
@@ -128,7 +128,7 @@ class Batch {
   }
 
   std::vector<FirstContact> straight(const DoubleArray& ways) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_state();
     if (ways.ndim() != 2 || ways.shape(1) != 3)
       raise_usage("the displacements cannot be read (their shape is not (k, 3)); correct it");
@@ -138,7 +138,7 @@ class Batch {
     return without_gil([&] { return chosen_.batch->straight_contacts(span); });
   }
   std::vector<FirstContact> screws(const DoubleArray& targets) {
-    const Turn turn(mutex_, kName);
+    const ExclusiveUse use(mutex_, kName);
     check_state();
     const Poses poses(targets);
     return without_gil([&] { return chosen_.batch->screw_contacts(poses.span()); });
@@ -157,7 +157,7 @@ class Batch {
   std::mutex mutex_;
 };
 
-/// Arrays that look at the contacts of a batch, each an array with an entry a candidate.
+/// Arrays that view first contacts, with an entry for each motion.
 struct FirstContactArrays {
   py::array_t<double> toi;
   py::array_t<bool> free;
@@ -166,20 +166,20 @@ struct FirstContactArrays {
 
 FirstContactArrays arrays_of(std::vector<FirstContact> contacts) {
   const std::size_t n = contacts.size();
-  const auto [owner, first] = keep(std::move(contacts));
+  const auto [owner, first] = make_owner(std::move(contacts));
   const auto ids = [&, &kept = owner, data = first](const std::uint32_t* values) {
-    return look_at<std::uint32_t, FirstContact>(data ? values : nullptr, n, kept);
+    return array_view<std::uint32_t, FirstContact>(data ? values : nullptr, n, kept);
   };
   if (n == 0) return {};
-  return {look_at<double, FirstContact>(&first->toi, n, owner),
-          look_at<bool, FirstContact>(&first->free, n, owner),
+  return {array_view<double, FirstContact>(&first->toi, n, owner),
+          array_view<bool, FirstContact>(&first->free, n, owner),
           ids(&first->moving.value),
           ids(&first->fixed.value),
           ids(&first->face_moving.value),
           ids(&first->face_fixed.value)};
 }
 
-/// Names of what stopped a step, each once.
+/// Names of the components in contact after a step.
 std::set<std::string> blocking(const StepView& step) {
   std::set<std::string> names;
   for (const ContactPoint& c : step.result.contact_points) names.insert((*step.assembly)[c.fixed].name);
@@ -205,56 +205,71 @@ py::array_t<double> vectors(const StepView& step, const Get& get) {
 }
 
 void bind_step(py::module_& module) {
-  py::class_<StepView>(module, "StepResult", "How one step towards a target ended, and what it cost.")
+  py::class_<StepView>(
+      module, "StepResult",
+      "Result of one step towards a target. Arrays with an entry for each contact have the same order.")
       .def_property_readonly(
-          "pose", [](const StepView& s) { return to_array(s.result.pose); }, "Shape (7,).")
-      .def_property_readonly("reached", [](const StepView& s) { return s.result.reached; })
+          "pose", [](const StepView& s) { return to_array(s.result.pose); },
+          "Pose of the moving set after the step, shape (7,).")
+      .def_property_readonly(
+          "reached", [](const StepView& s) { return s.result.reached; }, "True if the pose is the target.")
       .def_property_readonly(
           "way", [](const StepView& s) { return to_array(Span<const Pose>(s.result.poses)); },
-          "The poses that it went through, a screw from each to the next, shape (n, 7).")
+          "The poses passed through, with a screw motion from each to the next, shape (n, 7).")
       .def_property_readonly(
           "clearance", [](const StepView& s) { return s.result.clearance; },
-          "A lower bound of the distance to everything else [mm].")
-      .def_property_readonly("blocking", &blocking, "The names of what it touches.")
+          "Lower bound of the distance to all other components [mm].")
+      .def_property_readonly("blocking", &blocking, "Names of the components that the moving set touches.")
       .def_property_readonly(
           "points", [](const StepView& s) { return vectors(s, [](const ContactPoint& c) { return c.point; }); },
-          "Contact points [mm, world], shape (n, 3).")
+          "Contact points [mm, world frame], shape (n, 3).")
       .def_property_readonly(
           "normals", [](const StepView& s) { return vectors(s, [](const ContactPoint& c) { return c.normal; }); },
-          "From the fixed component to the moving one, shape (n, 3).")
+          "Unit normals from the fixed component to the moving one [world frame], shape (n, 3).")
       .def_property_readonly(
           "gaps", [](const StepView& s) { return column<double>(s, [](const ContactPoint& c) { return c.gap; }); },
-          "[mm], shape (n,).")
+          "Gaps along the normals [mm], shape (n,); negative: overlap.")
       .def_property_readonly(
           "moving",
           [](const StepView& s) {
             return column<std::uint32_t>(s, [](const ContactPoint& c) { return c.moving.value; });
           },
-          "Indices of components, shape (n,).")
+          "Indices of the moving components in contact, shape (n,).")
       .def_property_readonly(
           "fixed",
           [](const StepView& s) {
             return column<std::uint32_t>(s, [](const ContactPoint& c) { return c.fixed.value; });
           },
-          "Indices of components, shape (n,).")
-      .def_property_readonly("milliseconds", [](const StepView& s) { return s.result.cost.ms; });
+          "Indices of the other components in contact, shape (n,).")
+      .def_property_readonly(
+          "milliseconds", [](const StepView& s) { return s.result.cost.ms; }, "Duration of the step [ms].");
 }
 
 void bind_contacts(py::module_& module) {
-  py::class_<FirstContactArrays>(module, "FirstContacts", "How far each candidate motion gets: an entry a candidate.")
-      .def_readonly("toi", &FirstContactArrays::toi, "Free on [0, toi] of the motion.")
-      .def_readonly("free", &FirstContactArrays::free)
-      .def_readonly("moving", &FirstContactArrays::moving, "Index of a component; meaningless if free.")
-      .def_readonly("fixed", &FirstContactArrays::fixed)
-      .def_readonly("face_moving", &FirstContactArrays::face_moving)
-      .def_readonly("face_fixed", &FirstContactArrays::face_fixed)
+  py::class_<FirstContactArrays>(
+      module, "FirstContacts", "First contacts of candidate motions: arrays with an entry for each motion, shape (k,).")
+      .def_readonly("toi", &FirstContactArrays::toi,
+                    "Time of impact: the motion is free on [0, toi], as a fraction of the motion.")
+      .def_readonly("free", &FirstContactArrays::free, "True if the whole motion is free.")
+      .def_readonly("moving", &FirstContactArrays::moving,
+                    "Index of the moving component in contact; undefined if free.")
+      .def_readonly("fixed", &FirstContactArrays::fixed, "Index of the other component; undefined if free.")
+      .def_readonly("face_moving", &FirstContactArrays::face_moving, "Face of the moving component; undefined if free.")
+      .def_readonly("face_fixed", &FirstContactArrays::face_fixed, "Face of the other component; undefined if free.")
       .def("__len__", [](const FirstContactArrays& a) { return a.toi.size(); });
-  py::class_<Clearance>(module, "Clearance", "The minimum distance between the moving set and all other components.")
-      .def_readonly("distance", &Clearance::distance, "[mm]")
-      .def_property_readonly("moving", [](const Clearance& c) { return c.moving.value; })
-      .def_property_readonly("fixed", [](const Clearance& c) { return c.fixed.value; })
-      .def_property_readonly("point_moving", [](const Clearance& c) { return to_array(c.point_moving); })
-      .def_property_readonly("point_fixed", [](const Clearance& c) { return to_array(c.point_fixed); });
+  py::class_<Clearance>(module, "Clearance",
+                        "Exact minimum distance between the moving set and all other components, and its location.")
+      .def_readonly("distance", &Clearance::distance, "Distance [mm]; infinite if there is no other component.")
+      .def_property_readonly(
+          "moving", [](const Clearance& c) { return c.moving.value; }, "Index of the moving component.")
+      .def_property_readonly(
+          "fixed", [](const Clearance& c) { return c.fixed.value; }, "Index of the other component.")
+      .def_property_readonly(
+          "point_moving", [](const Clearance& c) { return to_array(c.point_moving); },
+          "Nearest point of the moving component [mm, world frame], shape (3,).")
+      .def_property_readonly(
+          "point_fixed", [](const Clearance& c) { return to_array(c.point_fixed); },
+          "Nearest point of the other component [mm, world frame], shape (3,).");
 }
 
 }  // namespace
@@ -268,30 +283,40 @@ ResponseKind response_of(const std::string& name) {
 void bind_engine(py::module_& module) {
   bind_step(module);
   bind_contacts(module);
-  py::class_<Engine>(module, "Engine", "Grabs components and moves them towards targets, with collision handling.")
+  py::class_<Engine>(
+      module, "Engine",
+      "Moves grabbed components towards targets, with collision handling. One thread may use it at a time.")
       .def(py::init<CheckedHolder, int>(), py::arg("states"), py::kw_only(), py::arg("threads") = 1)
-      .def("hold", &Engine::hold, py::arg("components"))
-      .def("step", &Engine::step, py::arg("target"), py::arg("response") = "slide")
-      .def("jump", &Engine::jump, py::arg("poses"))
-      .def_property_readonly("poses", &Engine::poses, "Of all components, shape (n, 7).")
-      .def_property_readonly("held", &Engine::held)
+      .def("hold", &Engine::hold, py::arg("components"),
+           "Grabs components, which move together as one rigid body from then on. They must have equal poses.")
+      .def(
+          "step", &Engine::step, py::arg("target"), py::arg("response") = "slide",
+          "Moves the set towards a target pose, shape (7,), as far as the response allows: 'stop', 'touch' or 'slide'.")
+      .def("jump", &Engine::jump, py::arg("poses"),
+           "Sets the poses of all components, shape (n, 7), without a test. Releases the set if that moves it.")
+      .def_property_readonly("poses", &Engine::poses, "Poses of all components, shape (n, 7).")
+      .def_property_readonly("held", &Engine::held, "Names of the grabbed components.")
       .def(
           "first_contacts",
           [](Engine& engine, const DoubleArray& targets) { return arrays_of(engine.first_contacts(targets)); },
-          py::arg("targets"), "The first contact of the screw motion to each target, shape (k, 7). Nothing moves.")
-      .def("clearance", &Engine::clearance)
-      .def("contacts", &Engine::contacts, py::arg("reach"), "All contacts nearer than `reach` [mm].");
-  py::class_<Batch>(module, "MotionBatch", "Many candidate motions of one set, on CPU threads or a CUDA device.")
+          py::arg("targets"), "First contacts of the screw motions to target poses, shape (k, 7). Nothing moves.")
+      .def("clearance", &Engine::clearance, "Exact minimum distance between the set and all other components.")
+      .def("contacts", &Engine::contacts, py::arg("reach"),
+           "All contacts with a gap of at most `reach` [mm]; the members that describe a motion are empty.");
+  py::class_<Batch>(
+      module, "MotionBatch",
+      "Tests many candidate motions of one set, on CPU threads or a CUDA device. One thread may use it at a time.")
       .def(py::init<CheckedHolder, std::string, int>(), py::arg("states"), py::kw_only(), py::arg("device") = "auto",
            py::arg("threads") = 0)
-      .def_property_readonly("device", &Batch::device)
-      .def("set_state", &Batch::set_state, py::arg("moving"), py::arg("poses") = py::none())
+      .def_property_readonly("device", &Batch::device, "'cpu', or the name of the CUDA device.")
+      .def("set_state", &Batch::set_state, py::arg("moving"), py::arg("poses") = py::none(),
+           "Sets the moving set, and the poses of all components, shape (n, 7); without `poses`: assembled.")
       .def(
           "straight_contacts", [](Batch& b, const DoubleArray& ways) { return arrays_of(b.straight(ways)); },
-          py::arg("ways"), "First contacts of translations by these displacements [mm], shape (k, 3).")
+          py::arg("ways"), "First contacts of translations by displacements [mm, world frame], shape (k, 3).")
       .def(
           "screw_contacts", [](Batch& b, const DoubleArray& targets) { return arrays_of(b.screws(targets)); },
-          py::arg("targets"), "Screws to poses, shape (k, 7).");
+          py::arg("targets"), "First contacts of the screw motions to target poses, shape (k, 7).");
 }
 
 }  // namespace dismantle::python

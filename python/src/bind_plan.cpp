@@ -16,16 +16,19 @@ namespace dismantle::python {
 
 namespace {
 
+/// A plan and its assembly: the class Plan.
 struct PlanView {
   CheckedHolder states;
   Plan plan;
 };
 
+/// An explanation and its assembly: the class Explanation.
 struct ExplanationView {
   CheckedHolder states;
   Explanation explanation;
 };
 
+/// A step and its assembly: the class PlanStep.
 struct StepOfPlan {
   CheckedHolder states;
   PlanStep step;
@@ -106,41 +109,54 @@ std::vector<std::string> blockers(const ExplanationView& view) {
 }
 
 void bind_explanation(py::module_& module) {
-  py::class_<ExplanationView>(module, "Explanation", "What keeps a component from going straight out.")
+  py::class_<ExplanationView>(module, "Explanation",
+                              "The blockers of the straight removal of a component. str() gives a sentence.")
       .def_property_readonly(
-          "component", [](const ExplanationView& e) { return (*e.states->assembly)[e.explanation.component].name; })
+          "component", [](const ExplanationView& e) { return (*e.states->assembly)[e.explanation.component].name; },
+          "Name of the component.")
       .def_property_readonly(
           "direction", [](const ExplanationView& e) { return to_array(e.explanation.direction); },
-          "The one along which the fewest are in the way.")
-      .def_property_readonly("blocked_by", &blockers, "Nearest first; empty where it comes out.")
+          "The direction with the fewest blockers: unit vector, shape (3,).")
+      .def_property_readonly("blocked_by", &blockers,
+                             "Names of the blockers along the direction, nearest first; empty if it can be removed.")
       .def_property_readonly(
           "comes_out_with",
-          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.together); })
+          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.together); },
+          "Names of the components that can be removed with it as one body; empty if there is no such body.")
       .def_property_readonly(
           "locked_with",
-          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.locked); })
+          [](const ExplanationView& e) { return component_names(*e.states->assembly, e.explanation.locked); },
+          "Names of the components with which it is interlocked.")
       .def("__str__", [](const ExplanationView& e) { return explanation_text(*e.states->assembly, e.explanation); });
 }
 
 void bind_plan_classes(py::module_& module) {
-  py::class_<StepOfPlan>(module, "PlanStep", "A set of components leaves what it is part of.")
+  py::class_<StepOfPlan>(module, "PlanStep", "A step of a plan: the removal of a set of components.")
       .def_property_readonly(
-          "components", [](const StepOfPlan& s) { return component_names(*s.states->assembly, s.step.components); })
-      .def_property_readonly("tier", [](const StepOfPlan& s) { return std::string(name_of(s.step.tier)); })
+          "components", [](const StepOfPlan& s) { return component_names(*s.states->assembly, s.step.components); },
+          "Names of the components that move.")
+      .def_property_readonly(
+          "tier", [](const StepOfPlan& s) { return std::string(name_of(s.step.tier)); },
+          "Kind of the path: straight, helical, sliding, sampled, or several components together.")
       .def_property_readonly(
           "exit", [](const StepOfPlan& s) { return to_array(s.step.exit); },
-          "The direction in which it leaves for good.")
-      .def_property_readonly("part_of", [](const StepOfPlan& s) -> std::optional<std::uint32_t> {
-        if (s.step.part_of == PlanStep::kWhole) return {};
-        return s.step.part_of;
-      });
-  py::class_<PlanView>(module, "Plan", "How an assembly comes apart.")
-      .def_property_readonly("steps",
-                             [](const PlanView& p) {
-                               std::vector<StepOfPlan> steps;
-                               for (const PlanStep& s : p.plan.steps) steps.push_back({p.states, s});
-                               return steps;
-                             })
+          "Direction of the removal at the end of the path: unit vector, shape (3,).")
+      .def_property_readonly(
+          "part_of",
+          [](const StepOfPlan& s) -> std::optional<std::uint32_t> {
+            if (s.step.part_of == PlanStep::kWhole) return {};
+            return s.step.part_of;
+          },
+          "Index of the step that removed the body from which this step removes the set; None: the assembly.");
+  py::class_<PlanView>(module, "Plan", "A disassembly sequence.")
+      .def_property_readonly(
+          "steps",
+          [](const PlanView& p) {
+            std::vector<StepOfPlan> steps;
+            for (const PlanStep& s : p.plan.steps) steps.push_back({p.states, s});
+            return steps;
+          },
+          "The steps in order.")
       .def_property_readonly(
           "staying",
           [](const PlanView& p) {
@@ -148,16 +164,20 @@ void bind_plan_classes(py::module_& module) {
             for (const Explanation& e : p.plan.staying) staying.push_back({p.states, e});
             return staying;
           },
-          "Why what should come out and does not stays.")
-      .def_property_readonly("complete", [](const PlanView& p) { return p.plan.complete(); })
-      .def_property_readonly("out_of_time", [](const PlanView& p) { return p.plan.out_of_time; })
-      .def_property_readonly("seconds", [](const PlanView& p) { return p.plan.seconds; })
+          "An Explanation for each target that cannot be removed.")
+      .def_property_readonly(
+          "complete", [](const PlanView& p) { return p.plan.complete(); }, "True if all targets can be removed.")
+      .def_property_readonly(
+          "out_of_time", [](const PlanView& p) { return p.plan.out_of_time; },
+          "True if the search ended at the time limit or was cancelled.")
+      .def_property_readonly(
+          "seconds", [](const PlanView& p) { return p.plan.seconds; }, "Duration of the search [s].")
       .def(
           "path",
           [](const PlanView& p) {
-            return hold_path(without_gil([&] { return plan_path(*p.states->assembly, p.states->pairs, p.plan); }));
+            return shared_path(without_gil([&] { return plan_path(*p.states->assembly, p.states->pairs, p.plan); }));
           },
-          "One move a step.");
+          "The path of the plan, with a move for each step.");
 }
 
 }  // namespace
@@ -165,26 +185,34 @@ void bind_plan_classes(py::module_& module) {
 void bind_plan(py::module_& module) {
   bind_explanation(module);
   bind_plan_classes(module);
-  py::class_<AuditReport>(module, "AuditReport", "Whether a path holds the guarantee.")
-      .def_property_readonly("holds", &AuditReport::holds)
-      .def_property_readonly("violations",
-                             [](const AuditReport& r) {
-                               std::vector<std::string> sentences;
-                               for (const AuditViolation& v : r.violations) sentences.push_back(v.message);
-                               return sentences;
-                             })
-      .def_readonly("seconds", &AuditReport::seconds);
-  module.def("plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(),
-             py::arg("fixed") = py::none(), py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0,
-             py::arg("effort") = 1.0, py::arg("threads") = 0, py::arg("progress") = py::none(),
-             "How the assembly comes apart, or how the targets get out. What can come straight out next is chosen by "
-             "`prefer`, of 'direction', 'upright', 'groups' and 'support', the first before the others.");
-  module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0);
+  py::class_<AuditReport>(module, "AuditReport", "Result of audit().")
+      .def_property_readonly("holds", &AuditReport::holds, "True if the path satisfies the guarantee.")
+      .def_property_readonly(
+          "violations",
+          [](const AuditReport& r) {
+            std::vector<std::string> sentences;
+            for (const AuditViolation& v : r.violations) sentences.push_back(v.message);
+            return sentences;
+          },
+          "The violations, a sentence each.")
+      .def_readonly("seconds", &AuditReport::seconds, "Duration of the audit [s].");
+  module.def(
+      "plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(), py::arg("fixed") = py::none(),
+      py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "Finds a disassembly sequence of everything, or of `targets`; components in `fixed` never move. `prefer` orders "
+      "the components that can be removed next: 'direction', 'upright', 'groups', 'support', the first counts most. "
+      "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight.");
+  module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0,
+             "Finds the blockers of the straight removal of a component.");
   module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
-             py::arg("progress") = py::none(), "Checks a path by means that share nothing with what made it.");
+             py::arg("progress") = py::none(),
+             "Checks a path against the guarantee, independently of engine and planner.");
   module.def("export", &export_file, py::arg("assembly"), py::arg("path"), py::arg("file"), py::kw_only(),
              py::arg("reverse") = false, py::arg("progress") = py::none(),
-             "Writes .glb, .html, .csv, bom.csv, bom.json or .path.json, by the file's name.");
+             "Writes a file whose name gives the format: .glb, .html, .csv, bom.csv, bom.json or .path.json. "
+             "`reverse`: assembly "
+             "instead of disassembly.");
 }
 
 }  // namespace dismantle::python

@@ -8,10 +8,10 @@ namespace dismantle::python {
 
 namespace {
 
-constexpr double kUnitQuaternionTolerance = 1e-6;  // as files have it
+constexpr double kUnitQuaternionTolerance = 1e-6;  // the same as for files
 constexpr double kRounding = 1e-15;
 
-/// Made once, kept for the life of the process.
+/// The exception classes; created once, never released.
 PyObject* g_error = nullptr;
 PyObject* g_usage_error = nullptr;
 PyObject* g_unreadable_error = nullptr;
@@ -60,14 +60,16 @@ void raise_usage(const std::string& message) {
 
 void bind_errors(py::module_& module) {
   const auto builtin = [](PyObject* type) { return py::reinterpret_borrow<py::object>(type); };
-  g_error = new_error(module, "Error", "What dismantle could not do, in one sentence.",
-                      py::make_tuple(builtin(PyExc_Exception)));
+  g_error =
+      new_error(module, "Error",
+                "Base class of the errors of dismantle. The message says what the problem is, why, and what to do.",
+                py::make_tuple(builtin(PyExc_Exception)));
   const py::object base = py::reinterpret_borrow<py::object>(g_error);
-  g_usage_error = new_error(module, "UsageError", "What was asked for makes no sense.",
+  g_usage_error = new_error(module, "UsageError", "An argument is invalid, or the call is not possible now.",
                             py::make_tuple(base, builtin(PyExc_ValueError)));
-  g_unreadable_error = new_error(module, "UnreadableError", "The input cannot be read as what it claims to be.",
+  g_unreadable_error = new_error(module, "UnreadableError", "An input file cannot be read, or is malformed.",
                                  py::make_tuple(base, builtin(PyExc_OSError)));
-  g_failed_error = new_error(module, "FailedError", "It went wrong on the way: disk full, out of memory, cancelled.",
+  g_failed_error = new_error(module, "FailedError", "The work failed: disk full, out of memory, cancelled.",
                              py::make_tuple(base, builtin(PyExc_RuntimeError)));
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -79,17 +81,17 @@ void bind_errors(py::module_& module) {
 }
 
 ProgressCallback PythonProgress::callback() {
-  return [this](std::string_view stage, double fraction) { return ask(stage, fraction); };
+  return [this](std::string_view stage, double fraction) { return report(stage, fraction); };
 }
 
-bool PythonProgress::ask(std::string_view stage, double fraction) {
+bool PythonProgress::report(std::string_view stage, double fraction) {
   const py::gil_scoped_acquire gil;
   if (raised_) return false;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (function_.is_none()) return true;
-    const py::object answer = function_(std::string(stage), fraction);
-    return answer.is_none() || answer.cast<bool>();
+    const py::object result = function_(std::string(stage), fraction);
+    return result.is_none() || result.cast<bool>();
   } catch (py::error_already_set& e) {
     raised_ = std::make_unique<py::error_already_set>(std::move(e));
     return false;
@@ -104,7 +106,7 @@ void PythonProgress::finish() {
 }
 
 Executor executor_of(int threads) {
-  if (threads < 0) raise_usage("so many threads cannot be (the number is negative); give 0 for all cores");
+  if (threads < 0) raise_usage("the number of threads cannot be used (it is negative); give 0 for all cores");
   return Executor(threads == 1 ? ExecutorKind::Serial : ExecutorKind::Threads, threads);
 }
 
@@ -179,15 +181,16 @@ py::array_t<double> to_array(Span<const Pose> poses) {
                              reinterpret_cast<const double*>(poses.data()));
 }
 
-Turn::Turn(std::mutex& mutex, const char* what) : lock_(mutex, std::try_to_lock) {
-  if (!lock_) raise_usage("the " + std::string(what) + " is busy (another thread uses it); make one for each thread");
+ExclusiveUse::ExclusiveUse(std::mutex& mutex, const char* name) : lock_(mutex, std::try_to_lock) {
+  if (!lock_) raise_usage("the " + std::string(name) + " is busy (another thread uses it); make one for each thread");
 }
 
 }  // namespace dismantle::python
 
 PYBIND11_MODULE(_dismantle, module) {
   using namespace dismantle::python;
-  module.doc() = "Virtual disassembly with continuous collision handling. Lengths are millimetres, angles radians.";
+  module.doc() =
+      "Virtual disassembly with continuous collision handling. Lengths are in mm, angles in rad, times in s.";
   module.attr("__version__") = DISMANTLE_VERSION;
   bind_errors(module);
   bind_assembly(module);

@@ -6,9 +6,11 @@
 
 namespace dismantle::python {
 
+/// Shared with Python.
 using PathHolder = std::shared_ptr<Path>;
 
-inline PathHolder hold_path(Path path) {
+/// Moves a path to the heap.
+inline PathHolder shared_path(Path path) {
   return std::make_shared<Path>(std::move(path));
 }
 

@@ -6,13 +6,13 @@
 
 namespace dismantle::python {
 
-/// The result of a step, with the names of its assembly.
+/// The result of a step and its assembly, for the names: the class StepResult.
 struct StepView {
-  std::shared_ptr<const Assembly> assembly;
-  StepResult result;
+  std::shared_ptr<const Assembly> assembly;  ///< Never null.
+  StepResult result;                         ///< As the engine returned it.
 };
 
-/// 'stop', 'touch' or 'slide'.
+/// The response called 'stop', 'touch' or 'slide'. Raises UsageError for other names.
 ResponseKind response_of(const std::string& name);
 
 }  // namespace dismantle::python

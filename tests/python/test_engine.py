@@ -86,10 +86,10 @@ def test_refuses_invalid_arguments(states):
         (lambda: engine.first_contacts([HOME]), "no component is held"),
         (lambda: engine.hold([]), "no component is named"),
         (lambda: engine.hold("lid"), "'lid' is unknown"),
-        (lambda: engine.jump([HOME]), "give 7, one a component"),
+        (lambda: engine.jump([HOME]), "give 7, one for each component"),
         (lambda: dismantle.MotionBatch(states).screw_contacts([HOME]), "set_state was not called"),
         (lambda: dismantle.MotionBatch(states, device="tpu"), "there is no device 'tpu'"),
-        (lambda: dismantle.Engine(states, threads=-1), "the number is negative"),
+        (lambda: dismantle.Engine(states, threads=-1), "number of threads cannot be used"),
     ]:
         with pytest.raises(dismantle.UsageError, match=why):
             call()
