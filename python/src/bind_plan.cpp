@@ -137,7 +137,7 @@ void bind_plan_classes(py::module_& module) {
           "Names of the components that move.")
       .def_property_readonly(
           "tier", [](const StepOfPlan& s) { return std::string(name_of(s.step.tier)); },
-          "Kind of the path: straight, helical, sliding, sampled, or several components together.")
+          "Kind of the path: 'straight', 'helical', 'sliding', 'sampled' or 'straight together' (several components).")
       .def_property_readonly(
           "exit", [](const StepOfPlan& s) { return to_array(s.step.exit); },
           "Direction of the removal at the end of the path: unit vector, shape (3,).")
