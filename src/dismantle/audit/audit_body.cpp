@@ -212,14 +212,19 @@ AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
 bool AuditBody::contains(Vec3 point) const {
   for (int i = 0; i < 3; ++i)
     if (std::fabs(point[i] - nodes_[0].center[i]) > nodes_[0].half[i]) return false;
+  return ray_crossings(point).number != 0;
+}
+
+RayCrossings AuditBody::ray_crossings(Vec3 point) const {
   int count = 0;
   const Mat3* frames = ray_frames(count);
-  Winding last;
+  RayCrossings last;
   for (int k = 0; k < count; ++k) {
-    last = winding(point, frames[k]);
-    if (last.certain) break;
+    const Winding found = winding(point, frames[k]);
+    last = {found.number, frames[k].row[2]};
+    if (found.certain) break;
   }
-  return last.number != 0;
+  return last;
 }
 
 }  // namespace dismantle::audit

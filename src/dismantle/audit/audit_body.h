@@ -27,6 +27,12 @@ struct SurfacePoint {
   std::uint32_t face = 0;  ///< The nearest face.
 };
 
+/// The signed number of faces that a ray crosses: for a closed surface, the winding number of the ray's start.
+struct RayCrossings {
+  int number = 0;  ///< Faces that are crossed from their inner side, minus those from their outer side.
+  Vec3 direction;  ///< Of the ray, of unit length.
+};
+
 /// The distance of `point` from the closed triangle `t` [mm].
 double distance_to_triangle(const Triangle& t, Vec3 point);
 
@@ -66,6 +72,8 @@ class AuditBody {
   /// surface.
   /// @pre closed()
   bool contains(Vec3 point) const;
+  /// The crossings of a ray from a point, in a direction in which it passes no edge too closely.
+  RayCrossings ray_crossings(Vec3 point) const;
 
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/audit_depth.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/audit/path_consistency.h"
+#include "dismantle/audit/solid/move_depths.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace dismantle {
+
+namespace {
+
+double slack_of(const Assembly& assembly, const Path& path) {
+  const double minimum = kAuditMinTolerance * diagonal(assembled_bounds(assembly));
+  const double slack = kDepthAuditSlack * std::max(path.tolerance, minimum);
+  return slack > 0 ? slack : kDepthAuditSlack * kAuditMinTolerance;
+}
+
+void append(std::vector<AuditViolation>& to, std::vector<AuditViolation> more) {
+  to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+bool audit_moves(audit::DepthContext& context, DepthAudit& report) {
+  const Assembly& assembly = context.assembly;
+  const Path& path = context.path;
+  std::vector<Pose> poses(assembly.components.size());
+  const double stages = static_cast<double>(path.moves.size()) + 1;
+  if (!audit::find_initial_depths(context, 0, 1 / stages)) return false;
+  for (std::size_t m = 0; m < path.moves.size(); ++m) {
+    const Move& move = path.moves[m];
+    append(report.inconsistencies, audit::check_move(assembly, path, m, poses));
+    if (!audit::can_follow(move)) continue;
+    const double done = static_cast<double>(m) + 1;
+    if (!audit::check_move_depths(context, poses, m, done / stages, (done + 1) / stages)) return false;
+    for (const std::string& name : move.components)
+      if (const auto id = assembly.find(name)) poses[id->value] = move.frames.back().pose;
+  }
+  append(report.inconsistencies, audit::check_removed(assembly, path, poses));
+  return report_progress(context.progress, "audit", 1);
+}
+
+std::string message_of(const Assembly& assembly, const DepthAuditPair& pair) {
+  const DepthViolation& v = pair.violation;
+  const std::string& moving = assembly[v.point_of_a ? pair.a : pair.b].name;
+  const std::string& other = assembly[v.point_of_a ? pair.b : pair.a].name;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%.6g mm deep (allowed: %.6g mm%s) at %.6g s of move %zu (after frame %zu), at (%.6g, %.6g, %.6g)",
+                v.depth, v.allowed, pair.parted && v.allowed < pair.allowed ? ", as they have been apart" : "", v.time,
+                v.move + 1, v.frame, v.point.x, v.point.y, v.point.z);
+  char greatest[64] = "";
+  if (v.greatest > v.depth) std::snprintf(greatest, sizeof greatest, "; up to %.6g mm", v.greatest);
+  return "\"" + moving + "\" is inside \"" + other + "\": " + text + greatest;
+}
+
+}  // namespace
+
+std::string_view name_of(DepthRule) {
+  return "depth";
+}
+
+std::size_t DepthAudit::violation_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [](const DepthAuditPair& pair) { return pair.violated; }));
+}
+
+DepthAudit audit_depth(const Assembly& assembly, const Path& path, const DepthAuditOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  DepthAudit report;
+  report.tolerance = path.tolerance;
+  report.slack = slack_of(assembly, path);
+  report.inconsistencies = audit::check_declarations(assembly, path);
+
+  audit::DepthContext context{assembly, path, {}, {}, report.slack, 0, options.executor, options.progress};
+  context.bodies.resize(assembly.components.size());
+  options.executor.for_each_heavy(context.bodies.size(), [&](std::size_t c) {
+    context.bodies[c] = std::make_unique<const audit::SolidBody>(assembly.components[c]);
+  });
+  report.complete = audit_moves(context, report);
+
+  for (const auto& body : context.bodies) report.sheets += body->solid() ? 0 : 1;
+  report.pieces = context.pieces;
+  for (auto& [key, pair] : context.ledger) {
+    if (pair.violated) pair.violation.message = message_of(assembly, pair);
+    report.pairs.push_back(pair);
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/move_depths.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace dismantle::audit {
+
+namespace {
+
+/// Error bound of depths in units of rounding of the largest coordinate in their computation.
+constexpr double kRoundingUnits = 32;
+
+/// The pairs whose boxes overlap in the assembled state, by (a, b).
+std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_boxes(const Assembly& assembly) {
+  std::vector<Aabb> boxes;
+  for (const Component& component : assembly.components) boxes.push_back(assembled_bounds(component));
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return boxes[i].lower.x < boxes[j].lower.x; });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].lower.x <= boxes[order[i]].upper.x; ++j)
+      if (overlaps(boxes[order[i]], boxes[order[j]])) pairs.push_back(std::minmax(order[i], order[j]));
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b,
+                          const Pose& pose_a, const std::vector<MotionSegment>& segments) {
+  DepthPair pair;
+  pair.a = context.bodies[a_and_b.first].get();
+  pair.b = context.bodies[a_and_b.second].get();
+  pair.sweep.a = &pair.a->surface();
+  pair.sweep.b = &pair.b->surface();
+  const RigidTransform world_from_a = pair.sweep.a->world_from_body(pose_a);
+  double position = max_abs(pose_a.position);
+  for (const MotionSegment& segment : segments) {
+    pair.sweep.motions.push_back(
+        relative_motion(world_from_a, pair.sweep.b->world_from_body(segment.start), segment.screw));
+    position = std::max(position, max_abs(segment.start.position));
+  }
+  pair.sweep.rounding = kRoundingUnits * std::numeric_limits<double>::epsilon() *
+                        (pair.sweep.a->coordinate_bound() + pair.sweep.b->coordinate_bound() + 2 * position);
+  return pair;
+}
+
+bool find_initial_depths(DepthContext& context, double progress_from, double progress_to) {
+  const auto pairs = overlapping_boxes(context.assembly);
+  const std::vector<MotionSegment> still = {MotionSegment{}};
+  std::vector<DepthFindings> found(2 * pairs.size());
+  const bool completed = context.run(found.size(), progress_from, progress_to, [&](std::size_t i) {
+    const auto& [a, b] = pairs[i / 2];
+    if (context.bodies[a]->surface().empty() || context.bodies[b]->surface().empty()) return;
+    const DepthPair pair = make_depth_pair(context, {a, b}, Pose{}, still);
+    found[i] = search_depth(pair, motion_spans(still, 0, 1, pair.b->surface()), i % 2 == 1,
+                            {context.path.tolerance, context.slack});
+  });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const DepthFindings& of_a = found[2 * i];
+    const DepthFindings& of_b = found[2 * i + 1];
+    context.pieces += of_a.samples + of_b.samples;
+    if (of_a.first.depth == 0 && of_b.first.depth == 0) continue;
+    DepthAuditPair& pair = context.ledger[pairs[i]];
+    pair.a = ComponentId(pairs[i].first);
+    pair.b = ComponentId(pairs[i].second);
+    pair.initial_depth = std::max(of_a.first.depth > 0 ? of_a.bound : 0, of_b.first.depth > 0 ? of_b.bound : 0);
+    pair.allowed = pair.initial_depth + context.path.tolerance;
+  }
+  return completed;
+}
+
+}  // namespace dismantle::audit

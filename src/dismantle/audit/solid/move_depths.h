@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/path.h"
+#include "dismantle/audit/depth_audit.h"
+#include "dismantle/audit/solid/depth_search.h"
+#include "dismantle/core/progress.h"
+#include "dismantle/core/span.h"
+#include "dismantle/exec/executor.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dismantle::audit {
+
+/// The pairs of a path, by (a, b) with a < b.
+using DepthLedger = std::map<std::pair<std::uint32_t, std::uint32_t>, DepthAuditPair>;
+
+/// The data that all searches of an audit of depths share.
+struct DepthContext {
+  ///@{ The arguments of the audit.
+  const Assembly& assembly;
+  const Path& path;
+  ///@}
+  std::vector<std::unique_ptr<const SolidBody>> bodies;  ///< Of each component.
+  DepthLedger ledger;                                    ///< Pairs that overlap at the start, or violate a rule.
+  double slack = 0;                                      ///< DepthAudit::slack [mm].
+  std::size_t pieces = 0;                                ///< DepthAudit::pieces.
+  ///@{ Of DepthAuditOptions.
+  const Executor& executor;
+  const ProgressCallback& progress;
+  ///@}
+
+  /// Runs work(i) for i in [0, count) in batches, with a progress report from `from` to `to` after each; false where it
+  /// was cancelled.
+  template <class Work>
+  bool run(std::size_t count, double from, double to, const Work& work) const {
+    constexpr std::size_t kBatch = 64;
+    for (std::size_t first = 0; first < count; first += kBatch) {
+      const double done = static_cast<double>(first) / static_cast<double>(count);
+      if (!report_progress(progress, "audit", from + done * (to - from))) return false;
+      executor.for_each_heavy(count - first < kBatch ? count - first : kBatch, [&](std::size_t i) { work(first + i); });
+    }
+    return report_progress(progress, "audit", to);
+  }
+};
+
+/// The motion of component b relative to a, which is stationary at `pose_a`, through the segments of a move.
+DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b,
+                          const Pose& pose_a, const std::vector<MotionSegment>& segments);
+
+/// Finds the depths of all pairs in the assembled state and enters those that overlap in the ledger; false where it was
+/// cancelled.
+bool find_initial_depths(DepthContext& context, double progress_from, double progress_to);
+
+/// Checks the depth of all pairs of a moving and a stationary component in move `index`; false where it was cancelled.
+/// @param poses of all components before it @pre can_follow(the move)
+bool check_move_depths(DepthContext& context, Span<const Pose> poses, std::size_t index, double progress_from,
+                       double progress_to);
+
+}  // namespace dismantle::audit

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/open_boundary.h"
+
+#include "dismantle/geometry/half_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace dismantle::audit {
+
+namespace {
+
+/// An edge between two points of the boundary, by their indices, with its signed count of faces.
+struct ChainEdge {
+  std::uint32_t from = 0, to = 0;
+  int count = 0;
+};
+
+/// The boundary's points, those closer together than `width` merged, in the order of x.
+class BoundaryPoints {
+ public:
+  BoundaryPoints(const TriangleMesh& mesh, std::vector<std::uint32_t> vertices, double width) : width_(width) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::sort(vertices.begin(), vertices.end(), [&mesh](std::uint32_t a, std::uint32_t b) {
+      return mesh.vertices[a].x != mesh.vertices[b].x ? mesh.vertices[a].x < mesh.vertices[b].x : a < b;
+    });
+    for (const std::uint32_t v : vertices) {
+      const Vec3 p = mesh.vertices[v];
+      std::uint32_t same = static_cast<std::uint32_t>(points_.size());
+      for (std::size_t i = points_.size(); i-- > 0 && points_[i].x >= p.x - width;)
+        if (length(points_[i] - p) <= width) same = static_cast<std::uint32_t>(i);
+      if (same == points_.size()) points_.push_back(p);
+      index_[v] = same;
+    }
+  }
+
+  std::uint32_t index_of(std::uint32_t vertex) const { return index_.at(vertex); }
+  Vec3 operator[](std::uint32_t i) const { return points_[i]; }
+
+  /// The points on the edge between two points, in order, both included.
+  std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const {
+    const Vec3 a = points_[from], edge = points_[to] - a;
+    const double squared = dot(edge, edge), low = std::min(a.x, points_[to].x) - width_;
+    std::vector<std::pair<double, std::uint32_t>> on = {{0, from}, {1, to}};
+    auto it = std::lower_bound(points_.begin(), points_.end(), low, [](Vec3 p, double x) { return p.x < x; });
+    for (; it != points_.end() && it->x <= std::max(a.x, points_[to].x) + width_; ++it) {
+      const auto i = static_cast<std::uint32_t>(it - points_.begin());
+      const double s = dot(*it - a, edge) / squared;
+      if (i == from || i == to || !(s > 0 && s < 1)) continue;
+      if (length(*it - (a + s * edge)) <= width_) on.emplace_back(s, i);
+    }
+    std::sort(on.begin(), on.end());
+    std::vector<std::uint32_t> order;
+    for (const auto& [s, i] : on) order.push_back(i);
+    return order;
+  }
+
+ private:
+  double width_;
+  std::vector<Vec3> points_;
+  std::map<std::uint32_t, std::uint32_t> index_;
+};
+
+/// The edges along which faces of the mesh do not cancel each other.
+std::vector<ChainEdge> unbalanced_edges(const TriangleMesh& mesh) {
+  std::vector<ChainEdge> edges;
+  const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh.faces);
+  for_each_edge(half_edges, [&edges](const HalfEdge* first, const HalfEdge* last) {
+    ChainEdge edge{first->low, first->high, 0};
+    for (const HalfEdge* h = first; h != last; ++h) edge.count += h->forward ? 1 : -1;
+    if (edge.count != 0) edges.push_back(edge);
+  });
+  return edges;
+}
+
+}  // namespace
+
+std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh) {
+  const std::vector<ChainEdge> edges = unbalanced_edges(mesh);
+  if (edges.empty()) return {};
+  std::vector<std::uint32_t> vertices;
+  for (const ChainEdge& edge : edges) vertices.insert(vertices.end(), {edge.from, edge.to});
+  const BoundaryPoints points(mesh, std::move(vertices), kCrackWidth * diagonal(bounds(mesh)));
+
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> chain;
+  for (const ChainEdge& edge : edges) {
+    const std::uint32_t from = points.index_of(edge.from), to = points.index_of(edge.to);
+    if (from == to) continue;
+    const std::vector<std::uint32_t> on = points.along(from, to);
+    for (std::size_t i = 0; i + 1 < on.size(); ++i)
+      chain[std::minmax(on[i], on[i + 1])] += on[i] < on[i + 1] ? edge.count : -edge.count;
+  }
+  std::vector<OpenEdge> open;
+  for (const auto& [ends, count] : chain) {
+    if (count > 0) open.push_back({points[ends.first], points[ends.second], double(count)});
+    if (count < 0) open.push_back({points[ends.second], points[ends.first], double(-count)});
+  }
+  return open;
+}
+
+double strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point) {
+  const Vec3 a = normalized(edge.to - point), b = normalized(edge.from - point);
+  const double volume = dot(direction, cross(a, b));
+  return 2 * edge.count * std::atan2(volume, 1 + dot(a, b) + dot(a, direction) + dot(b, direction));
+}
+
+}  // namespace dismantle::audit

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/piece_search.h"
+
+#include "dismantle/audit/solid/piece_tests.h"
+#include "dismantle/audit/triangle_axes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dismantle::audit {
+
+namespace {
+
+/// Time is divided where arcs are further from their chords than this part of the slack.
+constexpr double kDeviationPart = 0.25;
+/// A piece faces neither towards nor away from what it is near where this cosine is smaller.
+constexpr double kAcross = 0.2;
+/// Directions of faces that differ by less than this count once [cosine].
+constexpr double kSameDirection = 0.99;
+
+double squared_distance_of_boxes(const Aabb& a, const Aabb& b) {
+  const Vec3 apart = max(max(a.lower - b.upper, b.lower - a.upper), Vec3{});
+  return dot(apart, apart);
+}
+
+Aabb box_of(const Triangle& t) {
+  Aabb box;
+  for (int k = 0; k < 3; ++k) box.extend(t[k]);
+  return box;
+}
+
+/// The sum of the different outward directions of the faces that are within `distance` of a point, of unit length.
+Vec3 common_direction(const SolidBody& solid, Span<const std::uint32_t> faces, Vec3 point, double distance) {
+  std::vector<Vec3> directions;
+  Vec3 sum;
+  for (const std::uint32_t f : faces) {
+    const Triangle t = solid.surface().triangle(f);
+    if (distance_to_triangle(t, point) > distance) continue;
+    const Vec3 normal = solid.orientation() * unit_normal(t);
+    const auto same = [&](Vec3 other) { return dot(normal, other) > kSameDirection; };
+    if (std::any_of(directions.begin(), directions.end(), same)) continue;
+    directions.push_back(normal);
+    sum += normal;
+  }
+  return normalized(sum);
+}
+
+}  // namespace
+
+PieceSearch::PieceSearch(const SolidBody& points, const SolidBody& solid, const DepthGoal& goal, double rounding)
+    : points_(points), solid_(solid), goal_(goal), rounding_(rounding) {}
+
+double PieceSearch::limit() const {
+  const double found = goal_.growth * findings_.deepest.depth + goal_.slack / 2;
+  return std::max(goal_.floor + goal_.slack, findings_.first.depth > 0 ? found : 0);
+}
+
+bool PieceSearch::ended() const {
+  return (goal_.first_only && findings_.first.depth > 0) ||
+         (goal_.max_pieces > 0 && findings_.samples >= goal_.max_pieces);
+}
+
+void PieceSearch::search(const TimeSlice& slice, const Triangle& triangle, const NearFaces& near) {
+  faces_.assign(near.faces.begin(), near.faces.end());
+  check(slice, triangle, {0, faces_.size(), near.reach});
+}
+
+PieceSearch::Range PieceSearch::near_faces(const SurfacePiece& piece, const Range& parent) {
+  Aabb box;
+  for (const Vec3& p : piece.corner) box.extend(p);
+  Range near{faces_.size(), 0, limit()};
+  const double reach = near.reach + piece.deviation;
+  if (parent.reach < near.reach) {  // the limit has risen since
+    add_faces(box, reach);
+  } else {
+    for (std::size_t i = parent.first; i < parent.first + parent.count; ++i) {
+      const std::uint32_t f = faces_[i];
+      if (squared_distance_of_boxes(box, box_of(solid_.surface().triangle(f))) <= reach * reach) faces_.push_back(f);
+    }
+  }
+  near.count = faces_.size() - near.first;
+  return near;
+}
+
+void PieceSearch::add_faces(const Aabb& box, double reach) {
+  std::uint32_t stack[128];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const BoxNode& node = solid_.surface().node(i);
+    if (squared_distance_of_boxes(box, {node.center - node.half, node.center + node.half}) > reach * reach) continue;
+    if (node.leaf()) {
+      faces_.push_back(node.face);
+    } else {
+      stack[depth++] = node.right;
+      stack[depth++] = i + 1;
+    }
+  }
+}
+
+PieceSearch::Nearest PieceSearch::nearest_face(const SurfacePiece& piece, const Range& near) {
+  Nearest nearest{std::numeric_limits<double>::infinity(), last_face_};
+  std::size_t at = near.first;
+  for (std::size_t i = near.first; i < near.first + near.count; ++i) {
+    const double distance = distance_to_triangle(solid_.surface().triangle(faces_[i]), piece.center);
+    if (distance >= nearest.distance) continue;
+    nearest = {distance, faces_[i]};
+    at = i;
+  }
+  if (near.count > 0) std::swap(faces_[near.first], faces_[at]);  // the one most likely in the way is tested first
+  if (nearest.distance > near.reach) {
+    const SurfacePoint closest = solid_.surface().closest(piece.center, nearest.face);
+    nearest = {closest.distance, closest.face};
+  }
+  last_face_ = nearest.face;
+  return nearest;
+}
+
+bool PieceSearch::clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near) const {
+  const Span<const std::uint32_t> faces(faces_.data() + near.first, near.count);
+  if (!passes_clear(piece, shift, solid_.surface(), faces, rounding_)) return false;
+  const double way = solid_.closed() ? 0 : length(shift);
+  return solid_.outside_throughout(piece.center + shift, piece.radius + way, 0);
+}
+
+bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest,
+                                 bool inside) const {
+  const Triangle face = solid_.surface().triangle(nearest.face);
+  const Vec3 normal = solid_.orientation() * unit_normal(face);
+  Vec3 away = normal;
+  if (nearest.distance > 1e3 * rounding_) {
+    const Vec3 offset = normalized(piece.center - closest_point(face, piece.center));
+    away = inside ? -offset : offset;
+  }
+  Vec3 own = normalized(cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
+  if (dot(own, away) < 0) own = -own;
+  const Span<const std::uint32_t> faces(faces_.data() + near.first, near.count);
+  const Vec3 common = common_direction(solid_, faces, piece.center, std::min(near.reach, piece.radius));
+  const Vec3 back = dot(own, away) < kAcross ? -own : Vec3{};
+  const double most = near.reach - piece.deviation - rounding_;
+  const double least = (inside ? nearest.distance : 0) + 4 * goal_.slack;
+  for (const Vec3& direction : {own, back, away, away == normal ? Vec3{} : normal, common}) {
+    if (direction == Vec3{}) continue;
+    if (clear_when_shifted(piece, most * direction, near)) return true;
+    if (least < 0.7 * most && clear_when_shifted(piece, least * direction, near)) return true;
+  }
+  return false;
+}
+
+bool PieceSearch::certainly_shallow(const SurfacePiece& piece, const Range& near, const Nearest& nearest) {
+  const double limit = this->limit() - rounding_;
+  if (nearest.distance + piece.radius <= limit) return true;
+  if (nearest.distance <= limit && stays_within(piece, solid_.surface().triangle(nearest.face), limit)) return true;
+  const bool inside = solid_.inside(piece.center);
+  if (!inside) {
+    // From outside, a point gets as deep as it moves, or through an opening.
+    if (piece.radius <= (solid_.closed() ? limit : goal_.slack / 4)) return true;
+    if (clear_when_shifted(piece, {}, near)) return true;
+  }
+  return near.count > 0 && ghost_is_clear(piece, near, nearest, inside);
+}
+
+void PieceSearch::sample(const TimeSlice& slice, const SurfacePiece& piece) {
+  const double s = slice.middle();
+  const Vec3 body = (piece.body[0] + piece.body[1] + piece.body[2]) / 3.0;
+  const Vec3 point = slice.motion->at(s) * body;
+  const SurfacePoint closest = solid_.surface().closest(point, last_face_);
+  if (!(closest.distance > std::max(goal_.floor + rounding_, findings_.deepest.depth)) || !solid_.inside(point)) return;
+  const DepthSample found{closest.distance, slice.segment, s, true, point};
+  findings_.deepest = found;
+  if (findings_.first.depth == 0 && found.depth > goal_.floor + goal_.slack / 2) findings_.first = found;
+}
+
+void PieceSearch::check(const TimeSlice& slice, const Triangle& triangle, const Range& parent) {
+  if (ended()) return;
+  ++findings_.samples;
+  const SurfacePiece piece = make_piece(slice, triangle);
+  const std::size_t before = faces_.size();
+  const Range near = near_faces(piece, parent);
+  const Nearest nearest = nearest_face(piece, near);
+  if (!certainly_shallow(piece, near, nearest)) {
+    const double known = std::max(goal_.floor, findings_.deepest.depth);
+    if (nearest.distance + piece.deviation > known) sample(slice, piece);
+    divide(slice, piece, near);
+  }
+  faces_.resize(before);
+}
+
+void PieceSearch::divide(const TimeSlice& slice, const SurfacePiece& piece, const Range& near) {
+  int longest = 0;
+  double edge[3];
+  for (int k = 0; k < 3; ++k) {
+    edge[k] = length(piece.body[(k + 1) % 3] - piece.body[k]);
+    if (edge[k] > edge[longest]) longest = k;
+  }
+  if (piece.movement > edge[longest] || piece.deviation > kDeviationPart * goal_.slack) {
+    TimeSlice half = slice;
+    half.to = slice.middle();
+    half.end = slice.motion->at(half.to);
+    check(half, piece.body, near);
+    half.from = half.to;
+    half.start = half.end;
+    half.to = slice.to;
+    half.end = slice.end;
+    check(half, piece.body, near);
+    return;
+  }
+  const int next = (longest + 1) % 3;
+  const Vec3 middle = (piece.body[longest] + piece.body[next]) / 2.0;
+  Triangle half = piece.body;
+  half[next] = middle;
+  check(slice, half, near);
+  half = piece.body;
+  half[longest] = middle;
+  check(slice, half, near);
+}
+
+}  // namespace dismantle::audit
