@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/simplify/simplify_assembly.h"
 
-#include "dismantle/simplify/surface_tree.h"
+#include "dismantle/surface/surface_tree.h"
 #include "tests/support/meshes.h"
 
 #include <gtest/gtest.h>

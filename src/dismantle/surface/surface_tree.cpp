@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/simplify/surface_tree.h"
+#include "dismantle/surface/surface_tree.h"
 
 #include "dismantle/bvh/bvh_build.h"
 #include "dismantle/narrowphase/closest_points.h"
@@ -11,9 +11,6 @@ namespace dismantle {
 
 namespace {
 
-// Descending leaves one sibling per level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the triangles.
-constexpr std::size_t kStackSize = kBvhHeuristicDepth + 34;
-
 /// Squared distance from a point to a box.
 double distance_squared(const Aabb& box, Vec3 p) {
   const Vec3 outside = max(max(box.lower - p, p - box.upper), Vec3{});
@@ -23,6 +20,7 @@ double distance_squared(const Aabb& box, Vec3 p) {
 }  // namespace
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh, const Executor& executor) {
+  static_assert(kStackSize >= kBvhHeuristicDepth + 34);
   DISMANTLE_EXPECT(!mesh.faces.empty());
   std::vector<Aabb> triangle_boxes;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {

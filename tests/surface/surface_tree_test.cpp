@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/simplify/surface_tree.h"
+#include "dismantle/surface/surface_tree.h"
 
 #include "dismantle/narrowphase/closest_points.h"
 #include "tests/support/meshes.h"

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/math/rigid_transform.h"
+#include "dismantle/surface/surface_tree.h"
+#include "dismantle/surface/winding_number.h"
+
+#include <memory>
+
+namespace dismantle {
+
+/// The surface of a component in the assembled state, and what is inside it: for queries about solids, whatever faults
+/// their meshes have. Immutable; may be shared between threads.
+class SolidShape {
+ public:
+  /// Builds the shape of a component: the same one on every executor.
+  explicit SolidShape(const Component& component, const Executor& executor = {});
+
+  /// True for a component without faces; no other function may be called then.
+  bool empty() const { return surface_ == nullptr; }
+  /// Its triangles [mm, assembly frame].
+  const SurfaceTree& surface() const { return *surface_; }
+  /// What is inside.
+  const WindingNumber& winding() const { return *winding_; }
+
+ private:
+  std::unique_ptr<const SurfaceTree> surface_;
+  std::unique_ptr<const WindingNumber> winding_;
+};
+
+/// A shape at a pose.
+struct PlacedShape {
+  const SolidShape* shape = nullptr;    ///< Never null.
+  RigidTransform world_from_assembled;  ///< The pose.
+};
+
+}  // namespace dismantle

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/bvh/bvh.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/geometry/triangle_mesh.h"
+#include "dismantle/narrowphase/ray_crossing.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace dismantle {
+
+/// Distance of a point from a mesh and a triangle at that distance.
+struct MeshDistance {
+  double distance = 0;     ///< [mm]
+  std::uint32_t face = 0;  ///< The triangle.
+};
+
+/// A mesh in its own frame with a BVH of boxes in double: distances of points, by branch and bound, and the triangles
+/// that a ray crosses. Keeps a copy of its triangles.
+class SurfaceTree {
+ public:
+  /// Builds the tree; the same one on every executor. @pre the mesh has a triangle
+  explicit SurfaceTree(const TriangleMesh& mesh, const Executor& executor = {});
+
+  /// The distance from `point` to the mesh, exact up to the rounding of closest_point_of_triangle().
+  /// @param hint a triangle to start from: the nearer, the fewer nodes are visited
+  MeshDistance distance(Vec3 point, std::uint32_t hint = 0) const;
+  /// A triangle of the mesh.
+  const Triangle& triangle(std::uint32_t face) const { return triangles_[face]; }
+  /// Number of triangles.
+  std::size_t face_count() const { return triangles_.size(); }
+  /// The distance from `point` to one triangle [mm].
+  double distance_to_face(Vec3 point, std::uint32_t face) const;
+
+  /// Calls visit(face, hit) for every triangle that the ray from `point` along `direction` crosses, and for every one
+  /// for which rounding hides whether it does; hit is RayHit::Hit or RayHit::Unclear. Returns early, false, where
+  /// visit returns false.
+  template <class Visit>
+  bool for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) const;
+
+  /// Calls visit(face) for every triangle whose box meets `box`. Returns early, false, where visit returns false.
+  template <class Visit>
+  bool for_each_in_box(const Aabb& box, const Visit& visit) const;
+
+  /// The topology of the tree; the triangle of a leaf is leaf_triangle().
+  const Bvh& bvh() const { return bvh_; }
+  /// The box of a node [mm].
+  const Aabb& box(NodeIndex node) const { return boxes_[node]; }
+  /// The box of the mesh [mm].
+  const Aabb& bounds() const { return boxes_[bvh_.root()]; }
+
+ private:
+  // Descending leaves one sibling per level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the
+  // triangles.
+  static constexpr std::size_t kStackSize = 80;
+
+  Bvh bvh_;
+  std::vector<Aabb> boxes_;          // of each node
+  std::vector<Triangle> triangles_;  // of the mesh
+};
+
+namespace detail {
+
+/// True if the ray from the origin along `direction` may meet a box given about the origin; false is certain for what
+/// ray_hit() takes for a hit or unclear.
+inline bool ray_may_meet(const Aabb& box, Vec3 direction) {
+  constexpr double kMargin = 1e-10;  // far above kRaySideError
+  double enter = 0, leave = std::numeric_limits<double>::infinity();
+  const double margin = kMargin * (norm_one(box.lower) + norm_one(box.upper));
+  for (int i = 0; i < 3; ++i) {
+    const double lower = box.lower[i] - margin, upper = box.upper[i] + margin;
+    if (direction[i] == 0) {
+      if (lower > 0 || upper < 0) return false;
+      continue;
+    }
+    const double a = lower / direction[i], b = upper / direction[i];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave * (1 + kMargin);
+}
+
+}  // namespace detail
+
+template <class Visit>
+bool SurfaceTree::for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) const {
+  std::array<NodeIndex, kStackSize> stack;
+  std::size_t waiting = 0;
+  stack[waiting++] = bvh_.root();
+  while (waiting > 0) {
+    const NodeIndex node = stack[--waiting];
+    const Aabb& box = boxes_[node];
+    if (!detail::ray_may_meet({box.lower - point, box.upper - point}, direction)) continue;
+    if (node >= bvh_.leaf_count()) {
+      const BvhChildren children = bvh_.children[node - bvh_.leaf_count()];
+      DISMANTLE_EXPECT(waiting + 2 <= stack.size());
+      stack[waiting++] = children.right;
+      stack[waiting++] = children.left;
+      continue;
+    }
+    const std::uint32_t face = bvh_.leaf_triangle[node];
+    const Triangle& t = triangles_[face];
+    const RayHit hit = ray_hit(direction, {{t[0] - point, t[1] - point, t[2] - point}});
+    if (hit != RayHit::Miss && !visit(face, hit)) return false;
+  }
+  return true;
+}
+
+template <class Visit>
+bool SurfaceTree::for_each_in_box(const Aabb& box, const Visit& visit) const {
+  std::array<NodeIndex, kStackSize> stack;
+  std::size_t waiting = 0;
+  stack[waiting++] = bvh_.root();
+  while (waiting > 0) {
+    const NodeIndex node = stack[--waiting];
+    if (!overlaps(boxes_[node], box)) continue;
+    if (node < bvh_.leaf_count()) {
+      if (!visit(bvh_.leaf_triangle[node])) return false;
+      continue;
+    }
+    const BvhChildren children = bvh_.children[node - bvh_.leaf_count()];
+    DISMANTLE_EXPECT(waiting + 2 <= stack.size());
+    stack[waiting++] = children.right;
+    stack[waiting++] = children.left;
+  }
+  return true;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/winding_number.h"
+
+#include "dismantle/surface/boundary_loops.h"
+#include "tests/support/depth_oracle.h"
+#include "tests/support/faulty_meshes.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+struct Shape {
+  TriangleMesh mesh;
+  SurfaceTree surface{mesh};
+  WindingNumber winding{mesh, surface};
+  explicit Shape(TriangleMesh m) : mesh(std::move(m)) {}
+};
+
+std::vector<TriangleMesh> meshes_with_and_without_faults() {
+  const TriangleMesh tube = scenes::tube(5, 3, -4, 4, 17, 3);
+  return {
+      tube,
+      scenes::inside_out(tube),
+      scenes::without_face(tube, 7),
+      scenes::without_face(scenes::without_face(tube, 50), 7),
+      scenes::with_t_junction(tube, 20),
+      scenes::torn_apart(scenes::box({-4, -3, -2}, {4, 3, 2})),
+      scenes::joined(scenes::box({-5, -5, -5}, {5, 5, 5}), scenes::inside_out(scenes::box({-3, -3, -3}, {3, 3, 3}))),
+      scenes::joined(scenes::box({-5, -5, -5}, {2, 2, 2}), scenes::box({-3, -3, -3}, {4, 4, 4})),
+      scenes::sheet(4, 0)};
+}
+
+TEST(WindingNumber, IsThatOfTheSolidAnglesOfAllFaces) {
+  std::mt19937_64 random(11);
+  for (const TriangleMesh& mesh : meshes_with_and_without_faults()) {
+    const Shape shape(scenes::moved(mesh, scenes::random_pose(random, 20, 3)));
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = shape.surface.bounds().center() + scenes::random_vector(random, 7);
+      const double truth = oracle::winding_number(shape.mesh, p);
+      EXPECT_NEAR(shape.winding.at(p), truth, 1e-9);
+      EXPECT_EQ(shape.winding.inside(p), std::abs(truth) > 0.5);
+    }
+  }
+}
+
+TEST(WindingNumber, ChangesNoFasterThanItSays) {
+  std::mt19937_64 random(12);
+  for (const TriangleMesh& mesh : meshes_with_and_without_faults()) {
+    const Shape shape(mesh);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = scenes::random_vector(random, 7);
+      const double radius = 0.999 * shape.surface.distance(p).distance;
+      const double change = shape.winding.max_change(p, radius);
+      for (int k = 0; k < 10; ++k) {
+        const Vec3 q = p + radius * normalized(scenes::random_vector(random, 1));
+        EXPECT_LE(std::abs(shape.winding.at(q) - shape.winding.at(p)), change + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(WindingNumber, IsAnIntegerWithCracksAndNotWithHoles) {
+  const TriangleMesh box = scenes::box({-4, -3, -2}, {4, 3, 2});
+  EXPECT_TRUE(Shape(box).winding.closed());
+  EXPECT_TRUE(Shape(scenes::with_t_junction(box, 3)).winding.closed());
+  EXPECT_TRUE(Shape(scenes::inside_out(box)).winding.closed());
+  EXPECT_FALSE(Shape(scenes::without_face(box, 3)).winding.closed());
+  EXPECT_FALSE(Shape(scenes::torn_apart(box)).winding.closed());
+}
+
+TEST(WindingNumber, IsContinuousInThePlaneOfAHole) {
+  const Shape shape(scenes::without_face(scenes::without_face(scenes::box({0, 0, 0}, {4, 4, 4}), 2), 2));
+  for (const Vec3 p : {Vec3{1, 2, 4}, Vec3{2, 2, 4}, Vec3{3.5, 3.5, 4}, Vec3{2, 2, 4 + 1e-13}})
+    EXPECT_NEAR(shape.winding.at(p), oracle::winding_number(shape.mesh, p), 1e-6);
+}
+
+TEST(BoundaryLoops, AreTheClosedWalksOfEdgesInExcess) {
+  const TriangleMesh box = scenes::box({0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(boundary_loops(box.faces).empty());
+  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0).faces).size(), 1u);
+  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0).faces).front().size(), 3u);
+  EXPECT_EQ(boundary_loops(scenes::torn_apart(box).faces).size(), 12u);
+  TriangleMesh twice = box;
+  twice.faces.push_back(twice.faces.front());
+  EXPECT_EQ(boundary_loops(twice.faces).size(), 1u);
+  TriangleMesh touching;  // two triangles with a common vertex
+  touching.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  touching.faces = {{{0, 1, 2}}, {{0, 3, 4}}};
+  EXPECT_EQ(boundary_loops(touching.faces).size(), 2u);
+}
+
+}  // namespace
+}  // namespace dismantle
