@@ -74,11 +74,25 @@ class DepthSearch {
     return near;
   }
 
+  /// True if all of a box certainly stays within the limit of the surface of `solid`.
+  bool near_surface(const BoxNode& box, std::uint32_t interval) {
+    const double radius = box.radius + movement(interval, box), limit = pieces_.limit() - pair_.sweep.rounding;
+    if (radius >= limit) return false;
+    const SurfacePoint closest = solid_.surface().closest(center(interval, box), last_face_);
+    last_face_ = closest.face;
+    return closest.distance + radius <= limit;
+  }
+
+  /// The centre of a box of `points` at the reference of an interval, in the frame of `solid` [mm].
+  Vec3 center(std::uint32_t interval, const BoxNode& box) const {
+    const RigidTransform& a_from_b = tree_[interval].a_from_b;
+    return of_b_ ? a_from_b * box.center : inverse(a_from_b) * box.center;
+  }
+
   /// True if a box that stays clear of the surface of `solid` during an interval is certainly outside.
   bool outside(std::uint32_t interval, const BoxNode& box, double gap) const {
-    const RigidTransform& a_from_b = tree_[interval].a_from_b;
-    const Vec3 point = of_b_ ? a_from_b * box.center : inverse(a_from_b) * box.center;
-    return solid_.outside_throughout(point, solid_.closed() ? 0 : box.radius + movement(interval, box), gap);
+    return solid_.outside_throughout(center(interval, box), solid_.closed() ? 0 : box.radius + movement(interval, box),
+                                     gap);
   }
 
   /// Bound of the movement of a box of `points` relative to `solid` in an interval [mm].
@@ -86,7 +100,7 @@ class DepthSearch {
     if (of_b_) return tree_[interval].reach(box);
     const Interval& i = tree_[interval];
     BoxNode in_b = box;  // the sphere around it, in the frame of b
-    in_b.center = inverse(i.a_from_b) * box.center;
+    in_b.center = center(interval, box);
     in_b.reach = length(in_b.center) + box.radius;
     return i.reach(in_b);
   }
@@ -94,6 +108,7 @@ class DepthSearch {
   void visit(std::uint32_t node, std::uint32_t interval, const Range& parent) {
     if (pieces_.ended()) return;
     const BoxNode& box = points_.surface().node(node);
+    if (near_surface(box, interval)) return;
     const std::size_t before = nodes_.size();
     const Range near = near_nodes(interval, box, parent, false);
     if (near.count > 0 || !outside(interval, box, near.reach)) divide(node, interval, near);
@@ -137,6 +152,7 @@ class DepthSearch {
   IntervalTree tree_;
   PieceSearch pieces_;
   std::uint32_t first_segment_;
+  std::uint32_t last_face_ = 0;
   std::vector<RelativeMotion> motions_;  // of `points` in the frame of `solid`
   std::vector<std::uint32_t> nodes_;     // a stack of ranges of nodes of `solid`
   std::vector<std::uint32_t> stack_, faces_;

@@ -58,7 +58,7 @@ bool find_initial_depths(DepthContext& context, double progress_from, double pro
     if (context.bodies[a]->surface().empty() || context.bodies[b]->surface().empty()) return;
     const DepthPair pair = make_depth_pair(context, {a, b}, Pose{}, still);
     found[i] = search_depth(pair, motion_spans(still, 0, 1, pair.b->surface()), i % 2 == 1,
-                            {context.path.tolerance, context.slack});
+                            {context.path.tolerance, context.slack, 1.002});
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const DepthFindings& of_a = found[2 * i];

@@ -15,7 +15,7 @@ struct OpenEdge {
 
 /// Vertices and edges of the boundary that are no further apart than this part of the mesh's diagonal are the same:
 /// what lies between is a crack, not an opening.
-inline constexpr double kCrackWidth = 1e-7;
+inline constexpr double kCrackWidth = 1e-4;
 
 /// The boundary of a surface as a chain of edges: where faces do not cancel each other. Edges that have vertices of
 /// others in between (T-junctions) are cut there, so that cracks cancel. Empty for a surface that is closed up to

@@ -13,6 +13,8 @@ namespace {
 
 /// Time is divided where arcs are further from their chords than this part of the slack.
 constexpr double kDeviationPart = 0.25;
+/// The nearest of so many faces is found by comparing all of them, of more with the tree.
+constexpr std::size_t kFewFaces = 12;
 /// A piece faces neither towards nor away from what it is near where this cosine is smaller.
 constexpr double kAcross = 0.2;
 /// Directions of faces that differ by less than this count once [cosine].
@@ -99,17 +101,15 @@ void PieceSearch::add_faces(const Aabb& box, double reach) {
   }
 }
 
-PieceSearch::Nearest PieceSearch::nearest_face(const SurfacePiece& piece, const Range& near) {
+PieceSearch::Nearest PieceSearch::nearest_face(const SurfacePiece& piece, const Range& parent) {
   Nearest nearest{std::numeric_limits<double>::infinity(), last_face_};
-  std::size_t at = near.first;
-  for (std::size_t i = near.first; i < near.first + near.count; ++i) {
-    const double distance = distance_to_triangle(solid_.surface().triangle(faces_[i]), piece.center);
-    if (distance >= nearest.distance) continue;
-    nearest = {distance, faces_[i]};
-    at = i;
+  if (parent.count <= kFewFaces) {
+    for (std::size_t i = parent.first; i < parent.first + parent.count; ++i) {
+      const double distance = distance_to_triangle(solid_.surface().triangle(faces_[i]), piece.center);
+      if (distance < nearest.distance) nearest = {distance, faces_[i]};
+    }
   }
-  if (near.count > 0) std::swap(faces_[near.first], faces_[at]);  // the one most likely in the way is tested first
-  if (nearest.distance > near.reach) {
+  if (nearest.distance > parent.reach) {
     const SurfacePoint closest = solid_.surface().closest(piece.center, nearest.face);
     nearest = {closest.distance, closest.face};
   }
@@ -148,14 +148,19 @@ bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, c
   return false;
 }
 
-bool PieceSearch::certainly_shallow(const SurfacePiece& piece, const Range& near, const Nearest& nearest) {
+bool PieceSearch::near_surface(const SurfacePiece& piece, const Nearest& nearest) const {
   const double limit = this->limit() - rounding_;
-  if (nearest.distance + piece.radius <= limit) return true;
-  if (nearest.distance <= limit && stays_within(piece, solid_.surface().triangle(nearest.face), limit)) return true;
+  return nearest.distance + piece.radius <= limit ||
+         (nearest.distance <= limit && stays_within(piece, solid_.surface().triangle(nearest.face), limit));
+}
+
+bool PieceSearch::stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) const {
   const bool inside = solid_.inside(piece.center);
   if (!inside) {
-    // From outside, a point gets as deep as it moves, or through an opening.
-    if (piece.radius <= (solid_.closed() ? limit : goal_.slack / 4)) return true;
+    // A point that gets inside across the surface is no deeper than the way to it, in a small piece.
+    const bool small = piece.radius <= limit() - rounding_;
+    if (small && (solid_.closed() || solid_.outside_throughout(piece.center, piece.radius, 0))) return true;
+    if (piece.radius <= goal_.slack / 4) return true;  // in the opening of a surface
     if (clear_when_shifted(piece, {}, near)) return true;
   }
   return near.count > 0 && ghost_is_clear(piece, near, nearest, inside);
@@ -176,10 +181,15 @@ void PieceSearch::check(const TimeSlice& slice, const Triangle& triangle, const 
   if (ended()) return;
   ++findings_.samples;
   const SurfacePiece piece = make_piece(slice, triangle);
+  const Nearest nearest = nearest_face(piece, parent);
+  if (near_surface(piece, nearest)) return;
   const std::size_t before = faces_.size();
   const Range near = near_faces(piece, parent);
-  const Nearest nearest = nearest_face(piece, near);
-  if (!certainly_shallow(piece, near, nearest)) {
+  // The face that is most likely in the way is tested first.
+  const auto begin = faces_.begin() + static_cast<std::ptrdiff_t>(near.first);
+  const auto at = std::find(begin, faces_.end(), nearest.face);
+  if (at != faces_.end()) std::iter_swap(begin, at);
+  if (!stays_outside(piece, near, nearest)) {
     const double known = std::max(goal_.floor, findings_.deepest.depth);
     if (nearest.distance + piece.deviation > known) sample(slice, piece);
     divide(slice, piece, near);

@@ -51,8 +51,11 @@ class PieceSearch {
   Range near_faces(const SurfacePiece& piece, const Range& parent);
   /// Adds the faces whose boxes are within `reach` of a box.
   void add_faces(const Aabb& box, double reach);
-  Nearest nearest_face(const SurfacePiece& piece, const Range& near);
-  bool certainly_shallow(const SurfacePiece& piece, const Range& near, const Nearest& nearest);
+  Nearest nearest_face(const SurfacePiece& piece, const Range& parent);
+  /// True if all of the piece certainly stays within the limit of the surface.
+  bool near_surface(const SurfacePiece& piece, const Nearest& nearest) const;
+  /// True if the piece, or a copy of it shifted by no more than the limit, certainly stays outside.
+  bool stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) const;
   bool clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near) const;
   bool ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest, bool inside) const;
   void sample(const TimeSlice& slice, const SurfacePiece& piece);
