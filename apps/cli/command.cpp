@@ -3,6 +3,7 @@
 
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
+#include "dismantle/surface/find_clashes.h"
 
 #include <unistd.h>
 
@@ -144,6 +145,15 @@ Result<PairStates> classify(const Assembly& assembly, const CommonOptions& optio
   classify.executor = make_executor(options);
   classify.progress = progress_printer(options);
   return classify_pairs(assembly, classify);
+}
+
+Result<Clashes> clashes_of(const Assembly& assembly, const CommonOptions& options, double clearance) {
+  ClashOptions clash;
+  clash.tolerance = options.tolerance;
+  clash.clearance = clearance;
+  clash.executor = make_executor(options);
+  clash.progress = progress_printer(options);
+  return find_clashes(assembly, clash);
 }
 
 ExitCode report(const Error& error) {

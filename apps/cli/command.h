@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/clash.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/assembly/path.h"
 #include "dismantle/core/result.h"
@@ -72,6 +73,9 @@ Result<Assembly> load(const CommonOptions& options);
 /// Classifies the pairs with --tolerance, --fit and --pairs. Pairs within `clearance` [mm] are near. Errors: of
 /// classify_pairs.
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance = 0);
+
+/// Finds the clashes with --tolerance. Pairs within `clearance` [mm] are near. Errors: of find_clashes.
+Result<Clashes> clashes_of(const Assembly& assembly, const CommonOptions& options, double clearance);
 
 /// Prints "dismantle: <message>" on stderr. @return the exit code for the error's kind
 ExitCode report(const Error& error);

@@ -74,17 +74,19 @@ Result<std::string> process_item(BatchCommand command, const batch::BatchItem& i
   if (!assembly) return assembly.error();
   const Result<PairStates> states = classify(*assembly, command.common, command.clearance);
   if (!states) return states.error();
-  Result<Done> written = write_file(folder / "check.json", check_report_json(*assembly, *states));
+  const Result<Clashes> clashes = clashes_of(*assembly, command.common, command.clearance);
+  if (!clashes) return clashes.error();
+  Result<Done> written = write_file(folder / "check.json", check_report_json(*assembly, *clashes));
   if (!written) return written.error();
 
-  const PairCounts pairs = count_pairs(*states);
+  const ClashCounts pairs = count_clashes(*clashes);
   Json summary{{"components", assembly->components.size()},
                {"triangles", triangle_count(*assembly)},
                {"tolerance_mm", states->tolerance},
                {"near", pairs.near},
                {"contact", pairs.contact},
-               {"fit", pairs.fit},
-               {"embedded", pairs.embedded}};
+               {"overlapping", pairs.overlapping},
+               {"contained", pairs.contained}};
   if (!command.check_only) written = plan(command, *assembly, *states, folder, summary);
   if (!written) return written.error();
   return summary.dump();
@@ -94,8 +96,8 @@ Result<std::string> process_item(BatchCommand command, const batch::BatchItem& i
 std::string report_line(const batch::BatchResult& result) {
   if (result.failed()) return "failed: " + result.error;
   const Json s = Json::parse(result.summary, nullptr, false);
-  std::string line = fmt::format("{} components; pairs: {} in contact, {} fits, {} embedded", s.value("components", 0),
-                                 s.value("contact", 0), s.value("fit", 0), s.value("embedded", 0));
+  std::string line = fmt::format("{} components; pairs: {} in contact, {} overlapping", s.value("components", 0),
+                                 s.value("contact", 0), s.value("overlapping", 0));
   if (s.contains("steps"))
     line += fmt::format("; {} removed in {} steps, {} not removed{}", s.value("removed", 0), s.value("steps", 0),
                         s.value("staying", 0), s.value("out_of_time", false) ? " (time limit reached)" : "");

@@ -19,13 +19,13 @@ struct CheckCommand {
   std::size_t pictures = HtmlCheckOptions{}.pictures;
 };
 
-Result<Done> write_html(const Assembly& assembly, const PairStates& states, const CheckCommand& command) {
+Result<Done> write_html(const Assembly& assembly, const Clashes& clashes, const CheckCommand& command) {
   const Executor executor = make_executor(command.common);
   HtmlCheckOptions options;
   options.pictures = command.pictures;
   options.executor = executor;
   options.progress = progress_printer(command.common);
-  const Result<std::string> html = html_check_report(assembly, states, options);
+  const Result<std::string> html = html_check_report(assembly, clashes, options);
   if (!html) return html.error();
   return write_file(command.html_file, *html);
 }
@@ -33,16 +33,16 @@ Result<Done> write_html(const Assembly& assembly, const PairStates& states, cons
 Result<Done> run(const CheckCommand& command) {
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
-  const Result<PairStates> states = classify(*assembly, command.common, command.clearance);
-  if (!states) return states.error();
+  const Result<Clashes> clashes = clashes_of(*assembly, command.common, command.clearance);
+  if (!clashes) return clashes.error();
   if (!command.html_file.empty()) {
-    const Result<Done> written = write_html(*assembly, *states, command);
+    const Result<Done> written = write_html(*assembly, *clashes, command);
     if (!written) return written.error();
   }
   if (command.common.json) {
-    fmt::print("{}", check_report_json(*assembly, *states));
+    fmt::print("{}", check_report_json(*assembly, *clashes));
   } else {
-    fmt::print("{}", check_report_text(*assembly, *states));
+    fmt::print("{}", check_report_text(*assembly, *clashes));
     if (!command.html_file.empty()) fmt::print("\nReport with pictures: {}\n", command.html_file);
   }
   return Done{};
@@ -52,7 +52,7 @@ Result<Done> run(const CheckCommand& command) {
 
 void add_check_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
-      app.add_subcommand("check", "List the pairs of components that touch, fit or overlap, with their depth");
+      app.add_subcommand("check", "List the pairs of components that touch or overlap, with depth, place and volume");
   auto options = std::make_shared<CheckCommand>();
   add_assembly_argument(*command, options->common);
   command->add_option("--clearance", options->clearance, "Also list pairs that are apart by at most this")

@@ -4,6 +4,7 @@
 #include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/loading/load_isolated.h"
 #include "dismantle/simplify/simplify_assembly.h"
+#include "dismantle/surface/find_clashes.h"
 
 namespace dismantle::server {
 
@@ -37,6 +38,10 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   classify.progress = progress;
   Result<PairStates> pairs = classify_pairs(*assembly, classify);
   if (!pairs) return pairs.error();
+  const ClashOptions clash{classify.tolerance, classify.clearance, options.executor, progress};
+  Result<Clashes> clashes = find_clashes(*assembly, clash);
+  if (!clashes) return clashes.error();
+  model.clashes = std::move(*clashes);
   if (!report_progress(progress, "preparing the view", -1)) return Error{ErrorKind::Failed, "cancelled"};
   Result<std::string> glb = glb_from_assembly(*assembly);
   if (!glb) return glb.error();

@@ -100,16 +100,18 @@ Json state_json(const Session& session) {
   return json;
 }
 
-Json pairs_json(const PairStates& pairs) {
+Json clashes_json(const Clashes& clashes) {
   Json list = Json::array();
-  for (const ComponentPair& p : pairs.pairs)
-    list.push_back({{"a", p.a.value},
-                    {"b", p.b.value},
-                    {"state", name_of(p.state)},
-                    {"distance", p.distance},
-                    {"penetration", p.penetration},
-                    {"triangle_pairs", p.triangle_pairs}});
-  return {{"tolerance", pairs.tolerance}, {"pairs", std::move(list)}};
+  for (const Clash& c : clashes.pairs)
+    list.push_back({{"a", c.a.value},
+                    {"b", c.b.value},
+                    {"state", name_of(c.state)},
+                    {"contained", c.contained.valid() ? Json(c.contained.value) : Json(nullptr)},
+                    {"distance", c.distance},
+                    {"depth", c.depth},
+                    {"deepest_at", to_json(c.deepest_at)},
+                    {"volume", c.volume}});
+  return {{"tolerance", clashes.tolerance}, {"pairs", std::move(list)}};
 }
 
 }  // namespace dismantle::server

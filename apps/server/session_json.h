@@ -28,6 +28,6 @@ Json model_json(const Model& model);
 Json state_json(const Session& session);
 
 /// The members of the reply to `check`.
-Json pairs_json(const PairStates& pairs);
+Json clashes_json(const Clashes& clashes);
 
 }  // namespace dismantle::server

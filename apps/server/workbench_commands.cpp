@@ -276,7 +276,7 @@ class WorkbenchCommands {
     bench_.drop_input();
     return Json::object();
   }
-  Result<Json> check() { return pairs_json(session_.pairs()); }
+  Result<Json> check() { return clashes_json(bench_.model()->clashes); }
   /// The engine's metrics; the hub adds those of the network.
   Result<Json> metrics() {
     StepStatistics& s = bench_.statistics_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/clash.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
@@ -40,7 +41,8 @@ void bind_plan(py::module_& module);
 /// An assembly with its pair states: the class PairStates.
 struct CheckedAssembly {
   std::shared_ptr<Assembly> assembly;  ///< Never null.
-  PairStates pairs;                    ///< Of the assembly.
+  PairStates pairs;                    ///< Of the assembly: what the engine allows.
+  Clashes clashes;                     ///< Of the assembly: what people see.
 };
 /// Shared by the Python objects that use it.
 using CheckedHolder = std::shared_ptr<CheckedAssembly>;

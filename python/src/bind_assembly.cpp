@@ -3,6 +3,7 @@
 #include "dismantle/engine/classify_pairs.h"
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/loading/load_assembly.h"
+#include "dismantle/surface/find_clashes.h"
 #include "python/src/bind.h"
 
 #include <pybind11/stl/filesystem.h>
@@ -80,8 +81,13 @@ CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance,
   options.executor = executor_of(threads);
   options.progress = watched.callback();
   Result<PairStates> states = without_gil([&] { return classify_pairs(*assembly, options); });
+  if (!states) watched.finish();
+  PairStates allowed = value_or_raise(std::move(states));
+  const ClashOptions clash{tolerance, clearance, options.executor, options.progress};
+  Result<Clashes> clashes = without_gil([&] { return find_clashes(*assembly, clash); });
   watched.finish();
-  return std::make_shared<CheckedAssembly>(CheckedAssembly{assembly, value_or_raise(std::move(states))});
+  return std::make_shared<CheckedAssembly>(
+      CheckedAssembly{assembly, std::move(allowed), value_or_raise(std::move(clashes))});
 }
 
 py::array_t<double> transform_array(const RigidTransform& t) {
@@ -194,7 +200,7 @@ void bind_assembly_class(py::module_& module) {
 
 /// A pair with its names.
 struct PairView {
-  ComponentPair pair;
+  Clash clash;
   std::string a, b;
 };
 
@@ -203,46 +209,54 @@ void bind_pairs(py::module_& module) {
       .def_readonly("a", &PairView::a, "Name of the first component.")
       .def_readonly("b", &PairView::b, "Name of the second component.")
       .def_property_readonly(
-          "state", [](const PairView& p) { return std::string(name_of(p.pair.state)); },
-          "'near', 'contact', 'fit' or 'embedded'.")
+          "state", [](const PairView& p) { return std::string(name_of(p.clash.state)); },
+          "'near', 'contact' or 'overlapping'.")
       .def_property_readonly(
-          "distance", [](const PairView& p) { return p.pair.distance; }, "Distance [mm]; 0 if they overlap.")
+          "contained", [](const PairView& p) { return p.clash.contained.valid(); },
+          "True if one component lies wholly inside the other one.")
       .def_property_readonly(
-          "penetration", [](const PairView& p) { return p.pair.penetration; },
-          "Largest penetration depth of an intersecting triangle pair [mm].")
+          "distance", [](const PairView& p) { return p.clash.distance; }, "Distance where they are apart, else 0 [mm].")
       .def_property_readonly(
-          "allowed_penetration", [](const PairView& p) { return p.pair.allowed_penetration; },
-          "Depth to which motions may take the pair [mm]; infinite if embedded.")
+          "depth", [](const PairView& p) { return p.clash.depth; },
+          "Depth of the pair [mm]: the greatest distance from a point of either surface inside the other component to "
+          "that component's surface; an upper bound, at most 1% or a tenth of the tolerance above it.")
       .def_property_readonly(
-          "triangle_pairs", [](const PairView& p) { return p.pair.triangle_pairs; },
-          "Number of intersecting triangle pairs.")
+          "deepest_at",
+          [](const PairView& p) {
+            const Vec3 at = p.clash.deepest_at;
+            return std::make_tuple(at.x, at.y, at.z);
+          },
+          "The deepest point, or else one where they are nearest [mm, assembly frame].")
+      .def_property_readonly(
+          "volume", [](const PairView& p) { return p.clash.volume; },
+          "Volume in common of components that overlap, estimated to about 1% [mm^3].")
       .def("__repr__", [](const PairView& p) {
-        return "<dismantle.Pair '" + p.a + "', '" + p.b + "': " + std::string(name_of(p.pair.state)) + ">";
+        return "<dismantle.Pair '" + p.a + "', '" + p.b + "': " + std::string(name_of(p.clash.state)) + ">";
       });
   py::class_<CheckedAssembly, CheckedHolder>(module, "PairStates",
                                              "The states of all pairs of components that are near, touch or overlap. "
                                              "Needed by everything that moves components.")
       .def_property_readonly(
           "tolerance", [](const CheckedAssembly& c) { return c.pairs.tolerance; },
-          "Penetration depth that counts as touching [mm].")
+          "Depth that counts as touching [mm].")
       .def_property_readonly(
           "assembly", [](const CheckedAssembly& c) { return c.assembly; }, "The assembly.")
       .def_property_readonly(
           "pairs",
           [](const CheckedAssembly& c) {
             std::vector<PairView> views;
-            for (const ComponentPair& p : c.pairs.pairs)
+            for (const Clash& p : c.clashes.pairs)
               views.push_back({p, (*c.assembly)[p.a].name, (*c.assembly)[p.b].name});
             return views;
           },
           "The pairs.")
       .def(
-          "report", [](const CheckedAssembly& c) { return check_report_text(*c.assembly, c.pairs); },
+          "report", [](const CheckedAssembly& c) { return check_report_text(*c.assembly, c.clashes); },
           "The report as text, as printed by 'dismantle check'.")
       .def(
-          "report_json", [](const CheckedAssembly& c) { return check_report_json(*c.assembly, c.pairs); },
+          "report_json", [](const CheckedAssembly& c) { return check_report_json(*c.assembly, c.clashes); },
           "The report as JSON, as printed by 'dismantle check --json'.")
-      .def("__len__", [](const CheckedAssembly& c) { return c.pairs.pairs.size(); });
+      .def("__len__", [](const CheckedAssembly& c) { return c.clashes.pairs.size(); });
 }
 
 }  // namespace
@@ -260,8 +274,9 @@ void bind_assembly(py::module_& module) {
   module.def(
       "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("fit") = 0.0,
       py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
-      "Classifies all pairs of components in the assembled state, which decides how deep each may get. `tolerance` and "
-      "`fit` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: the rule, 'auto' or "
+      "Finds all pairs of components that touch, overlap or are near in the assembled state, and how deep each may get "
+      "in motion. `tolerance` and `fit` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
+      "the rule, 'auto' or "
       "'paper'.");
 }
 

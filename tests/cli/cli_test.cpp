@@ -85,6 +85,22 @@ TEST_F(Cli, ChecksPairs) {
   EXPECT_EQ(report["pairs"][0]["a"], "block");
   EXPECT_EQ(report["pairs"][0]["b"], "shelf");
   EXPECT_EQ(report["pairs"][0]["state"], "contact");
+  EXPECT_EQ(report["pairs"][0]["distance_mm"], 0.0);
+}
+
+TEST_F(Cli, ChecksDepthPlaceAndVolume) {
+  write_box("peg", 4, 4, 9, 6, 6, 12);  // 1 mm into the block
+  const Outcome o = run("check parts --json --tolerance 0.01 --html peg.html");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json report = Json::parse(o.out);
+  EXPECT_EQ(report["version"], 2);
+  const Json pair = report["pairs"][0];
+  EXPECT_EQ(pair["state"], "overlapping");
+  EXPECT_NEAR(pair["depth_mm"].get<double>(), 1, 0.01);
+  EXPECT_NEAR(pair["deepest_at"][2].get<double>(), 9, 0.02);
+  EXPECT_NEAR(pair["volume_mm3"].get<double>(), 4, 0.2);
+  EXPECT_NE(run("check parts").out.find("1 overlapping"), std::string::npos);
+  EXPECT_NE(read_all(in("peg.html")).find("overlapping"), std::string::npos);
 }
 
 TEST_F(Cli, MovesTouchesAndPassesItsOwnAudit) {

@@ -40,7 +40,7 @@ class CliBatch : public Cli {
 TEST_F(CliBatch, ChecksAndPlansEveryAssemblyAndReportsFailures) {
   const Outcome o = run("batch products -o out --workers 2");
   EXPECT_EQ(o.exit_code, 1) << o.err;
-  EXPECT_NE(o.out.find("] one: 3 components; pairs: 1 in contact, 0 fits, 0 embedded; 2 removed in 2 steps"),
+  EXPECT_NE(o.out.find("] one: 3 components; pairs: 1 in contact, 0 overlapping; 2 removed in 2 steps"),
             std::string::npos)
       << o.out;
   EXPECT_NE(o.out.find("] broken.step: failed: "), std::string::npos) << o.out;

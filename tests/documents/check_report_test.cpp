@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace dismantle {
@@ -20,20 +19,20 @@ Assembly four_boxes() {
   return a;
 }
 
-PairStates four_states() {
+Clashes five_clashes() {
   const auto id = [](std::uint32_t i) { return ComponentId(i); };
-  PairStates states;
-  states.tolerance = 0.01;
-  states.pairs = {{id(0), id(1), PairState::Contact, 0, 0.004, 0.01, 148},
-                  {id(0), id(2), PairState::Fit, 0, 0.1, 0.11, 12},
-                  {id(0), id(3), PairState::Near, 0.05, 0, 0.01, 0},
-                  {id(1), id(2), PairState::Embedded, 0, 2.5, std::numeric_limits<double>::infinity(), 7},
-                  {id(2), id(3), PairState::Fit, 0, 0.3, 0.31, 3}};
-  return states;
+  Clashes clashes;
+  clashes.tolerance = 0.01;
+  clashes.pairs = {{id(0), id(1), ClashState::Contact, {}, 0, 0.004, 0.004, {1, 2, 3}, 0, 0, false},
+                   {id(0), id(2), ClashState::Overlapping, {}, 0, 0.1, 0.1, {3, 4, 1}, 0.5, 0.004, false},
+                   {id(0), id(3), ClashState::Near, {}, 0.05, 0, 0, {5, 5, 1}, 0, 0, false},
+                   {id(1), id(2), ClashState::Overlapping, id(2), 0, 2.5, 2.49, {1.5, 1.5, 2}, 12, 0.1, false},
+                   {id(2), id(3), ClashState::Overlapping, {}, 0, 0.3, 0.1, {4, 4, 4}, 3, 0.02, true}};
+  return clashes;
 }
 
 TEST(CheckReportJson, HasTheDocumentedMembers) {
-  const auto json = nlohmann::ordered_json::parse(check_report_json(four_boxes(), four_states()));
+  const auto json = nlohmann::ordered_json::parse(check_report_json(four_boxes(), five_clashes()));
   const auto keys = [](const nlohmann::ordered_json& object) {
     std::vector<std::string> names;
     for (const auto& [key, value] : object.items()) names.push_back(key);
@@ -42,53 +41,67 @@ TEST(CheckReportJson, HasTheDocumentedMembers) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(keys(json), (Names{"format", "version", "assembly", "tolerance_mm", "pairs"}));
   EXPECT_EQ(json["format"], "dismantle-check");
-  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["version"], 2);
   EXPECT_EQ(keys(json["assembly"]), (Names{"file", "components", "triangles"}));
   EXPECT_EQ(json["assembly"]["file"], "press.step");
   EXPECT_EQ(json["assembly"]["components"], 4);
   EXPECT_EQ(json["assembly"]["triangles"], 48);
   EXPECT_EQ(json["tolerance_mm"], 0.01);
   ASSERT_EQ(json["pairs"].size(), 5u);
-  EXPECT_EQ(keys(json["pairs"][0]), (Names{"a", "b", "state", "distance_mm", "penetration_mm", "triangle_pairs"}));
+  EXPECT_EQ(keys(json["pairs"][0]), (Names{"a", "b", "state", "distance_mm", "depth_mm", "deepest_at", "volume_mm3"}));
   EXPECT_EQ(json["pairs"][0]["b"], "pin \"A\"");
+  EXPECT_EQ(json["pairs"][0]["state"], "contact");
+  EXPECT_EQ(json["pairs"][0]["deepest_at"], (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(json["pairs"][1]["b"], "Büchse");
-  EXPECT_EQ(json["pairs"][1]["state"], "fit");
-  EXPECT_EQ(json["pairs"][1]["penetration_mm"], 0.1);
+  EXPECT_EQ(json["pairs"][1]["state"], "overlapping");
+  EXPECT_EQ(json["pairs"][1]["depth_mm"], 0.1);
+  EXPECT_EQ(json["pairs"][1]["volume_mm3"], 0.5);
   EXPECT_EQ(json["pairs"][2]["state"], "near");
   EXPECT_EQ(json["pairs"][2]["distance_mm"], 0.05);
-  EXPECT_EQ(json["pairs"][3]["state"], "embedded");
-  EXPECT_EQ(json["pairs"][3]["triangle_pairs"], 7);
+  EXPECT_EQ(json["pairs"][3]["contained"], true);
+  EXPECT_EQ(json["pairs"][4]["depth_at_least_mm"], 0.1);
 }
 
 TEST(CheckReportJson, IsValidWithoutPairsAndWithNamesThatAreNotUtf8) {
   Assembly assembly = four_boxes();
   EXPECT_EQ(nlohmann::json::parse(check_report_json(assembly, {}))["pairs"].size(), 0u);
   assembly.components[0].name = "plate\xff";
-  EXPECT_TRUE(nlohmann::json::accept(check_report_json(assembly, four_states())));
+  EXPECT_TRUE(nlohmann::json::accept(check_report_json(assembly, five_clashes())));
 }
 
-TEST(WorstFirst, PutsTheDeepestEmbeddedPairFirstAndTheFarthestNearPairLast) {
-  const std::vector<ComponentPair> pairs = worst_first(four_states());
+TEST(WorstFirst, PutsTheDeepestPairFirstAndTheFarthestNearPairLast) {
+  const std::vector<Clash> pairs = worst_first(five_clashes());
   ASSERT_EQ(pairs.size(), 5u);
-  EXPECT_EQ(pairs[0].state, PairState::Embedded);
-  EXPECT_EQ(pairs[1].penetration, 0.3);
-  EXPECT_EQ(pairs[2].penetration, 0.1);
-  EXPECT_EQ(pairs[3].state, PairState::Contact);
-  EXPECT_EQ(pairs[4].state, PairState::Near);
+  EXPECT_EQ(pairs[0].depth, 2.5);
+  EXPECT_EQ(pairs[1].depth, 0.3);
+  EXPECT_EQ(pairs[2].depth, 0.1);
+  EXPECT_EQ(pairs[3].state, ClashState::Contact);
+  EXPECT_EQ(pairs[4].state, ClashState::Near);
 }
 
 TEST(CheckReportText, HasASummaryAndARowForEachPair) {
-  const std::string text = check_report_text(four_boxes(), four_states());
+  const std::string text = check_report_text(four_boxes(), five_clashes());
   EXPECT_NE(text.find("press.step: 4 components, 48 triangles, tolerance 0.01 mm\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("1 embedded, 2 fit, 1 contact, 1 near\n"), std::string::npos) << text;
-  EXPECT_LT(text.find("2.5"), text.find("0.31"));
+  EXPECT_NE(text.find("3 overlapping, 1 of them one inside the other, 1 contact, 1 near\n"), std::string::npos) << text;
+  EXPECT_LT(text.find("2.5"), text.find("up to 0.3"));
   EXPECT_NE(text.find("pin \"A\""), std::string::npos);
-  EXPECT_EQ(count_pairs(four_states()), (PairCounts{1, 1, 2, 1}));
+  EXPECT_NE(text.find("Büchse (inside)"), std::string::npos);
+  EXPECT_NE(text.find("1.50 1.50 2.00"), std::string::npos);
+  EXPECT_EQ(count_clashes(five_clashes()), (ClashCounts{1, 1, 3, 1}));
+}
+
+TEST(DepthText, IsZeroWhereNothingIsDeeperThanTheBoundIsAccurate) {
+  Clash clash;
+  clash.depth = 0.0009;
+  EXPECT_EQ(depth_text(clash, 0.01), "0");
+  EXPECT_EQ(depth_text(clash, 0.001), "0.0009");
+  clash.depth_loose = true;
+  EXPECT_EQ(depth_text(clash, 0.001), "up to 0.0009");
 }
 
 TEST(CheckReportText, ColumnsLineUpDespiteUmlauts) {
   Assembly assembly = four_boxes();
-  const std::string text = check_report_text(assembly, four_states());
+  const std::string text = check_report_text(assembly, five_clashes());
   // The last column starts at the same character in the rows of "Büchse" (a) and "plate" (a).
   const auto column_of = [&](const std::string& start, const std::string& last) {
     const std::size_t line = text.find(start), place = text.find(last, line);
@@ -96,12 +109,12 @@ TEST(CheckReportText, ColumnsLineUpDespiteUmlauts) {
     for (std::size_t i = line; i < place; ++i) characters += (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80;
     return characters;
   };
-  EXPECT_EQ(column_of("fit       0.3", "cap"), column_of("fit       0.1", "Büchse"));
+  EXPECT_EQ(column_of("overlapping  up to 0.3", "cap"), column_of("overlapping  0.1", "Büchse"));
 }
 
 TEST(CheckReportText, IsOnlyASummaryIfNoPairIsListed) {
   const std::string text = check_report_text(four_boxes(), {0.5, {}});
-  EXPECT_NE(text.find("0 embedded, 0 fit, 0 contact, 0 near\n"), std::string::npos);
+  EXPECT_NE(text.find("0 overlapping, 0 contact, 0 near\n"), std::string::npos);
   EXPECT_EQ(text.find("depth"), std::string::npos);
 }
 

@@ -76,7 +76,7 @@ def test_checks_every_pair(drawer):
     assert states.tolerance == 0.01
     assert states.assembly is drawer
     pair = next(p for p in states.pairs if {p.a, p.b} == {"back", "front"})
-    assert pair.state == "contact" and pair.distance == 0 and pair.allowed_penetration == 0.01
+    assert pair.state == "contact" and pair.distance == 0 and pair.depth < 0.001 and not pair.contained
     assert len(states) == len(states.pairs)
     assert "back" in states.report() and '"dismantle-check"' in states.report_json()
     with pytest.raises(dismantle.UsageError, match="there is no rule 'all'"):

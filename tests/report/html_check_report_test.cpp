@@ -7,7 +7,6 @@
 #include <png.h>
 #include <tinyxml2.h>
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,19 +24,19 @@ Assembly press_fit() {
   return a;
 }
 
-PairStates states_of_press_fit() {
+Clashes clashes_of_press_fit() {
   const auto id = [](std::uint32_t i) { return ComponentId(i); };
   return {0.01,
-          {{id(0), id(1), PairState::Fit, 0, 0.1, 0.11, 96},
-           {id(0), id(2), PairState::Contact, 0, 0, 0.01, 30},
-           {id(1), id(2), PairState::Embedded, 0, 1, std::numeric_limits<double>::infinity(), 48},
-           {id(1), id(3), PairState::Near, 0.5, 0, 0.01, 0}}};
+          {{id(0), id(1), ClashState::Overlapping, {}, 0, 0.1, 0.1, {3, 0, 2}, 8, 0.05, false},
+           {id(0), id(2), ClashState::Contact, {}, 0, 0, 0, {0, 5, 4}, 0, 0, false},
+           {id(1), id(2), ClashState::Overlapping, id(1), 0, 1, 0.99, {0, 0, 5}, 30, 0.2, false},
+           {id(1), id(3), ClashState::Near, {}, 0.5, 0, 0, {0, 0, -1}, 0, 0, false}}};
 }
 
-std::string report_of(const Assembly& assembly, const PairStates& states, HtmlCheckOptions options = {}) {
+std::string report_of(const Assembly& assembly, const Clashes& clashes, HtmlCheckOptions options = {}) {
   options.picture_width = 96;
   options.picture_height = 72;
-  Result<std::string> html = html_check_report(assembly, states, options);
+  Result<std::string> html = html_check_report(assembly, clashes, options);
   EXPECT_TRUE(html.ok());
   return html.ok() ? *html : std::string();
 }
@@ -69,7 +68,7 @@ std::vector<std::uint8_t> bytes_of_base64(std::string_view text) {
 }
 
 TEST(HtmlCheckReport, IsWellFormedAndShowsEveryPair) {
-  const std::string html = report_of(press_fit(), states_of_press_fit());
+  const std::string html = report_of(press_fit(), clashes_of_press_fit());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(html.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   int rows = 0, pictures = 0;
@@ -78,11 +77,11 @@ TEST(HtmlCheckReport, IsWellFormedAndShowsEveryPair) {
     pictures += std::string_view(e->Name()) == "img" ? 1 : 0;
   }
   EXPECT_EQ(rows, 1 + 4);
-  EXPECT_EQ(pictures, 2 + 2) << "two overviews, the embedded and the fit pair";
+  EXPECT_EQ(pictures, 2 + 2) << "two overviews, the overlapping pairs";
 }
 
 TEST(HtmlCheckReport, LoadsNothingFromAnywhere) {
-  const std::string html = report_of(press_fit(), states_of_press_fit());
+  const std::string html = report_of(press_fit(), clashes_of_press_fit());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(html.c_str()), tinyxml2::XML_SUCCESS);
   for (const auto* e : elements_of(document)) {
@@ -99,7 +98,7 @@ TEST(HtmlCheckReport, LoadsNothingFromAnywhere) {
 }
 
 TEST(HtmlCheckReport, NamesAreTextWhateverTheyContain) {
-  const std::string html = report_of(press_fit(), states_of_press_fit());
+  const std::string html = report_of(press_fit(), clashes_of_press_fit());
   EXPECT_EQ(html.find("<script>alert"), std::string::npos);
   EXPECT_NE(html.find("&lt;script&gt;alert(1)&lt;/script&gt;&quot;onload=&#39;x&#39; &amp; \xEF\xBF\xBD"),
             std::string::npos);
@@ -115,7 +114,7 @@ TEST(HtmlCheckReport, NamesAreTextWhateverTheyContain) {
 }
 
 TEST(HtmlCheckReport, PicturesArePngOfTheRequestedSize) {
-  const std::string html = report_of(press_fit(), states_of_press_fit());
+  const std::string html = report_of(press_fit(), clashes_of_press_fit());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(html.c_str()), tinyxml2::XML_SUCCESS);
   for (const auto* e : elements_of(document)) {
@@ -134,7 +133,7 @@ TEST(HtmlCheckReport, PicturesArePngOfTheRequestedSize) {
 TEST(HtmlCheckReport, LimitsTheNumberOfCloseups) {
   HtmlCheckOptions options;
   options.pictures = 1;
-  const std::string html = report_of(press_fit(), states_of_press_fit(), options);
+  const std::string html = report_of(press_fit(), clashes_of_press_fit(), options);
   EXPECT_NE(html.find("id=\"pair-1\""), std::string::npos);
   EXPECT_EQ(html.find("pair-2\""), std::string::npos);
 }
@@ -149,13 +148,13 @@ TEST(HtmlCheckReport, IsAPageWithoutPairsToo) {
 TEST(HtmlCheckReport, HasTheSameBytesOnEveryExecutor) {
   HtmlCheckOptions threads;
   threads.executor = Executor(ExecutorKind::Threads, 3);
-  EXPECT_EQ(report_of(press_fit(), states_of_press_fit(), threads), report_of(press_fit(), states_of_press_fit()));
+  EXPECT_EQ(report_of(press_fit(), clashes_of_press_fit(), threads), report_of(press_fit(), clashes_of_press_fit()));
 }
 
 TEST(HtmlCheckReport, CanBeCancelled) {
   HtmlCheckOptions options;
   options.progress = [](std::string_view, double fraction) { return fraction < 0.5; };
-  const Result<std::string> html = html_check_report(press_fit(), states_of_press_fit(), options);
+  const Result<std::string> html = html_check_report(press_fit(), clashes_of_press_fit(), options);
   ASSERT_FALSE(html.ok());
   EXPECT_EQ(html.error().kind, ErrorKind::Failed);
 }

@@ -4,6 +4,7 @@
 #include "dismantle/files/json_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <tuple>
 
@@ -20,6 +21,21 @@ std::string formatted(const char* format, double value) {
 /// A length with four digits; "0" for zero.
 std::string millimetres(double length) {
   return length == 0 ? "0" : formatted("%.4g", length);
+}
+
+/// Depths that differ by less than this part of the tolerance are not told apart.
+constexpr double kDepthAccuracy = 0.1;
+
+/// A point to the hundredth of a millimetre, as far as a table needs it.
+std::string place_text(Vec3 p) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) text += (k > 0 ? " " : "") + formatted("%.2f", std::abs(p[k]) < 0.005 ? 0 : p[k]);
+  return text;
+}
+
+/// The name of one component of a pair, and whether it is inside the other one.
+std::string name_in_table(const Assembly& assembly, const Clash& clash, ComponentId id) {
+  return assembly[id].name + (clash.contained == id ? " (inside)" : "");
 }
 
 /// Appends `text` in a column of that many characters (of UTF-8).
@@ -46,81 +62,83 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
 
 }  // namespace
 
-PairCounts count_pairs(const PairStates& states) {
-  PairCounts counts;
-  for (const ComponentPair& p : states.pairs) {
-    counts.near += p.state == PairState::Near ? 1 : 0;
-    counts.contact += p.state == PairState::Contact ? 1 : 0;
-    counts.fit += p.state == PairState::Fit ? 1 : 0;
-    counts.embedded += p.state == PairState::Embedded ? 1 : 0;
+ClashCounts count_clashes(const Clashes& clashes) {
+  ClashCounts counts;
+  for (const Clash& c : clashes.pairs) {
+    counts.near += c.state == ClashState::Near ? 1 : 0;
+    counts.contact += c.state == ClashState::Contact ? 1 : 0;
+    counts.overlapping += c.state == ClashState::Overlapping ? 1 : 0;
+    counts.contained += c.contained.valid() ? 1 : 0;
   }
   return counts;
 }
 
-std::vector<ComponentPair> worst_first(const PairStates& states) {
-  std::vector<ComponentPair> pairs = states.pairs;
-  std::stable_sort(pairs.begin(), pairs.end(), [](const ComponentPair& a, const ComponentPair& b) {
-    return std::tuple(b.state, b.penetration, a.distance) < std::tuple(a.state, a.penetration, b.distance);
+std::vector<Clash> worst_first(const Clashes& clashes) {
+  std::vector<Clash> pairs = clashes.pairs;
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Clash& a, const Clash& b) {
+    return std::tuple(b.state, b.depth, a.distance) < std::tuple(a.state, a.depth, b.distance);
   });
   return pairs;
 }
 
-std::string_view explanation_of(PairState state) {
+std::string_view explanation_of(ClashState state) {
   switch (state) {
-    case PairState::Clear:
-      return "apart";
-    case PairState::Near:
+    case ClashState::Near:
       return "apart, but closer than the clearance asked for";
-    case PairState::Contact:
-      return "touching, or overlapping by no more than the tolerance";
-    case PairState::Fit:
-      return "overlapping a little: a press fit, a tessellated bore, a modelled thread";
-    case PairState::Embedded:
-      return "overlapping deeply: free to move until apart";
+    case ClashState::Contact:
+      return "touching, or deeper in each other by no more than the tolerance";
+    case ClashState::Overlapping:
+      return "deeper in each other than the tolerance: a press fit, a tessellated bore, a simplified thread, or an "
+             "error";
   }
   return "";
 }
 
-std::string check_report_json(const Assembly& assembly, const PairStates& states) {
+std::string depth_text(const Clash& clash, double tolerance) {
+  if (clash.depth <= kDepthAccuracy * tolerance) return "0";
+  return (clash.depth_loose ? "up to " : "") + millimetres(clash.depth);
+}
+
+std::string check_report_json(const Assembly& assembly, const Clashes& clashes) {
   const JsonValue about{{"file", assembly.source_file},
                         {"components", assembly.components.size()},
                         {"triangles", triangle_count(assembly)}};
   std::vector<std::string> pairs;
-  for (const ComponentPair& p : states.pairs) {
-    if (p.state == PairState::Clear) continue;
-    pairs.push_back(json_line({{"a", assembly[p.a].name},
-                               {"b", assembly[p.b].name},
-                               {"state", name_of(p.state)},
-                               {"distance_mm", p.distance},
-                               {"penetration_mm", p.penetration},
-                               {"triangle_pairs", p.triangle_pairs}}));
+  for (const Clash& c : clashes.pairs) {
+    JsonValue pair{{"a", assembly[c.a].name}, {"b", assembly[c.b].name}, {"state", name_of(c.state)}};
+    if (c.contained.valid()) pair["contained"] = true;
+    pair["distance_mm"] = c.distance;
+    pair["depth_mm"] = c.depth;
+    if (c.depth_loose) pair["depth_at_least_mm"] = c.depth_attained;
+    pair["deepest_at"] = {c.deepest_at.x, c.deepest_at.y, c.deepest_at.z};
+    pair["volume_mm3"] = c.volume;
+    pairs.push_back(json_line(pair));
   }
-  return "{\n  \"format\": \"dismantle-check\", \"version\": 1,\n  \"assembly\": " + json_line(about) +
-         ",\n  \"tolerance_mm\": " + json_line(states.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
+  return "{\n  \"format\": \"dismantle-check\", \"version\": 2,\n  \"assembly\": " + json_line(about) +
+         ",\n  \"tolerance_mm\": " + json_line(clashes.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
          "\n  ]\n}\n";
 }
 
-std::string check_report_text(const Assembly& assembly, const PairStates& states) {
-  const PairCounts counts = count_pairs(states);
+std::string check_report_text(const Assembly& assembly, const Clashes& clashes) {
+  const ClashCounts counts = count_clashes(clashes);
   std::string text = assembly.source_file + ": " + std::to_string(assembly.components.size()) + " components, " +
                      std::to_string(triangle_count(assembly)) + " triangles, tolerance " +
-                     millimetres(states.tolerance) + " mm\n";
-  text += std::to_string(counts.embedded) + " embedded, " + std::to_string(counts.fit) + " fit, " +
-          std::to_string(counts.contact) + " contact, " + std::to_string(counts.near) + " near\n";
-  if (states.pairs.empty()) return text;
+                     millimetres(clashes.tolerance) + " mm\n";
+  text += std::to_string(counts.overlapping) + " overlapping, ";
+  if (counts.contained > 0) text += std::to_string(counts.contained) + " of them one inside the other, ";
+  text += std::to_string(counts.contact) + " contact, " + std::to_string(counts.near) + " near\n";
+  if (clashes.pairs.empty()) return text;
 
   std::vector<std::vector<std::string>> rows{
-      {"state", "depth mm", "allowed mm", "distance mm", "triangle pairs", "a", "b"}};
-  for (const ComponentPair& p : worst_first(states)) {
-    const bool free = p.state == PairState::Embedded;
-    rows.push_back({std::string(name_of(p.state)), millimetres(p.penetration),
-                    free ? "free" : millimetres(p.allowed_penetration), millimetres(p.distance),
-                    std::to_string(p.triangle_pairs), assembly[p.a].name, assembly[p.b].name});
-  }
+      {"state", "depth mm", "deepest at", "volume mm3", "distance mm", "a", "b"}};
+  for (const Clash& c : worst_first(clashes))
+    rows.push_back({std::string(name_of(c.state)), depth_text(c, clashes.tolerance), place_text(c.deepest_at),
+                    millimetres(c.volume), millimetres(c.distance), name_in_table(assembly, c, c.a),
+                    name_in_table(assembly, c, c.b)});
   text += "\n" + table_text(rows) + "\n";
-  for (const PairState state : {PairState::Embedded, PairState::Fit, PairState::Contact, PairState::Near})
+  for (const ClashState state : {ClashState::Overlapping, ClashState::Contact, ClashState::Near})
     text += std::string(name_of(state)) + ": " + std::string(explanation_of(state)) + "\n";
-  return text + "Features of a component that are thinner than the allowed depth are not protected.\n";
+  return text + "depth: the greatest distance from a point of either surface inside the other to that surface\n";
 }
 
 }  // namespace dismantle

@@ -28,10 +28,10 @@ h2 { font-size: 18px; margin: 32px 0 12px; }
   padding: 10px 16px; min-width: 110px; }
 .card b { display: block; font-size: 22px; font-variant-numeric: tabular-nums; }
 .card span { color: var(--soft); font-size: 13px; }
-.card.embedded { border-top-color: #c62828; } .card.fit { border-top-color: #e08a00; }
+.card.overlapping { border-top-color: #c62828; }
 .card.contact { border-top-color: #2e7d4f; } .card.near { border-top-color: #3a6ea5; }
 .state { display: inline-block; border-radius: 10px; padding: 1px 10px; font-size: 13px; color: #ffffff; }
-.state.embedded { background: #c62828; } .state.fit { background: #a86500; }
+.state.overlapping { background: #c62828; }
 .state.contact { background: #2e7d4f; } .state.near { background: #3a6ea5; }
 dl { display: grid; grid-template-columns: max-content auto; gap: 4px 12px; margin: 16px 0; color: var(--soft); }
 dd { margin: 0; }
@@ -43,6 +43,7 @@ figcaption { padding: 8px 12px; border-top: 1px solid var(--line); overflow-wrap
 i { font-style: normal; } i::before { content: ""; display: inline-block; width: 10px; height: 10px;
   border-radius: 2px; margin-right: 4px; }
 i.a::before { background: #eda840; } i.b::before { background: #5c94db; } i.o::before { background: #d9051a; }
+i.d::before { background: #111111; border-radius: 50%; }
 table { border-collapse: collapse; width: 100%; background: var(--paper); border: 1px solid var(--line); }
 th, td { padding: 6px 10px; border-bottom: 1px solid var(--line); text-align: left; overflow-wrap: anywhere; }
 th { background: #e9edf2; white-space: nowrap; position: sticky; top: 0; }
@@ -63,16 +64,16 @@ inline constexpr const char* kTableStart = R"(<section><h2>Pairs</h2>
 aria-label="Search names and states"/><span id="shown"></span></div>
 <table id="pairs"><thead><tr><th class="n"><button>#</button></th><th><button>Component</button></th>
 <th><button>Other component</button></th><th><button>State</button></th><th class="n"><button>Depth [mm]</button></th>
-<th class="n"><button>Allowed [mm]</button></th><th class="n"><button>Distance [mm]</button></th>
-<th class="n"><button>Triangle pairs</button></th>
+<th class="n"><button>Deepest at [mm]</button></th><th class="n"><button>Volume [mm³]</button></th>
+<th class="n"><button>Distance [mm]</button></th>
 </tr></thead><tbody>
 )";
 
 /// Text of the footer.
 inline constexpr const char* kPageFooter =
-    R"(Depth: the largest penetration depth of an intersecting triangle pair, which is the length of the shortest
-translation that separates the two triangles. Features thinner than the allowed depth are not protected. Written by
-dismantle.)";
+    R"(Depth: the greatest distance from a point of either surface that is inside the other component to that
+component's surface; an upper bound, at most 1% or a tenth of the tolerance above it. Volume: in common, estimated to
+about 1%. Written by dismantle.)";
 
 /// Script that sorts and filters the table.
 inline constexpr const char* kPageScript = R"(

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
-#include "dismantle/assembly/pair_state.h"
+#include "dismantle/assembly/clash.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/render/image.h"
 #include "dismantle/render/scene.h"
@@ -25,14 +25,14 @@ class CheckPictures {
   /// The whole assembly in its own colours.
   Image overview() const;
   /// The whole assembly, transparent, with the intersection curves of the given pairs.
-  Image overlaps(const std::vector<ComponentPair>& pairs) const;
-  /// A close-up of the overlap of a pair: the two components highlighted, all others transparent, their common volume
-  /// and their intersection curve marked.
-  Image closeup(const ComponentPair& pair) const;
+  Image overlaps(const std::vector<Clash>& pairs) const;
+  /// A close-up of the overlap of a pair: the two components highlighted, all others transparent, their common volume,
+  /// their intersection curve and the deepest point marked.
+  Image closeup(const Clash& pair) const;
 
  private:
   Image picture(const RenderScene& scene, const std::vector<Vec3>& points) const;
-  std::vector<CurveSegment> curve(const ComponentPair& pair) const;
+  std::vector<CurveSegment> curve(const Clash& pair) const;
 
   const Assembly& assembly_;
   RenderScene scene_;

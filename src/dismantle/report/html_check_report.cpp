@@ -27,30 +27,40 @@ std::string number_cell(double value, bool applies) {
                  : "<td class=\"n\" data-v=\"-1\">–</td>";
 }
 
+std::string place_text(Vec3 p) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f", p.x, p.y, p.z);
+  return text;
+}
+
+std::string place_cell(Vec3 p) {
+  return "<td class=\"n\">" + place_text(p) + "</td>";
+}
+
 std::string picture(const Image& image, const std::string& alternative) {
   return "<img src=\"" + png_data_url(encode_png(image)) + "\" width=\"" + std::to_string(image.width) +
          "\" height=\"" + std::to_string(image.height) + "\" alt=\"" + html_escaped(alternative) + "\"/>";
 }
 
-std::string state_badge(PairState state) {
+std::string state_badge(ClashState state) {
   const std::string name(name_of(state));
   return "<span class=\"state " + name + "\">" + name + "</span>";
 }
 
-bool overlaps_deeply(const ComponentPair& p) {
-  return p.state == PairState::Embedded || p.state == PairState::Fit;
+bool overlaps(const Clash& c) {
+  return c.state == ClashState::Overlapping;
 }
 
 /// Writes the page from top to bottom.
 class PageWriter {
  public:
-  PageWriter(const Assembly& assembly, const PairStates& states, const HtmlCheckOptions& options)
+  PageWriter(const Assembly& assembly, const Clashes& clashes, const HtmlCheckOptions& options)
       : assembly_(assembly),
-        states_(states),
+        clashes_(clashes),
         options_(options),
-        pairs_(worst_first(states)),
+        pairs_(worst_first(clashes)),
         pictures_(assembly, options.picture_width, options.picture_height, options.executor) {
-    const auto deep = static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), overlaps_deeply));
+    const auto deep = static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), overlaps));
     closeups_ = std::min(options.pictures, deep);
   }
 
@@ -80,20 +90,20 @@ class PageWriter {
   std::string name(ComponentId id) const { return html_escaped(assembly_[id].name); }
 
   void write_summary() {
-    const PairCounts counts = count_pairs(states_);
+    const ClashCounts counts = count_clashes(clashes_);
     const auto card = [&](const std::string& value, const char* label, const char* style) {
       page_ += std::string("<div class=\"card ") + style + "\"><b>" + value + "</b><span>" + label + "</span></div>";
     };
     page_ += "<div class=\"cards\">";
     card(std::to_string(assembly_.components.size()), "components", "");
     card(std::to_string(triangle_count(assembly_)), "triangles", "");
-    card(number(states_.tolerance) + " mm", "tolerance", "");
-    card(std::to_string(counts.embedded), "embedded", "embedded");
-    card(std::to_string(counts.fit), "fit", "fit");
+    card(number(clashes_.tolerance) + " mm", "tolerance", "");
+    card(std::to_string(counts.overlapping), "overlapping", "overlapping");
+    if (counts.contained > 0) card(std::to_string(counts.contained), "one inside the other", "overlapping");
     card(std::to_string(counts.contact), "contact", "contact");
     card(std::to_string(counts.near), "near", "near");
     page_ += "</div>\n<dl>";
-    for (const PairState state : {PairState::Embedded, PairState::Fit, PairState::Contact, PairState::Near})
+    for (const ClashState state : {ClashState::Overlapping, ClashState::Contact, ClashState::Near})
       page_ += "<dt>" + state_badge(state) + "</dt><dd>" + std::string(explanation_of(state)) + "</dd>";
     page_ += "</dl>\n";
   }
@@ -104,8 +114,8 @@ class PageWriter {
              "<figcaption>The assembly</figcaption></figure>\n";
     if (!report(1)) return false;
     if (closeups_ > 0) {
-      std::vector<ComponentPair> deep;
-      std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(deep), overlaps_deeply);
+      std::vector<Clash> deep;
+      std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(deep), overlaps);
       page_ += "<figure>" + picture(pictures_.overlaps(deep), "Overlapping components") +
                "<figcaption>Overlaps: intersection curves in <i class=\"o\">red</i></figcaption></figure>\n";
     }
@@ -120,23 +130,34 @@ class PageWriter {
   }
 
   /// Alternative text of a close-up.
-  std::string names(const ComponentPair& p) const {
+  std::string names(const Clash& p) const {
     std::string text = assembly_[p.a].name + " and ";
     return text += assembly_[p.b].name;
+  }
+
+  /// A table cell that sorts by the depth.
+  std::string depth_cell(const Clash& c, bool applies) const {
+    if (!applies) return number_cell(c.depth, false);
+    char exact[64];
+    std::snprintf(exact, sizeof exact, "%.17g", c.depth);
+    return std::string("<td class=\"n\" data-v=\"") + exact + "\">" + depth_text(c, clashes_.tolerance) + "</td>";
+  }
+
+  std::string inside_text(const Clash& c) const {
+    return c.contained.valid() ? "; " + name(c.contained) + " is wholly inside the other component" : "";
   }
 
   void write_table() {
     page_ += kTableStart;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const ComponentPair& p = pairs_[i];
-      const bool meets = p.state != PairState::Near;
+      const Clash& p = pairs_[i];
+      const bool meets = p.state != ClashState::Near;
       const std::string rank = std::to_string(i + 1);
       page_ += "<tr><td class=\"n\" data-v=\"" + rank + "\">";
       page_ += i < closeups_ ? link_to_pair(rank) : rank;
       page_ += "</td><td>" + name(p.a) + "</td><td>" + name(p.b) + "</td><td>" + state_badge(p.state) + "</td>" +
-               number_cell(p.penetration, meets) +
-               number_cell(p.allowed_penetration, p.state == PairState::Contact || p.state == PairState::Fit) +
-               number_cell(p.distance, !meets) + number_cell(static_cast<double>(p.triangle_pairs), meets) + "</tr>\n";
+               depth_cell(p, meets) + place_cell(p.deepest_at) + number_cell(p.volume, overlaps(p)) +
+               number_cell(p.distance, p.distance > 0) + "</tr>\n";
     }
     page_ += "</tbody></table></section>\n";
   }
@@ -146,20 +167,22 @@ class PageWriter {
     page_ += "<section><h2>Overlaps, worst first</h2><div class=\"pictures\">\n";
     for (std::size_t i = 0; i < closeups_; ++i) {
       if (!report(i + 2)) return false;
-      const ComponentPair& p = pairs_[i];
+      const Clash& p = pairs_[i];
       const std::string rank = std::to_string(i + 1);
       page_ += "<figure id=\"pair-" + rank + "\">" + picture(pictures_.closeup(p), names(p));
       page_ += "<figcaption><b>" + rank + "</b> <i class=\"a\">" + name(p.a) + "</i> and <i class=\"b\">" + name(p.b);
-      page_ += "</i>: " + state_badge(p.state) + " depth " + number(p.penetration) + " mm</figcaption></figure>\n";
+      page_ += "</i>: " + state_badge(p.state) + " depth " + depth_text(p, clashes_.tolerance) +
+               " mm at <i class=\"d\">" + place_text(p.deepest_at) + "</i>" + inside_text(p) +
+               "</figcaption></figure>\n";
     }
     page_ += "</div></section>\n";
     return report(closeups_ + 2);
   }
 
   const Assembly& assembly_;
-  const PairStates& states_;
+  const Clashes& clashes_;
   const HtmlCheckOptions& options_;
-  std::vector<ComponentPair> pairs_;
+  std::vector<Clash> pairs_;
   CheckPictures pictures_;
   std::size_t closeups_ = 0;
   std::string page_;
@@ -167,9 +190,9 @@ class PageWriter {
 
 }  // namespace
 
-Result<std::string> html_check_report(const Assembly& assembly, const PairStates& states,
+Result<std::string> html_check_report(const Assembly& assembly, const Clashes& clashes,
                                       const HtmlCheckOptions& options) {
-  return PageWriter(assembly, states, options).write();
+  return PageWriter(assembly, clashes, options).write();
 }
 
 }  // namespace dismantle

@@ -15,6 +15,8 @@ namespace dismantle {
 /// their meshes have. Immutable; may be shared between threads.
 class SolidShape {
  public:
+  /// An empty shape.
+  SolidShape() = default;
   /// Builds the shape of a component: the same one on every executor.
   explicit SolidShape(const Component& component, const Executor& executor = {});
 

@@ -76,20 +76,23 @@ SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, Componen
   return overlap;
 }
 
-double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
+SurfaceDistance nearest_of_surface(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
   const NodePair start{s.root_of(a), s.root_of(b)};
-  if (start.a == kNoNode || start.b == kNoNode) return limit;
+  SurfaceDistance nearest{limit, {}};
+  if (start.a == kNoNode || start.b == kNoNode) return nearest;
   const BvhView tree(s.triangles.bvh);
   const auto lower_bound = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
-  double best = limit * limit;
+  double best = limit * limit;  // squared
   std::vector<std::pair<double, NodePair>> open{{lower_bound(start), start}};
   while (!open.empty()) {
     const auto [bound, pair] = open.back();
     open.pop_back();
     if (bound >= best) continue;
     if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) {
-      const double d = distance_triangle_triangle(s.leaf_triangle(pair.a), s.leaf_triangle(pair.b)).distance;
-      best = std::min(best, d * d);
+      const TriangleDistance d = distance_triangle_triangle(s.leaf_triangle(pair.a), s.leaf_triangle(pair.b));
+      if (d.distance >= nearest.distance) continue;
+      nearest = {d.distance, d.point_a};
+      best = d.distance * d.distance;
       continue;
     }
     NodePairChildren next = expanded(tree, s.bounds, pair);
@@ -97,7 +100,11 @@ double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, 
     if (lower_bound(next.pair[0]) < lower_bound(next.pair[1])) std::swap(next.pair[0], next.pair[1]);
     for (int k = 0; k < next.count; ++k) open.emplace_back(lower_bound(next.pair[k]), next.pair[k]);
   }
-  return std::sqrt(best);
+  return nearest;
+}
+
+double surface_distance(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
+  return nearest_of_surface(s, a, b, limit).distance;
 }
 
 double surface_distance(const AssemblySurface& s, ComponentId component, Vec3 point) {

@@ -47,7 +47,16 @@ struct SurfaceOverlap {
 /// All intersecting triangle pairs of two components, by exact predicates. @pre a < b
 SurfaceOverlap surface_overlap(const AssemblySurface& surface, ComponentId a, ComponentId b);
 
-/// The distance of two components' surfaces [mm], at most `limit`. As exact as distance_triangle_triangle().
+/// The distance of two surfaces and a nearest point of the first one.
+struct SurfaceDistance {
+  double distance = 0;  ///< [mm]
+  Vec3 point;           ///< [mm, assembly frame]; the origin where nothing below the limit was found.
+};
+
+/// The distance of two components' surfaces, at most `limit` [mm]. As exact as distance_triangle_triangle().
+SurfaceDistance nearest_of_surface(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);
+
+/// The distance of nearest_of_surface() [mm].
 double surface_distance(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);
 
 /// The distance from a point to the component's surface [mm], up to the rounding of closest_points_vertex_face();

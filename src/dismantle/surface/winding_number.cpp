@@ -143,6 +143,24 @@ bool WindingNumber::inside(Vec3 point) const {
   return std::abs(at(point, 0)) > 0.5;
 }
 
+std::optional<std::vector<SurfaceCrossing>> WindingNumber::crossings(Vec3 point, Vec3 direction) const {
+  std::vector<SurfaceCrossing> crossings;
+  for (const SurfaceTree* tree : {&surface_, fans_.get()}) {
+    if (!tree) continue;
+    const bool clear = tree->for_each_hit(point, direction, [&](std::uint32_t face, RayHit hit) {
+      const Triangle& t = tree->triangle(face);
+      const Vec3 normal = normal_unscaled(t);
+      const double slope = dot(normal, direction);
+      crossings.push_back({dot(normal, t[0] - point) / slope, slope > 0 ? 1 : -1});
+      return hit == RayHit::Hit;
+    });
+    if (!clear) return std::nullopt;
+  }
+  std::sort(crossings.begin(), crossings.end(),
+            [](const SurfaceCrossing& a, const SurfaceCrossing& b) { return a.distance < b.distance; });
+  return crossings;
+}
+
 double WindingNumber::change_at_rim(const Hole& hole, Vec3 center, double radius) const {
   double gradient = 0;
   for (std::size_t i = 0; i < hole.rim.size(); ++i) {

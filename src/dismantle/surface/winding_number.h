@@ -4,9 +4,16 @@
 #include "dismantle/surface/surface_tree.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace dismantle {
+
+/// A point where a ray crosses a surface.
+struct SurfaceCrossing {
+  double distance = 0;  ///< From the ray's origin, in units of the length of its direction.
+  int winding = 0;      ///< By how much the winding number falls there: 1 where the ray leaves a solid.
+};
 
 /// The generalised winding number of a mesh: its solid angle seen from a point, over that of the whole sphere
 /// (Jacobson, Kavan, Sorkine-Hornung 2013). 1 inside a closed mesh, -1 inside one that is inside out, 0 outside and in
@@ -39,6 +46,9 @@ class WindingNumber {
   double placement() const { return kPlacement * diagonal_; }
   /// True where the winding number is above 1/2 or below -1/2.
   bool inside(Vec3 point) const;
+  /// All crossings of the ray from `point` along `direction` with the mesh whose holes are closed by their fans, by
+  /// distance; nothing where the ray passes too near to an edge to decide.
+  std::optional<std::vector<SurfaceCrossing>> crossings(Vec3 point, Vec3 direction) const;
   /// A bound of the change of the winding number from `center` to any point within `radius` [mm], by the law of Biot
   /// and Savart; infinite near the edge of a hole. @pre the surface is further than `radius` from `center`
   double max_change(Vec3 center, double radius) const;

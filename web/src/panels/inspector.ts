@@ -5,6 +5,7 @@ import { button, element, setText } from "../dom.ts";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
 import { directionText, lengthText, text } from "../strings.ts";
+import type { CheckedPair } from "../wire/messages.ts";
 import { componentRow } from "./component_row.ts";
 import { RemovalPart } from "./removal_part.ts";
 import { clearanceText } from "./status.ts";
@@ -229,14 +230,12 @@ export class Inspector {
     );
     this.touches.replaceChildren(...orNone(touching, text(frame ? "contacts.none" : "contacts.idle")));
     const mine = pairs?.pairs.filter(({ a, b }) => selection.includes(a) !== selection.includes(b)) ?? [];
-    const neighbours = mine.map((pair) =>
-      componentRow(
-        this.session,
-        selection.includes(pair.a) ? pair.b : pair.a,
-        text(pair.state === "contact" ? "contact" : `pair.${pair.state}`),
-        pair.state,
-      ),
-    );
+    const neighbours = [...mine]
+      .sort((p, q) => q.depth - p.depth || p.distance - q.distance)
+      .map((pair) => {
+        const other = selection.includes(pair.a) ? pair.b : pair.a;
+        return componentRow(this.session, other, pairText(pair, other), pair.state);
+      });
     this.pairs.replaceChildren(...orNone(neighbours, text(pairs ? "pairs.none" : "pairs.wait")));
     this.showDirections();
   }
@@ -306,6 +305,14 @@ function fill(list: HTMLElement, facts: [string, string][]): void {
 
 function orNone(rows: HTMLElement[], message: string): HTMLElement[] {
   return rows.length > 0 ? rows : [element("li", { class: "muted" }, message)];
+}
+
+/// How two components meet in the assembled state. `other`: the one that is not selected.
+function pairText(pair: CheckedPair, other: number): string {
+  if (pair.contained !== null) return text(pair.contained === other ? "pair.contains" : "pair.inside");
+  if (pair.state === "overlapping") return text("pair.overlapping", { depth: lengthText(pair.depth) });
+  if (pair.state === "near") return text("pair.near", { distance: lengthText(pair.distance) });
+  return text("contact");
 }
 
 /// The gap of a contact as text; a negative gap is an overlap.

@@ -134,10 +134,12 @@ export interface FreeDirection {
 export interface CheckedPair {
   a: number;
   b: number;
-  state: "contact" | "fit" | "embedded" | "near";
+  state: "contact" | "overlapping" | "near";
+  contained: number | null;
   distance: number;
-  penetration: number;
-  triangle_pairs: number;
+  depth: number;
+  deepest_at: [number, number, number];
+  volume: number;
 }
 
 /// Exact clearance of the moving set; `distance` is null if there is no other component.

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/find_clashes.h"
+
+#include "dismantle/surface/common_volume.h"
+#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/surface_queries.h"
+#include "dismantle/surface/vertex_regions.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+namespace dismantle {
+
+namespace {
+
+/// The largest difference of the bounds of a depth, as a part of the tolerance.
+constexpr double kGapOfTolerance = 0.1;
+
+/// Compares pairs of components.
+class PairCheck {
+ public:
+  PairCheck(const AssemblySurface& surface, const std::vector<SolidShape>& shapes, double tolerance, double clearance)
+      : surface_(surface), shapes_(shapes), tolerance_(tolerance), clearance_(clearance) {
+    depth_options_.gap = kGapOfTolerance * tolerance;
+  }
+
+  /// Nothing where the pair is apart.
+  std::optional<Clash> check(ComponentId a, ComponentId b) const {
+    Clash clash;
+    clash.a = a;
+    clash.b = b;
+    if (shapes_[a.value].empty() || shapes_[b.value].empty()) return std::nullopt;
+    const PlacedShape first{&shapes_[a.value], {}}, second{&shapes_[b.value], {}};
+    const SolidDepth depth = solid_depth(first, second, depth_options_);
+    clash.depth = depth.depth;
+    clash.depth_attained = depth.attained;
+    clash.depth_loose = depth.capped;
+    clash.deepest_at = depth.deepest_at;
+    if (depth.depth > tolerance_) {
+      clash.state = ClashState::Overlapping;
+      const CommonVolume volume = common_volume(first, second);
+      clash.volume = volume.volume;
+      clash.volume_error = volume.standard_error;
+      if (solid_contains(first, second, tolerance_, depth_options_))
+        clash.contained = b;
+      else if (solid_contains(second, first, tolerance_, depth_options_))
+        clash.contained = a;
+      return clash;
+    }
+    return apart(clash);
+  }
+
+ private:
+  std::optional<Clash> apart(Clash clash) const {
+    const double limit = std::max(clearance_, 2 * tolerance_);
+    const SurfaceDistance nearest = nearest_of_surface(surface_, clash.a, clash.b, limit);
+    clash.distance = nearest.distance;
+    if (clash.distance > tolerance_ && clash.distance >= clearance_) return std::nullopt;
+    clash.state = clash.distance <= tolerance_ ? ClashState::Contact : ClashState::Near;
+    if (clash.depth_attained == 0) clash.deepest_at = nearest.point;
+    if (clash.distance > 0 && outside(clash.a, clash.b) && outside(clash.b, clash.a)) clash.depth = 0;
+    return clash;
+  }
+
+  /// True if no part of a surface that does not meet the other one is inside that.
+  bool outside(ComponentId inner, ComponentId outer) const {
+    const WindingNumber& winding = shapes_[outer.value].winding();
+    if (!winding.closed()) return false;
+    const std::vector<std::uint32_t> vertices = shell_vertices(surface_.triangles, inner);
+    return std::none_of(vertices.begin(), vertices.end(),
+                        [&](std::uint32_t v) { return winding.inside(surface_.triangles.vertices[v]); });
+  }
+
+  const AssemblySurface& surface_;
+  const std::vector<SolidShape>& shapes_;
+  double tolerance_, clearance_;
+  DepthOptions depth_options_;
+};
+
+/// Calls run(i) for each of `count` items in parallel and reports the progress. @return false if it was cancelled
+template <class Run>
+bool run_all(std::size_t count, std::string_view stage, const ClashOptions& options, const Run& run) {
+  std::mutex mutex;
+  std::size_t done = 0;
+  std::atomic<bool> cancelled{!report_progress(options.progress, stage, 0)};
+  options.executor.for_each_heavy(count, [&](std::size_t i) {
+    if (cancelled) return;
+    run(i);
+    const std::lock_guard lock(mutex);
+    const double fraction = static_cast<double>(++done) / static_cast<double>(count);
+    if (!report_progress(options.progress, stage, fraction)) cancelled = true;
+  });
+  return !cancelled;
+}
+
+}  // namespace
+
+Result<Clashes> find_clashes(const Assembly& assembly, const ClashOptions& options) {
+  const Error cancelled{ErrorKind::Failed, "cancelled"};
+  Clashes clashes;
+  clashes.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(assembly);
+  if (!report_progress(options.progress, "building the hierarchy", 0)) return cancelled;
+  const AssemblySurface surface = make_assembly_surface(assembly, options.executor);
+  const double near = std::max(options.clearance, clashes.tolerance);
+  const auto candidates = near_component_pairs(surface, near, options.executor);
+
+  std::vector<SolidShape> shapes(assembly.components.size());
+  if (!run_all(shapes.size(), "building the hierarchy", options,
+               [&](std::size_t c) { shapes[c] = SolidShape(assembly.components[c]); }))
+    return cancelled;
+  const PairCheck check(surface, shapes, clashes.tolerance, options.clearance);
+  std::vector<std::optional<Clash>> found(candidates.size());
+  if (!run_all(found.size(), "comparing components", options, [&](std::size_t i) {
+        const auto [a, b] = candidates[i];
+        found[i] = check.check(a, b);
+      }))
+    return cancelled;
+  for (const std::optional<Clash>& clash : found)
+    if (clash) clashes.pairs.push_back(*clash);
+  return clashes;
+}
+
+}  // namespace dismantle
