@@ -46,20 +46,21 @@ std::string message_of(const Assembly& assembly, const DepthAuditPair& pair) {
   const DepthViolation& v = pair.violation;
   const std::string& moving = assembly[v.point_of_a ? pair.a : pair.b].name;
   const std::string& other = assembly[v.point_of_a ? pair.b : pair.a].name;
+  const bool depth = v.rule == DepthRule::Depth;
   char text[256];
   std::snprintf(text, sizeof text,
-                "%.6g mm deep (allowed: %.6g mm%s) at %.6g s of move %zu (after frame %zu), at (%.6g, %.6g, %.6g)",
-                v.depth, v.allowed, pair.parted && v.allowed < pair.allowed ? ", as they have been apart" : "", v.time,
+                "%.6g mm (allowed: %.6g mm%s) at %.6g s of move %zu (after frame %zu), at (%.6g, %.6g, %.6g)", v.depth,
+                v.allowed, pair.parted && v.allowed < pair.allowed ? ", as they have been apart" : "", v.time,
                 v.move + 1, v.frame, v.point.x, v.point.y, v.point.z);
   char greatest[64] = "";
   if (v.greatest > v.depth) std::snprintf(greatest, sizeof greatest, "; up to %.6g mm", v.greatest);
-  return "\"" + moving + "\" is inside \"" + other + "\": " + text + greatest;
+  return "\"" + moving + (depth ? "\" is inside \"" : "\" went through \"") + other + "\": " + text + greatest;
 }
 
 }  // namespace
 
-std::string_view name_of(DepthRule) {
-  return "depth";
+std::string_view name_of(DepthRule rule) {
+  return rule == DepthRule::Depth ? "depth" : "crossing";
 }
 
 std::size_t DepthAudit::violation_count() const {
@@ -74,7 +75,7 @@ DepthAudit audit_depth(const Assembly& assembly, const Path& path, const DepthAu
   report.slack = slack_of(assembly, path);
   report.inconsistencies = audit::check_declarations(assembly, path);
 
-  audit::DepthContext context{assembly, path, {}, {}, report.slack, 0, options.executor, options.progress};
+  audit::DepthContext context{assembly, path, {}, {}, {}, report.slack, 0, options.executor, options.progress};
   context.bodies.resize(assembly.components.size());
   options.executor.for_each_heavy(context.bodies.size(), [&](std::size_t c) {
     context.bodies[c] = std::make_unique<const audit::SolidBody>(assembly.components[c]);

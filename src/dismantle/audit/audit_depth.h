@@ -27,7 +27,9 @@ struct DepthAuditOptions {
 ///      slack, at any instant of any screw.
 ///   2. A depth that is reported as a violation was found at a point and an instant, more than half the slack above the
 ///      allowance.
-///   3. Components that bound no volume (sheets) have no inside.
+///   3. Components that bound no volume (sheets) have no inside. Where one component of a pair is a sheet, or thinner
+///      than four tolerances, points of both surfaces are followed in time: none goes through the other surface by more
+///      than the allowance plus the slack (DepthRule::Crossing). What passes between these points is not seen.
 /// It shares no code with what makes paths, and nothing with audit_path() but the reading of motions and trees of
 /// boxes.
 DepthAudit audit_depth(const Assembly& assembly, const Path& path, const DepthAuditOptions& options = {});

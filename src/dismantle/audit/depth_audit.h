@@ -14,10 +14,11 @@ namespace dismantle {
 
 /// The rule that a pair violates.
 enum class DepthRule {
-  Depth,  ///< A point of one surface is deeper inside the other component than allowed.
+  Depth,     ///< A point of one surface is deeper inside the other component than allowed.
+  Crossing,  ///< A point of one surface went through the other by more than allowed; where one is a sheet, or thin.
 };
 
-/// The name of a rule in `dismantle audit --solids --json`: "depth".
+/// The name of a rule in `dismantle audit --solids --json`: "depth" or "crossing".
 std::string_view name_of(DepthRule rule);
 
 /// Where a pair violates a rule.

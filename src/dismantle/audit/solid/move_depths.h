@@ -4,6 +4,7 @@
 #include "dismantle/assembly/path.h"
 #include "dismantle/audit/depth_audit.h"
 #include "dismantle/audit/solid/depth_search.h"
+#include "dismantle/audit/solid/sheet_crossing.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/span.h"
 #include "dismantle/exec/executor.h"
@@ -27,8 +28,10 @@ struct DepthContext {
   ///@}
   std::vector<std::unique_ptr<const SolidBody>> bodies;  ///< Of each component.
   DepthLedger ledger;                                    ///< Pairs that overlap at the start, or violate a rule.
-  double slack = 0;                                      ///< DepthAudit::slack [mm].
-  std::size_t pieces = 0;                                ///< DepthAudit::pieces.
+  /// Points of the first component followed in the frame of the second.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<FollowedPoint>> followed;
+  double slack = 0;        ///< DepthAudit::slack [mm].
+  std::size_t pieces = 0;  ///< DepthAudit::pieces.
   ///@{ Of DepthAuditOptions.
   const Executor& executor;
   const ProgressCallback& progress;
@@ -56,7 +59,7 @@ DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, 
 /// cancelled.
 bool find_initial_depths(DepthContext& context, double progress_from, double progress_to);
 
-/// Checks the depth of all pairs of a moving and a stationary component in move `index`; false where it was cancelled.
+/// Checks all pairs of a moving and a stationary component in move `index`; false where it was cancelled.
 /// @param poses of all components before it @pre can_follow(the move)
 bool check_move_depths(DepthContext& context, Span<const Pose> poses, std::size_t index, double progress_from,
                        double progress_to);

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/sheet_crossing.h"
+
+#include "dismantle/audit/solid/ghost_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::audit {
+
+namespace {
+
+/// Distance that ghosts keep from the surface, relative to the slack.
+constexpr double kStandoff = 0.1;
+/// A point is followed in steps of this part of the allowed distance where its ghost is held back.
+constexpr double kStep = 0.25;
+/// A mesh is thin where its mean thickness is less than this many times the tolerance.
+constexpr double kThin = 4;
+
+/// One point in one move.
+class PointFollower {
+ public:
+  PointFollower(const AuditBody& surface, const CrossingRule& rule, FollowedPoint& point)
+      : surface_(surface), rule_(rule), ghost_(point.ghost), has_been_clear_(point.has_been_clear) {}
+
+  /// Follows the point through a segment. @return where it went through the surface
+  Crossing follow(Vec3 body, std::uint32_t segment) {
+    const RelativeMotion& motion = rule_.motions[segment];
+    const double allowed = rule_.allowed[segment];
+    Vec3 now = motion.at(0) * body;
+    const double speed = length(motion.velocity(now));
+    const double bend = motion.screw.angle > 0 ? motion.acceleration(motion.velocity(now)) / 8 : 0;
+    const double longest = bend > 0 ? std::sqrt(rule_.slack / (4 * bend)) : 1;
+    for (double s = 0; s < 1;) {
+      const double step = std::min({longest, 1 - s, begin_step(now, allowed, speed)});
+      const double shortest = speed > 0 ? kStep * allowed / speed : 1;
+      s = advance(motion, body, {s, step, shortest}, now);
+      const double beyond = ghost_ ? length(now - *ghost_) : 0;
+      if (beyond > allowed + rule_.slack) return {beyond, segment, s, now};
+      if (speed == 0) break;
+    }
+    return {};
+  }
+
+ private:
+  struct Step {
+    double from, length, shortest;
+  };
+
+  /// Starts or ends the ghost at a point. @return a time in which the point needs none
+  double begin_step(Vec3 now, double allowed, double speed) {
+    const SurfacePoint closest = surface_.closest(now, last_face_);
+    last_face_ = closest.face;
+    if (closest.distance > allowed + rule_.slack) {
+      ghost_.reset();
+      has_been_clear_ = true;
+      const double free = closest.distance - allowed;
+      return speed > 0 ? std::max(free, kStep * allowed) / speed : 1;
+    }
+    if (!ghost_ && has_been_clear_) ghost_ = now;
+    return ghost_ || speed == 0 ? 1 : kStep * allowed / speed;
+  }
+
+  /// Moves the point and its ghost on by a step, or by less where the ghost is held back. @return the time
+  double advance(const RelativeMotion& motion, Vec3 body, Step step, Vec3& now) {
+    Vec3 next = motion.at(step.from + step.length) * body;
+    if (!ghost_) {
+      now = next;
+      return step.from + step.length;
+    }
+    GhostPoint ghost(surface_, kStandoff * rule_.slack, *ghost_);
+    // Beside the point on its chord, the ghost is never further from it than at the ends.
+    while (!ghost.shift(next - now) && step.length > step.shortest) {
+      step.length /= 2;
+      next = motion.at(step.from + step.length) * body;
+    }
+    ghost.approach(next);
+    ghost_ = ghost.position();
+    now = next;
+    return step.from + step.length;
+  }
+
+  const AuditBody& surface_;
+  const CrossingRule& rule_;
+  std::optional<Vec3>& ghost_;
+  bool& has_been_clear_;
+  std::uint32_t last_face_ = 0;
+};
+
+std::size_t divisions(const Triangle& t, double spacing) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, length(t[(k + 1) % 3] - t[k]));
+  return static_cast<std::size_t>(std::ceil(std::min(longest / spacing, 1e6)));
+}
+
+double mean_thickness(const AuditBody& body) {
+  double area = 0, volume = 0;
+  for (std::uint32_t f = 0; f < body.face_count(); ++f) {
+    const Triangle t = body.triangle(f);
+    const Vec3 normal = normal_unscaled(t) / 2.0;
+    area += length(normal);
+    volume += dot(normal, t[0]) / 3;
+  }
+  return area > 0 ? 2 * std::fabs(volume) / area : 0;
+}
+
+}  // namespace
+
+std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing) {
+  for (spacing = std::max(spacing, 1e-9 * body.node(0).reach);; spacing *= 1.5) {
+    std::size_t count = body.vertex_count();
+    for (std::uint32_t f = 0; f < body.face_count(); ++f) {
+      const std::size_t n = divisions(body.triangle(f), spacing);
+      count += n * (n + 3) / 2 - 2;
+    }
+    if (count <= std::max(kMaxFollowed, body.vertex_count())) break;
+  }
+  std::vector<FollowedPoint> followed;
+  for (std::uint32_t v = 0; v < body.vertex_count(); ++v) followed.push_back({body.vertex(v), {}, false});
+  for (std::uint32_t f = 0; f < body.face_count(); ++f) {
+    const Triangle t = body.triangle(f);
+    const std::size_t n = divisions(t, spacing);
+    for (std::size_t i = 0; i <= n; ++i)
+      for (std::size_t j = 0; i + j <= n; ++j) {
+        if (i == n || j == n || (i == 0 && j == 0)) continue;
+        const double u = double(i) / double(n), v = double(j) / double(n);
+        followed.push_back({t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]), {}, false});
+      }
+  }
+  return followed;
+}
+
+Crossing follow_points(const AuditBody& surface, std::vector<FollowedPoint>& followed, const CrossingRule& rule) {
+  Crossing first;
+  for (FollowedPoint& point : followed) {
+    PointFollower follower(surface, rule, point);
+    for (std::uint32_t k = 0; k < rule.motions.size(); ++k) {
+      const Crossing crossing = follower.follow(point.body, k);
+      if (crossing.beyond == 0) continue;
+      const bool earlier = first.beyond == 0 || crossing.segment < first.segment ||
+                           (crossing.segment == first.segment && crossing.s < first.s);
+      if (earlier) first = crossing;
+      break;
+    }
+  }
+  return first;
+}
+
+bool needs_crossing_test(const SolidBody& a, const SolidBody& b, double tolerance) {
+  for (const SolidBody* body : {&a, &b})
+    if (!body->surface().empty() && (!body->solid() || mean_thickness(body->surface()) < kThin * tolerance))
+      return true;
+  return false;
+}
+
+}  // namespace dismantle::audit

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/audit/solid/depth_search.h"
+#include "dismantle/core/span.h"
+
+#include <optional>
+#include <vector>
+
+namespace dismantle::audit {
+
+/// A point of one surface that is followed in the frame of another.
+struct FollowedPoint {
+  Vec3 body;                  ///< Where it is in its body [mm].
+  std::optional<Vec3> ghost;  ///< Its ghost [mm, frame of the surface]; none while all sides are free.
+  bool has_been_clear =
+      false;  ///< It has been further from the surface than allowed; before that, both sides are free.
+};
+
+/// Part of the diagonal of the smaller of two components that points of their surfaces are apart from each other.
+inline constexpr double kFollowedSpacing = 1.0 / 32;
+/// Largest number of points of one component.
+inline constexpr std::size_t kMaxFollowed = 4096;
+
+/// The vertices of a surface and points on its faces no further apart than `spacing` [mm]; further, where that would be
+/// more than kMaxFollowed.
+std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing);
+
+/// A point that went through a surface.
+struct Crossing {
+  double beyond = 0;          ///< How far it is behind its ghost [mm]; 0 for none.
+  std::uint32_t segment = 0;  ///< Index of the segment.
+  double s = 0;               ///< Time, in [0, 1] of the segment.
+  Vec3 point;                 ///< Where it is [mm, frame of the surface].
+};
+
+/// What a point of one body is allowed to do in the frame of the surface of the other.
+struct CrossingRule {
+  Span<const RelativeMotion> motions;  ///< Of the points relative to the surface, in each segment.
+  Span<const double> allowed;          ///< Largest distance of a point from its ghost in each segment [mm].
+  double slack = 0;                    ///< Violated where it is more than this above it [mm].
+  double rounding = 0;                 ///< Error bound of a distance [mm].
+};
+
+/// Follows points through a move and finds the first in time that goes through the surface. Each point is followed by a
+/// ghost, which never crosses the surface and is always within the allowed distance; a point that has none any more has
+/// crossed it. Ghosts start where points come within the allowed distance of the surface, on their side of it; points
+/// that are within it from the start on may leave to either side.
+Crossing follow_points(const AuditBody& surface, std::vector<FollowedPoint>& followed, const CrossingRule& rule);
+
+/// True if the depth of a pair does not tell what passes through it: one component is a sheet, or thinner on average
+/// than four tolerances.
+bool needs_crossing_test(const SolidBody& a, const SolidBody& b, double tolerance);
+
+}  // namespace dismantle::audit
