@@ -199,8 +199,8 @@ TEST(SolidDepth, OfASheetIsThatOfItsPointsInTheSolid) {
   expect_depth(cube, scenes::sheet(3, -0.5), 0.5);
   expect_depth(cube, scenes::inside_out(scenes::sheet(3, -0.5)), 0.5);
   expect_depth(cube, scenes::sheet(30, -4), 4);
-  EXPECT_LE(depth_of(cube, scenes::sheet(3, 0)).depth, 0.01);  // right above a sheet the winding number is 1/2
-  EXPECT_LE(depth_of(cube, scenes::sheet(3, 0.005)).depth, 0.01);
+  expect_depth(cube, scenes::sheet(3, 0), 0);  // right above a sheet the winding number is 1/2
+  expect_depth(cube, scenes::sheet(3, 0.005), 0);
 }
 
 TEST(SolidDepth, IsZeroInAVoidThatAShellBounds) {

@@ -38,7 +38,8 @@ class PairCheck {
     clash.depth_attained = depth.attained;
     clash.depth_loose = depth.capped;
     clash.deepest_at = depth.deepest_at;
-    if (depth.depth > tolerance_) {
+    // Where the search ended early, only what was found counts.
+    if ((depth.capped ? depth.attained : depth.depth) > tolerance_) {
       clash.state = ClashState::Overlapping;
       const CommonVolume volume = common_volume(first, second);
       clash.volume = volume.volume;

@@ -19,7 +19,8 @@ struct ClashOptions {
 
 /// All pairs of components that touch, overlap or are near in the assembled state: how far apart or how deep they are
 /// (solid_depth(), to within 1% or a tenth of the tolerance), where, and the volume that they have in common
-/// (common_volume()). A pair is Overlapping if its depth is above the tolerance. The result depends on the assembly and
+/// (common_volume()). A pair is Overlapping if its depth is above the tolerance; where
+/// the search for the depth ended early, if a point was found that is deeper. The result depends on the assembly and
 /// the options alone. Errors: Failed where `progress` cancelled.
 Result<Clashes> find_clashes(const Assembly& assembly, const ClashOptions& options = {});
 

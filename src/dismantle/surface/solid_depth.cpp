@@ -172,6 +172,10 @@ class DepthSearch {
     const SolidShape& other = *facing_[piece.of_b].other;
     if (nearest.distance > ball.radius) {
       if (elsewhere(other, ball)) return false;
+      if (off_holes(other, piece.corners, ball)) {
+        drop(slack());
+        return false;
+      }
       piece.on_side = other.winding().closed();
       return true;
     }
@@ -181,12 +185,35 @@ class DepthSearch {
     const double from_shifted = other.surface().distance(ball.center + shift, nearest.face).distance;
     if (piece.cutter == Piece::kNone && from_shifted <= other.winding().placement()) piece.cutter = nearest.face;
     if (piece.cutter != Piece::kNone) return true;
-    if (elsewhere(other, {ball.center + shift, ball.radius + slack()})) {
+    const Ball around{ball.center + shift, ball.radius + slack()};
+    if (elsewhere(other, around) || off_fans(other, core_of(piece, ball), shift, around)) {
       drop(slack());
       return false;
     }
     piece.on_side = other.winding().closed();
     return true;
+  }
+
+  /// True if a polygon that does not meet the surface is outside a mesh with holes: when it is shifted by no more than
+  /// the slack, it meets no fan either, and the holes cover too little of what can be seen from there.
+  bool off_holes(const SolidShape& other, const ConvexPolygon& corners, const Ball& ball) const {
+    if (other.winding().closed() || corners.size() < 3) return false;
+    const Vec3 off = slack() / 2 * normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    for (const Vec3 shift : {Vec3{}, off, -off})
+      if (off_fans(other, corners, shift, {ball.center + shift, ball.radius})) return true;
+    return false;
+  }
+
+  bool off_fans(const SolidShape& other, const ConvexPolygon& corners, Vec3 shift, const Ball& ball) const {
+    const WindingNumber& winding = other.winding();
+    if (winding.closed() || side_ != Side::Inside) return false;
+    if (largest_met(*winding.fans(), corners, shift) != Piece::kNone) return false;
+    return winding.bound_outside_fans(ball.center, ball.radius) < 0.5 + kUndecidedWinding;
+  }
+
+  /// The polygon without a rim.
+  ConvexPolygon core_of(const Piece& piece, const Ball& ball) const {
+    return scaled_about(piece.corners, ball.center, std::max(0.5, 1 - slack() / 2 / ball.radius));
   }
 
   /// A polygon stands for all points that are no further from it than this [mm]: half of what bounds may differ by.
@@ -197,7 +224,7 @@ class DepthSearch {
   std::uint32_t cutter_of(const Piece& piece, const Ball& ball, const MeshDistance& nearest, Vec3& shift) const {
     const SurfaceTree& surface = facing_[piece.of_b].other->surface();
     const double rim = slack() / 2;
-    const ConvexPolygon core = scaled_about(piece.corners, ball.center, std::max(0.5, 1 - rim / ball.radius));
+    const ConvexPolygon core = core_of(piece, ball);
     if (nearest.distance <= slack()) {
       // It may lie on a face: off that face there may be nothing to meet.
       const Vec3 off = rim * normalized(normal_unscaled(surface.triangle(nearest.face)));

@@ -49,6 +49,21 @@ double width_of(const std::vector<Triangle>& fan) {
   return width;
 }
 
+/// True for a fan in a plane, as near as single precision can tell, whose triangles go once around its center.
+bool flat_and_simple(const std::vector<Triangle>& fan, double radius) {
+  constexpr double kFlatness = 1e-6;
+  Vec3 normal;
+  for (const Triangle& t : fan) normal += normal_unscaled(t);
+  normal = normalized(normal);
+  double turn = 0;
+  for (const Triangle& t : fan) {
+    const Vec3 from = t[1] - t[0], to = t[2] - t[0];
+    if (std::abs(dot(normal, from)) > kFlatness * radius || dot(normal, cross(from, to)) < 0) return false;
+    turn += std::atan2(length(cross(from, to)), dot(from, to));
+  }
+  return std::abs(turn - kTurn) < 1;
+}
+
 /// Signed crossings of a ray with a mesh; nothing where rounding hides one.
 std::optional<int> signed_crossings(const SurfaceTree& tree, Vec3 point, Vec3 direction) {
   int sum = 0;
@@ -94,6 +109,7 @@ WindingNumber::WindingNumber(const TriangleMesh& mesh, const SurfaceTree& surfac
       hole.area += length(normal_unscaled(t)) / 2;
       hole.circumference += length(t[2] - t[1]);
     }
+    hole.flat = flat_and_simple(fan, hole.radius);
     loops.emplace_back(width_of(fan), std::move(hole));
   }
   if (!all_fans.faces.empty()) fans_ = std::make_unique<const SurfaceTree>(all_fans);
@@ -171,6 +187,19 @@ double WindingNumber::change_at_rim(const Hole& hole, Vec3 center, double radius
     gradient += std::min(length(b - a) / apart, 2.0) / apart;
   }
   return gradient * radius / kSphere;
+}
+
+double WindingNumber::bound_outside_fans(Vec3 center, double radius) const {
+  const std::optional<int> whole = closed_winding(surface_, fans_.get(), center);
+  if (!whole || *whole != 0) return kInfinite;
+  double bound = 0;
+  for (const Hole& hole : holes_) {
+    const double apart = length(center - hole.center) - hole.radius - radius;
+    const double far = apart > 0 ? hole.area / (kSphere * apart * apart) : kInfinite;
+    if (!hole.flat && far > 0.5) return kInfinite;
+    bound += std::min(far, 0.5);
+  }
+  return bound;
 }
 
 double WindingNumber::max_change(Vec3 center, double radius) const {

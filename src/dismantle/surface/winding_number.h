@@ -49,6 +49,13 @@ class WindingNumber {
   /// All crossings of the ray from `point` along `direction` with the mesh whose holes are closed by their fans, by
   /// distance; nothing where the ray passes too near to an edge to decide.
   std::optional<std::vector<SurfaceCrossing>> crossings(Vec3 point, Vec3 direction) const;
+  /// The fans that close the mesh; null where there are none.
+  const SurfaceTree* fans() const { return fans_.get(); }
+  /// A bound of the absolute winding number in a set of points, where the mesh closed by its fans has winding number 0:
+  /// a fan that is flat and simple covers no more than half of what can be seen, a far one less; infinite where that
+  /// mesh has another winding number. @param center, radius a ball around the set; the center is a point of it
+  /// @pre the set is connected and meets neither the mesh nor a fan
+  double bound_outside_fans(Vec3 center, double radius) const;
   /// A bound of the change of the winding number from `center` to any point within `radius` [mm], by the law of Biot
   /// and Savart; infinite near the edge of a hole. @pre the surface is further than `radius` from `center`
   double max_change(Vec3 center, double radius) const;
@@ -61,6 +68,7 @@ class WindingNumber {
     double radius = 0;         // of the fan about the center
     double area = 0;           // of the fan
     double circumference = 0;  // of the loop
+    bool flat = false;         // the fan lies in a plane and covers no point twice
   };
 
   double at(Vec3 point, double negligible) const;
