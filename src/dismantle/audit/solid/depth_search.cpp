@@ -20,7 +20,7 @@ class DepthSearch {
         points_(of_b ? *pair.b : *pair.a),
         solid_(of_b ? *pair.a : *pair.b),
         tree_(pair.sweep, spans),
-        pieces_(points_, solid_, goal, pair.sweep.rounding),
+        pieces_(solid_, goal, pair.sweep.rounding),
         first_segment_(spans.front().first) {
     for (std::uint32_t k = 0; k < spans.front().count; ++k) {
       const RelativeMotion& motion = pair.sweep.motions[first_segment_ + k];

@@ -9,7 +9,8 @@ namespace dismantle::audit {
 
 /// A straight part of the boundary of a surface, in the direction in which the surface's faces run along it.
 struct OpenEdge {
-  Vec3 from, to;     ///< [mm]
+  Vec3 from;         ///< Its begin [mm].
+  Vec3 to;           ///< Its end [mm].
   double count = 0;  ///< How many more faces run along it in this direction than in the other; positive.
 };
 

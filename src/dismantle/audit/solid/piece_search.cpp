@@ -49,8 +49,8 @@ Vec3 common_direction(const SolidBody& solid, Span<const std::uint32_t> faces, V
 
 }  // namespace
 
-PieceSearch::PieceSearch(const SolidBody& points, const SolidBody& solid, const DepthGoal& goal, double rounding)
-    : points_(points), solid_(solid), goal_(goal), rounding_(rounding) {}
+PieceSearch::PieceSearch(const SolidBody& solid, const DepthGoal& goal, double rounding)
+    : solid_(solid), goal_(goal), rounding_(rounding) {}
 
 double PieceSearch::limit() const {
   const double found = goal_.growth * findings_.deepest.depth + goal_.slack / 2;

@@ -20,14 +20,14 @@ struct NearFaces {
 /// The part of a depth search that divides triangles and times: both below the boxes.
 class PieceSearch {
  public:
-  /// @param points, solid the bodies; must outlive this @param rounding error bound of a depth [mm]
-  PieceSearch(const SolidBody& points, const SolidBody& solid, const DepthGoal& goal, double rounding);
+  /// @param solid what the pieces may be inside; must outlive this @param rounding error bound of a depth [mm]
+  PieceSearch(const SolidBody& solid, const DepthGoal& goal, double rounding);
 
   /// Depths up to this need not be found any more [mm].
   double limit() const;
   /// True if the search is to end.
   bool ended() const;
-  /// Searches a triangle of `points` in a slice of time.
+  /// Searches a triangle of the other body in a slice of time.
   /// @param near the faces of `solid` near it during the slice
   void search(const TimeSlice& slice, const Triangle& triangle, const NearFaces& near);
 
@@ -60,7 +60,6 @@ class PieceSearch {
   bool ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest, bool inside) const;
   void sample(const TimeSlice& slice, const SurfacePiece& piece);
 
-  const SolidBody& points_;
   const SolidBody& solid_;
   DepthGoal goal_;
   double rounding_;

@@ -10,10 +10,12 @@ namespace dismantle::audit {
 
 /// A time interval of one segment, with the poses at its ends.
 struct TimeSlice {
-  std::uint32_t segment = 0;     ///< Index of the segment.
-  double from = 0, to = 1;       ///< Begin and end, in [0, 1] of the segment.
-  RigidTransform start, end;     ///< Poses of the body that moves, in the frame of the other, at both.
-  const RelativeMotion* motion;  ///< Of the segment; never null.
+  std::uint32_t segment = 0;               ///< Index of the segment.
+  double from = 0;                         ///< Begin, in [0, 1] of the segment.
+  double to = 1;                           ///< End, in [0, 1] of the segment.
+  RigidTransform start;                    ///< Pose of the body that moves at the begin, in the frame of the other.
+  RigidTransform end;                      ///< Pose at the end.
+  const RelativeMotion* motion = nullptr;  ///< Of the segment; never null.
 
   /// The middle, in [0, 1] of the segment.
   double middle() const { return (from + to) / 2; }
