@@ -113,6 +113,15 @@ TEST(AuditDepth, LetsAScrewInASmallerHoleOutAlongItsAxisOnly) {
   EXPECT_EQ(sideways.pairs[0].violation.frame, 0u);
 }
 
+TEST(AuditDepth, RejectsAnOverlapThatDeepensWithinOneMotion) {
+  const TriangleMesh ball = depth_scenes::ball(48, 24, 0.5, {3, 1, 0});
+  for (const double way : {0.008, 0.03, 0.2}) {
+    EXPECT_EQ(audit_pair(block(), ball, along(kDown, {0, way})).holds(), way < 0.01) << way;
+    EXPECT_EQ(audit_pair(ball, block(), along(kUp, {0, way})).holds(), way < 0.01) << way;
+  }
+  EXPECT_TRUE(audit_pair(block(), ball, along(kUp, {0, 2})).holds());
+}
+
 TEST(AuditDepth, RejectsAWeightThatPassesThroughAFoilThinnerThanTheTolerance) {
   const TriangleMesh foil = scenes::box({-20, -20, -0.004}, {20, 20, 0}), weight = scenes::box({-3, -3, 1}, {3, 3, 4});
   EXPECT_TRUE(audit_pair(foil, weight, along(kDown, {0, 1.009})).holds());

@@ -66,6 +66,29 @@ TEST(SolidBody, TellsSolidsFromSheets) {
   EXPECT_FALSE(body_of(bowl).solid());
 }
 
+/// A crack as it is between rounded vertices, and points from which the first ray passes through it.
+TEST(SolidBody, IsClosedAcrossCracksAlsoWhereARayPassesThroughOne) {
+  TriangleMesh box = scenes::box({-1, -1, -1}, {1, 1, 1});
+  box = cracked(box, 4);
+  const Vec3 middle = box.vertices.back();
+  box.vertices.back() = 0.9999 * middle;
+  const SolidBody body = body_of(box);
+  ASSERT_TRUE(body.closed());
+  ASSERT_FALSE(body.surface().closed());
+  int through = 0;
+  for (int direction = 0; direction < audit::AuditBody::kRayDirections; ++direction)
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 crack = (0.9999 + 0.0001 * i / 200.0) * middle;
+      for (const double way : {0.3, 3.0}) {
+        const Vec3 p = crack - way * body.surface().ray_crossings(crack, direction).direction;
+        const double expected = winding_by_definition(box, p);
+        through += std::fabs(body.surface().ray_crossings(p, direction).number - expected) > 0.5;
+        EXPECT_NEAR(body.winding(p), expected, 1e-3);
+      }
+    }
+  EXPECT_GT(through, 10);
+}
+
 /// Points that can be reached from a point outside without crossing the surface, within the radius, are outside.
 TEST(SolidBody, BoundsWhereTheOutsideOfAnOpenSolidEnds) {
   constexpr std::uint64_t kSeed = 82;

@@ -215,11 +215,11 @@ bool AuditBody::contains(Vec3 point) const {
   return ray_crossings(point).number != 0;
 }
 
-RayCrossings AuditBody::ray_crossings(Vec3 point) const {
+RayCrossings AuditBody::ray_crossings(Vec3 point, int first) const {
   int count = 0;
   const Mat3* frames = ray_frames(count);
   RayCrossings last;
-  for (int k = 0; k < count; ++k) {
+  for (int k = first; k < count; ++k) {
     const Winding found = winding(point, frames[k]);
     last = {found.number, frames[k].row[2]};
     if (found.certain) break;

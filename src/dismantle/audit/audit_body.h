@@ -72,8 +72,11 @@ class AuditBody {
   /// surface.
   /// @pre closed()
   bool contains(Vec3 point) const;
-  /// The crossings of a ray from a point, in a direction in which it passes no edge too closely.
-  RayCrossings ray_crossings(Vec3 point) const;
+  /// Number of directions of rays.
+  static constexpr int kRayDirections = 5;
+  /// The crossings of a ray from a point, in the first direction from number `first` on in which it passes no edge too
+  /// closely. @pre 0 <= first < kRayDirections
+  RayCrossings ray_crossings(Vec3 point, int first = 0) const;
 
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,

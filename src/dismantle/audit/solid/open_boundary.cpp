@@ -54,6 +54,7 @@ class BoundaryPoints {
     }
     std::sort(on.begin(), on.end());
     std::vector<std::uint32_t> order;
+    order.reserve(on.size());
     for (const auto& [s, i] : on) order.push_back(i);
     return order;
   }

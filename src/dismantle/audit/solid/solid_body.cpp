@@ -39,8 +39,17 @@ SolidBody::SolidBody(const Component& component) : surface_(component) {
 }
 
 double SolidBody::winding(Vec3 point) const {
+  if (surface_.closed()) return surface_.ray_crossings(point).number;
+  // A ray may pass through a crack: that of most rays is taken.
+  double found[3];
+  for (int k = 0; k < 3; ++k) found[k] = winding_by_ray(point, k);
+  std::sort(found, found + 3);
+  return found[1];
+}
+
+double SolidBody::winding_by_ray(Vec3 point, int direction) const {
   // Strips from all open edges to infinity against the ray close the surface, and the ray does not meet them.
-  const RayCrossings crossings = surface_.ray_crossings(point);
+  const RayCrossings crossings = surface_.ray_crossings(point, direction);
   double angle = 0;
   for (const OpenEdge& edge : open_edges_) angle += strip_angle(edge, -crossings.direction, point);
   return crossings.number - angle / kSphere;

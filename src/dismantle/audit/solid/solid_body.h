@@ -40,6 +40,7 @@ class SolidBody {
   bool outside_throughout(Vec3 point, double radius, double gap) const;
 
  private:
+  double winding_by_ray(Vec3 point, int direction) const;
   double solidity() const;
 
   AuditBody surface_;
