@@ -95,5 +95,21 @@ TEST(GhostPoint, SlidesAlongFacesAndIntoCornersAndNeverCrosses) {
   EXPECT_LT(length(inner.position() - Vec3{0.9999, 0.9999, 0.9999}), 1e-9);
 }
 
+TEST(GhostPoint, StopsAtTheFirstOfSeveralFaces) {
+  TriangleMesh shelves;
+  for (const double z : {0.0, 1.0, -1.0, 0.5}) {
+    const TriangleMesh shelf = sheet(1, z);
+    const auto first = static_cast<std::uint32_t>(shelves.vertices.size());
+    shelves.vertices.insert(shelves.vertices.end(), shelf.vertices.begin(), shelf.vertices.end());
+    for (const Face& f : shelf.faces) shelves.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
+  }
+  const SolidBody body(scenes::component("shelves", shelves));
+  for (const double side : {1.0, -1.0}) {
+    audit::GhostPoint ghost(body.surface(), 1e-4, {0.2, 0.3, 3 * side});
+    ghost.approach({0.2, 0.3, -3 * side});
+    EXPECT_NEAR(ghost.position().z, side * 1.0001, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace dismantle
