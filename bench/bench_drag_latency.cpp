@@ -108,7 +108,7 @@ Drag drag(Client& client, std::uint32_t grip, std::uint32_t first, std::uint32_t
     const std::string target = encode(TargetMessage{grip, first + i, {position, {}}});
     const bench::Stopwatch watch;
     client.send_binary(target);
-    const PoseMessage pose = client.pose_answering(first + i);
+    const PoseMessage pose = client.pose_for_target(first + i);
     made.ms.push_back(watch.ms());
     made.stopped += (pose.flags & kStopped) != 0;
     made.min_x = std::min(made.min_x, pose.pose.position.x);

@@ -274,7 +274,9 @@ test("a screw that overlaps its hole leaves its fit along its axis, and not thro
   const { screw, axis } = await viewer.page.evaluate(async () => {
     const { session } = window.dismantle!.app;
     const { pairs } = (await session.send("check", {}))!;
-    const fits = pairs.filter(({ state, depth }) => state === "overlapping" && depth < 0.2).flatMap(({ a, b }) => [a, b]);
+    const fits = pairs
+      .filter(({ state, depth }) => state === "overlapping" && depth < 0.2)
+      .flatMap(({ a, b }) => [a, b]);
     for (const component of fits.filter((c) => session.nameOf(c).includes("screw"))) {
       const { directions } = (await session.send("free_directions", { components: [component] }))!;
       const free = directions.find(({ free }) => free);
@@ -283,7 +285,7 @@ test("a screw that overlaps its hole leaves its fit along its axis, and not thro
     throw new Error("no screw is free");
   });
   await viewer.select(screw);
-  await viewer.page.locator("#pairs .badge.fit").first().waitFor();
+  await viewer.page.locator("#pairs .badge.overlapping").first().waitFor();
   const across = axis.map((value) => (Math.abs(value) < 0.5 ? 15 : 0));
   for (const k of [0, 1, 2]) await viewer.page.fill(`#numeric-${k}`, String(across[k]));
   await viewer.click("#numeric-apply");
