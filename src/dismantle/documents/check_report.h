@@ -31,8 +31,8 @@ std::vector<Clash> worst_first(const Clashes& clashes);
 /// A description of a state for readers: "touching: no deeper than the tolerance", ...
 std::string_view explanation_of(ClashState state);
 
-/// The depth for readers: four digits, 0 where it is no more than a tenth of the tolerance, which is the accuracy of the
-/// bound; "up to" before a bound that may be far above the depth [mm].
+/// The depth for readers: four digits, 0 where it is no more than a tenth of the tolerance, which is the accuracy of
+/// the bound; "up to" before a bound that may be far above the depth [mm].
 std::string depth_text(const Clash& clash, double tolerance);
 
 /// The clash report that other tools read, version 2: docs/formats.md, `dismantle check --json`; one pair a line, in
