@@ -114,25 +114,6 @@ TEST(ObbTree, KnowsTheCornersOfEveryFace) {
     }
 }
 
-TEST(ObbTree, ConesTellWhichDirectionsAllNormalsFace) {
-  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 4);
-  const ObbTree tree = tree_of(mesh);
-  std::mt19937_64 random(3);
-  std::size_t faced = 0;
-  for (std::uint32_t leaf = 0; leaf < tree.nodes.size(); ++leaf) {
-    if (!tree.nodes[leaf].leaf()) continue;
-    const Vec3 normal = normalized(normal_unscaled(mesh.triangle(tree.nodes[leaf].child)));
-    const Vec3 w = normalized(normal + scenes::random_vector(random, 1));
-    const Vec3f unit{static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};
-    for (std::uint32_t up = leaf; up != ObbNode::kNone; up = tree.nodes[up].parent) {
-      if (dot(unit, tree.cones[up].axis) < tree.cones[up].ahead) continue;
-      ++faced;
-      EXPECT_GE(dot(normal, w), NormalCone::kMinAhead - 1e-5);
-    }
-  }
-  EXPECT_GT(faced, 100u);
-}
-
 TEST(ObbTree, IsTheSameOnEveryExecutor) {
   const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 120, 60);
   const ObbTree serial = tree_of(mesh);

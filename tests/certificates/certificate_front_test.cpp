@@ -28,12 +28,18 @@ Body body_of(TriangleMesh mesh) {
 
 using FacePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
+/// A sweep of a whole front.
+struct SweepSettings {
+  double allowed = kAllowed;
+  LaneCount lanes = widest_lanes();
+};
+
 /// Sweeps the whole front. @return the pairs of faces that it cannot certify
 FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, const Pose& start, const Pose& end,
-                      LaneCount lanes = widest_lanes()) {
+                      const SweepSettings& settings = {}) {
   PairMotion motion = scenes::pair_motion(a.tree, b.tree, start, end);
-  motion.allowed = kAllowed;
-  const PreparedSweep sweep = front.begin_sweep(motion);
+  motion.allowed = settings.allowed;
+  const PreparedSweep sweep = front.prepare_sweep(motion);
   FacePairs found;
   const TrianglePairTest test = [&](const TrianglePairCandidate& candidate) {
     found.insert({candidate.face_moving, candidate.face_fixed});
@@ -43,8 +49,8 @@ FacePairs uncertified(CertificateFront& front, const Body& a, const Body& b, con
     return verdict;
   };
   for (std::size_t part = 0; part < front.part_count(); ++part) {
-    front.merge_part(part, sweep, front_kernels(lanes));
-    front.sweep_part(part, sweep, front_kernels(lanes), test);
+    front.merge_part(part, sweep, front_kernels(settings.lanes));
+    front.sweep_part(part, sweep, front_kernels(settings.lanes), test);
   }
   front.end_sweep(sweep, found.empty());
   return found;
@@ -57,7 +63,7 @@ Aabb box_of(const Triangle& t) {
 }
 
 /// Pairs of faces that overlap by more than allowed at one of a few instants of the linear motion.
-FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& end) {
+FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& end, double allowed) {
   FacePairs found;
   const RigidTransform t0 = transform_from_pose(start), t1 = transform_from_pose(end);
   for (std::uint32_t i = 0; i < a.mesh.faces.size(); ++i)
@@ -66,55 +72,55 @@ FacePairs too_deep(const Body& a, const Body& b, const Pose& start, const Pose& 
         Triangle moving = a.mesh.triangle(i);
         for (int k = 0; k < 3; ++k) moving[k] = (1 - s) * (t0 * moving[k]) + s * (t1 * moving[k]);
         if (!overlaps(box_of(moving), box_of(b.mesh.triangle(j)))) continue;
-        if (penetration_triangle_triangle(moving, b.mesh.triangle(j)).depth > kAllowed) found.insert({i, j});
+        if (penetration_triangle_triangle(moving, b.mesh.triangle(j)).depth > allowed) found.insert({i, j});
       }
   return found;
 }
 
 /// Sweeps the front and expects that it leaves all pairs that get too deep to the triangle test. @return their number
 std::size_t expect_deep_ones_left(CertificateFront& front, const Body& a, const Body& b, const Pose& start,
-                                  const Pose& end) {
-  const FacePairs left = uncertified(front, a, b, start, end), deep = too_deep(a, b, start, end);
+                                  const Pose& end, double allowed = kAllowed) {
+  const FacePairs left = uncertified(front, a, b, start, end, {allowed}), deep = too_deep(a, b, start, end, allowed);
   for (const auto& pair : deep) EXPECT_TRUE(left.count(pair)) << "faces " << pair.first << " " << pair.second;
   return deep.size();
 }
 
-class CertificateFrontSides : public testing::TestWithParam<SideRule> {};
+/// Fronts of surfaces with an allowance, and of ghost surfaces, which have none.
+class CertificateFrontAllowing : public testing::TestWithParam<double> {};
 
-TEST_P(CertificateFrontSides, LeavesEveryPairThatGetsTooDeepToTheTriangleTest) {
+TEST_P(CertificateFrontAllowing, LeavesEveryPairThatGetsTooDeepToTheTriangleTest) {
   std::mt19937_64 random(20261121);
   const Body a = body_of(scenes::tube(2, 1, 0, 4, 12, 3)), b = body_of(scenes::box({-3, -1, -2}, {3, 1, 2}));
-  CertificateFront front(a.tree, b.tree, GetParam());
+  CertificateFront front(a.tree, b.tree);
   Pose pose{{4, 0, 0}, {}};
   std::size_t deep_pairs = 0;
   for (int step = 0; step < 120; ++step) {
     SCOPED_TRACE(step);
     const Pose next = scenes::random_pose(random, 3, 0.3) * Pose{0.4 * pose.position, pose.rotation};
-    deep_pairs += expect_deep_ones_left(front, a, b, pose, next);
+    deep_pairs += expect_deep_ones_left(front, a, b, pose, next, GetParam());
     pose = next;
   }
   EXPECT_GT(deep_pairs, 500u);
 }
 
-TEST_P(CertificateFrontSides, IsTheSameAtEveryLaneCount) {
+TEST_P(CertificateFrontAllowing, IsTheSameAtEveryLaneCount) {
   const Body a = body_of(scenes::tube(2, 1, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
   std::vector<CertificateFront> fronts;
-  for (std::size_t k = 0; k < lane_counts().size(); ++k) fronts.emplace_back(a.tree, b.tree, GetParam());
+  for (std::size_t k = 0; k < lane_counts().size(); ++k) fronts.emplace_back(a.tree, b.tree);
   std::mt19937_64 random(5);
   Pose pose;
   for (int step = 0; step < 60; ++step) {
     const Pose next = scenes::random_pose(random, 0.02, 0.01) * Pose{{0, 0, 0.05 * step}, {}};
-    const FacePairs first = uncertified(fronts[0], a, b, pose, next, lane_counts()[0]);
+    const FacePairs first = uncertified(fronts[0], a, b, pose, next, {GetParam(), lane_counts()[0]});
     for (std::size_t k = 1; k < fronts.size(); ++k) {
-      EXPECT_EQ(uncertified(fronts[k], a, b, pose, next, lane_counts()[k]), first) << "step " << step;
+      EXPECT_EQ(uncertified(fronts[k], a, b, pose, next, {GetParam(), lane_counts()[k]}), first) << "step " << step;
       EXPECT_EQ(fronts[k].size(), fronts[0].size());
     }
     pose = next;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CertificateFrontSides,
-                         testing::Values(SideRule::Normals, SideRule::Memory, SideRule::Free));
+INSTANTIATE_TEST_SUITE_P(All, CertificateFrontAllowing, testing::Values(0.0, kAllowed));
 
 /// A body with all that is round of it in parts of their own.
 struct RevolutionBody : Body {
@@ -131,7 +137,7 @@ struct RevolutionBody : Body {
 
 TEST(CertificateFront, LeavesDeepPairsInABoreToTheTriangleTestAndIsOtherwiseAFewPairs) {
   const RevolutionBody shaft(scenes::tube(2, 1, 0, 4, 48, 1)), bush(scenes::tube(4, 2.002, 1, 6, 48, 1));
-  CertificateFront front(shaft.tree, bush.tree, SideRule::Normals, shaft.revolution.get(), bush.revolution.get());
+  CertificateFront front(shaft.tree, bush.tree, shaft.revolution.get(), bush.revolution.get());
   std::mt19937_64 random(20261122);
   Pose pose;
   std::size_t deep_pairs = 0;
@@ -150,14 +156,14 @@ TEST(CertificateFront, LeavesDeepPairsInABoreToTheTriangleTestAndIsOtherwiseAFew
 
 TEST(CertificateFront, StaysAPairOfRootsFarAway) {
   const Body a = body_of(scenes::tube(2, 1, 0, 4, 24, 6)), b = body_of(scenes::box({50, 0, 0}, {60, 10, 10}));
-  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  CertificateFront front(a.tree, b.tree);
   EXPECT_TRUE(uncertified(front, a, b, {}, {{1, 2, 3}, quat_about({0, 0, 1}, 1)}).empty());
   EXPECT_EQ(front.size(), 1u);
 }
 
 TEST(CertificateFront, MergesAgainWhenComponentsSeparate) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
-  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  CertificateFront front(a.tree, b.tree);
   uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
   const std::size_t inside = front.size();
   EXPECT_GT(inside, 100u);
@@ -167,7 +173,7 @@ TEST(CertificateFront, MergesAgainWhenComponentsSeparate) {
 
 TEST(CertificateFront, StaysBoundedUnderMotionBackAndForth) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 2.05, -1, 5, 48, 12));
-  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  CertificateFront front(a.tree, b.tree);
   uncertified(front, a, b, {}, {{0, 0, 0.1}, {}});
   const std::size_t start = front.size();
   Pose pose;
@@ -181,10 +187,9 @@ TEST(CertificateFront, StaysBoundedUnderMotionBackAndForth) {
 }
 
 TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
-  const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 1.95, -1, 5, 48, 12));
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = body_of(scenes::tube(4, 1.998, -1, 5, 40, 12));
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
-  motion.allowed = kAllowed;
   const TrianglePairTest blocks = [](const TrianglePairCandidate&) {
     TrianglePairVerdict verdict;
     verdict.free = false;
@@ -194,7 +199,7 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
   const FrontKernels kernels = front_kernels(widest_lanes());
   const auto sweep = [&](CertificateFront& front) {
     FrontSweep all;
-    const PreparedSweep linear = front.begin_sweep(motion);
+    const PreparedSweep linear = front.prepare_sweep(motion);
     for (std::size_t part = 0; part < front.part_count(); ++part) {
       front.merge_part(part, linear, kernels);
       const FrontSweep found = front.sweep_part(part, linear, kernels, blocks);
@@ -204,13 +209,13 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
     front.end_sweep(linear, all.blocked == 0 && all.complete);
     return all;
   };
-  CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  CertificateFront front(a.tree, b.tree);
   const FrontSweep every = sweep(front);
   EXPECT_TRUE(every.complete);
   EXPECT_GT(every.blocked, 200u);
 
   motion.max_blocked = 16;
-  CertificateFront other(a.tree, b.tree, SideRule::Normals);
+  CertificateFront other(a.tree, b.tree);
   const FrontSweep some = sweep(other);
   EXPECT_FALSE(some.complete);
   EXPECT_GT(some.blocked, 0u);
@@ -241,14 +246,14 @@ TEST(CertificateFront, CutsPartsInWhichMostPairsShareANode) {
     other.faces.push_back({{first, first + 1, first + 2}});
   }
   const Body a = body_of(row), b = body_of(other);
-  CertificateFront front(a.tree, b.tree, SideRule::Free);
+  CertificateFront front(a.tree, b.tree);
   for (int sweep = 0; sweep < 3; ++sweep) EXPECT_GE(uncertified(front, a, b, {}, {}).size(), 3000u);
   EXPECT_GT(front.part_count(), 1u);
 }
 
 TEST(CertificateFront, SweepsConstWithoutChanges) {
   const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
-  const CertificateFront front(a.tree, b.tree, SideRule::Normals);
+  const CertificateFront front(a.tree, b.tree);
   PairMotion motion;
   motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
   motion.allowed = kAllowed;
@@ -262,26 +267,15 @@ TEST(CertificateFront, SweepsConstWithoutChanges) {
   EXPECT_EQ(front.size(), 1u);
 }
 
-TEST(CertificateFront, AssumesNoSideWithinTheAllowanceIfNoneIsRemembered) {
-  // Nearer to each other than the allowance, either side is possible: only the triangles tell which.
+TEST(CertificateFront, KeepsItsPairsWhenRolesAreExchanged) {
   const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
   const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
-  CertificateFront sheets(a.tree, b.tree, SideRule::Memory), overlapping(a.tree, b.tree, SideRule::Free);
-  const Pose near{{0, 0, 0.998}, {}}, on{{0, 0, 1}, {}};
-  EXPECT_FALSE(uncertified(sheets, a, b, near, on).empty());
-  EXPECT_TRUE(uncertified(overlapping, a, b, near, on).empty());
-}
-
-TEST(CertificateFront, RemembersSidesWhenRolesAreExchanged) {
-  // A sheet just past another within the allowance: with roles exchanged, it must still be blocked in that direction.
-  const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
-  const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});
-  CertificateFront front(a.tree, b.tree, SideRule::Memory);
-  EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 0.9}, {}}).empty());
-  EXPECT_TRUE(uncertified(front, a, b, {{0, 0, 0.9}, {}}, {{0, 0, 1.005}, {}}).empty());
-  front.exchange_roles(Mat3{});
-  // Now B moves: down by 0.02 past A in A's frame, where A is 1.005 higher.
-  EXPECT_FALSE(uncertified(front, b, a, {{0, 0, -1.005}, {}}, {{0, 0, -1.025}, {}}).empty());
+  CertificateFront front(a.tree, b.tree);
+  EXPECT_TRUE(uncertified(front, a, b, {}, {{0, 0, 0.9}, {}}, {0}).empty());
+  front.exchange_roles();
+  // Now B moves in A's frame, where it is 0.1 above A.
+  EXPECT_TRUE(uncertified(front, b, a, {{0, 0, -0.9}, {}}, {{0, 0, -0.99}, {}}, {0}).empty());
+  EXPECT_FALSE(uncertified(front, b, a, {{0, 0, -0.99}, {}}, {{0, 0, -1.01}, {}}, {0}).empty());
 }
 
 }  // namespace

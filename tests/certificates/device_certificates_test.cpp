@@ -37,7 +37,6 @@ struct QueryCounts {
 void expect_same_test(const TrianglePairResult& found, const TrianglePairResult& expected) {
   EXPECT_EQ(found.free, expected.free);
   EXPECT_EQ(found.gap, expected.gap);
-  EXPECT_EQ(found.no_deep_vertex_possible, expected.no_deep_vertex_possible);
   EXPECT_EQ(found.contact.face_moving, expected.contact.face_moving);
   EXPECT_EQ(found.contact.face_fixed, expected.contact.face_fixed);
   EXPECT_EQ(found.contact.toi, expected.contact.toi);
@@ -74,7 +73,6 @@ class CountedDevice final : public FrontDevice {
         left.insert(left.end(), {result.first_child, result.first_child + 1});
       if (result.test == PairResult::kNone) continue;
       ++counts_.tests;
-      if (query.front->trees().sides == SideRule::Memory) continue;  // its hint is unknown
       const TrianglePairResult& found = part.tests[result.test];
       const Vec3 hint = to_double(result.separation.certificate.axis);
       expect_same_test(found, query.triangle_pairs->test(found.contact.face_moving, found.contact.face_fixed, hint));
@@ -166,7 +164,7 @@ TEST_P(DeviceCertificates, RollGearsApartLikeTheCpu) {
   std::vector<Pose> targets;
   for (int k = 1; k <= 25; ++k) targets.push_back(pair.rolled(0.01 * k, 0.2 * k));
   const QueryCounts counts = expect_same(scene.assembly, 0.01, motion_of(scene, targets));
-  EXPECT_GT(counts.decided, 1000u);
+  EXPECT_GT(counts.decided, 500u);
   EXPECT_GT(counts.parents, 100u);
 }
 

@@ -60,12 +60,11 @@ INSTANTIATE_TEST_SUITE_P(On, DeviceFronts, testing::ValuesIn(kDevices), name_of_
 struct Swept {
   float min_gap = 3e38f;
   std::size_t blocked = 0;
-  bool complete = true, may_touch = false;
+  bool complete = true;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
   std::size_t parents = 0;  ///< Pairs of nodes queried for merging; no result.
   friend bool operator==(const Swept& x, const Swept& y) {
-    return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.may_touch == y.may_touch &&
-           x.tested == y.tested;
+    return x.min_gap == y.min_gap && x.blocked == y.blocked && x.complete == y.complete && x.tested == y.tested;
   }
 };
 
@@ -78,7 +77,7 @@ TrianglePairTest triangle_pair_test(Swept& swept) {
     TrianglePairVerdict verdict;
     verdict.free = (moving + fixed) % 3 != 0;
     verdict.certificate.axis = hint;
-    verdict.certificate.offset = length_squared(hint) > 0 ? kForgottenCertificate : kNoCertificate;
+    verdict.certificate.offset = kNoCertificate;
     return verdict;
   };
 }
@@ -87,7 +86,6 @@ void add(Swept& swept, const FrontSweep& found) {
   swept.min_gap = std::min(swept.min_gap, found.min_gap);
   swept.blocked += found.blocked;
   swept.complete &= found.complete;
-  swept.may_touch |= found.may_touch;
 }
 
 bool free_of(const Swept& swept) {
@@ -98,7 +96,7 @@ bool free_of(const Swept& swept) {
 std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>& siblings) {
   std::vector<MergeCandidate> parents;
   for (const std::vector<Siblings>& of_part : siblings)
-    for (const Siblings& s : of_part) parents.push_back({0, s.parent.a, s.parent.b, s.hint});
+    for (const Siblings& s : of_part) parents.push_back({0, s.parent.a, s.parent.b});
   return parents;
 }
 
@@ -106,7 +104,7 @@ std::vector<MergeCandidate> parents_of(const std::vector<std::vector<Siblings>>&
 std::size_t merge_by(FrontDevice& device, CertificateFront& front, const PreparedSweep& linear) {
   const FrontQuery query{&front, &linear};
   std::vector<std::vector<Siblings>> siblings;
-  for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part, linear));
+  for (std::size_t part = 0; part < front.part_count(); ++part) siblings.push_back(front.siblings_of(part));
   const std::vector<MergeCandidate> parents = parents_of(siblings);
   const Span<const NodeSeparation> found = device.separate(Span<const FrontQuery>(&query, 1), parents);
   std::size_t begin = 0;
@@ -121,7 +119,7 @@ std::size_t merge_by(FrontDevice& device, CertificateFront& front, const Prepare
 Swept sweep(CertificateFront& front, const PairMotion& motion, FrontDevice* device, bool exhaustive) {
   Swept swept;
   const FrontKernels kernels = front_kernels(widest_lanes());
-  const PreparedSweep linear = front.begin_sweep(motion);
+  const PreparedSweep linear = front.prepare_sweep(motion);
   Span<const PartResults> results;
   const FrontQuery query{&front, &linear};
   if (device) {
@@ -154,8 +152,8 @@ void expect_same_fronts(CertificateFront& front, CertificateFront& expected) {
 // exchange roles; sweeps with and without the device.
 TEST_P(DeviceFronts, EqualTheFrontsOfTheHostFromCapacityOne) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 64, 16)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 64, 16));
-  for (const SideRule sides : {SideRule::Normals, SideRule::Memory, SideRule::Free}) {
-    CertificateFront front(a, b, sides), expected(a, b, sides);
+  for (const double allowed : {0.0, kAllowed}) {
+    CertificateFront front(a, b), expected(a, b);
     std::mt19937_64 random(20261123);
     Pose pose;
     std::size_t max_parts = 0, tests = 0, blocked = 0, parents = 0;
@@ -166,14 +164,13 @@ TEST_P(DeviceFronts, EqualTheFrontsOfTheHostFromCapacityOne) {
       const Pose next{scenes::random_vector(random, play) + Vec3{0, 0, step < 30 ? 0.02 * step : 8.0},
                       quat_about({0, 0, 1}, 0.02 * step)};
       if (step == 40) {
-        const Mat3 turned = mat3_from_quat(pose.rotation);
-        front.exchange_roles(turned);
-        expected.exchange_roles(turned);
+        front.exchange_roles();
+        expected.exchange_roles();
         exchanged = true;
       }
       PairMotion motion =
           exchanged ? scenes::pair_motion(b, a, inverse(pose), inverse(next)) : scenes::pair_motion(a, b, pose, next);
-      motion.allowed = kAllowed;
+      motion.allowed = allowed;
       if (step % 4 == 1) motion.max_blocked = 8;
       const Swept wanted = sweep(expected, motion, nullptr, true);
       const Swept found = sweep(front, motion, step % 5 == 4 ? nullptr : device_.get(), step % 2 == 0);
@@ -194,10 +191,10 @@ TEST_P(DeviceFronts, EqualTheFrontsOfTheHostFromCapacityOne) {
 
 TEST_P(DeviceFronts, LeaveNothingToTheHostInAnExhaustiveQuery) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
-  CertificateFront front(a, b, SideRule::Normals);
+  CertificateFront front(a, b);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.03, 0, 0.01}, {}});
   motion.allowed = kAllowed;
-  const PreparedSweep linear = front.begin_sweep(motion);
+  const PreparedSweep linear = front.prepare_sweep(motion);
   const FrontQuery query{&front, &linear};
   const Span<const PartResults> results = device_->evaluate(Span<const FrontQuery>(&query, 1), true);
   ASSERT_EQ(results.size(), 1u);
@@ -221,17 +218,17 @@ TEST_P(DeviceFronts, LeaveNothingToTheHostInAnExhaustiveQuery) {
 // A front that has moved away merges only by the given results: not at all if no parents are certified.
 TEST_P(DeviceFronts, MergeByTheDevicesResultsForParents) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 48, 12)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 48, 12));
-  CertificateFront front(a, b, SideRule::Normals);
+  CertificateFront front(a, b);
   PairMotion motion = scenes::pair_motion(a, b, {}, {{0.01, 0, 0}, {}});
   motion.allowed = kAllowed;
   for (int step = 0; step < 7; ++step) sweep(front, motion, nullptr, true);
   motion = scenes::pair_motion(a, b, {{0, 0, 6}, {}}, {{0, 0, 6.01}, {}});
   motion.allowed = kAllowed;
-  const PreparedSweep linear = front.begin_sweep(motion);
+  const PreparedSweep linear = front.prepare_sweep(motion);
   CertificateFront lied_to = front, expected = front;
   std::size_t merged = 0;
   for (std::size_t part = 0; part < front.part_count(); ++part) {
-    const std::vector<Siblings> siblings = front.siblings_of(part, linear);
+    const std::vector<Siblings> siblings = front.siblings_of(part);
     const std::vector<NodeSeparation> overlap(siblings.size(), NodeSeparation{-1, Certificate::none()});
     lied_to.merge_part(part, linear, front_kernels(widest_lanes()), siblings, overlap);
     expected.merge_part(part, linear, front_kernels(widest_lanes()));
@@ -246,14 +243,14 @@ TEST_P(DeviceFronts, MergeByTheDevicesResultsForParents) {
 TEST_P(DeviceFronts, OfSeveralPairsOfComponentsAreQueriedTogether) {
   const ObbTree a = tree_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = tree_of(scenes::tube(4, 2.02, -1, 5, 24, 6)),
                 c = tree_of(scenes::box({-3, -3, 4.5}, {3, 3, 6}));
-  CertificateFront in_bore(a, b, SideRule::Normals), to_box(a, c, SideRule::Free);
+  CertificateFront in_bore(a, b), to_box(a, c);
   CertificateFront* const fronts[] = {&in_bore, &to_box};
   for (int step = 0; step < 12; ++step) {
     std::vector<PreparedSweep> sweeps;
     for (const ObbTree* fixed : {&b, &c}) {
       PairMotion motion = scenes::pair_motion(a, *fixed, {}, {{0.01 * step, 0, 0.1 * step}, {}});
       motion.allowed = kAllowed;
-      sweeps.push_back(fronts[sweeps.size()]->begin_sweep(motion));
+      sweeps.push_back(fronts[sweeps.size()]->prepare_sweep(motion));
     }
     const FrontQuery queries[] = {{&in_bore, &sweeps[0]}, {&to_box, &sweeps[1]}};
     const Span<const PartResults> results = device_->evaluate(Span<const FrontQuery>(queries, 2), true);

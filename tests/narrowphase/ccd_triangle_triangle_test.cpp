@@ -232,31 +232,5 @@ TEST(CcdTriangleTriangle, LetsNoBoxTunnelThroughAPlate) {
   }
 }
 
-TEST(CcdTriangleTriangle, FacesOfClosedSolidsThatTouchDoNotChangeSides) {
-  // The floor of a box on the top of a table: touching exactly, pressed down by far more than is allowed.
-  const Triangle floor{{{-1, -1, 0}, {0, 1, 0}, {1, -1, 0}}}, top{{{-5, -5, 0}, {5, -5, 0}, {0, 8, 0}}};
-  const double allowed = 0.01;
-  for (const double start : {0.0, 0.004, -0.004}) {
-    TriangleMotion down{floor, floor};
-    for (int k = 0; k < 3; ++k) {
-      down.t0[k].z += start;
-      down.t1[k].z -= 1;
-    }
-    const OutwardNormals normals{normal_unscaled(floor), normal_unscaled(top), {}, {}};
-    const AxisCcdResult found = ccd_triangle_triangle(down, {top, top}, allowed, Vec3{}, normals, {});
-    ASSERT_EQ(found.ccd.status, CcdStatus::Contact) << start;
-    EXPECT_LE(found.ccd.toi, (start + allowed) / (1 + start) + 1e-9) << start;
-    EXPECT_GT(found.ccd.toi, 0.9 * (start + allowed) / (1 + start)) << start;
-    // Along the table it is free, and away from it.
-    TriangleMotion along{down.t0, down.t0}, up{down.t0, down.t0};
-    for (int k = 0; k < 3; ++k) {
-      along.t1[k].x += 3;
-      up.t1[k].z += 1;
-    }
-    EXPECT_EQ(ccd_triangle_triangle(along, {top, top}, allowed, Vec3{}, normals, {}).ccd.status, CcdStatus::Free);
-    EXPECT_EQ(ccd_triangle_triangle(up, {top, top}, allowed, Vec3{}, normals, {}).ccd.status, CcdStatus::Free);
-  }
-}
-
 }  // namespace
 }  // namespace dismantle

@@ -35,7 +35,7 @@ TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
 
 TEST(SampleSearch, GivesTheSamePathForTheSameInput) {
   const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
-  const Plan first = plan_by_chance(scene, 100'000), second = plan_by_chance(scene, 100'000);
+  const Plan first = plan_by_chance(scene, 200'000), second = plan_by_chance(scene, 200'000);
   ASSERT_EQ(first.steps.size(), 1u);
   EXPECT_EQ(first.steps[0].tier, PlanTier::Sampled);
   ASSERT_EQ(second.steps.size(), 1u);

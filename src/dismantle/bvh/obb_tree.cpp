@@ -57,7 +57,6 @@ class Builder {
     node.box = obb_fit(vertices_, faces_, order, tree_.origin);
     node.radius = obb_radius(node.box);
     node.parent = range.parent;
-    tree_.cones[range.node] = cone_of(order);
     if (range.size() == 1) {
       node.size = -1;
       node.child = order_[range.begin];
@@ -83,17 +82,6 @@ class Builder {
   }
 
  private:
-  NormalCone cone_of(Span<const std::uint32_t> order) const {
-    Vec3 sum;
-    for (const std::uint32_t f : order) sum += moments_[f].area * normals_[f];
-    const Vec3 axis = normalized(sum);
-    double cosine = 1;
-    for (const std::uint32_t f : order) cosine = std::min(cosine, dot(axis, normals_[f]));
-    // The angle between w and the axis may be what is left by the widest normal.
-    const double left = std::acos(NormalCone::kMinAhead) - std::acos(std::clamp(cosine, -1.0, 1.0));
-    return {to_float(axis), left > 0 ? static_cast<float>(std::cos(left)) : NormalCone::kNever};
-  }
-
   /// A cut of a range: triangles of which `of` (centroids or normals) is less than `border` along `axis` come
   /// first.
   struct Cut {
@@ -233,7 +221,6 @@ ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const 
   for (const Vec3& p : vertices) box.extend(p);
   tree.origin = box.center();
   tree.nodes.resize(2 * faces.size() - 1);
-  tree.cones.resize(tree.nodes.size());
 
   Builder builder(vertices, faces, parts, tree);
   std::vector<Builder::Range> level{{0, static_cast<std::uint32_t>(faces.size()), 0, ObbNode::kNone}}, tasks;

@@ -31,16 +31,6 @@ struct ObbNode {
   DISMANTLE_HOST_DEVICE bool leaf() const { return size < 0; }
 };
 
-/// A bound on the directions of a node's outward normals: every unit vector w with dot(w, axis) >= ahead has a cosine
-/// of at least kMinAhead with each of them.
-struct NormalCone {
-  static constexpr double kMinAhead = 0.3;  ///< Smallest cosine with a normal.
-  static constexpr float kNever = 2;        ///< Value of `ahead` if no direction has that cosine with all normals.
-
-  Vec3f axis;            ///< Unit; zero if the normals cancel out.
-  float ahead = kNever;  ///< Smallest cosine between w and `axis`.
-};
-
 /// A triangle in float32.
 struct TriangleF {
   Vec3f corner[3];  ///< About the tree's origin, rounded [mm].
@@ -53,7 +43,6 @@ struct TriangleF {
 struct ObbTree {
   Vec3 origin;                       ///< That boxes and triangles are relative to [mm, the mesh's frame].
   std::vector<ObbNode> nodes;        ///< Shape [2 face_count - 1].
-  std::vector<NormalCone> cones;     ///< Of each node.
   std::vector<TriangleF> triangles;  ///< Of each face.
 
   /// True if there are no faces.

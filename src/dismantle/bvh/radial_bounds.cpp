@@ -17,8 +17,7 @@ namespace {
 constexpr double kRounding = 1e-13;
 /// The cosine of 45 degrees.
 constexpr double kFacing = 0.70710678;
-/// A face lies across the axis if the part of its unit normal perpendicular to the axis is at most this long. Every
-/// axis that leads away sees it edge-on (OutwardNormals::kMinCosine).
+/// A face lies across the axis if the part of its unit normal perpendicular to the axis is at most this long.
 constexpr double kAcross = 0.04;
 
 /// A corner in coordinates about an axis.
@@ -104,19 +103,19 @@ RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector&
   const double rounding = kRounding * size;
   double max_radius = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
   RadialBounds node;
-  node.faces_out = node.faces_in = true;
+  bool faces_out = true, faces_in = true;
   for (const Corner& c : corners) {
     const double distance = length(c.across);
     max_radius = std::max(max_radius, distance);
     begin = std::min(begin, c.along);
     end = std::max(end, c.along);
     const double enough = kFacing * distance * length(normal), facing = dot(normal, c.across);
-    node.faces_out &= facing > enough;
-    node.faces_in &= facing < -enough;
+    faces_out &= facing > enough;
+    faces_in &= facing < -enough;
   }
   const bool lies_across = length(cross(normal, axis.direction)) <= kAcross * length(normal);
-  node.clear_out = node.faces_out || lies_across;
-  node.clear_in = node.faces_in || lies_across;
+  node.clear_out = faces_out || lies_across;
+  node.clear_in = faces_in || lies_across;
   const double min_radius = min_distance(corners, axis.direction);
   sector = min_radius > rounding ? sector_of(corners, axis) : Sector{};
   node.min_radius = -rounded_up(rounding - min_radius);
@@ -135,8 +134,6 @@ RadialBounds both(const RadialBounds& x, const RadialBounds& y) {
           {},
           -1,
           0,
-          x.faces_out && y.faces_out,
-          x.faces_in && y.faces_in,
           x.clear_out && y.clear_out,
           x.clear_in && y.clear_in};
 }

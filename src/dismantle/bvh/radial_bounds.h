@@ -14,17 +14,18 @@ namespace dismantle {
 
 /// Bounds, in cylindrical coordinates about an axis, of the triangles of a tree's node. Certain, despite float32.
 struct RadialBounds {
-  float min_radius = 0;    ///< No point is nearer to the axis [mm].
-  float max_radius = 0;    ///< No point is further from the axis [mm].
-  float begin = 0;         ///< Lower bound of the position along the axis, from the axis' point [mm].
-  float end = 0;           ///< Upper bound of the position along the axis [mm].
-  Vec3f toward;            ///< Middle of the sector about the axis that the triangles are in; unit.
-  float cosine = -1;       ///< Of half the sector's angle; -1 for all around.
-  float sine = 0;          ///< Of half the sector's angle; 0 for all around.
-  bool faces_out = false;  ///< All outward normals are within 45 degrees of pointing away from the axis.
-  bool faces_in = false;   ///< All outward normals are within 45 degrees of pointing to the axis.
-  bool clear_out = false;  ///< As faces_out, but for faces across the axis: a shaft with its ends.
-  bool clear_in = false;   ///< As faces_in, but for faces across the axis: a bore with the faces that it opens in.
+  float min_radius = 0;  ///< No point is nearer to the axis [mm].
+  float max_radius = 0;  ///< No point is further from the axis [mm].
+  float begin = 0;       ///< Lower bound of the position along the axis, from the axis' point [mm].
+  float end = 0;         ///< Upper bound of the position along the axis [mm].
+  Vec3f toward;          ///< Middle of the sector about the axis that the triangles are in; unit.
+  float cosine = -1;     ///< Of half the sector's angle; -1 for all around.
+  float sine = 0;        ///< Of half the sector's angle; 0 for all around.
+  /// All outward normals are within 45 degrees of pointing away from the axis, apart from faces across the axis: a
+  /// shaft with its ends.
+  bool clear_out = false;
+  /// The same for normals that point to the axis: a bore with the faces that it opens in.
+  bool clear_in = false;
   /// Difference between the largest and the smallest distance from the axis, if the node is one whole cylinder without
   /// gaps, perhaps with its ends; infinite otherwise [mm].
   float radial_deviation = std::numeric_limits<float>::infinity();

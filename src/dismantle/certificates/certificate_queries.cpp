@@ -205,11 +205,13 @@ std::optional<StraightContact> straight_contact(const CertificateSweeper& sweepe
     return std::nullopt;
   const StraightMover moving = mover(sweeper, motion);
   if (passes_by(moving, sweeper.solid(motion.fixed))) return std::nullopt;
+  // Ghost surfaces keep vertices from getting deep, and start on the right side.
+  const bool plain = sweeper.surface_pairs(motion.moving, motion.fixed)[0] == SurfacePair::Plain;
+  if (!plain) return contact_between(sweeper, motion, 0, 1, search);
   const auto deep = deep_contact(sweeper, motion, moving);
   if (deep && search == StraightSearch::Any) return deep;
   const double to = deep ? deep->distance / length(motion.displacement) : 1;
-  const auto contact = sweeper.touched(motion.moving, motion.fixed) ? contact_from_fit(sweeper, motion, to, search)
-                                                                    : contact_between(sweeper, motion, 0, to, search);
+  const auto contact = contact_from_fit(sweeper, motion, to, search);
   return contact ? contact : deep;
 }
 

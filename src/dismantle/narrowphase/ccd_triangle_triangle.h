@@ -183,19 +183,6 @@ DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleM
   return conservative_advancement(pair, detail::TrianglePair::Axes(pair.hulls(), allowed, hint), limits);
 }
 
-/// As ccd_triangle_triangle(a, b, allowed, hint), for faces of closed solids: only an axis that the outward normals at
-/// the start of the motion allow may use the allowance.
-DISMANTLE_HOST_DEVICE inline AxisCcdResult ccd_triangle_triangle(const TriangleMotion& a, const TriangleMotion& b,
-                                                                 double allowed, Vec3 hint,
-                                                                 const OutwardNormals& normals,
-                                                                 const AdvancementLimits& limits) {
-  DISMANTLE_EXPECT(allowed >= 0);
-  detail::TrianglePair pair(a, b, allowed);
-  detail::TrianglePair::Axes axes(pair.hulls(), allowed, hint);
-  axes.face(normals);
-  return conservative_advancement(pair, axes, limits);
-}
-
 /// The certified continuous test of a triangle pair with linear vertex paths: conservative advancement along separating
 /// axes. The depth of two triangles is the length of the shortest translation that separates them, 0 where they are
 /// apart.

@@ -29,64 +29,12 @@ struct AxisGuess {
   bool interior = false;  ///< The points are in the interiors of both features.
 };
 
-/// The outward normals of two faces of closed solids and of the faces around them, which decide how an axis w from A to
-/// B may use the allowance:
-///   1. An axis may use all of it where it leaves A and enters B through their outsides: w agrees with the normal of A
-///      or of a face around A, and -w with that of B or of a face around B. Any other axis could call solids separated
-///      that overlap behind a face's edge, and would later block every motion.
-///   2. An axis against both face normals separates the faces with their solids between them. It needs a gap of kBehind
-///      allowances; with less, faces that touch could change sides.
-///   3. Any other axis may use nothing.
-struct OutwardNormals {
-  ///@{ Outward normals of the two faces, of any length.
-  Vec3 a, b;
-  ///@}
-  ///@{ Unit outward normals of the faces at the corners of each.
-  Span<const Vec3> around_a, around_b;
-  ///@}
-
-  /// Smallest cosine at which an axis agrees with a face's normal: below 0, for faces that turn during the motion or
-  /// are seen edge-on.
-  static constexpr double kMinCosine = -0.05;
-  /// Smallest cosine at which an axis agrees with the normal of a neighbouring face.
-  static constexpr double kMinCosineAround = 0.3;
-  /// An axis is against a normal where the cosine between them is below minus this.
-  static constexpr double kMinCosineAgainst = 0.3;
-  /// Gap that an axis against both normals needs, in allowances.
-  static constexpr double kBehind = 3;
-
-  /// True if the axis may use the allowance (property 1).
-  DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const { return ahead(w, a, around_a) && ahead(-w, b, around_b); }
-  /// The depth that is allowed along an axis; negative for a gap that is required.
-  DISMANTLE_HOST_DEVICE double allowance(Vec3 w, double allowed) const {
-    if (allow(w)) return allowed;
-    return against(w, a) && against(-w, b) ? -kBehind * allowed : 0;
-  }
-
- private:
-  DISMANTLE_HOST_DEVICE static bool against(Vec3 w, Vec3 normal) {
-    const double along = dot(w, normal);
-    return along < 0 &&
-           along * along > (kMinCosineAgainst * kMinCosineAgainst) * length_squared(w) * length_squared(normal);
-  }
-  DISMANTLE_HOST_DEVICE static bool ahead(Vec3 w, Vec3 normal, Span<const Vec3> around) {
-    const double along = dot(w, normal), square = length_squared(w);
-    if (along >= 0 || along * along <= square * (kMinCosine * kMinCosine) * length_squared(normal)) return true;
-    for (const Vec3& n : around) {
-      const double cosine = dot(w, n);
-      if (cosine > 0 && cosine * cosine > square * (kMinCosineAround * kMinCosineAround)) return true;
-    }
-    return false;
-  }
-};
-
 /// The axis tried that separates for the longest time, of those that separate at the current time.
-///   1. Up to end() the pair is certainly separated along axis(), by the allowance of that axis.
-///   2. Without normals, the axis of the last step (the guard) is only replaced by one within a right angle of it, or
-///   by
-///      one that separates without the allowance; where the guard itself uses the allowance, by a gap of more than the
-///      allowance. Otherwise two faces, which have no thickness, could pass through each other.
-///   3. With normals, axes use the allowance as OutwardNormals states.
+///   1. Up to end() the pair is certainly separated along axis(), by the allowance.
+///   2. The axis of the last step (the guard) is only replaced by one within a right angle of it, or by one that
+///   separates
+///      without the allowance; where the guard itself uses the allowance, by a gap of more than the allowance.
+///      Otherwise two faces, which have no thickness, could pass through each other.
 template <int kCountA, int kCountB>
 class FurthestAxis {
  public:
@@ -96,28 +44,21 @@ class FurthestAxis {
     start(0);
   }
 
-  /// Applies normals to all axes that follow. They define the side, so that no guard is needed.
-  DISMANTLE_HOST_DEVICE void face(const OutwardNormals& normals) {
-    normals_ = normals;
-    facing_ = true;
-    guard_ = {};
-  }
-
   /// Begins a step at the time `now`, up to which axis() separates.
   DISMANTLE_HOST_DEVICE void start(double now) {
     now_ = now;
     end_ = -1;
-    if (facing_ || !(allowed_ > 0)) return;
+    if (!(allowed_ > 0)) return;
     guard_ = axis_;
     guard_checked_ = false;
   }
 
   /// Tries an axis that points from A to B, of any length.
   DISMANTLE_HOST_DEVICE void consider(Vec3 w) {
-    const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowance_of(w));
+    const AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
     if (projections.separates_throughout()) {
       if (!refused(w)) keep(w, 1);
-    } else if (!facing_ || normals_.allow(w) || projections.separates_until(now_) > now_ + kMinProgress) {
+    } else {
       keep_if_further(projections, w);
     }
   }
@@ -125,9 +66,9 @@ class FurthestAxis {
   /// Tries an axis in both directions.
   DISMANTLE_HOST_DEVICE void consider_both_signs(Vec3 w) {
     AxisProjections<kCountA, kCountB> projections(hulls_, w, allowed_);
-    keep_if_allowed(projections, w);
+    keep_if_further(projections, w);
     projections.turn();
-    keep_if_allowed(projections, -w);
+    keep_if_further(projections, -w);
   }
 
   /// The best axis so far; that of the last step, or the hint, where this step has none.
@@ -144,21 +85,6 @@ class FurthestAxis {
   DISMANTLE_HOST_DEVICE void keep(Vec3 w, double until) {
     end_ = until;
     axis_ = w;
-  }
-
-  /// @param projections with the allowance: without it they cannot separate further
-  DISMANTLE_HOST_DEVICE void keep_if_allowed(const AxisProjections<kCountA, kCountB>& projections, Vec3 w) {
-    if (!facing_ || normals_.allow(w)) {
-      keep_if_further(projections, w);
-    } else if (projections.separates_until(now_) > end_) {
-      // Of use only where it makes progress: at a contact the axis has to be one that the normals allow.
-      const AxisProjections<kCountA, kCountB> bare(hulls_, w, allowance_of(w));
-      if (bare.separates_until(now_) > now_ + kMinProgress) keep_if_further(bare, w);
-    }
-  }
-
-  DISMANTLE_HOST_DEVICE double allowance_of(Vec3 w) const {
-    return facing_ ? normals_.allowance(w, allowed_) : allowed_;
   }
 
   /// True if the guard forbids an axis. How the guard separates is computed when it is first needed.
@@ -183,8 +109,6 @@ class FurthestAxis {
   Vec3 axis_;
   Vec3 guard_;  ///< The last step's axis; zero for none.
   bool guard_checked_ = false, guard_apart_ = false;
-  OutwardNormals normals_;
-  bool facing_ = false;
 };
 
 /// Conservative advancement (docs/design/0001-certified-ccd.md; after Mirtich 1996, and Catto's time of impact): from

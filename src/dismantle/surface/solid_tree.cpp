@@ -22,21 +22,51 @@ void find_normals(SolidTree& solid) {
     for (const std::uint32_t v : solid.faces[f].v) solid.around[next[v]++] = f;
 }
 
+/// The cylinders and threads that are recognised in a shape.
+struct Recognised {
+  std::vector<RevolutionAxis> axes;
+  std::vector<ThreadAxis> threads;
+};
+
+/// Builds the tree of a solid and its surfaces of revolution. @param shape positions in which `found` was recognised
+void build_tree(SolidTree& solid, Span<const Vec3> shape, Recognised found, const Executor& executor) {
+  std::vector<std::uint8_t> parts = thread_parts(shape, solid.faces, found.threads);
+  add_cylinder_parts(shape, solid.faces, found.axes, parts);
+  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
+  if (!solid.tree.empty())
+    solid.revolution = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes,
+                                                           std::move(found.axes), std::move(found.threads));
+}
+
 }  // namespace
+
+SolidTree make_displaced_tree(const SolidTree& solid, std::vector<Vec3> vertices, const Executor& executor) {
+  SolidTree displaced;
+  displaced.vertices = std::move(vertices);
+  displaced.faces = solid.faces;
+  displaced.has_outside = solid.has_outside;
+  displaced.normals = solid.normals;
+  displaced.around_begin = solid.around_begin;
+  displaced.around = solid.around;
+  Recognised found;
+  if (solid.revolution) {
+    const Span<const RevolutionAxis> axes = solid.revolution->axes();
+    const Span<const ThreadAxis> threads = solid.revolution->threads();
+    found = {{axes.begin(), axes.end()}, {threads.begin(), threads.end()}};
+  }
+  build_tree(displaced, solid.vertices, std::move(found), executor);
+  return displaced;
+}
 
 SolidTree make_solid_tree(const Component& component, const Executor& executor) {
   SolidTree solid;
   solid.vertices = assembled_vertices(component);
   solid.faces = component.mesh->faces;
   solid.has_outside = component.faults.bounds_solid();
-  std::vector<RevolutionAxis> axes = revolution_axes(solid.vertices, solid.faces);
-  std::vector<ThreadAxis> threads = thread_axes(solid.vertices, solid.faces, axes);
-  std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, threads);
-  add_cylinder_parts(solid.vertices, solid.faces, axes, parts);
-  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
-  if (!solid.tree.empty())
-    solid.revolution = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes,
-                                                           std::move(axes), std::move(threads));
+  Recognised found;
+  found.axes = revolution_axes(solid.vertices, solid.faces);
+  found.threads = thread_axes(solid.vertices, solid.faces, found.axes);
+  build_tree(solid, solid.vertices, std::move(found), executor);
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

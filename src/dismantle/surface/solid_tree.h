@@ -36,4 +36,8 @@ struct SolidTree {
 /// @param component must outlive the tree, which refers to the faces of its mesh
 SolidTree make_solid_tree(const Component& component, const Executor& executor);
 
+/// The tree of a component with other positions of its vertices [mm, assembled]; normals and surfaces of revolution are
+/// recognised in the component as it is.
+SolidTree make_displaced_tree(const SolidTree& solid, std::vector<Vec3> vertices, const Executor& executor);
+
 }  // namespace dismantle

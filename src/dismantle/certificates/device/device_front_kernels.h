@@ -66,8 +66,6 @@ struct PendingPair {
   std::uint32_t b = kDead;          ///< Node of B's tree.
   std::uint32_t front = 0;          ///< Index of the front in the query.
   std::uint32_t are_triangles = 0;  ///< Not 0: the boxes need not be separated.
-  std::uint32_t on_edge = 0;        ///< Not 0: the triangles were found to overlap on edge.
-  Vec3f hint;                       ///< As BoxPairQuery::guard.
 };
 
 /// A triangle-pair test to be made.
@@ -174,9 +172,8 @@ struct CheckCertificates {
     const CheckedPage& at = checked[i / kBlock];
     const Page& page = pages[at.page];
     const LinearSweep& sweep = fronts[at.front].sweep;
-    Lanes<1> kind;
-    const Lanes<1> gap = min_gaps<1>(CertificateBlocks{page.fields}, k, sweep, kind);
-    if (any(certify<1>(gap, kind, sweep))) {
+    const Lanes<1> gap = min_gaps<1>(CertificateBlocks{page.fields}, k, sweep);
+    if (gap.r >= sweep.limit) {
       atomic_lower(&part_gaps[at.part], word_of_gap(gap.r));
       return;
     }
@@ -186,18 +183,14 @@ struct CheckCertificates {
   }
 
  private:
-  DISMANTLE_HOST_DEVICE PendingPair pending(const CheckedPage& at, const Page& page, std::size_t k) const {
-    const QueriedFront& front = fronts[at.front];
-    const Certificate certificate = CertificateBlocks{page.fields}.certificate(k);
-    const float kind = certificate.hull.kind;
+  DISMANTLE_HOST_DEVICE static PendingPair pending(const CheckedPage& at, const Page& page, std::size_t k) {
+    const float kind = CertificateBlocks{page.fields}.certificate(k).hull.kind;
     PendingPair pair;
     // Pairs that were separated radially are left to the host: mostly they are again, without any other test.
     if (kind != NodeHull::kNone) pair.a = page.pairs[k].a;
     pair.b = page.pairs[k].b;
     pair.front = at.front;
     pair.are_triangles = kind > NodeHull::kBox ? 1 : 0;
-    pair.on_edge = kind == NodeHull::kTriangleOnEdge ? 1 : 0;
-    pair.hint = front.trees.hint_of(certificate, front.sweep);
     return pair;
   }
 };
@@ -230,9 +223,9 @@ struct SeparatePairs {
     const QueriedFront& front = fronts[pair.front];
     PairResult& result = sink.results[at];
     if (pair.are_triangles == 0) {
-      const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
+      const BoxPairQuery query = front.trees.box_query(pair.a, pair.b);
       separate_box_lanes<1>(&query, 1, front.sweep, &result.separation);
-      if (front.trees.certifies(result.separation, pair.hint, false, front.sweep)) {
+      if (result.separation.gap >= front.sweep.limit) {
         result.kind = PairResult::Boxes;
         return;
       }
@@ -241,11 +234,10 @@ struct SeparatePairs {
         return;
       }
     }
-    const TrianglePairQuery query = front.trees.triangle_query(pair.a, pair.b, pair.hint);
+    const TrianglePairQuery query = front.trees.triangle_query(pair.a, pair.b);
     separate_triangle_lanes<1>(&query, 1, front.sweep, &result.separation);
     result.kind = PairResult::Triangles;
-    if (front.tests_triangles != 0 &&
-        !front.trees.certifies(result.separation, pair.hint, pair.on_edge != 0, front.sweep))
+    if (front.tests_triangles != 0 && result.separation.gap < front.sweep.limit)
       result.test = tests.append(request(pair, front.trees, result.separation));
   }
 
@@ -253,8 +245,8 @@ struct SeparatePairs {
   /// With the same hint as in the front's own sweep.
   DISMANTLE_HOST_DEVICE static TrianglePairRequest request(const PendingPair& pair, const PairedTrees& trees,
                                                            const NodeSeparation& found) {
-    const BoxPairQuery faces = trees.box_query(pair.a, pair.b, {});
-    return {faces.a->child, faces.b->child, pair.front, trees.triangle_hint(pair.hint, found)};
+    const BoxPairQuery faces = trees.box_query(pair.a, pair.b);
+    return {faces.a->child, faces.b->child, pair.front, found.certificate.axis};
   }
   DISMANTLE_HOST_DEVICE void split(const PendingPair& pair, const PairedTrees& trees, PairResult& result) const {
     result.kind = PairResult::Split;
@@ -283,7 +275,7 @@ struct SeparateCandidates {
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const MergeCandidate& pair = candidates[i];
     const QueriedFront& front = fronts[pair.front];
-    const BoxPairQuery query = front.trees.box_query(pair.a, pair.b, pair.hint);
+    const BoxPairQuery query = front.trees.box_query(pair.a, pair.b);
     separate_box_lanes<1>(&query, 1, front.sweep, &separations[i]);
   }
 };

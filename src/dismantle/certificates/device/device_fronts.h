@@ -30,7 +30,6 @@ class DeviceFronts final : public FrontDevice {
  private:
   struct Tree {
     DeviceArray<ObbNode> nodes;
-    DeviceArray<NormalCone> cones;
     DeviceArray<TriangleF> triangles;
   };
   /// The pages of each part of a front.
@@ -162,11 +161,10 @@ ObbTreeView DeviceFronts<Queue>::tree(const ObbTree& tree) {
   if (known == trees_.end())
     known = trees_
                 .emplace(&tree, Tree{DeviceArray<ObbNode>(queue_, Span<const ObbNode>(tree.nodes)),
-                                     DeviceArray<NormalCone>(queue_, Span<const NormalCone>(tree.cones)),
                                      DeviceArray<TriangleF>(queue_, Span<const TriangleF>(tree.triangles))})
                 .first;
   const Tree& copy = known->second;
-  return {copy.nodes.view().data(), copy.cones.view().data(), copy.triangles.view().data()};
+  return {copy.nodes.view().data(), copy.triangles.view().data()};
 }
 
 template <class Queue>

@@ -41,8 +41,12 @@ class DeviceSolids {
                                      DeviceArray<std::uint32_t>(queue, Span<const std::uint32_t>(solid.around))})
               .first;
     const Solid& copy = known->second;
-    return {copy.vertices.view().data(), copy.faces.view().data(), copy.normals.view().data(),
-            copy.around_begin.view().data(), copy.around.view().data()};
+    SolidView view{copy.vertices.view().data(), copy.faces.view().data()};
+    if (!solid.has_outside) return view;
+    view.normals = copy.normals.view().data();
+    view.around_begin = copy.around_begin.view().data();
+    view.around = copy.around.view().data();
+    return view;
   }
 
   std::map<const SolidTree*, Solid> solids_;

@@ -21,7 +21,7 @@ class FrontDevice {
   /// the triangles that remain. The fronts do not change; what has changed of them since the last call is uploaded.
   /// @param exhaustive examines everything; else a few rounds, as the host may need less
   /// @return of each part, front by front; valid until the next call
-  /// @pre sweeps begun with begin_sweep(); the fronts' trees outlive the device
+  /// @pre sweeps made by prepare_sweep(); the fronts' trees outlive the device
   virtual Span<const PartResults> evaluate(Span<const FrontQuery> fronts, bool exhaustive) = 0;
 
   /// Separates pairs of nodes of the fronts as boxes, for merging before a sweep.

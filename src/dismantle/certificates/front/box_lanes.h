@@ -25,26 +25,15 @@ struct BoxPairs {
   V axes_b[3];  ///< Unit.
   F half_a[3];  ///< Half extents along axes_a [mm].
   F half_b[3];  ///< Half extents along axes_b [mm].
-  V guard;      ///< As BoxPairQuery::guard.
-  V cone_a;     ///< Axes of the normal cones of A.
-  V cone_b;     ///< Axes of the normal cones of B.
-  F ahead_a;    ///< NormalCone::ahead of A; -1 where any axis may use the allowance.
-  F ahead_b;    ///< NormalCone::ahead of B.
 
   /// Gathers the boxes of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE BoxPairs(const BoxPairQuery* queries, std::size_t count) {
-    constexpr int kFields = 35;
-    const NormalCone any{{}, -1};
+    constexpr int kFields = 24;
     float field[kFields][kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const BoxPairQuery& q = queries[static_cast<std::size_t>(l) < count ? static_cast<std::size_t>(l) : count - 1];
       gather_box(field, 0, l, q.a->box);
       gather_box(field, 12, l, q.b->box);
-      field[24][l] = q.guard.x;
-      field[25][l] = q.guard.y;
-      field[26][l] = q.guard.z;
-      gather_cone(field, 27, l, q.cone_a ? *q.cone_a : any);
-      gather_cone(field, 31, l, q.cone_b ? *q.cone_b : any);
     }
     center_a = load_vector(field, 0);
     center_b = load_vector(field, 12);
@@ -58,11 +47,6 @@ struct BoxPairs {
       half_a[k] = F::load(field[9 + k]);
       half_b[k] = F::load(field[21 + k]);
     }
-    guard = load_vector(field, 24);
-    cone_a = load_vector(field, 27);
-    ahead_a = F::load(field[30]);
-    cone_b = load_vector(field, 31);
-    ahead_b = F::load(field[34]);
   }
 
  private:
@@ -72,27 +56,17 @@ struct BoxPairs {
     for (int k = 0; k < 12; ++k) field[first + k][lane] = from[k];
   }
   template <std::size_t kFields>
-  DISMANTLE_HOST_DEVICE static void gather_cone(float (&field)[kFields][kLanes], int first, int lane,
-                                                const NormalCone& cone) {
-    field[first][lane] = cone.axis.x;
-    field[first + 1][lane] = cone.axis.y;
-    field[first + 2][lane] = cone.axis.z;
-    field[first + 3][lane] = cone.ahead;
-  }
-  template <std::size_t kFields>
   DISMANTLE_HOST_DEVICE static V load_vector(const float (&field)[kFields][kLanes], int first) {
     return {F::load(field[first]), F::load(field[first + 1]), F::load(field[first + 2])};
   }
 };
 
-/// The axis of the largest gap so far, with the boxes' rotation half way, ignoring normals.
+/// The axis of the largest gap so far, with the boxes' rotation half way.
 template <int kLanes>
 struct FurthestAxes {
   using F = Lanes<kLanes>;  ///< A number a lane.
   using V = Vec3T<F>;       ///< A vector a lane.
 
-  V guard;            ///< As BoxPairQuery::guard.
-  F apart;            ///< As LinearSweep::apart [mm].
   F gap = F(-3e38f);  ///< The largest so far [mm].
   V axis = {};        ///< Its axis.
 
@@ -103,9 +77,8 @@ struct FurthestAxes {
   DISMANTLE_HOST_DEVICE void consider(V line, F offset_t0, F offset_t1, F half, F scale) {
     const F side = select(offset_t0 + offset_t1 > F(0), F(-1), F(1));
     const F nearest = min(-(side * offset_t0), -(side * offset_t1));
-    const F along = side * dot(line, guard);
     const F found = (nearest - half) * scale;
-    const auto better = (found > gap) & !((along < F(0)) & (found < apart));
+    const auto better = found > gap;
     gap = select(better, found, gap);
     axis = select_vector<kLanes>(better, (side * scale) * line, axis);
   }
@@ -134,8 +107,9 @@ struct BoxMotion {
 };
 
 /// Considers all 15 axes of pairs of boxes.
-template <int kLanes, class Axes>
-DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const BoxMotion<kLanes>& motion, Axes& best) {
+template <int kLanes>
+DISMANTLE_HOST_DEVICE void consider_all(const BoxPairs<kLanes>& boxes, const BoxMotion<kLanes>& motion,
+                                        FurthestAxes<kLanes>& best) {
   using F = Lanes<kLanes>;
   using V = Vec3T<F>;
   for (int i = 0; i < 3; ++i) {
@@ -174,26 +148,17 @@ DISMANTLE_HOST_DEVICE void separate_box_lanes(const BoxPairQuery* queries, std::
     const std::size_t left = count - first;
     const BoxPairs<kLanes> boxes(queries + first, left);
     const BoxMotion<kLanes> motion(boxes, sweep);
-    const FacingLanes<kLanes> facing{rotated<kLanes>(sweep.middle, boxes.cone_a), boxes.cone_b, boxes.ahead_a,
-                                     boxes.ahead_b, F(sweep.allowed)};
-    FurthestAxes<kLanes> furthest{boxes.guard, F(sweep.apart)};
+    FurthestAxes<kLanes> furthest;
     consider_all<kLanes>(boxes, motion, furthest);
-    V axis = furthest.axis;
-    FacingAxes<kLanes> chosen{facing, boxes.guard, F(sweep.apart)};
-    // The side matters only where they are close.
-    const auto close = (furthest.gap < F(kBehind<kLanes> * sweep.allowed)) & (boxes.ahead_a > F(-1));
-    if (any(close)) {
-      consider_all<kLanes>(boxes, motion, chosen);
-      axis = select_vector<kLanes>(close, chosen.axis, axis);
-    }
+    const V axis = furthest.axis;
     const Hulls<kLanes> hull{
         boxes.center_a,
         {boxes.half_a[0] * boxes.axes_a[0], boxes.half_a[1] * boxes.axes_a[1], boxes.half_a[2] * boxes.axes_a[2]},
         F(0)};
     F reach_b(0);
     for (int k = 0; k < 3; ++k) reach_b = reach_b + abs(dot(axis, boxes.axes_b[k])) * boxes.half_b[k];
-    const F offset = dot(axis, boxes.center_b) - reach_b - facing.taken_off(axis);
-    store_separations<kLanes>(axis, offset, hull, boxes.guard, sweep, separations + first, left);
+    const F offset = dot(axis, boxes.center_b) - reach_b;
+    store_separations<kLanes>(axis, offset, hull, sweep, separations + first, left);
   }
 }
 

@@ -13,10 +13,6 @@ namespace dismantle {
 
 namespace {
 
-/// Once a component has turned by more than this [of a unit vector], all certificates are made again: they may use the
-/// allowance only as long as they agree with the normals.
-constexpr double kMaxTurn = 0.25;
-
 /// Bound of the rounding of a gap in float32, in units of u = 2^-24 times the sum of the coordinates' sizes
 /// (docs/design/0006-certificates.md derives 40; the rest is margin).
 constexpr double kGapRoundings = 48;
@@ -28,14 +24,6 @@ RigidTransformF to_float(const RigidTransform& t) {
   return f;
 }
 
-/// The largest distance of a unit vector turned by one rotation from the same vector turned by the other: the spectral
-/// norm of their difference, which for rotations is its Frobenius norm over sqrt(2).
-double turn_between(const Mat3& a, const Mat3& b) {
-  double square = 0;
-  for (int i = 0; i < 3; ++i) square += length_squared(a.row[i] - b.row[i]);
-  return std::sqrt(square / 2);
-}
-
 /// The largest distance of a point of the tree from its origin [mm].
 float reach(const ObbTree& tree) {
   const ObbNode& root = tree.nodes[0];
@@ -44,10 +32,9 @@ float reach(const ObbTree& tree) {
 
 }  // namespace
 
-CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides,
-                                   const RevolutionSurface* surface_a, const RevolutionSurface* surface_b,
-                                   Span<const ThreadMatch> threads)
-    : a_(&a), b_(&b), surface_a_(surface_a), surface_b_(surface_b), threads_(threads), parts_(1), sides_(sides) {
+CertificateFront::CertificateFront(const ObbTree& a, const ObbTree& b, const RevolutionSurface* surface_a,
+                                   const RevolutionSurface* surface_b, Span<const ThreadMatch> threads)
+    : a_(&a), b_(&b), surface_a_(surface_a), surface_b_(surface_b), threads_(threads), parts_(1) {
   DISMANTLE_EXPECT(!a.empty() && !b.empty());
   parts_[0].append({0, 0}, Certificate::none());
 }
@@ -58,18 +45,6 @@ std::size_t CertificateFront::size() const {
   return sum;
 }
 
-bool CertificateFront::normals_valid(const Mat3& rotation) const {
-  return sides_ != SideRule::Normals || turn_between(normals_rotation_, rotation) <= kMaxTurn;
-}
-
-PreparedSweep CertificateFront::begin_sweep(const PairMotion& motion) {
-  if (!normals_valid(motion.middle)) {
-    forget();
-    normals_rotation_ = motion.middle;
-  }
-  return prepare_sweep(motion);
-}
-
 PreparedSweep CertificateFront::prepare_sweep(const PairMotion& motion) const {
   PreparedSweep sweep;
   sweep.t0 = to_float(motion.t0);
@@ -78,19 +53,13 @@ PreparedSweep CertificateFront::prepare_sweep(const PairMotion& motion) const {
   sweep.max_blocked = static_cast<std::uint32_t>(
       std::clamp<std::size_t>(motion.max_blocked / parts_.size(), kMaxBlockedOfPair, sweep.max_blocked));
   sweep.max_fit_deviation = motion.max_fit_deviation;
-  sweep.normals_valid = normals_valid(motion.middle);
   const double size = std::max(length(motion.t0.translation), length(motion.t1.translation)) + reach(*a_) + reach(*b_);
   const double error = kGapRoundings * 0x1p-24 * size;
   sweep.error = static_cast<float>(error);
-  sweep.allowed = static_cast<float>(motion.allowed);
   sweep.limit = static_cast<float>(-motion.allowed + motion.deviation + error);
-  sweep.meeting = static_cast<float>(motion.deviation + error);
-  sweep.apart = static_cast<float>(motion.allowed + motion.deviation + error);
-  // Sides are remembered by axes only.
-  if (surface_a_ && surface_b_ && sides_ != SideRule::Memory)
+  if (surface_a_ && surface_b_)
     sweep.radial = b_moves_ ? std::make_unique<RadialSweeps>(*surface_b_, b_->origin, *surface_a_, a_->origin, motion)
                             : std::make_unique<RadialSweeps>(*surface_a_, a_->origin, *surface_b_, b_->origin, motion);
-  if (sides_ == SideRule::Memory) return sweep;
   for (const ThreadMatch& match : threads_) {
     const ThreadSweep thread(match, b_moves_ ? 1 : 0, motion);
     if (thread.useful()) sweep.threads.push_back(thread);
@@ -104,7 +73,7 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
   FrontSweep result;
   Work work;
   if (known) {
-    take_failing(part, sweep, *known, work, result);
+    take_failing(part, *known, work, result);
   } else {
     find_failing(part, sweep, kernels, work, result);
   }
@@ -118,43 +87,31 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
 void CertificateFront::find_failing(const CertificatePart& part, const PreparedSweep& sweep,
                                     const FrontKernels& kernels, Work& work, FrontSweep& result) const {
   work.failing.resize(part.size());
-  CertificateCheck check;
-  if (sweep.normals_valid) {
-    check = kernels.check_certificates(part.blocks(), part.size(), sweep, work.failing.data());
-  } else {
-    std::iota(work.failing.begin(), work.failing.end(), 0u);
-    check.failing = part.size();
-  }
+  const CertificateCheck check = kernels.check_certificates(part.blocks(), part.size(), sweep, work.failing.data());
   result.min_gap = std::min(result.min_gap, check.min_gap);
-  result.may_touch |= sides_ != SideRule::Normals && check.min_gap < sweep.meeting;
-  for (std::size_t k = 0; k < check.failing; ++k) add_item(part, work.failing[k], sweep, work);
+  for (std::size_t k = 0; k < check.failing; ++k) add_item(part, work.failing[k], work);
   work.front_count = work.items.size();
 }
 
-void CertificateFront::take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& known,
-                                    Work& work, FrontSweep& result) const {
-  DISMANTLE_EXPECT(sweep.normals_valid);
+void CertificateFront::take_failing(const CertificatePart& part, const PartResults& known, Work& work,
+                                    FrontSweep& result) {
   result.min_gap = std::min(result.min_gap, known.min_gap);
-  result.may_touch |= sides_ != SideRule::Normals && known.min_gap < sweep.meeting;
   work.known_pairs = known.pairs;
   work.known_tests = known.tests;
   for (const std::uint32_t root : known.roots) {
-    add_item(part, known.pairs[root].slot, sweep, work);
+    add_item(part, known.pairs[root].slot, work);
     work.items.back().known = root;
   }
   work.front_count = work.items.size();
 }
 
-void CertificateFront::add_item(const CertificatePart& part, std::uint32_t slot, const PreparedSweep& sweep,
-                                Work& work) const {
+void CertificateFront::add_item(const CertificatePart& part, std::uint32_t slot, Work& work) {
   Item item;
   item.a = part.pair(slot).a;
   item.b = part.pair(slot).b;
   item.slot = slot;
-  item.hint = hint_of(part, slot, sweep);
   item.radial = part.kind(slot) == NodeHull::kNone;
   item.are_triangles = part.kind(slot) > NodeHull::kBox;
-  item.on_edge = part.kind(slot) == NodeHull::kTriangleOnEdge;
   work.items.push_back(item);
 }
 
@@ -169,22 +126,15 @@ FrontSweep CertificateFront::sweep_const(const PreparedSweep& sweep, const Front
   return result;
 }
 
-Vec3f CertificateFront::hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const {
-  return sides_ == SideRule::Memory ? trees().hint_of(part.certificate(i), sweep) : Vec3f{};
-}
-
-void CertificateFront::replace(CertificatePart& part, const Work& work, bool free) const {
+void CertificateFront::replace(CertificatePart& part, const Work& work, bool free) {
   for (std::uint32_t i = 0; i < work.items.size(); ++i) {
     const Item& item = work.items[i];
     if (item.first_child != Item::kNone || (item.radial && !free)) continue;
-    Certificate certificate;
+    Certificate certificate = Certificate::none();
     if (item.proof != Item::kNone) {
       certificate = work.proofs[item.proof];
     } else if (i < work.front_count) {
       continue;  // stays as it was
-    } else {
-      certificate.axis = item.hint;
-      certificate.offset = length_squared(item.hint) > 0 ? kForgottenCertificate : kNoCertificate;
     }
     if (item.slot == Item::kNone) {
       part.append({item.a, item.b}, certificate);

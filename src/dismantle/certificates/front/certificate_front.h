@@ -18,9 +18,9 @@ namespace dismantle {
 
 /// Two triangles that a front could not separate, to be tested for the sweep.
 struct TrianglePairCandidate {
-  std::uint32_t face_moving = 0;  ///< Face of the moving component.
-  std::uint32_t face_fixed = 0;   ///< Face of the fixed component.
-  Vec3f hint;                     ///< Axis to start with, from the moving to the fixed triangle; zero: none.
+  std::uint32_t face_moving = 0;              ///< Face of the moving component.
+  std::uint32_t face_fixed = 0;               ///< Face of the fixed component.
+  Vec3f hint;                                 ///< Axis to start with, from the moving to the fixed triangle.
   const TrianglePairResult* known = nullptr;  ///< A device's result for the whole sweep; null if it has none.
 };
 
@@ -30,8 +30,7 @@ struct TrianglePairVerdict {
   float gap = -3e38f;  ///< Lower bound of their distance during the sweep [mm]; below 0: they may overlap.
   /// True if the test ended before the end of the sweep, so that the two may block later on.
   bool cut_short = false;
-  bool no_deep_vertex_possible = false;  ///< They are separated throughout, or meet face on face.
-  Certificate certificate;               ///< Of the axis that the test ended with: the next one starts with it.
+  Certificate certificate;  ///< Of the axis that the test ended with.
 };
 
 /// Tests two triangles for the sweep at hand.
@@ -52,15 +51,11 @@ struct FrontSweep {
   bool complete = true;            ///< Every pair was examined.
   /// Cylinders that are blocked by their bores, taken as one contact each: the motion is not free.
   std::vector<CylinderFit> fits;
-  /// True if some pair was neither certainly apart throughout nor met face on face. Only such pairs can hide a deep
-  /// vertex, as a triangle is never deeper across its own plane than it is thin.
-  bool may_touch = false;
 };
 
 /// Two pairs of a part that are the halves of one pair.
 struct Siblings {
   FrontPair parent;          ///< The pair that they may merge into.
-  Vec3f hint;                ///< The axis of the side that either of them is bound to; zero for none.
   std::uint32_t first = 0;   ///< Slot of the one half.
   std::uint32_t second = 0;  ///< Slot of the other.
 };
@@ -73,10 +68,9 @@ struct Siblings {
 class CertificateFront {
  public:
   /// The pair of the roots; A moves. The trees and surfaces must outlive the front. @pre neither tree is empty
-  /// @param sides how the two components keep their sides
   /// @param surface_a, surface_b their surfaces of revolution; null if there are none
   /// @param threads threads of A that mate with those of B; must outlive the front
-  CertificateFront(const ObbTree& a, const ObbTree& b, SideRule sides, const RevolutionSurface* surface_a = nullptr,
+  CertificateFront(const ObbTree& a, const ObbTree& b, const RevolutionSurface* surface_a = nullptr,
                    const RevolutionSurface* surface_b = nullptr, Span<const ThreadMatch> threads = {});
 
   /// Number of pairs of nodes.
@@ -84,14 +78,12 @@ class CertificateFront {
   /// Number of parts. Parts may be swept in parallel.
   std::size_t part_count() const { return parts_.size(); }
 
-  /// Begins a sweep: prepares the motion, and invalidates certificates that it has turned too far for.
-  PreparedSweep begin_sweep(const PairMotion& motion);
-  /// Prepares a motion for sweep_const().
+  /// Prepares a motion for a sweep.
   PreparedSweep prepare_sweep(const PairMotion& motion) const;
   /// Merges siblings of a part, in some sweeps only. To be called before each sweep_part().
   void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels);
   /// The siblings that merge_part() would try to merge first; empty in sweeps that do not merge this part.
-  std::vector<Siblings> siblings_of(std::size_t part, const PreparedSweep& sweep) const;
+  std::vector<Siblings> siblings_of(std::size_t part) const;
   /// As merge_part(), with the separations of the parents of siblings_of() as boxes, from a device.
   void merge_part(std::size_t part, const PreparedSweep& sweep, const FrontKernels& kernels,
                   Span<const Siblings> siblings, Span<const NodeSeparation> separations);
@@ -105,10 +97,8 @@ class CertificateFront {
   /// @param free no pair was found blocked, and every pair was examined
   void end_sweep(const PreparedSweep& sweep, bool free);
 
-  /// Swaps the moving and the stationary component. The pairs stay, their certificates are invalidated, and every pair
-  /// remembers its side.
-  /// @param rotation of the component that moved so far, in the frame of the one that stood still
-  void exchange_roles(const Mat3& rotation);
+  /// Swaps the moving and the stationary component. The pairs stay, their certificates are invalidated.
+  void exchange_roles();
   /// Invalidates all certificates: the stationary component was moved.
   void forget();
 
@@ -116,10 +106,7 @@ class CertificateFront {
   const ObbTree& tree_a() const { return *a_; }
   const ObbTree& tree_b() const { return *b_; }
   PairedTrees trees() const {
-    return {{a_->nodes.data(), a_->cones.data(), a_->triangles.data()},
-            {b_->nodes.data(), b_->cones.data(), b_->triangles.data()},
-            sides_,
-            b_moves_};
+    return {{a_->nodes.data(), a_->triangles.data()}, {b_->nodes.data(), b_->triangles.data()}, b_moves_};
   }
   CertificatePart& part(std::size_t index) { return parts_[index]; }
   ///@}
@@ -128,20 +115,15 @@ class CertificateFront {
   struct Item;
   struct Work;
 
-  /// True if certificates that agree with the outward normals still do with this rotation of the moving component.
-  bool normals_valid(const Mat3& rotation) const;
   /// Adds the pairs of a part whose certificates do not hold as items.
   void find_failing(const CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
   /// As find_failing(), from the results of a device.
-  void take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& known, Work& work,
-                    FrontSweep& result) const;
-  void add_item(const CertificatePart& part, std::uint32_t slot, const PreparedSweep& sweep, Work& work) const;
-  /// The axis of pair i if it binds the pair to its side; else zero.
-  Vec3f hint_of(const CertificatePart& part, std::size_t i, const LinearSweep& sweep) const;
+  static void take_failing(const CertificatePart& part, const PartResults& known, Work& work, FrontSweep& result);
+  static void add_item(const CertificatePart& part, std::uint32_t slot, Work& work);
   /// True if a part merges in this sweep.
   bool merge_due(std::size_t part) const;
-  std::vector<Siblings> find_siblings(const CertificatePart& part, const PreparedSweep& sweep) const;
+  std::vector<Siblings> find_siblings(const CertificatePart& part) const;
   std::vector<NodeSeparation> separate_parents(Span<const Siblings> siblings, const PreparedSweep& sweep,
                                                const FrontKernels& kernels) const;
   /// Replaces siblings by their parents where these are separated. @return the number of pairs removed
@@ -168,14 +150,14 @@ class CertificateFront {
   /// The two nodes as a cylinder in a bore, if the sweep wants fits and they are one.
   std::optional<CylinderFit> fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// Stores the certificate of a separation that certifies the item. @return false if it does not
-  bool accept(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
-              FrontSweep& result) const;
-  void test_triangles(Work& work, Item& item, const TrianglePairTest& test, FrontSweep& result) const;
+  static bool accept(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
+                     FrontSweep& result);
+  void test_triangles(Work& work, Item& item, Vec3f hint, const TrianglePairTest& test, FrontSweep& result) const;
   /// Replaces an item by the halves of its larger node. @return the index of the first
   std::uint32_t split(Work& work, std::uint32_t i) const;
   /// Writes the resolved items back to the part. Pairs that were separated radially stay whole in a sweep that is not
   /// free: the next sweep is another motion.
-  void replace(CertificatePart& part, const Work& work, bool free) const;
+  static void replace(CertificatePart& part, const Work& work, bool free);
   /// Replaces all pairs below pairs of large nodes that are separated radially by these.
   void merge_radial(const PreparedSweep& sweep);
   /// Splits the part into two of about the same size, keeping siblings together. @return the second
@@ -187,11 +169,9 @@ class CertificateFront {
   const RevolutionSurface* surface_b_;
   Span<const ThreadMatch> threads_;
   std::vector<CertificatePart> parts_;
-  Mat3 normals_rotation_;  ///< Rotation at which the certificates were checked against the normals.
   std::size_t sweeps_ = 0;
   std::size_t blocked_ = 0;  ///< Sweeps that were not free since merge_radial().
   bool b_moves_ = false;
-  SideRule sides_;
 };
 
 }  // namespace dismantle

@@ -86,7 +86,7 @@ void CertificateFront::separate_boxes(Work& work, const PreparedSweep& sweep, co
     if (item.are_triangles) continue;
     work.box_items.push_back(i);
     if (work.known_kind(item) != PairResult::None) continue;
-    work.box_queries.push_back(trees().box_query(item.a, item.b, item.hint));
+    work.box_queries.push_back(trees().box_query(item.a, item.b));
     // Nodes are scattered in memory: the kernel would stall on each.
     __builtin_prefetch(work.box_queries.back().a);
     __builtin_prefetch(work.box_queries.back().b);
@@ -102,7 +102,7 @@ void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep
   for (const std::uint32_t i : work.triangle_items) {
     const Item& item = work.items[i];
     if (work.known_kind(item) != PairResult::None) continue;
-    work.triangle_queries.push_back(trees().triangle_query(item.a, item.b, item.hint));
+    work.triangle_queries.push_back(trees().triangle_query(item.a, item.b));
     __builtin_prefetch(work.triangle_queries.back().a);
     __builtin_prefetch(work.triangle_queries.back().b);
   }
@@ -113,10 +113,9 @@ void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep
 }
 
 bool CertificateFront::accept(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
-                              FrontSweep& result) const {
-  if (!trees().certifies(separation, item.hint, item.on_edge, sweep)) return false;
+                              FrontSweep& result) {
+  if (separation.gap < sweep.limit) return false;
   result.min_gap = std::min(result.min_gap, separation.gap);
-  result.may_touch |= trees().may_overlap(separation, sweep);
   work.prove(item, separation.certificate);
   return true;
 }
@@ -131,11 +130,9 @@ bool CertificateFront::separated_radially(std::uint32_t a, std::uint32_t b, cons
   }
   if (!sweep.radial) return false;
   for (const RadialSweep& radial : sweep.radial->get()) {
-    const RadialSweep::Gap found = b_moves_ ? radial.gap(b, a, sweep.limit) : radial.gap(a, b, sweep.limit);
-    const double limit = sides_ == SideRule::Free || found.facing ? sweep.limit : sweep.meeting;
-    if (found.gap < limit) continue;
-    result.min_gap = std::min(result.min_gap, -rounded_up(-found.gap));
-    result.may_touch |= found.gap < sweep.meeting && !(sides_ == SideRule::Normals && found.face_on);
+    const double gap = b_moves_ ? radial.gap(b, a, sweep.limit) : radial.gap(a, b, sweep.limit);
+    if (gap < sweep.limit) continue;
+    result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
     return true;
   }
   return false;
@@ -160,7 +157,7 @@ double CertificateFront::radial_gap(std::uint32_t a, std::uint32_t b, const Prep
   double largest = -std::numeric_limits<double>::infinity();
   if (!sweep.radial) return largest;
   for (const RadialSweep& radial : sweep.radial->get())
-    largest = std::max(largest, (b_moves_ ? radial.gap(b, a, largest) : radial.gap(a, b, largest)).gap);
+    largest = std::max(largest, b_moves_ ? radial.gap(b, a, largest) : radial.gap(a, b, largest));
   return largest;
 }
 
@@ -205,22 +202,21 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   for (std::size_t k = 0; k < work.triangle_items.size(); ++k) {
     Item& item = work.items[work.triangle_items[k]];
     if (accept(work, item, work.separations[k], sweep, result)) continue;
-    item.hint = trees().triangle_hint(item.hint, work.separations[k]);
-    test_triangles(work, item, test, result);
+    test_triangles(work, item, work.separations[k].certificate.axis, test, result);
   }
 }
 
-void CertificateFront::test_triangles(Work& work, Item& item, const TrianglePairTest& test, FrontSweep& result) const {
+void CertificateFront::test_triangles(Work& work, Item& item, Vec3f hint, const TrianglePairTest& test,
+                                      FrontSweep& result) const {
   ++result.triangle_tests;
-  const BoxPairQuery query = trees().box_query(item.a, item.b, {});
-  const TrianglePairVerdict verdict = test({query.a->child, query.b->child, item.hint, work.known_test(item)});
+  const BoxPairQuery query = trees().box_query(item.a, item.b);
+  const TrianglePairVerdict verdict = test({query.a->child, query.b->child, hint, work.known_test(item)});
   work.prove(item, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;
     ++work.blocked[item.start];
   }
   result.min_gap = std::min(result.min_gap, verdict.gap);
-  result.may_touch |= !verdict.no_deep_vertex_possible;
 }
 
 std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {

@@ -3,7 +3,6 @@
 #include "dismantle/certificates/front/certificate_front.h"
 #include "dismantle/certificates/front/sibling_table.h"
 #include "dismantle/core/contract.h"
-#include "dismantle/math/vec3f.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,12 +29,12 @@ bool CertificateFront::merge_due(std::size_t part) const {
   return (sweeps_ + part) % kMergePeriod == kMergePeriod - 1;
 }
 
-std::vector<Siblings> CertificateFront::siblings_of(std::size_t part, const PreparedSweep& sweep) const {
-  return merge_due(part) ? find_siblings(parts_[part], sweep) : std::vector<Siblings>{};
+std::vector<Siblings> CertificateFront::siblings_of(std::size_t part) const {
+  return merge_due(part) ? find_siblings(parts_[part]) : std::vector<Siblings>{};
 }
 
 void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels) {
-  const std::vector<Siblings> siblings = siblings_of(index, sweep);
+  const std::vector<Siblings> siblings = siblings_of(index);
   merge_part(index, sweep, kernels, siblings, separate_parents(siblings, sweep, kernels));
 }
 
@@ -45,12 +44,12 @@ void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep,
   CertificatePart& part = parts_[index];
   std::size_t gone = merge(part, sweep, siblings, separations);
   while (gone * kMergeShare > part.size()) {
-    const std::vector<Siblings> more = find_siblings(part, sweep);
+    const std::vector<Siblings> more = find_siblings(part);
     gone = merge(part, sweep, more, separate_parents(more, sweep, kernels));
   }
 }
 
-std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& part, const PreparedSweep& sweep) const {
+std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& part) const {
   std::vector<Siblings> found;
   SiblingTable table(2 * part.size());
   const auto siblings = [&](FrontPair x, FrontPair y, bool halves_a) {
@@ -60,10 +59,7 @@ std::vector<Siblings> CertificateFront::find_siblings(const CertificatePart& par
   const auto find_half = [&](FrontPair parent, bool halves_a, std::uint32_t i) {
     const std::optional<std::uint32_t> other = table.match(parent.a, parent.b, halves_a, i);
     if (!other || !siblings(part.pair(*other), part.pair(i), halves_a)) return;
-    // Siblings bound to opposite sides are not merged; else the parent keeps the side of either.
-    const Vec3f one = hint_of(part, *other, sweep), two = hint_of(part, i, sweep);
-    if (sides_ == SideRule::Memory && dot(one, two) < 0) return;
-    found.push_back({parent, length_squared(one) > 0 ? one : two, *other, i});
+    found.push_back({parent, *other, i});
   };
   for (std::uint32_t i = 0; i < part.size(); ++i) {
     const FrontPair pair = part.pair(i);
@@ -79,7 +75,7 @@ std::vector<NodeSeparation> CertificateFront::separate_parents(Span<const Siblin
                                                                const FrontKernels& kernels) const {
   std::vector<BoxPairQuery> queries;
   queries.reserve(siblings.size());
-  for (const Siblings& s : siblings) queries.push_back(trees().box_query(s.parent.a, s.parent.b, s.hint));
+  for (const Siblings& s : siblings) queries.push_back(trees().box_query(s.parent.a, s.parent.b));
   std::vector<NodeSeparation> separations(queries.size());
   if (!queries.empty()) kernels.separate_boxes(queries.data(), queries.size(), sweep, separations.data());
   return separations;
@@ -94,7 +90,7 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
   for (std::size_t k = 0; k < siblings.size(); ++k) {
     const Siblings& s = siblings[k];
     if (merged[s.first] || merged[s.second]) continue;
-    const bool by_boxes = separations[k].gap >= trees().limit(s.hint, sweep);
+    const bool by_boxes = separations[k].gap >= sweep.limit;
     if (!by_boxes && !separated_radially(s.parent.a, s.parent.b, sweep, unused)) continue;
     part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::radial());
     merged[s.first] = merged[s.second] = true;
@@ -185,15 +181,7 @@ void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
   }
 }
 
-void CertificateFront::exchange_roles(const Mat3& rotation) {
-  const Mat3 back = transposed(rotation);
-  for (CertificatePart& part : parts_)
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      Certificate c = part.certificate(i);
-      const Vec3f axis = c.axis;
-      c.axis = to_float(-(back * Vec3{axis.x, axis.y, axis.z}));
-      part.set_certificate(i, c);
-    }
+void CertificateFront::exchange_roles() {
   b_moves_ = !b_moves_;
   forget();
 }
@@ -202,7 +190,7 @@ void CertificateFront::forget() {
   for (CertificatePart& part : parts_)
     for (std::size_t i = 0; i < part.size(); ++i) {
       Certificate c = part.certificate(i);
-      c.offset = std::min(c.offset, kForgottenCertificate);
+      c.offset = kNoCertificate;
       part.set_certificate(i, c);
     }
 }

@@ -37,29 +37,18 @@ struct CertificateBlocks {
 struct BoxPairQuery {
   const ObbNode* a;  ///< Node of the moving component.
   const ObbNode* b;  ///< Node of the fixed component.
-  /// An axis that has used part of the allowance: it may only be replaced by one within a right angle of it, unless the
-  /// boxes are apart; zero for none (docs/design/0006-certificates.md: open sheets remember their side).
-  Vec3f guard;
-  ///@{ Normal cones of the nodes of closed solids: only an axis that leaves A and enters B through their outsides may
-  /// use the allowance. Null if any axis may.
-  const NormalCone* cone_a = nullptr;
-  const NormalCone* cone_b = nullptr;
-  ///@}
 };
 
 /// Input of the separating-axis test of two triangles.
 struct TrianglePairQuery {
   const TriangleF* a;  ///< Triangle of the moving component.
   const TriangleF* b;  ///< Triangle of the fixed component.
-  Vec3f guard;         ///< As BoxPairQuery::guard.
-  bool facing =
-      false;  ///< Both are faces of closed solids: the outward normals decide which axes may use the allowance.
 };
 
 /// Result of a separating-axis test over a sweep: the axis with the largest gap.
 struct NodeSeparation {
-  /// The smallest gap along the axis during the sweep [mm], up to LinearSweep::error, before the arcs' deviation, minus
-  /// the allowance if the axis may not use it: the value that a check of the certificate computes.
+  /// The smallest gap along the axis during the sweep [mm], up to LinearSweep::error, before the arcs' deviation: the
+  /// value that a check of the certificate computes.
   float gap;
   Certificate certificate;  ///< Of that axis.
 };
@@ -70,8 +59,7 @@ struct CertificateCheck {
   float min_gap = 3e38f;    ///< Smallest gap of those that hold, at either end, up to LinearSweep::error [mm].
 };
 
-/// Checks certificates 0, ..., count - 1 against LinearSweep::limit, those of triangles on edge against
-/// LinearSweep::meeting. The certificates are padded to whole blocks.
+/// Checks certificates 0, ..., count - 1 against LinearSweep::limit. The certificates are padded to whole blocks.
 /// @param failing receives the indices of those that do not hold, ascending; room for `count`
 template <int kLanes>
 CertificateCheck check_certificates_kernel(const CertificateBlocks& certificates, std::size_t count,

@@ -4,18 +4,9 @@
 #include "dismantle/certificates/front/certificate_kernels.h"
 #include "dismantle/math/lanes.h"
 
-/// Certificates in lanes, and the choice of their axes: shared by the front's kernels. To be included by kernels only.
+/// Certificates in lanes: shared by the front's kernels. To be included by kernels only.
 namespace dismantle {
 inline namespace DISMANTLE_LANES_ISA {
-
-///@{ The constants of OutwardNormals in float32.
-template <int kLanes>
-constexpr float kMinCosine = -0.05f;
-template <int kLanes>
-constexpr float kMinAgainst = 0.3f;
-template <int kLanes>
-constexpr float kBehind = 4;
-///@}
 
 /// The vector in every lane.
 template <int kLanes>
@@ -85,10 +76,9 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gap(Vec3T<Lanes<kLanes>> axis, Lanes<kLa
   return offset - max(reach_along<kLanes>(axis, hull, sweep.t0), reach_along<kLanes>(axis, hull, sweep.t1));
 }
 
-/// The smallest gaps of certificates i, i + 1, ... @param kind receives NodeHull::kind of each
+/// The smallest gaps of certificates i, i + 1, ...
 template <int kLanes>
-DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::size_t i, const LinearSweep& sweep,
-                                             Lanes<kLanes>& kind) {
+DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::size_t i, const LinearSweep& sweep) {
   using F = Lanes<kLanes>;
   const float* from = c.data +
                       (i / CertificateBlocks::kBlock * CertificateBlocks::kFields) * CertificateBlocks::kBlock +
@@ -96,80 +86,17 @@ DISMANTLE_HOST_DEVICE Lanes<kLanes> min_gaps(const CertificateBlocks& c, std::si
   const auto field = [&](std::size_t k) { return F::load(from + k * CertificateBlocks::kBlock); };
   const auto vector = [&](std::size_t k) { return Vec3T<F>{field(k), field(k + 1), field(k + 2)}; };
   const Hulls<kLanes> hull{vector(4), {vector(7), vector(10), vector(13)}, field(16)};
-  kind = hull.kind;
   return min_gap<kLanes>(vector(0), field(3), hull, sweep);
 }
 
-/// Mask of the certificates with these smallest gaps that certify their pairs. Those on edge are not accepted while
-/// they use the allowance: the pair may be apart along another axis by now.
-template <int kLanes>
-DISMANTLE_HOST_DEVICE auto certify(Lanes<kLanes> gap, Lanes<kLanes> kind, const LinearSweep& sweep) {
-  using F = Lanes<kLanes>;
-  return gap >= select(kind == F(NodeHull::kTriangleOnEdge), F(sweep.meeting), F(sweep.limit));
-}
-
-/// Decides by outward normals (cones of nodes, or the normals of two triangles) which axes may use the allowance.
-template <int kLanes>
-struct FacingLanes {
-  using F = Lanes<kLanes>;  ///< A number a lane.
-  using V = Vec3T<F>;       ///< A vector a lane.
-
-  V normal_a;  ///< Of A, with the rotation half way.
-  V normal_b;  ///< Of B.
-  F ahead_a;   ///< Smallest cosine of normal_a with an axis that may use the allowance.
-  F ahead_b;   ///< The same of normal_b.
-  F allowed;   ///< [mm]
-
-  /// The amount to subtract from a gap along `w`: nothing if every normal agrees, more than the allowance if the axis
-  /// separates the two behind each other's backs (OutwardNormals).
-  DISMANTLE_HOST_DEVICE F taken_off(V w) const {
-    const F along_a = dot(w, normal_a), along_b = -dot(w, normal_b);
-    const auto against = (along_a < F(-kMinAgainst<kLanes>)) & (along_b < F(-kMinAgainst<kLanes>));
-    const auto faces = (along_a >= ahead_a) & (along_b >= ahead_b);
-    return select(faces, F(0), select(against, F(kBehind<kLanes>), F(1)) * allowed);
-  }
-};
-
-/// The axis of the largest gap so far, minus what FacingLanes subtracts.
-template <int kLanes>
-struct FacingAxes {
-  using F = Lanes<kLanes>;  ///< A number a lane.
-  using V = Vec3T<F>;       ///< A vector a lane.
-
-  const FacingLanes<kLanes>& facing;  ///< Decides which axes may use the allowance.
-  V guard;                            ///< As BoxPairQuery::guard.
-  F apart;                            ///< As LinearSweep::apart [mm].
-  F gap = F(-3e38f);                  ///< The largest so far [mm].
-  V axis = {};                        ///< Its axis.
-
-  /// Takes the unit axis `w` if its gap `found`, less what is to be subtracted, is larger than all so far.
-  DISMANTLE_HOST_DEVICE void consider_side(V w, F found) {
-    const F counts = found - facing.taken_off(w);
-    const auto better = (counts > gap) & !((dot(w, guard) < F(0)) & (found < apart));
-    gap = select(better, counts, gap);
-    axis = select_vector<kLanes>(better, w, axis);
-  }
-
-  /// As FurthestAxes::consider(), for both directions of the line.
-  DISMANTLE_HOST_DEVICE void consider(V line, F offset_t0, F offset_t1, F half, F scale) {
-    const V w = scale * line;
-    consider_side(w, (-max(offset_t0, offset_t1) - half) * scale);
-    consider_side(-w, (min(offset_t0, offset_t1) - half) * scale);
-  }
-};
-
-/// Stores the separations of up to kLanes pairs of nodes or triangles. Axes on the wrong side of the guard, and zero
-/// axes, get no gap.
+/// Stores the separations of up to kLanes pairs of nodes or triangles. Zero axes get no gap.
 /// @param count of the pairs; lanes past it are padding
 template <int kLanes>
 DISMANTLE_HOST_DEVICE void store_separations(Vec3T<Lanes<kLanes>> axis, Lanes<kLanes> offset, const Hulls<kLanes>& hull,
-                                             Vec3T<Lanes<kLanes>> guard, const LinearSweep& sweep, NodeSeparation* to,
-                                             std::size_t count) {
+                                             const LinearSweep& sweep, NodeSeparation* to, std::size_t count) {
   using F = Lanes<kLanes>;
   F gap = min_gap<kLanes>(axis, offset, hull, sweep);
-  const auto wrong_side = (dot(axis, guard) < F(0)) & (gap < F(sweep.apart));
-  const auto none = dot(axis, axis) < F(0.5f);
-  gap = select(wrong_side | none, F(-3e38f), gap);
+  gap = select(dot(axis, axis) < F(0.5f), F(-3e38f), gap);
   float lane[CertificateBlocks::kFields][kLanes], gaps[kLanes];
   store_vector(lane, 0, axis);
   offset.store(lane[3]);

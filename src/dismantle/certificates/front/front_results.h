@@ -16,7 +16,7 @@ struct TrianglePairResult;
 /// A front whose certificates a device evaluates for a sweep.
 struct FrontQuery {
   CertificateFront* front;   ///< The front; the device marks as unchanged what it has copied.
-  const LinearSweep* sweep;  ///< The sweep, begun with CertificateFront::begin_sweep().
+  const LinearSweep* sweep;  ///< The sweep, made by CertificateFront::prepare_sweep().
   /// The triangle-pair tests of this sweep; null if the device is not to test triangles.
   const TrianglePairSweep* triangle_pairs = nullptr;
 };
@@ -53,7 +53,6 @@ struct MergeCandidate {
   std::uint32_t front = 0;  ///< Index of the front in the query.
   std::uint32_t a = 0;      ///< Node of A's tree.
   std::uint32_t b = 0;      ///< Node of B's tree.
-  Vec3f hint;               ///< The axis of the side to keep; zero for none.
 };
 
 }  // namespace dismantle

@@ -18,15 +18,13 @@ struct CertificateFront::Item {
   static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No index.
   std::uint32_t a = 0;                                 ///< Node of A's tree.
   std::uint32_t b = 0;                                 ///< Node of B's tree.
-  Vec3f hint;                         ///< The axis to start with; where sides are remembered only if it binds.
-  std::uint32_t slot = kNone;         ///< In the part; none for what is appended.
-  std::uint32_t first_child = kNone;  ///< Index of the first of two items that replace it.
-  std::uint32_t proof = kNone;        ///< Index of its certificate; none if it was not examined.
-  std::uint32_t start = 0;            ///< Index of the start that it descends from.
-  std::uint32_t known = kNone;        ///< Index of a device's result for it, if there is one.
-  bool radial = false;                ///< The front's pair was separated radially the last time.
-  bool are_triangles = false;         ///< The front tested these two triangles before,
-  bool on_edge = false;               ///< and found that they overlap on edge.
+  std::uint32_t slot = kNone;                          ///< In the part; none for what is appended.
+  std::uint32_t first_child = kNone;                   ///< Index of the first of two items that replace it.
+  std::uint32_t proof = kNone;                         ///< Index of its certificate; none if it was not examined.
+  std::uint32_t start = 0;                             ///< Index of the start that it descends from.
+  std::uint32_t known = kNone;                         ///< Index of a device's result for it, if there is one.
+  bool radial = false;                                 ///< The front's pair was separated radially the last time.
+  bool are_triangles = false;                          ///< The front tested these two triangles before.
 };
 
 /// Everything that a sweep of one part works on.

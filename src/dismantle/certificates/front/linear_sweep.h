@@ -22,12 +22,7 @@ struct LinearSweep {
   /// A gap of at least this certifies a pair for the whole sweep: minus the allowed penetration, plus bounds of the
   /// rounding and of the arcs' deviation from their chords [mm].
   float limit = 0;
-  float meeting = 0;  ///< With a gap below this [mm] a pair may overlap.
-  float apart = 0;    ///< With a gap of at least this [mm] a pair may take any side of each other.
-  float allowed = 0;  ///< Allowed penetration depth of two triangles [mm].
-  float error = 0;    ///< Bound of the rounding error of a gap [mm].
-  /// False if A has turned too far for the front's certificates to still agree with its outward normals.
-  bool normals_valid = true;
+  float error = 0;  ///< Bound of the rounding error of a gap [mm].
   /// The sweep of a part of the front may stop after this many blocked pairs, a sample spread over the part.
   std::uint32_t max_blocked = 0xffffffffu;
 };
@@ -38,18 +33,14 @@ struct LinearSweep {
 struct NodeHull {
   Vec3f center;   ///< Center of the box, or first corner of the triangle.
   Vec3f span[3];  ///< Half axes of the box, or two edges of the triangle.
-  ///@{ Values of `kind`. kTriangleOnEdge: a triangle whose certificate uses the allowance along an axis that does not
-  /// point clearly out of the one face and into the other, although its component is closed. kNone: the pair is
-  /// separated by something other than a plane.
-  static constexpr float kNone = -1, kBox = 0, kTriangle = 1, kTriangleOnEdge = 2;
+  ///@{ Values of `kind`. kNone: the pair is separated by something other than a plane.
+  static constexpr float kNone = -1, kBox = 0, kTriangle = 1;
   ///@}
   float kind = kBox;  ///< One of the values above, as a number for lanes.
 };
 
 /// Offset of a certificate that proves nothing.
 inline constexpr float kNoCertificate = -1e30f;
-/// Offset of a certificate that is no longer valid, but whose axis still says on which side the pair was.
-inline constexpr float kForgottenCertificate = -1e29f;
 
 /// A separating plane of two nodes or triangles, valid for every pose of A: along the unit vector `axis` (from A to B,
 /// in B's frame) their gap is offset - axis.t - max over p in the hull of axis.(R p), where x -> R x + t is the pose of

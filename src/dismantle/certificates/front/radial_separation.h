@@ -60,25 +60,15 @@ struct CylinderFit {
 /// is at most some distance past the ends, they are apart by that distance or the bound.
 class RadialSweep {
  public:
-  /// Lower bound of the gap of two nodes along the planes that touch the outer one's cylinder.
-  struct Gap {
-    double gap = 0;        ///< [mm]
-    bool facing = false;   ///< No outward normal points away from the other node along those planes' normals,
-    bool face_on = false;  ///< and all point clearly towards it.
-  };
-  /// The gap of two nodes during the motion.
+  /// Lower bound of the gap of two nodes during the motion, along the planes that touch the outer one's cylinder [mm].
   /// @param min_gap smaller gaps are of no use: the result may then be far below the true one [mm]
-  Gap gap(std::uint32_t moving, std::uint32_t fixed, double min_gap) const {
+  double gap(std::uint32_t moving, std::uint32_t fixed, double min_gap) const {
     const RadialBounds &m = (*moving_)[moving], &f = (*fixed_)[fixed];
     const double moving_inside = static_cast<double>(f.min_radius) - static_cast<double>(m.max_radius);
     const double fixed_inside = static_cast<double>(m.min_radius) - static_cast<double>(f.max_radius) - fixed_bend_;
-    if (std::max(moving_inside, fixed_inside) + max_off_ < min_gap)
-      return {-std::numeric_limits<double>::infinity(), false, false};
-    if (moving_inside >= fixed_inside)
-      return {moving_inside - moving_off_.upper_bound(m, f, moving_inside), m.clear_out && f.clear_in,
-              m.faces_out && f.faces_in};
-    return {fixed_inside - fixed_off_.upper_bound(f, m, fixed_inside), m.clear_in && f.clear_out,
-            m.faces_in && f.faces_out};
+    if (std::max(moving_inside, fixed_inside) + max_off_ < min_gap) return -std::numeric_limits<double>::infinity();
+    return moving_inside >= fixed_inside ? moving_inside - moving_off_.upper_bound(m, f, moving_inside)
+                                         : fixed_inside - fixed_off_.upper_bound(f, m, fixed_inside);
   }
 
   /// Two nodes as a whole cylinder in a whole bore; none if they are not, or their radial deviations sum to more than

@@ -18,14 +18,12 @@ struct TrianglePairs {
   using F = Lanes<kLanes>;  ///< A number a lane.
   using V = Vec3T<F>;       ///< A vector a lane.
 
-  V a[3];    ///< Corners of A [mm].
-  V b[3];    ///< Corners of B [mm].
-  V guard;   ///< As TrianglePairQuery::guard.
-  F facing;  ///< 1 where TrianglePairQuery::facing is set, else 0.
+  V a[3];  ///< Corners of A [mm].
+  V b[3];  ///< Corners of B [mm].
 
   /// Gathers the corners of the queries; lanes past `count` repeat the last one.
   DISMANTLE_HOST_DEVICE TrianglePairs(const TrianglePairQuery* queries, std::size_t count) {
-    constexpr int kFields = 22;
+    constexpr int kFields = 18;
     float field[kFields][kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const TrianglePairQuery& q =
@@ -33,10 +31,6 @@ struct TrianglePairs {
       const float *from_a = &q.a->corner[0].x, *from_b = &q.b->corner[0].x;  // 9 floats in a row each
       for (int k = 0; k < 9; ++k) field[k][l] = from_a[k];
       for (int k = 0; k < 9; ++k) field[9 + k][l] = from_b[k];
-      field[18][l] = q.guard.x;
-      field[19][l] = q.guard.y;
-      field[20][l] = q.guard.z;
-      field[21][l] = q.facing ? 1.0f : 0.0f;
     }
     const auto vector = [&](int first) {
       return V{F::load(field[first]), F::load(field[first + 1]), F::load(field[first + 2])};
@@ -45,8 +39,6 @@ struct TrianglePairs {
       a[k] = vector(3 * k);
       b[k] = vector(9 + 3 * k);
     }
-    guard = vector(18);
-    facing = F::load(field[21]);
   }
 };
 
@@ -66,11 +58,11 @@ struct TriangleAxes {
   using F = Lanes<kLanes>;  ///< A number a lane.
   using V = Vec3T<F>;       ///< A vector a lane.
 
-  V at_t0[3];                   ///< Corners of A at the start, in B's frame [mm].
-  V at_t1[3];                   ///< The same at the end [mm].
-  V b[3];                       ///< Corners of B [mm].
-  FacingAxes<kLanes>& well;     ///< Best axis of those that the normals clearly agree with.
-  FacingAxes<kLanes>& on_edge;  ///< Best axis of those that they hardly oppose.
+  V at_t0[3];         ///< Corners of A at the start, in B's frame [mm].
+  V at_t1[3];         ///< The same at the end [mm].
+  V b[3];             ///< Corners of B [mm].
+  F gap = F(-3e38f);  ///< The largest gap so far [mm].
+  V axis = {};        ///< Its axis.
 
   /// Considers both directions of a line.
   DISMANTLE_HOST_DEVICE void consider(V line) {
@@ -85,11 +77,15 @@ struct TriangleAxes {
     }
     // A zero axis would find no gap and no overlap.
     const F none = select(dot(w, w) < F(0.5f), F(1e30f), F(0));
-    for (int k = 0; k < 2; ++k) {
-      FacingAxes<kLanes>& best = k == 0 ? well : on_edge;
-      best.consider_side(w, low_b - high_a - none);
-      best.consider_side(-w, low_a - high_b - none);
-    }
+    consider_side(w, low_b - high_a - none);
+    consider_side(-w, low_a - high_b - none);
+  }
+
+ private:
+  DISMANTLE_HOST_DEVICE void consider_side(V w, F found) {
+    const auto better = found > gap;
+    gap = select(better, found, gap);
+    axis = select_vector<kLanes>(better, w, axis);
   }
 };
 
@@ -102,23 +98,14 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
   for (std::size_t first = 0; first < count; first += kLanes) {
     const std::size_t left = count - first;
     const TrianglePairs<kLanes> pairs(queries + first, left);
-    Hulls<kLanes> hull{pairs.a[0], {pairs.a[1] - pairs.a[0], pairs.a[2] - pairs.a[0], V{}}, F(NodeHull::kTriangle)};
+    const Hulls<kLanes> hull{
+        pairs.a[0], {pairs.a[1] - pairs.a[0], pairs.a[2] - pairs.a[0], V{}}, F(NodeHull::kTriangle)};
     const V along_a[3] = {rotated<kLanes>(sweep.middle, hull.span[0]),
                           rotated<kLanes>(sweep.middle, pairs.a[2] - pairs.a[1]),
                           rotated<kLanes>(sweep.middle, hull.span[1])};
     const V along_b[3] = {pairs.b[1] - pairs.b[0], pairs.b[2] - pairs.b[1], pairs.b[2] - pairs.b[0]};
     const V normal_a = cross(along_a[0], along_a[2]), normal_b = cross(along_b[0], along_b[2]);
-    const auto closed = pairs.facing > F(0);
-    const V unit_a = unit_or_zero<kLanes>(normal_a), unit_b = unit_or_zero<kLanes>(normal_b);
-    const auto facing_by = [&](float min_cosine) {
-      const F ahead = select(closed, F(min_cosine), F(-2));
-      return FacingLanes<kLanes>{unit_a, unit_b, ahead, ahead, F(sweep.allowed)};
-    };
-    const FacingLanes<kLanes> facing_well = facing_by(static_cast<float>(NormalCone::kMinAhead)),
-                              facing_on_edge = facing_by(kMinCosine<kLanes>);
-    FacingAxes<kLanes> well{facing_well, pairs.guard, F(sweep.apart)},
-        on_edge{facing_on_edge, pairs.guard, F(sweep.apart)};
-    TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}, well, on_edge};
+    TriangleAxes<kLanes> axes{{}, {}, {pairs.b[0], pairs.b[1], pairs.b[2]}};
     for (int k = 0; k < 3; ++k) {
       axes.at_t0[k] = transformed<kLanes>(sweep.t0, pairs.a[k]);
       axes.at_t1[k] = transformed<kLanes>(sweep.t1, pairs.a[k]);
@@ -130,15 +117,9 @@ DISMANTLE_HOST_DEVICE void separate_triangle_lanes(const TrianglePairQuery* quer
       axes.consider(cross(along_b[i], normal_b));
       for (int j = 0; j < 3; ++j) axes.consider(cross(along_a[i], along_b[j]));
     }
-    // On edge only if there is no other way; the margin covers the rounding of `well`.
-    const auto use_edge = closed & (well.gap < F(sweep.limit + 2 * sweep.error));
-    const auto chosen = [&](F of_edge, F of_well) { return select(use_edge, of_edge, of_well); };
-    const V axis = select_vector<kLanes>(use_edge, on_edge.axis, well.axis);
-    hull.kind = chosen(F(NodeHull::kTriangleOnEdge), F(NodeHull::kTriangle));
     F min_b(3e38f);
-    for (int k = 0; k < 3; ++k) min_b = min(min_b, dot(axis, pairs.b[k]));
-    const F offset = min_b - chosen(facing_on_edge.taken_off(axis), facing_well.taken_off(axis));
-    store_separations<kLanes>(axis, offset, hull, pairs.guard, sweep, separations + first, left);
+    for (int k = 0; k < 3; ++k) min_b = min(min_b, dot(axes.axis, pairs.b[k]));
+    store_separations<kLanes>(axes.axis, min_b, hull, sweep, separations + first, left);
   }
 }
 

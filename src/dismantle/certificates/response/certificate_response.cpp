@@ -14,6 +14,9 @@ namespace dismantle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// A motion that was shortened this many times and is still blocked is not made.
+constexpr int kMaxShortenings = 6;
 using Shortening = GuardedMover::Shortening;
 
 }  // namespace
@@ -66,7 +69,17 @@ void CertificateResponse::report(const CertificateSweep& sweep, StepResult& resu
   result.blocking_pairs.clear();
   for (const SweepContact& b : sweep.blocked) {
     if (b.toi > sweep.toi + kContactWindow) continue;
-    result.blocking_pairs.push_back(blocking_pair_of(b, b.toi));
+    const BlockingPair pair = blocking_pair_of(b, b.toi);
+    // Two faces may be blocked by the ghosts of each other.
+    const auto same = [&](const BlockingPair& known) {
+      return known.a == pair.a && known.b == pair.b && known.face_a == pair.face_a && known.face_b == pair.face_b;
+    };
+    const auto known = std::find_if(result.blocking_pairs.begin(), result.blocking_pairs.end(), same);
+    if (known == result.blocking_pairs.end()) {
+      result.blocking_pairs.push_back(pair);
+    } else {
+      known->toi = std::min(known->toi, pair.toi);
+    }
   }
 }
 
@@ -105,10 +118,11 @@ double CertificateResponse::free_fraction(const ScrewMotion& motion, bool touch,
     if (fraction < rest) fraction = 0;
   };
   stop_at(sweeper_.sweep_pairs(stopping_, motion, kContactWindow));
-  // A sample of the blocked pairs shortens the motion enough for all others to be swept.
-  for (const SweepBudget budget : {SweepBudget::Sampled, SweepBudget::Exhaustive}) {
-    if (fraction == 0) break;
+  // A sample of the blocked pairs shortens the motion enough for all others to be swept. Where a sweep shortens a
+  // rotation, the pose reached is not on the chords that were swept: the shorter motion is swept again.
+  for (int tries = 0; fraction > 0; ++tries) {
     const ScrewMotion trial = fraction < 1 ? sweeper_.motion_to(motion.at(fraction)) : motion;
+    const SweepBudget budget = tries == 0 ? SweepBudget::Sampled : SweepBudget::Exhaustive;
     const CertificateSweep found = sweep(trial, kContactWindow, budget, result);
     if (found.free) {
       if (fraction == 1) result.clearance = found.clearance;
@@ -116,7 +130,8 @@ double CertificateResponse::free_fraction(const ScrewMotion& motion, bool touch,
     }
     result.clearance = 0;
     stop_at(found);
-    if (found.complete) break;
+    if (found.complete && trial.deviation == 0) break;
+    if (tries == kMaxShortenings) fraction = 0;
   }
   return fraction;
 }

@@ -46,6 +46,10 @@ class CertificateResponse {
   /// Adds the contacts that block a motion, or makes it up to these. @return false if the step ends
   bool make_blocked(const SlideTrial& trial, const ScrewMotion& motion, const CertificateSweep& found,
                     SlideState& state, StepResult& result);
+  /// Makes a motion up to a fraction of it, before its first contact. @return false if nothing of it is made
+  bool make_part(const ScrewMotion& motion, double fraction, double window, StepResult& result);
+  /// Time after the first contact in which others are found, as a fraction of the trial's motion.
+  double contact_window(const SlideTrial& trial) const;
   /// True if contacts that let the set hardly move are to be found again: the first times since it did move, then ever
   /// more rarely.
   bool search_again();

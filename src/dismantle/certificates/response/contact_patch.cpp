@@ -73,7 +73,8 @@ ContactPatch contact_patch(const Triangle& upper, const Triangle& lower, Vec3 up
       const Vec3 p = a[i], along_a = a[(i + 1) % 3] - p, q = b[j], along_b = b[(j + 1) % 3] - q;
       const double length_a = length_flat(along_a), length_b = length_flat(along_b);
       const double sine = cross_flat(along_a, along_b);
-      if (std::abs(sine) <= 1e-9 * length_a * length_b || length_a == 0 || length_b == 0) continue;
+      // An edge seen end-on is a point: its corners count.
+      if (std::abs(sine) <= 1e-9 * length_a * length_b || length_a <= slack || length_b <= slack) continue;
       const double s = cross_flat(q - p, along_b) / sine, t = cross_flat(q - p, along_a) / sine;
       const double more_a = slack / length_a, more_b = slack / length_b;
       if (s < -more_a || s > 1 + more_a || t < -more_b || t > 1 + more_b) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace dismantle {
@@ -20,6 +21,9 @@ constexpr double kTouching = 1e-2;
 /// Where a pair uses the reserve, a motion is made up to this share of what the certificates allow.
 constexpr double kShareBeyondReserve = 0.5;
 
+/// As kSlideReserve for pairs of a ghost.
+constexpr double kGhostReserve = 0.3, kGhostFitReserve = 0.1;
+
 /// As kSlideReserve for a cylinder in its bore, whose rows leave out only the bending of the twist.
 constexpr double kFitReserve = 0.45;
 /// A twist is bounded again where it takes a cylinder further, at most this many times.
@@ -28,7 +32,7 @@ constexpr int kFitCuts = 6;
 constexpr double kFitSlack = 1e-2;
 
 /// Cylinders with less play than this share of the tolerance are left to their triangles.
-constexpr double kMinOff = 0.1;
+constexpr double kMinOff = 0.05;
 
 /// The touching face is searched at this distance from the end of the contact [of its length].
 constexpr double kInside = 1e-3;
@@ -36,7 +40,8 @@ constexpr double kInside = 1e-3;
 constexpr double kMinAhead = 0.99;
 
 bool same_faces(const SweepContact& x, const SweepContact& y) {
-  return x.moving == y.moving && x.fixed == y.fixed && x.face_moving == y.face_moving && x.face_fixed == y.face_fixed;
+  return x.moving == y.moving && x.fixed == y.fixed && x.surfaces == y.surfaces && x.face_moving == y.face_moving &&
+         x.face_fixed == y.face_fixed;
 }
 
 }  // namespace
@@ -62,7 +67,8 @@ bool SlideContacts::add_vertex(const SweepContact& pair) {
 
 bool SlideContacts::add_fit(const BlockedFit& fit) {
   const auto same = [&](const BlockedFit& known) {
-    return known.moving == fit.moving && known.fixed == fit.fixed && known.fit == fit.fit;
+    return known.moving == fit.moving && known.fixed == fit.fixed && known.surfaces == fit.surfaces &&
+           known.fit == fit.fit;
   };
   if (std::any_of(fits_.begin(), fits_.end(), same)) return false;
   if (max_off(fit) < kMinOff * sweeper_.tolerance()) return false;
@@ -85,9 +91,11 @@ void SlideContacts::choose_axes(const ScrewMotion& motion) {
 
 double SlideContacts::fraction_within_reserve(const SweepContact& pair) const {
   if (length_squared(pair.axis) == 0) return 0;
-  const double allowed = sweeper_.allowed(pair.moving, pair.fixed), gap = geometry(pair).gap;
-  const double available = gap + allowed - kArcShare * sweeper_.tolerance();
-  const double wanted = gap + allowed - kSlideReserve * sweeper_.tolerance();
+  const double gap = geometry(pair).gap;
+  const double available =
+      gap +
+      (pair.surfaces == SurfacePair::Plain ? sweeper_.allowed(pair.tested()) - kArcShare * sweeper_.tolerance() : 0);
+  const double wanted = gap + deepest(pair);
   const double share = available > 0 ? wanted / available : 0;
   // A pair that uses the reserve already goes half of what is left.
   return pair.toi * std::max(share, kShareBeyondReserve);
@@ -97,8 +105,8 @@ SlideContacts::PairGeometry SlideContacts::geometry(const SweepContact& pair) co
   const RigidTransform moving = transform_from_pose(sweeper_.pose());
   const Pose& fixed_pose = sweeper_.poses()[pair.fixed.value];
   const RigidTransform fixed = transform_from_pose(fixed_pose);
-  const Triangle own = sweeper_.solid(pair.moving).triangle(pair.face_moving.value);
-  const Triangle other = sweeper_.solid(pair.fixed).triangle(pair.face_fixed.value);
+  const Triangle own = sweeper_.moving_surface(pair.tested()).triangle(pair.face_moving.value);
+  const Triangle other = sweeper_.fixed_surface(pair.tested()).triangle(pair.face_fixed.value);
   const Triangle own_now{{moving * own[0], moving * own[1], moving * own[2]}};
   const Triangle other_now{{fixed * other[0], fixed * other[1], fixed * other[2]}};
   PairGeometry s;
@@ -147,6 +155,11 @@ std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked
   return both;
 }
 
+double SlideContacts::deepest(const SweepContact& pair) const {
+  if (pair.surfaces != SurfacePair::Plain) return -kGhostReserve * sweeper_.tolerance();
+  return sweeper_.allowed(pair.tested()) - kSlideReserve * sweeper_.tolerance();
+}
+
 double SlideContacts::withheld() const {
   double largest = 0;
   for (const BlockedFit& fit : fits_) largest = std::max(largest, fit.fit.radial_deviation);
@@ -154,6 +167,7 @@ double SlideContacts::withheld() const {
 }
 
 double SlideContacts::max_off(const BlockedFit& fit) const {
+  if (fit.surfaces != SurfacePair::Plain) return fit.fit.room - kGhostFitReserve * sweeper_.tolerance();
   return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
 }
 
@@ -174,11 +188,10 @@ bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double cha
   return bounded;
 }
 
-void SlideContacts::bound(const SweepContact& pair, double allowed, double characteristic_length,
+void SlideContacts::bound(const SweepContact& pair, double deepest, double characteristic_length,
                           std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
   const PairGeometry s = geometry(pair);
-  const double deepest = allowed - kSlideReserve * sweeper_.tolerance();
   if (s.patch.count == 0) return;
   // The gap that the certificates measure can be deeper than that of the overlap.
   const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
@@ -192,10 +205,11 @@ void SlideContacts::bound(const SweepContact& pair, double allowed, double chara
 
 SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) const {
   std::vector<HalfSpace> bounds;
-  for (const SweepContact& pair : pairs_)
-    bound(pair, sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
+  for (const SweepContact& pair : pairs_) bound(pair, deepest(pair), characteristic_length, bounds);
   for (const SweepContact& pair : vertices_)
-    bound(pair, VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed), characteristic_length, bounds);
+    bound(pair,
+          VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed) - kSlideReserve * sweeper_.tolerance(),
+          characteristic_length, bounds);
   std::vector<BoundingFit> bounding_fits;
   for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
   Twist found = solve(wanted, characteristic_length, bounds);
@@ -235,7 +249,8 @@ ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) cons
 
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
   std::vector<ContactPoint> points;
-  for (const SweepContact& pair : pairs_) {
+  for (SweepContact pair : pairs_) {
+    pair.surfaces = SurfacePair::Plain;  // points and gaps are those of the components, not of ghosts
     const PairGeometry s = geometry(pair);
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.
@@ -250,14 +265,16 @@ std::vector<ContactPoint> SlideContacts::points(double reach) const {
     points.push_back(
         {pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, (1.0 / count) * sum, s.normal, s.gap});
   }
+  const auto key = [](const ContactPoint& c) { return std::tuple(c.moving, c.fixed, c.face_moving, c.face_fixed); };
+  const auto before = [&](const ContactPoint& x, const ContactPoint& y) { return key(x) < key(y); };
+  const auto same = [&](const ContactPoint& x, const ContactPoint& y) { return key(x) == key(y); };
+  std::stable_sort(points.begin(), points.end(), before);
+  // Two faces may be in contact with the ghosts of each other.
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
   for (const BlockedFit& fit : fits_)
     for (const FitEnd& end : ends(fit))
       if (end.gap <= reach && length_squared(end.off) > 0) points.push_back(point(fit, end));
-  std::sort(points.begin(), points.end(), [](const ContactPoint& x, const ContactPoint& y) {
-    if (x.moving != y.moving) return x.moving < y.moving;
-    if (x.fixed != y.fixed) return x.fixed < y.fixed;
-    return x.face_moving != y.face_moving ? x.face_moving < y.face_moving : x.face_fixed < y.face_fixed;
-  });
+  std::stable_sort(points.begin(), points.end(), before);
   return points;
 }
 

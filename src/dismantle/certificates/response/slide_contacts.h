@@ -71,9 +71,11 @@ class SlideContacts {
     double gap = 0;      ///< Along the normal [mm].
   };
   PairGeometry geometry(const SweepContact& pair) const;
+  /// The depth that a pair may have at the end of a twist [mm]; negative for a gap.
+  double deepest(const SweepContact& pair) const;
   /// Adds the rows of nearest_twist() by which the pair bounds the twist.
-  /// @param allowed depth [mm]
-  void bound(const SweepContact& pair, double allowed, double characteristic_length,
+  /// @param deepest as deepest()
+  void bound(const SweepContact& pair, double deepest, double characteristic_length,
              std::vector<HalfSpace>& bounds) const;
 
   /// An end of the part of a cylinder that is in its bore.
@@ -106,7 +108,8 @@ class SlideContacts {
   std::vector<BlockedFit> fits_;
 };
 
-/// Response Slide keeps this share of the tolerance from every allowance: room for the second-order part of twists.
+/// Response Slide keeps this share of the tolerance from every allowance, and less of it from ghost surfaces: room for
+/// the second-order part of twists.
 inline constexpr double kSlideReserve = 0.65;
 
 }  // namespace dismantle

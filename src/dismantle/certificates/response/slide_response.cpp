@@ -24,6 +24,8 @@ constexpr double kCreepShare = 0.1;
 constexpr unsigned kAlwaysSearchAgain = 4;
 /// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
+/// A part of a motion up to its first contact that is blocked itself is halved this many times.
+constexpr int kMaxHalvings = 2;
 /// Contacts are kept while their gap is at most this many tolerances.
 constexpr double kContactReach = 8;
 
@@ -47,8 +49,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (trial.travel < rest || (trial.creeping && !result.poses.empty())) break;
 
     const ScrewMotion motion = within_arcs(trial.motion);
-    const double window = std::max(kContactWindow, kContactReach * tolerance / trial.travel);
-    const CertificateSweep found = sweep(motion, window, state.budget, result);
+    const CertificateSweep found = sweep(motion, contact_window(trial), state.budget, result);
     result.clearance = found.clearance;
     if (!found.free) report(found, result);
     state.tries += !found.free || trial.twist.bounded;
@@ -57,6 +58,10 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (!goes_on) break;
   }
   end_slide(target, result);
+}
+
+double CertificateResponse::contact_window(const SlideTrial& trial) const {
+  return std::max(kContactWindow, kContactReach * sweeper_.tolerance() / trial.travel);
 }
 
 CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& state) {
@@ -91,6 +96,7 @@ bool CertificateResponse::make_free(const SlideTrial& trial, const ScrewMotion& 
 
 bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotion& motion,
                                        const CertificateSweep& found, SlideState& state, StepResult& result) {
+  const double window = contact_window(trial);
   bool news = false;
   double fraction = found.toi;
   for (const SweepContact& pair : found.blocked) {
@@ -109,11 +115,23 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
     return !(reach_ < kRestShare * sweeper_.tolerance());
   }
   reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
-  const bool made = advance(motion, fraction, Shortening::Allowed, result) > 0;
+  const bool made = make_part(motion, fraction, window, result);
   if (!add_blocking_vertices(result) && !made) return false;
   state.axes_chosen = state.on_course = state.contacts_here = false;
   if (made && !trial.creeping) hardly_moved_ = 0;
   return true;
+}
+
+bool CertificateResponse::make_part(const ScrewMotion& motion, double fraction, double window, StepResult& result) {
+  // The pose at the end of a part of a rotation is not on the chords that were swept.
+  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, fraction /= 2) {
+    if (fraction * motion.path_length < kRestShare * sweeper_.tolerance()) return false;
+    if (motion.deviation == 0) return advance(motion, fraction, Shortening::Allowed, result) > 0;
+    const ScrewMotion part = sweeper_.motion_to(motion.at(fraction));
+    if (sweep(part, window, SweepBudget::Bounded, result).free)
+      return advance(part, 1, Shortening::Allowed, result) > 0;
+  }
+  return false;
 }
 
 bool CertificateResponse::search_again() {

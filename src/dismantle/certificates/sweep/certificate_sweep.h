@@ -10,24 +10,44 @@
 
 namespace dismantle {
 
-/// A contact of two triangles that blocks a sweep: they get deeper than their allowance. The engine reports it
-/// as a BlockingPair, which has no axis.
+/// The surfaces of a moving and a fixed component that are tested against each other
+/// (docs/design/0012-ghost-surfaces.md).
+enum class SurfacePair : std::uint8_t {
+  Plain,        ///< Both as they are, with an allowance: components that overlap in the assembled state.
+  MovingGhost,  ///< The ghost of the moving component and the fixed one, without an allowance.
+  FixedGhost,   ///< The moving component and the ghost of the fixed one, without an allowance.
+};
+
+/// What a sweep tests: two components, and which of their surfaces.
+struct TestedPair {
+  ComponentId moving;                         ///< The component that moves.
+  ComponentId fixed;                          ///< The other component.
+  SurfacePair surfaces = SurfacePair::Plain;  ///< Their surfaces.
+};
+
+/// A contact of two triangles that blocks a sweep: they would cross, or get deeper than their allowance. The engine
+/// reports it as a BlockingPair, which has no axis.
 struct SweepContact {
   ComponentId moving;  ///< A component of the moving set.
   ComponentId fixed;   ///< The other component.
   FaceId face_moving;  ///< Face of the moving component's mesh.
   FaceId face_fixed;   ///< Face of the fixed component's mesh.
   double toi = 0;      ///< The pair certainly allows the motion on [0, toi].
-  /// Last separating axis: unit, from the moving to the fixed triangle [assembled frame of the fixed component]; zero
-  /// if no axis separates them.
+  /// Unit, from the moving to the fixed triangle [assembled frame of the fixed component]; zero if no axis separates
+  /// them.
   Vec3 axis;
+  SurfacePair surfaces = SurfacePair::Plain;  ///< The surfaces that the two triangles are of.
+
+  /// The components and surfaces.
+  TestedPair tested() const { return {moving, fixed, surfaces}; }
 };
 
 /// A cylinder of one component that is blocked by its bore in another, as one contact.
 struct BlockedFit {
-  ComponentId moving;  ///< A component of the moving set.
-  ComponentId fixed;   ///< The other component.
-  CylinderFit fit;     ///< The cylinder and the bore.
+  ComponentId moving;                         ///< A component of the moving set.
+  ComponentId fixed;                          ///< The other component.
+  CylinderFit fit;                            ///< The cylinder and the bore.
+  SurfacePair surfaces = SurfacePair::Plain;  ///< The surfaces that they are of.
 };
 
 /// Result of a sweep of the moving set.

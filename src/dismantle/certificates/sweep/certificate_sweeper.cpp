@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 
+#include "dismantle/certificates/sweep/separating_ghost.h"
 #include "dismantle/certificates/sweep/sweep_tasks.h"
 #include "dismantle/core/contract.h"
 #include "dismantle/math/vec3f.h"
+#include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,6 +22,24 @@ constexpr double kBoundedShare = 1e-2;
 /// A sampled sweep ends with about this many blocked pairs of two components.
 constexpr std::size_t kSampleSize = 32;
 
+/// Ghost surfaces are displaced by at most this share of the tolerance: the rest is for the arcs' deviation.
+constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
+/// Ghosts made for a pair are apart by this share of the tolerance if they can be.
+constexpr double kGhostGap = 0.62;
+
+/// The one of the moving (first) and the fixed (second) component that is represented by its ghost.
+GhostOf ghost_of(SurfacePair surfaces) {
+  switch (surfaces) {
+    case SurfacePair::Plain:
+      return GhostOf::None;
+    case SurfacePair::MovingGhost:
+      return GhostOf::First;
+    case SurfacePair::FixedGhost:
+      return GhostOf::Second;
+  }
+  return GhostOf::None;
+}
+
 /// `pose` in the frame of something at `frame`; exact if that is the assembled pose.
 Pose seen_from(const Pose& frame, const Pose& pose) {
   return frame == Pose{} ? pose : inverse(frame) * pose;
@@ -31,6 +51,7 @@ void sort_blocked(std::vector<SweepContact>& pairs) {
   std::sort(pairs.begin(), pairs.end(), [](const SweepContact& x, const SweepContact& y) {
     if (x.moving != y.moving) return x.moving < y.moving;
     if (x.fixed != y.fixed) return x.fixed < y.fixed;
+    if (x.surfaces != y.surfaces) return x.surfaces < y.surfaces;
     if (x.face_moving != y.face_moving) return x.face_moving < y.face_moving;
     return x.face_fixed < y.face_fixed;
   });
@@ -42,10 +63,12 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
       options_(options),
       kernels_(front_kernels(options.lanes)),
       rules_(pairs),
-      store_(assembly, options.executor),
+      store_(assembly, kGhostLength * pairs.tolerance, options.executor),
       device_(std::move(device)),
       poses_(assembly.components.size()),
-      is_moving_(assembly.components.size()) {}
+      is_moving_(assembly.components.size()) {
+  prepare_ghosts();
+}
 
 void CertificateSweeper::grab(Span<const ComponentId> components) {
   DISMANTLE_EXPECT(!components.empty());
@@ -87,25 +110,53 @@ double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
   return rule.test == PairTest::Discrete ? -1 : rule.allowed_penetration;
 }
 
-bool CertificateSweeper::touched(ComponentId a, ComponentId b) const {
-  return rules_.view().find(std::min(a, b).value, std::max(a, b).value).test != PairTest::Ordinary;
+Span<const SurfacePair> CertificateSweeper::surface_pairs(ComponentId a, ComponentId b) const {
+  static constexpr SurfacePair kAll[] = {SurfacePair::Plain, SurfacePair::MovingGhost, SurfacePair::FixedGhost};
+  const bool plain = allowed(a, b) > tolerance() || plain_pairs_.count(std::minmax(a, b)) > 0;
+  return plain ? Span<const SurfacePair>(kAll, 1) : Span<const SurfacePair>(kAll + 1, 2);
 }
 
-SideRule CertificateSweeper::sides(ComponentId a, ComponentId b) const {
-  if (!solid(a).has_outside || !solid(b).has_outside) return SideRule::Memory;
-  return allowed(a, b) > tolerance() ? SideRule::Free : SideRule::Normals;
-}
-
-TrianglePairSweep CertificateSweeper::triangle_pair_sweep(ComponentId moving, ComponentId fixed,
-                                                          const ScrewMotion& motion, SweepBudget budget) const {
-  const Pose& frame = poses_[fixed.value];
-  TrianglePairRules rules{allowed(moving, fixed), tolerance(), sides(moving, fixed), {}};
+TrianglePairSweep CertificateSweeper::triangle_pair_sweep(const TestedPair& pair, const ScrewMotion& motion,
+                                                          SweepBudget budget) const {
+  const Pose& frame = poses_[pair.fixed.value];
+  TrianglePairRules rules{allowed(pair), tolerance(), {}};
   if (budget == SweepBudget::Bounded || budget == SweepBudget::WholeCylinders) {
     rules.limits.steps = kBoundedSteps;
     rules.limits.min_progress = std::max(rules.limits.min_progress, kBoundedShare * tolerance() / motion.path_length);
   }
-  return TrianglePairSweep(solid(moving), solid(fixed), seen_from(frame, motion.start), seen_from(frame, motion.end),
-                           motion.deviation, rules);
+  return TrianglePairSweep(moving_surface(pair), fixed_surface(pair), seen_from(frame, motion.start),
+                           seen_from(frame, motion.end), motion.deviation, rules);
+}
+
+void CertificateSweeper::prepare_ghosts() {
+  std::vector<std::pair<ComponentId, ComponentId>> near;
+  for (std::uint32_t k = 0; k < poses_.size(); ++k)
+    for (std::uint32_t i = 0; i < k; ++i) {
+      const ComponentId a(i), b(k);
+      if (solid(a).tree.empty() || solid(b).tree.empty() || allowed(a, b) != tolerance()) continue;
+      if (bounds_distance({&solid(a), {}}, {&solid(b), {}}) <= tolerance()) near.emplace_back(a, b);
+    }
+  std::vector<std::uint8_t> apart(near.size());
+  options_.executor.for_each_heavy(near.size(),
+                                   [&](std::size_t i) { apart[i] = ghosts_apart(near[i].first, near[i].second); });
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (apart[i] == 0 && !separate_ghosts(near[i].first, near[i].second)) plain_pairs_.insert(near[i]);
+}
+
+bool CertificateSweeper::ghosts_apart(ComponentId a, ComponentId b) const {
+  return sweep_linear({a, b, {}, {}, {}}, 0, 1).free;
+}
+
+bool CertificateSweeper::separate_ghosts(ComponentId a, ComponentId b) {
+  const double max_length = kGhostLength * tolerance(), gap = kGhostGap * tolerance();
+  const ScrewMotion rest = screw_motion({}, {}, {}, 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near = near_faces(a, b, rest, max_length + gap);
+  const auto of_a = separating_ghost({&solid(a), &solid(b), store_.ghost(a, b).vertices, near, max_length, gap, true});
+  for (auto& [face_a, face_b] : near) std::swap(face_a, face_b);
+  const auto of_b = separating_ghost({&solid(b), &solid(a), store_.ghost(b, a).vertices, near, max_length, gap, false});
+  if (!of_a || !of_b) return false;
+  store_.set_ghosts(a, b, *of_a, *of_b, options_.executor);
+  return ghosts_apart(a, b);
 }
 
 template <class Visit>
@@ -147,13 +198,13 @@ TrianglePairTest CertificateSweeper::triangle_pair_test(const PairSweep& pair, P
                                                                           {hint.x, hint.y, hint.z}, task.horizon);
     if (!found.free) {
       task.horizon = std::min(task.horizon, found.contact.toi + window);
-      task.blocked.push_back({pair.moving, pair.fixed, FaceId(candidate.face_moving), FaceId(candidate.face_fixed),
-                              found.contact.toi, found.contact.axis});
+      task.blocked.push_back({pair.tested.moving, pair.tested.fixed, FaceId(candidate.face_moving),
+                              FaceId(candidate.face_fixed), found.contact.toi, found.contact.axis,
+                              pair.tested.surfaces});
     }
     const float gap = -rounded_up(-found.gap);
     const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
-    return TrianglePairVerdict{found.free, gap, cut_short, found.no_deep_vertex_possible,
-                               pair.triangle_pairs.certificate(found, pair.sweep)};
+    return TrianglePairVerdict{found.free, gap, cut_short, pair.triangle_pairs.certificate(found)};
   };
 }
 
@@ -170,12 +221,15 @@ std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(con
                                                                              CertificateSweep& result) {
   std::vector<PairSweep> pairs;
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    CertificateFront& front = store_.prepare(moving, fixed, sides(moving, fixed), poses_);
-    const TrianglePairSweep triangle_pairs = triangle_pair_sweep(moving, fixed, motion, budget);
-    PairMotion pair_motion = triangle_pairs.motion();
-    if (budget != SweepBudget::Exhaustive) pair_motion.max_blocked = kSampleSize;
-    if (budget == SweepBudget::WholeCylinders) pair_motion.max_fit_deviation = tolerance();
-    pairs.push_back({moving, fixed, &front, triangle_pairs, front.begin_sweep(pair_motion), allowed(moving, fixed)});
+    for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
+      const TestedPair tested{moving, fixed, surfaces};
+      CertificateFront& front = store_.prepare(moving, fixed, ghost_of(surfaces), poses_);
+      const TrianglePairSweep triangle_pairs = triangle_pair_sweep(tested, motion, budget);
+      PairMotion pair_motion = triangle_pairs.motion();
+      if (budget != SweepBudget::Exhaustive) pair_motion.max_blocked = kSampleSize;
+      if (budget == SweepBudget::WholeCylinders) pair_motion.max_fit_deviation = tolerance();
+      pairs.push_back({tested, &front, triangle_pairs, front.prepare_sweep(pair_motion), allowed(tested)});
+    }
   });
   return pairs;
 }
@@ -215,16 +269,18 @@ void CertificateSweeper::collect(const std::vector<PartTask>& tasks, std::vector
                                  CertificateSweep& result) {
   for (const PartTask& task : tasks) {
     PairSweep& pair = pairs[task.pair];
-    result.clearance = std::min<double>(result.clearance, task.found.min_gap - pair.sweep.error);
+    result.clearance = std::min(result.clearance, pair.clearance(task.found));
     result.triangle_tests += task.found.triangle_tests;
     result.device_tests += task.device_tests;
     result.complete &= task.found.complete;
     pair.free &= task.found.complete && task.found.blocked == 0;
-    const std::pair both{pair.moving, pair.fixed};
-    if (task.found.may_touch && (result.near_component_pairs.empty() || result.near_component_pairs.back() != both))
+    const std::pair both{pair.tested.moving, pair.tested.fixed};
+    if (pair.may_touch(task.found) &&
+        (result.near_component_pairs.empty() || result.near_component_pairs.back() != both))
       result.near_component_pairs.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-    for (const CylinderFit& fit : task.found.fits) result.fits.push_back({both.first, both.second, fit});
+    for (const CylinderFit& fit : task.found.fits)
+      result.fits.push_back({both.first, both.second, fit, pair.tested.surfaces});
   }
 }
 
@@ -246,14 +302,14 @@ void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, co
   std::vector<std::vector<Siblings>> siblings(tasks.size());
   for_each_part(tasks.size(), [&](std::size_t i) {
     const PairSweep& pair = pairs[tasks[i].pair];
-    siblings[i] = pair.front->siblings_of(tasks[i].part, pair.sweep);
+    siblings[i] = pair.front->siblings_of(tasks[i].part);
   });
   std::vector<std::size_t> begins;
   std::vector<MergeCandidate> candidates;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     begins.push_back(candidates.size());
     for (const Siblings& s : siblings[i])
-      candidates.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b, s.hint});
+      candidates.push_back({static_cast<std::uint32_t>(tasks[i].pair), s.parent.a, s.parent.b});
   }
   if (candidates.empty()) return;
   const Span<const NodeSeparation> separations = device_.fronts->separate(front_queries(pairs), candidates);
@@ -265,7 +321,7 @@ void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, co
 }
 
 TrianglePairResult CertificateSweeper::sweep_pair(const SweepContact& pair, const ScrewMotion& motion) const {
-  return triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Bounded)
+  return triangle_pair_sweep(pair.tested(), motion, SweepBudget::Bounded)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
 }
 
@@ -275,8 +331,8 @@ CertificateSweep CertificateSweeper::sweep_pairs(Span<const SweepContact> pairs,
   std::optional<TrianglePairSweep> triangle_pairs;
   const SweepContact* last = nullptr;
   for (const SweepContact& pair : pairs) {
-    if (!last || last->moving != pair.moving || last->fixed != pair.fixed)
-      triangle_pairs.emplace(triangle_pair_sweep(pair.moving, pair.fixed, motion, SweepBudget::Exhaustive));
+    if (!last || last->moving != pair.moving || last->fixed != pair.fixed || last->surfaces != pair.surfaces)
+      triangle_pairs.emplace(triangle_pair_sweep(pair.tested(), motion, SweepBudget::Exhaustive));
     last = &pair;
     const TrianglePairResult found = triangle_pairs->test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
     ++result.triangle_tests;
@@ -293,13 +349,16 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    std::optional<CertificateFront> fresh;
-    const CertificateFront* front = store_.find(moving, fixed, poses_[fixed.value]);
-    if (!front) front = &fresh.emplace(store_.new_front(moving, fixed, sides(moving, fixed)));
-    const TrianglePairSweep triangle_pairs = triangle_pair_sweep(moving, fixed, motion, SweepBudget::Exhaustive);
-    const PairSweep pair{
-        moving, fixed, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()), allowed(moving, fixed)};
-    sweep_const(*front, pair, window, result);
+    for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
+      const TestedPair tested{moving, fixed, surfaces};
+      std::optional<CertificateFront> fresh;
+      const CertificateFront* front = store_.find(moving, fixed, ghost_of(surfaces), poses_[fixed.value]);
+      if (!front) front = &fresh.emplace(store_.new_front(moving, fixed, ghost_of(surfaces)));
+      const TrianglePairSweep triangle_pairs = triangle_pair_sweep(tested, motion, SweepBudget::Exhaustive);
+      sweep_const(*front,
+                  {tested, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()), allowed(tested)},
+                  window, result);
+    }
   });
   finish(result, window);
   return result;
@@ -308,18 +367,20 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
 CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to) const {
   const ComponentId moving = motion.moving, fixed = motion.fixed;
   CertificateSweep result;
-  const double allowance = allowed(moving, fixed);
-  if (allowance < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
+  if (allowed(moving, fixed) < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
   const auto at = [&](double share) {
     return seen_from(motion.pose_fixed,
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
-  const TrianglePairSweep triangle_pairs(solid(moving), solid(fixed), at(from), at(to), 0,
-                                         {allowance, tolerance(), sides(moving, fixed), {}, false});
-  PairMotion pair_motion = triangle_pairs.motion();
-  pair_motion.max_blocked = 1;
-  const CertificateFront front = store_.new_front(moving, fixed, sides(moving, fixed));
-  sweep_const(front, {moving, fixed, nullptr, triangle_pairs, front.prepare_sweep(pair_motion), allowance}, 0, result);
+  for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
+    const TestedPair tested{moving, fixed, surfaces};
+    const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,
+                                           {allowed(tested), tolerance(), {}});
+    PairMotion pair_motion = triangle_pairs.motion();
+    pair_motion.max_blocked = 1;
+    const CertificateFront front = store_.new_front(moving, fixed, ghost_of(surfaces));
+    sweep_const(front, {tested, nullptr, triangle_pairs, front.prepare_sweep(pair_motion), allowed(tested)}, 0, result);
+  }
   finish(result, 0);
   return result;
 }
@@ -330,10 +391,26 @@ void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSw
   const FrontSweep found = front.sweep_const(pair.sweep, kernels_, triangle_pair_test(pair, task, window));
   for (const SweepContact& blocked : task.blocked) result.toi = std::min(result.toi, blocked.toi);
   result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
-  result.clearance = std::min<double>(result.clearance, found.min_gap - pair.sweep.error);
+  result.clearance = std::min(result.clearance, pair.clearance(found));
   result.complete &= found.complete;
   result.triangle_tests += found.triangle_tests;
   result.front += front.size();
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> CertificateSweeper::near_faces(ComponentId moving,
+                                                                                    ComponentId fixed,
+                                                                                    const ScrewMotion& rest,
+                                                                                    double reach) const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> faces;
+  const CertificateFront front = store_.new_front(moving, fixed, GhostOf::None);
+  PairMotion motion = triangle_pair_sweep({moving, fixed}, rest, SweepBudget::Exhaustive).motion();
+  motion.allowed = -reach;
+  const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
+    faces.emplace_back(candidate.face_moving, candidate.face_fixed);
+    return TrianglePairVerdict{};
+  };
+  front.sweep_const(front.prepare_sweep(motion), kernels_, take);
+  return faces;
 }
 
 std::vector<SweepContact> CertificateSweeper::near_pairs(double reach) const {
@@ -342,14 +419,8 @@ std::vector<SweepContact> CertificateSweeper::near_pairs(double reach) const {
   CertificateSweep unused;
   const ScrewMotion rest = motion_to(pose());
   for_each_near(rest, reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    const CertificateFront front = store_.new_front(moving, fixed, SideRule::Free);
-    PairMotion motion = triangle_pair_sweep(moving, fixed, rest, SweepBudget::Exhaustive).motion();
-    motion.allowed = -reach;
-    const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
-      pairs.push_back({moving, fixed, FaceId(candidate.face_moving), FaceId(candidate.face_fixed), 0, {}});
-      return TrianglePairVerdict{};
-    };
-    front.sweep_const(front.prepare_sweep(motion), kernels_, take);
+    for (const auto& [face_moving, face_fixed] : near_faces(moving, fixed, rest, reach))
+      pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
   });
   sort_blocked(pairs);
   return pairs;

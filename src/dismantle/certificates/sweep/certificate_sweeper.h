@@ -8,12 +8,15 @@
 #include "dismantle/engine/pair_rules.h"
 #include "dismantle/math/screw.h"
 
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
 
 /// Sweeps of the moving set along screws, by the fronts between its components and all others
-/// (docs/design/0006-certificates.md). Keeps the poses of all components. Embedded pairs are ignored.
+/// (docs/design/0006-certificates.md). Components that do not overlap in the assembled state are each tested against
+/// the ghost surface of the other. Keeps the poses of all components. Embedded pairs are ignored.
 class CertificateSweeper {
  public:
   /// All components in the assembled state, none grabbed. `assembly` must outlive the sweeper.
@@ -44,7 +47,7 @@ class CertificateSweeper {
   /// necessarily the first. Independent of the moving set and of all poses. Free while the two are embedded.
   /// @param from, to the part, as fractions of the displacement
   CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to) const;
-  /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more; without axes.
+  /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
   std::vector<SweepContact> near_pairs(double reach) const;
   /// Tests one pair of triangles along a motion from the present pose, with SweepBudget::Bounded.
   /// @param pair with the axis to start with
@@ -64,8 +67,21 @@ class CertificateSweeper {
   double tolerance() const { return rules_.tolerance(); }
   /// Allowed penetration depth of triangles of the two components [mm]; negative if they are embedded.
   double allowed(ComponentId a, ComponentId b) const;
-  /// True if the two touched or overlapped in the assembled state.
-  bool touched(ComponentId a, ComponentId b) const;
+  /// The surfaces of two components that are tested: each with the ghost of the other, or those of components that
+  /// overlap in the assembled state as they are.
+  Span<const SurfacePair> surface_pairs(ComponentId a, ComponentId b) const;
+  /// Allowed penetration of the triangles of two surfaces [mm]: 0 if one is a ghost.
+  double allowed(const TestedPair& pair) const {
+    return pair.surfaces == SurfacePair::Plain ? allowed(pair.moving, pair.fixed) : 0;
+  }
+  ///@{ The surfaces of a pair.
+  const SolidTree& moving_surface(const TestedPair& pair) const {
+    return pair.surfaces == SurfacePair::MovingGhost ? store_.ghost(pair.moving, pair.fixed) : solid(pair.moving);
+  }
+  const SolidTree& fixed_surface(const TestedPair& pair) const {
+    return pair.surfaces == SurfacePair::FixedGhost ? store_.ghost(pair.fixed, pair.moving) : solid(pair.fixed);
+  }
+  ///@}
   /// Ends the embedded state of a pair: it is swept from now on.
   void part(ComponentId a, ComponentId b) { rules_.part(std::min(a, b), std::max(a, b)); }
 
@@ -84,9 +100,17 @@ class CertificateSweeper {
   struct PairSweep;
   struct PartTask;
 
-  SideRule sides(ComponentId a, ComponentId b) const;
-  TrianglePairSweep triangle_pair_sweep(ComponentId moving, ComponentId fixed, const ScrewMotion& motion,
-                                        SweepBudget budget) const;
+  /// Finds ghost surfaces that are apart in the assembled state for the components whose own are not, such as sheets
+  /// that rest on others. Pairs without any are tested as they are.
+  void prepare_ghosts();
+  /// True if the ghosts of two components are apart in the assembled state.
+  bool ghosts_apart(ComponentId a, ComponentId b) const;
+  /// Looks for ghosts of their own for two components a < b. @return false if there are none
+  bool separate_ghosts(ComponentId a, ComponentId b);
+  /// The pairs of faces of two components at rest that are nearer than `reach` [mm], and possibly some more.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_faces(ComponentId moving, ComponentId fixed,
+                                                                  const ScrewMotion& rest, double reach) const;
+  TrianglePairSweep triangle_pair_sweep(const TestedPair& pair, const ScrewMotion& motion, SweepBudget budget) const;
   /// Calls visit(moving, fixed) for the component pairs that may come nearer to each other than `reach` during a
   /// motion.
   template <class Visit>
@@ -111,6 +135,7 @@ class CertificateSweeper {
   CertificateOptions options_;
   FrontKernels kernels_;
   PairRules rules_;
+  std::set<std::pair<ComponentId, ComponentId>> plain_pairs_;  ///< Without ghosts, although they do not overlap.
   FrontStore store_;
   CertificateDevice device_;
   std::vector<Pose> poses_;

@@ -1,32 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/sweep/front_store.h"
 
+#include "dismantle/surface/ghost_surface.h"
+
 #include <algorithm>
 
 namespace dismantle {
 
-FrontStore::FrontStore(const Assembly& assembly, const Executor& executor) {
+FrontStore::FrontStore(const Assembly& assembly, double ghost_length, const Executor& executor) {
   for (const Component& c : assembly.components) {
     solids_.push_back(make_solid_tree(c, executor));
+    const SolidTree& solid = solids_.back();
+    // Sheets have no inside to retreat to.
+    ghosts_.push_back(make_displaced_tree(
+        solid, solid.has_outside ? ghost_vertices(solid.vertices, solid.faces, ghost_length) : solid.vertices,
+        executor));
     const Aabb box = assembled_bounds(c);
     const Vec3 center = box.empty() ? Vec3{} : box.center();
     double radius = 0;
-    for (const Vec3& p : solids_.back().vertices) radius = std::max(radius, length(p - center));
+    for (const Vec3& p : solid.vertices) radius = std::max(radius, length(p - center));
     spheres_.add(center, radius);
   }
   prepare_radial(executor);
 }
 
+const SolidTree& FrontStore::ghost(ComponentId c, ComponentId other) const {
+  const auto own = pair_ghosts_.find({std::min(c, other), std::max(c, other)});
+  return own == pair_ghosts_.end() ? ghosts_[c.value] : own->second[c < other ? 0 : 1];
+}
+
+void FrontStore::set_ghosts(ComponentId a, ComponentId b, std::vector<Vec3> vertices_a, std::vector<Vec3> vertices_b,
+                            const Executor& executor) {
+  pair_ghosts_[{a, b}] = {make_displaced_tree(solid(a), std::move(vertices_a), executor),
+                          make_displaced_tree(solid(b), std::move(vertices_b), executor)};
+}
+
 void FrontStore::prepare_radial(const Executor& executor) {
-  std::vector<PairKey> near;
+  std::vector<FrontKey> near;
   for (std::uint32_t a = 0; a < solids_.size(); ++a)
     for (std::uint32_t b = a + 1; b < solids_.size(); ++b)
       if (solids_[a].revolution && solids_[b].revolution &&
           spheres_.gap(ComponentId(a), {}, {}, 0, ComponentId(b), Pose{}) <= 0)
-        near.emplace_back(a, b);
+        for (const GhostOf ghost : {GhostOf::None, GhostOf::First, GhostOf::Second})
+          near.push_back({{ComponentId(a), ComponentId(b)}, ghost});
   std::vector<std::vector<ThreadMatch>> threads(near.size());
   executor.for_each_heavy(near.size(), [&](std::size_t i) {
-    const SolidTree &a = solid(near[i].first), &b = solid(near[i].second);
+    const auto& [pair, ghost] = near[i];
+    const SolidTree& a = ghost == GhostOf::First ? ghosts_[pair.first.value] : solid(pair.first);
+    const SolidTree& b = ghost == GhostOf::Second ? ghosts_[pair.second.value] : solid(pair.second);
     threads[i] = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
     PairMotion still;
     still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
@@ -36,27 +57,31 @@ void FrontStore::prepare_radial(const Executor& executor) {
     if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
 }
 
-CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, SideRule sides) const {
-  const auto threads = threads_.find({a, b});
-  return {solid(a).tree,
-          solid(b).tree,
-          sides,
-          solid(a).revolution.get(),
-          solid(b).revolution.get(),
+CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, GhostOf ghost) const {
+  const SolidTree& of_a = ghost == GhostOf::First ? this->ghost(a, b) : solid(a);
+  const SolidTree& of_b = ghost == GhostOf::Second ? this->ghost(b, a) : solid(b);
+  // Matches name the threads of the first component first, and belong to the surfaces that they were found in.
+  const bool matched = a < b && pair_ghosts_.find({a, b}) == pair_ghosts_.end();
+  const auto threads = matched ? threads_.find({{a, b}, ghost}) : threads_.end();
+  return {of_a.tree, of_b.tree, of_a.revolution.get(), of_b.revolution.get(),
           threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};
 }
 
-CertificateFront& FrontStore::prepare(ComponentId moving, ComponentId fixed, SideRule sides, Span<const Pose> poses) {
-  const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
-  auto found = fronts_.find({a, b});
-  if (found == fronts_.end()) found = fronts_.emplace(PairKey{a, b}, Entry{new_front(a, b, sides), false, {}}).first;
+FrontStore::FrontKey FrontStore::key_of(ComponentId x, ComponentId y, GhostOf ghost) {
+  if (x < y || ghost == GhostOf::None) return {{std::min(x, y), std::max(x, y)}, ghost};
+  return {{y, x}, ghost == GhostOf::First ? GhostOf::Second : GhostOf::First};
+}
+
+CertificateFront& FrontStore::prepare(ComponentId moving, ComponentId fixed, GhostOf ghost, Span<const Pose> poses) {
+  const FrontKey key = key_of(moving, fixed, ghost);
+  auto found = fronts_.find(key);
+  if (found == fronts_.end())
+    found = fronts_.emplace(key, Entry{new_front(key.first.first, key.first.second, key.second), false, {}}).first;
   Entry& entry = found->second;
-  if (entry.b_moves != (moving == b)) {
-    const Mat3 of_moving = mat3_from_quat(poses[moving.value].rotation);
-    const Mat3 of_fixed = mat3_from_quat(poses[fixed.value].rotation);
-    // The component that is fixed now has moved so far.
-    entry.front.exchange_roles(transposed(of_moving) * of_fixed);
-    entry.b_moves = moving == b;
+  const bool b_moves = moving > fixed;
+  if (entry.b_moves != b_moves) {
+    entry.front.exchange_roles();
+    entry.b_moves = b_moves;
   } else if (!(entry.fixed_pose == poses[fixed.value])) {
     entry.front.forget();
   }
@@ -64,18 +89,18 @@ CertificateFront& FrontStore::prepare(ComponentId moving, ComponentId fixed, Sid
   return entry.front;
 }
 
-const CertificateFront* FrontStore::find(ComponentId moving, ComponentId fixed, const Pose& pose_fixed) const {
-  const ComponentId a = std::min(moving, fixed), b = std::max(moving, fixed);
-  const auto known = fronts_.find({a, b});
+const CertificateFront* FrontStore::find(ComponentId moving, ComponentId fixed, GhostOf ghost,
+                                         const Pose& pose_fixed) const {
+  const auto known = fronts_.find(key_of(moving, fixed, ghost));
   const bool usable =
-      known != fronts_.end() && known->second.b_moves == (moving == b) && known->second.fixed_pose == pose_fixed;
+      known != fronts_.end() && known->second.b_moves == (moving > fixed) && known->second.fixed_pose == pose_fixed;
   return usable ? &known->second.front : nullptr;
 }
 
 std::size_t FrontStore::size(const std::vector<bool>& is_moving) const {
   std::size_t size = 0;
-  for (const auto& [pair, entry] : fronts_)
-    if (is_moving[pair.first.value] != is_moving[pair.second.value]) size += entry.front.size();
+  for (const auto& [key, entry] : fronts_)
+    if (is_moving[key.first.first.value] != is_moving[key.first.second.value]) size += entry.front.size();
   return size;
 }
 

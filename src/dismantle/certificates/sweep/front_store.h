@@ -7,6 +7,7 @@
 #include "dismantle/exec/executor.h"
 #include "dismantle/surface/solid_tree.h"
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -14,25 +15,37 @@
 
 namespace dismantle {
 
-/// The trees of an assembly's components, and the fronts between pairs of them, which are kept between sweeps.
+/// The one of two components that is represented by its ghost surface.
+enum class GhostOf : std::uint8_t { None, First, Second };
+
+/// The trees of an assembly's components and of their ghost surfaces, and the fronts between pairs of them, which are
+/// kept between sweeps.
 class FrontStore {
  public:
   /// Builds all trees. The assembly must outlive the store.
-  FrontStore(const Assembly& assembly, const Executor& executor);
+  /// @param ghost_length largest displacement of a ghost surface [mm]
+  FrontStore(const Assembly& assembly, double ghost_length, const Executor& executor);
 
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return solids_[c.value]; }
+  /// The tree of a component's ghost surface with respect to another component: its own, unless the two have a pair of
+  /// their own.
+  const SolidTree& ghost(ComponentId c, ComponentId other) const;
+  /// Gives two components a < b ghost surfaces of their own: displaced vertices of either.
+  void set_ghosts(ComponentId a, ComponentId b, std::vector<Vec3> vertices_a, std::vector<Vec3> vertices_b,
+                  const Executor& executor);
   /// The bounding spheres of all components.
   const BoundingSpheres& spheres() const { return spheres_; }
 
-  /// A new front of two components: the pair of the roots; `a` moves.
-  CertificateFront new_front(ComponentId a, ComponentId b, SideRule sides) const;
+  /// A new front of two components: the pair of the roots; `a` moves. @param ghost of `a` or of `b`
+  CertificateFront new_front(ComponentId a, ComponentId b, GhostOf ghost) const;
   /// The stored front of two components, made ready for a sweep: created if there is none, its roles exchanged if the
   /// other component moved in its last sweep, its certificates invalidated if the fixed one was moved since.
+  /// @param ghost of the moving component or of the fixed one
   /// @param poses of all components
-  CertificateFront& prepare(ComponentId moving, ComponentId fixed, SideRule sides, Span<const Pose> poses);
+  CertificateFront& prepare(ComponentId moving, ComponentId fixed, GhostOf ghost, Span<const Pose> poses);
   /// The stored front of two components if a sweep could use it as it is; else null.
-  const CertificateFront* find(ComponentId moving, ComponentId fixed, const Pose& pose_fixed) const;
+  const CertificateFront* find(ComponentId moving, ComponentId fixed, GhostOf ghost, const Pose& pose_fixed) const;
   /// Number of node pairs of all fronts between a moving and a fixed component.
   /// @param is_moving of each component
   std::size_t size(const std::vector<bool>& is_moving) const;
@@ -50,10 +63,15 @@ class FrontStore {
   /// that no step has to.
   void prepare_radial(const Executor& executor);
 
-  std::vector<SolidTree> solids_;
+  /// Two components a < b, and the one of which the ghost is meant.
+  using FrontKey = std::pair<PairKey, GhostOf>;
+  static FrontKey key_of(ComponentId x, ComponentId y, GhostOf ghost);
+
+  std::vector<SolidTree> solids_, ghosts_;
+  std::map<PairKey, std::array<SolidTree, 2>> pair_ghosts_;  ///< Pairs that have some of their own.
   BoundingSpheres spheres_;
-  std::map<PairKey, Entry> fronts_;
-  std::map<PairKey, std::vector<ThreadMatch>> threads_;  ///< Pairs without mating threads have no entry.
+  std::map<FrontKey, Entry> fronts_;
+  std::map<FrontKey, std::vector<ThreadMatch>> threads_;  ///< Pairs without mating threads have no entry.
 };
 
 }  // namespace dismantle

@@ -10,13 +10,24 @@ namespace dismantle {
 
 /// The sweep of one moving component past one fixed component.
 struct CertificateSweeper::PairSweep {
-  ComponentId moving;                ///< A component of the moving set.
-  ComponentId fixed;                 ///< The other component.
+  TestedPair tested;                 ///< The components and their surfaces.
   CertificateFront* front;           ///< Their stored front; null in sweeps that leave fronts unchanged.
   TrianglePairSweep triangle_pairs;  ///< The tests of their triangles.
   PreparedSweep sweep;               ///< Their motion for the front.
   double allowed;                    ///< [mm]
   bool free = true;                  ///< As far as is known by now.
+
+  /// Lower bound of the distance of the two components during the sweep, from a part's result [mm]: a ghost surface may
+  /// be farther away than the surface itself by the length of its displacements, which is at most the tolerance.
+  double clearance(const FrontSweep& found) const {
+    const double displaced = tested.surfaces == SurfacePair::Plain ? 0 : triangle_pairs.kernel().rules.tolerance;
+    return static_cast<double>(found.min_gap) - static_cast<double>(sweep.error) - displaced;
+  }
+  /// True if, by a part's result, the surfaces of two components that overlap from the start may touch.
+  bool may_touch(const FrontSweep& found) const {
+    return tested.surfaces == SurfacePair::Plain &&
+           static_cast<double>(found.min_gap) < static_cast<double>(sweep.limit) + allowed;
+  }
 };
 
 /// The sweep of one part of one front, and its result.

@@ -10,20 +10,21 @@
 namespace dismantle {
 
 /// The sweep of one moving component past one fixed component along a screw, in the frame of the fixed one: tests pairs
-/// of their triangles on the chords of the true arcs, and subtracts the arcs' deviation from the allowance.
+/// of their triangles on the chords of the true arcs. Either of the two may be a ghost surface.
 class TrianglePairSweep {
  public:
   /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
-  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]; the excess
-  /// over kArcShare of the tolerance is subtracted from an allowance that may be in use already
-  /// @pre deviation is less than the allowance
+  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]: with ghost
+  /// surfaces at most kArcShare of the tolerance, which their displacements leave; else less than the allowance, from
+  /// which the excess over that share is subtracted
   TrianglePairSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
                     double deviation, const TrianglePairRules& rules);
 
   /// The motion in the form that fronts use.
   PairMotion motion() const;
 
-  /// Tests two triangles. Guarantee: as ccd_triangle_triangle(), for the screw itself.
+  /// Tests two triangles. Guarantee: as ccd_triangle_triangle(), for the screw itself; with ghost surfaces for a ghost
+  /// that is displaced by the arcs' deviation besides (docs/design/0012-ghost-surfaces.md).
   /// @param hint axis to start with, from the moving to the fixed triangle; zero for none
   /// @param horizon tests the motion on [0, horizon] only: free means free until then
   TrianglePairResult test(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 hint, double horizon = 1) const;
@@ -34,8 +35,8 @@ class TrianglePairSweep {
   const SolidTree& fixed() const { return *fixed_; }
   ///@}
 
-  /// The certificate of the axis that a test ended with. @param sweep the front's form of this motion
-  Certificate certificate(const TrianglePairResult& found, const LinearSweep& sweep) const;
+  /// The certificate of the axis that a test ended with.
+  Certificate certificate(const TrianglePairResult& found) const;
 
  private:
   const SolidTree* moving_;

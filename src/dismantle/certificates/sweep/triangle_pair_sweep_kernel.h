@@ -16,7 +16,7 @@ namespace dismantle {
 struct SolidView {
   const Vec3* vertices = nullptr;               ///< As SolidTree::vertices.
   const Face* faces = nullptr;                  ///< As SolidTree::faces.
-  const Vec3* normals = nullptr;                ///< As SolidTree::normals; this and the next two may be empty.
+  const Vec3* normals = nullptr;                ///< As SolidTree::normals; this and the next two may be null.
   const std::uint32_t* around_begin = nullptr;  ///< As SolidTree::around_begin.
   const std::uint32_t* around = nullptr;        ///< As SolidTree::around.
 
@@ -40,19 +40,14 @@ struct TrianglePairResult {
 
   bool free = true;  ///< The two are certainly allowed during the whole motion.
   double gap = 0;    ///< Lower bound of their distance during the whole motion, along the axis [mm].
-  /// True if they never meet except for the arcs' deviation, or meet face on face. Found for closed solids only.
-  bool no_deep_vertex_possible = false;
-  Contact contact;  ///< The axis is set even if free.
+  Contact contact;   ///< The axis is set even if free.
 };
 
 /// The rules that decide if two triangles may go on.
 struct TrianglePairRules {
-  double allowed = 0;                 ///< Allowed penetration depth [mm].
-  double tolerance = 0;               ///< Tolerance of the assembly [mm].
-  SideRule sides = SideRule::Memory;  ///< How the pair keeps its sides.
-  AdvancementLimits limits;           ///< Limits of the conservative advancement.
-  /// Determine TrianglePairResult::no_deep_vertex_possible also where that costs another test.
-  bool check_deep_vertices = true;
+  double allowed = 0;        ///< Allowed penetration depth [mm]; 0 where one of the surfaces is a ghost surface.
+  double tolerance = 0;      ///< Tolerance of the assembly [mm].
+  AdvancementLimits limits;  ///< Limits of the conservative advancement.
 };
 
 namespace detail {
@@ -78,10 +73,38 @@ DISMANTLE_HOST_DEVICE inline Vec3 unit_or_zero(Vec3 axis) {
   return size > 0 && size < std::numeric_limits<double>::infinity() ? normalized(axis / size) : Vec3{};
 }
 
-/// True if an axis points clearly out of the one face and into the other.
-DISMANTLE_HOST_DEVICE inline bool face_on(Vec3 normal_moving, Vec3 normal_fixed, Vec3 axis) {
-  return dot(normal_moving, axis) > NormalCone::kMinAhead && dot(normal_fixed, axis) < -NormalCone::kMinAhead;
-}
+/// The outward normals of two faces of closed solids and of the faces around them. A contact pushes the two apart along
+/// an axis that leaves the one and enters the other through their outsides; along any other axis, such as one between
+/// two faces of a flat wall, it would stop motions that slide along the wall.
+struct OutwardNormals {
+  ///@{ Outward normals of the two faces, of any length; zero allows every axis.
+  Vec3 a, b;
+  ///@}
+  ///@{ Unit outward normals of the faces at the corners of each.
+  Span<const Vec3> around_a, around_b;
+  ///@}
+
+  /// Smallest cosine at which an axis agrees with a face's normal: below 0, for faces that turn during the motion or
+  /// are seen edge-on.
+  static constexpr double kMinCosine = -0.05;
+  /// Smallest cosine at which an axis agrees with the normal of a neighbouring face.
+  static constexpr double kMinCosineAround = 0.3;
+
+  /// True if the axis w, from A to B, agrees with the normal of A or of a face around A, and -w with that of B or of a
+  /// face around B.
+  DISMANTLE_HOST_DEVICE bool allow(Vec3 w) const { return ahead(w, a, around_a) && ahead(-w, b, around_b); }
+
+ private:
+  DISMANTLE_HOST_DEVICE static bool ahead(Vec3 w, Vec3 normal, Span<const Vec3> around) {
+    const double along = dot(w, normal), square = length_squared(w);
+    if (along >= 0 || along * along <= square * (kMinCosine * kMinCosine) * length_squared(normal)) return true;
+    for (const Vec3& n : around) {
+      const double cosine = dot(w, n);
+      if (cosine > 0 && cosine * cosine > square * (kMinCosineAround * kMinCosineAround)) return true;
+    }
+    return false;
+  }
+};
 
 /// Search for the axis of a contact: of the axes that the normals allow, the one along which the motion goes furthest
 /// before the allowance is used up; if it is used up at the start along all of them, the one of the smallest depth.
@@ -115,6 +138,8 @@ class LeastBlockingAxis {
     for (int side = 0; side < 2; ++side) {
       const Vec3 w = line / (side == 0 ? size : -size);
       const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
+      // Without an allowance, an axis along which the two do not approach each other is none of a contact.
+      if (allowed_ == 0 && !(gap_t1 < gap_t0)) continue;
       double reach = gap_t0 + allowed_;  // negative: the allowance is used up at the start
       if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
       if (reach <= furthest_ || !normals_.allow(w)) continue;
@@ -148,7 +173,7 @@ struct TrianglePairSweepKernel {
   RigidTransform end;       ///< The same at the end.
   Mat3 middle;              ///< The rotation half way.
   double deviation = 0;     ///< Bound of the distance between arcs and chords [mm].
-  double allowed = 0;       ///< The allowance less the deviation [mm].
+  double allowed = 0;       ///< The allowance less the deviation; 0 where it is 0 [mm].
   TrianglePairRules rules;  ///< Of the two components.
 
   /// Two faces and their triangles at the start of the motion.
@@ -183,53 +208,10 @@ struct TrianglePairSweepKernel {
     }
     result.contact.axis = detail::unit_or_zero(result.contact.axis);
     result.gap = min_gap(face_moving, face_fixed, result.contact.axis);
-    result.no_deep_vertex_possible = result.gap > 0;
-    const bool check = rules.check_deep_vertices && rules.sides == SideRule::Normals && horizon == 1;
-    if (!result.no_deep_vertex_possible && result.free && check) check_deep_vertices(result);
     return result;
   }
 
-  /// The outward normals around both faces, the moving one's turned by `rotation`. @param around storage of the result
-  DISMANTLE_HOST_DEVICE OutwardNormals normals_of(const Pair& pair, const Mat3& rotation, Around& around) const {
-    const std::size_t count_moving = gather(moving, pair.face_moving, around.moving);
-    const std::size_t count_fixed = gather(fixed, pair.face_fixed, around.fixed);
-    for (std::size_t k = 0; k < count_moving; ++k) around.moving[k] = rotation * around.moving[k];
-    return {normal_unscaled(pair.moving),
-            normal_unscaled(pair.fixed),
-            {around.moving, count_moving},
-            {around.fixed, count_fixed}};
-  }
-
  private:
-  /// Decides if two triangles that are free, but not separated by the axis, meet face on face or never.
-  DISMANTLE_HOST_DEVICE void check_deep_vertices(TrianglePairResult& result) const {
-    const std::uint32_t face_moving = result.contact.face_moving, face_fixed = result.contact.face_fixed;
-    Vec3 axis = result.contact.axis;
-    if (detail::face_on(middle * moving.normals[face_moving], fixed.normals[face_fixed], axis)) {
-      result.no_deep_vertex_possible = true;
-    } else if (never_meet(face_moving, face_fixed, axis)) {
-      result.no_deep_vertex_possible = true;
-      // An axis that separates them without any allowance is the better one to start with next time.
-      axis = detail::unit_or_zero(axis);
-      const double gap = min_gap(face_moving, face_fixed, axis);
-      if (gap > result.gap) {
-        result.contact.axis = axis;
-        result.gap = gap;
-      }
-    }
-  }
-
-  /// True if the two are apart throughout.
-  /// @param axis to start with; receives the axis that separates them at the end
-  DISMANTLE_HOST_DEVICE bool never_meet(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3& axis) const {
-    const Triangle own = moving.triangle(face_moving), other = fixed.triangle(face_fixed);
-    const AxisCcdResult found = ccd_triangle_triangle({detail::moved(start, own), detail::moved(end, own)},
-                                                      {other, other}, 0, axis, rules.limits);
-    if (found.ccd.status != CcdStatus::Free) return false;
-    axis = found.axis;
-    return true;
-  }
-
   /// Lower bound of the gap of two faces along a unit axis during the motion [mm].
   DISMANTLE_HOST_DEVICE double min_gap(std::uint32_t face_moving, std::uint32_t face_fixed, Vec3 axis) const {
     const Triangle own = moving.triangle(face_moving), other = fixed.triangle(face_fixed);
@@ -270,65 +252,46 @@ struct TrianglePairSweepKernel {
     }
     // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
     const double gap = low - high - detail::kDotError * reach;
-    double usable = allowed;
-    if (rules.sides == SideRule::Normals) {
-      usable = OutwardNormals{normal_unscaled(t0), normal_unscaled(pair.fixed), {}, {}}.allowance(axis, allowed);
-      Around around;
-      if (usable < allowed && gap < -usable) usable = normals_of(pair, start.rotation, around).allowance(axis, allowed);
-    }
-    return gap >= -usable * min(size, 1.0) * (1 - detail::kDotError);
+    return gap >= -allowed * min(size, 1.0) * (1 - detail::kDotError);
   }
 
-  /// An axis from the moving to the fixed triangle of a pair that remembers no side: one that separates them, or one
-  /// that agrees with their normals if they touch; zero if there is neither.
-  DISMANTLE_HOST_DEVICE Vec3 side_of(const Triangle& own, const Triangle& other) const {
-    const TriangleMotion now{own, own}, still{other, other};
-    AxisCcdResult found = ccd_triangle_triangle(now, still, 0, Vec3{}, rules.limits);
-    if (found.ccd.status == CcdStatus::Free) return found.axis;
-    const OutwardNormals normals{normal_unscaled(own), normal_unscaled(other), {}, {}};
-    found = ccd_triangle_triangle(now, still, allowed, Vec3{}, normals, rules.limits);
-    return found.ccd.status == CcdStatus::Free ? found.axis : Vec3{};
+  /// The outward normals around both faces, the moving one's turned by `rotation`; none that restrict an axis unless
+  /// both components have an outside. @param around storage of the result
+  DISMANTLE_HOST_DEVICE detail::OutwardNormals normals_of(const Pair& pair, const Mat3& rotation,
+                                                          Around& around) const {
+    if (!moving.around_begin || !fixed.around_begin) return {};
+    const std::size_t count_moving = gather(moving, pair.face_moving, around.moving);
+    const std::size_t count_fixed = gather(fixed, pair.face_fixed, around.fixed);
+    for (std::size_t k = 0; k < count_moving; ++k) around.moving[k] = rotation * around.moving[k];
+    return {normal_unscaled(pair.moving),
+            normal_unscaled(pair.fixed),
+            {around.moving, count_moving},
+            {around.fixed, count_fixed}};
   }
 
   /// Tests two triangles whose corners move linearly.
   DISMANTLE_HOST_DEVICE AxisCcdResult test_chords(const TriangleMotion& motion, const Pair& pair, Vec3 hint) const {
     const TriangleMotion still{pair.fixed, pair.fixed};
-    if (rules.sides == SideRule::Memory) {
-      if (length_squared(hint) == 0) hint = side_of(motion.t0, pair.fixed);
-      AxisCcdResult found = ccd_triangle_triangle(motion, still, allowed, hint, rules.limits);
-      // A blocked pair keeps its side: the search may have ended with an axis of another.
-      if (found.ccd.status == CcdStatus::Contact && still_separates({motion.t0, motion.t0}, pair, hint))
-        found.axis = hint;
-      return found;
-    }
-    if (rules.sides == SideRule::Free) {
-      const AxisCcdResult found = ccd_triangle_triangle(motion, still, allowed, hint, rules.limits);
-      if (found.ccd.status == CcdStatus::Free || length_squared(hint) == 0) return found;
+    AxisCcdResult found = ccd_triangle_triangle(motion, still, allowed, hint, rules.limits);
+    if (found.ccd.status == CcdStatus::Free) return found;
+    if (allowed > 0) {
+      if (length_squared(hint) == 0) return found;
       // It is blocked on the side of the hint: the least blocking axis may be on another.
       const AxisCcdResult unbound = ccd_triangle_triangle(motion, still, allowed, Vec3{}, rules.limits);
       return unbound.ccd.toi > found.ccd.toi ? unbound : found;
     }
-    return test_facing(motion, pair, hint);
-  }
-
-  /// As test_chords() for SideRule::Normals.
-  DISMANTLE_HOST_DEVICE AxisCcdResult test_facing(const TriangleMotion& motion, const Pair& pair, Vec3 hint) const {
-    const TriangleMotion still{pair.fixed, pair.fixed};
-    Around around;
-    const OutwardNormals normals = normals_of(pair, start.rotation, around);
-    AxisCcdResult found = ccd_triangle_triangle(motion, still, allowed, hint, normals, rules.limits);
-    if (found.ccd.status == CcdStatus::Free) return found;
     // The axis that the search ended with may separate them only by chance: the response needs that of the contact.
-    detail::LeastBlockingAxis search(motion, pair.fixed, normals, allowed);
-    search.consider_all(motion.t0);
-    if (found.ccd.toi > 0) search.consider_all(detail::between(motion, found.ccd.toi));
-    if (length_squared(search.axis()) > 0) found.axis = search.axis();
-    if (found.ccd.toi > 0) return found;
-    // If no axis that the normals allow separates them at the start (overlaps of tessellations), any other may.
-    const TriangleMotion begin{motion.t0, motion.t0};
-    if (ccd_triangle_triangle(begin, still, allowed, hint, normals, rules.limits).ccd.status == CcdStatus::Free)
-      return found;
-    return ccd_triangle_triangle(motion, still, allowed, Vec3{}, rules.limits);
+    Around around;
+    for (const bool any : {false, true}) {
+      const detail::OutwardNormals normals = any ? detail::OutwardNormals{} : normals_of(pair, start.rotation, around);
+      detail::LeastBlockingAxis search(motion, pair.fixed, normals, 0);
+      search.consider_all(motion.t0);
+      if (found.ccd.toi > 0) search.consider_all(detail::between(motion, found.ccd.toi));
+      if (length_squared(search.axis()) == 0) continue;
+      found.axis = search.axis();
+      break;
+    }
+    return found;
   }
 };
 

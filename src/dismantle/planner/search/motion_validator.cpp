@@ -14,7 +14,7 @@ constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 
 constexpr double kNewStartShare = 0.1;
 constexpr int kMaxStarts = 8;
 /// Cost of a sweep in triangle-pair tests, and the number of front pairs that count as one more.
-constexpr std::size_t kSweepEffort = 32, kFrontShare = 64;
+constexpr std::size_t kSweepEffort = 32, kFrontShare = 128;
 
 }  // namespace
 

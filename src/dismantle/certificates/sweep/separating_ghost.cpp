@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/sweep/separating_ghost.h"
+
+#include "dismantle/certificates/sweep/triangle_pair_sweep_kernel.h"
+#include "dismantle/math/least_vector.h"
+#include "dismantle/surface/ghost_surface.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// Rounds of finding faces that are not apart and displacing their corners.
+constexpr int kRounds = 20;
+/// Faces count as apart at this share of the gap that is aimed at.
+constexpr double kEnough = 0.5;
+/// Faces count as touching up to this share of the gap.
+constexpr double kTouching = 1e-6;
+
+class Displacing {
+ public:
+  explicit Displacing(const GhostRequest& request)
+      : request_(request),
+        first_(first_at_position(request.own->vertices)),
+        bounds_(request.own->vertices.size()),
+        displaced_(request.start.begin(), request.start.end()) {}
+
+  /// Adds the bounds of all pairs of faces that are not apart. @return true if there were any
+  bool add_bounds() {
+    changed_.clear();
+    for (const auto& [face_own, face_other] : request_.near) add_bounds(face_own, face_other);
+    return !changed_.empty();
+  }
+
+  /// Displaces the vertices whose bounds changed. @return false if one would have to go too far
+  bool displace() {
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    for (const std::uint32_t v : changed_) {
+      const std::optional<Vec3> least = least_vector(bounds_[v]);
+      if (!least || length(*least) > request_.max_length) return false;
+      displaced_[v] = request_.own->vertices[v] + *least;
+    }
+    for (std::size_t v = 0; v < displaced_.size(); ++v)
+      if (std::binary_search(changed_.begin(), changed_.end(), first_[v])) displaced_[v] = displaced_[first_[v]];
+    return true;
+  }
+
+  std::vector<Vec3> take() { return std::move(displaced_); }
+
+ private:
+  Triangle displaced(std::uint32_t face) const {
+    const Face& f = request_.own->faces[face];
+    return {{displaced_[f.v[0]], displaced_[f.v[1]], displaced_[f.v[2]]}};
+  }
+
+  /// The axis from `own` to `other` along which two faces are to be kept apart: one that separates them as they are, or
+  /// else the one along which they are furthest apart on the side that their normals tell.
+  Vec3 axis_of(std::uint32_t face_own, const Triangle& own, const Triangle& other) const {
+    const Triangle plain = request_.own->triangle(face_own);
+    const Vec3 separating = furthest_axis(plain, other, {});
+    if (gap_along(separating, plain, other) > kTouching * request_.gap) return separating;
+    detail::OutwardNormals normals;
+    const bool neither = !request_.own->has_outside && !request_.other->has_outside;
+    if (request_.own->has_outside || (neither && request_.own_is_oriented)) normals.a = normal_unscaled(plain);
+    if (request_.other->has_outside || (neither && !request_.own_is_oriented)) normals.b = normal_unscaled(other);
+    return furthest_axis(own, other, normals);
+  }
+
+  static Vec3 furthest_axis(const Triangle& own, const Triangle& other, const detail::OutwardNormals& normals) {
+    const TriangleMotion still{own, own};
+    detail::LeastBlockingAxis search(still, other, normals, 1);  // of the largest gap
+    search.consider_all(own);
+    return search.axis();
+  }
+
+  /// The gap along an axis from `own` to `other` [mm].
+  static double gap_along(Vec3 axis, const Triangle& own, const Triangle& other) {
+    const double nearest = std::min({dot(axis, other[0]), dot(axis, other[1]), dot(axis, other[2])});
+    return nearest - std::max({dot(axis, own[0]), dot(axis, own[1]), dot(axis, own[2])});
+  }
+
+  void add_bounds(std::uint32_t face_own, std::uint32_t face_other) {
+    const Triangle own = displaced(face_own), other = request_.other->triangle(face_other);
+    const Vec3 axis = axis_of(face_own, own, other);
+    if (length_squared(axis) == 0) return;
+    if (gap_along(axis, own, other) >= kEnough * request_.gap) return;
+    const double nearest = std::min({dot(axis, other[0]), dot(axis, other[1]), dot(axis, other[2])});
+    const Triangle plain = request_.own->triangle(face_own);
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = first_[request_.own->faces[face_own].v[i]];
+      const double distance = request_.gap + dot(axis, plain[i]) - nearest;
+      if (distance <= -request_.max_length) continue;
+      // What displaced the vertex before stays.
+      if (bounds_[v].empty())
+        if (const Vec3 before = displaced_[v] - request_.own->vertices[v]; length(before) > 0)
+          bounds_[v].push_back({before / length(before), length(before)});
+      bounds_[v].push_back({-axis, distance});
+      changed_.push_back(v);
+    }
+  }
+
+  const GhostRequest& request_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::vector<VectorBound>> bounds_;  // of the first vertex at each position
+  std::vector<Vec3> displaced_;
+  std::vector<std::uint32_t> changed_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Vec3>> separating_ghost(const GhostRequest& request) {
+  Displacing displacing(request);
+  for (int round = 0; round < kRounds; ++round) {
+    if (!displacing.add_bounds()) return displacing.take();
+    if (!displacing.displace()) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+#include "dismantle/geometry/triangle_mesh.h"
+
+#include <vector>
+
+namespace dismantle {
+
+/// The ghost surface of a closed mesh (docs/design/0012-ghost-surfaces.md): its vertices are displaced into the solid
+/// by at most `max_length`, so that every face is retracted by the same distance, max_length / sqrt(2), where the edges
+/// at a vertex allow it: on faces, smooth surfaces and right-angled edges. Sharper corners are retracted by less.
+/// Vertices at the same position are displaced alike; a vertex whose faces cannot all be retracted stays.
+/// @param vertices [mm]
+/// @return the displaced vertices [mm]
+std::vector<Vec3> ghost_vertices(Span<const Vec3> vertices, Span<const Face> faces, double max_length);
+
+/// The slot of the first vertex at the same position, for each vertex.
+std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices);
+
+}  // namespace dismantle

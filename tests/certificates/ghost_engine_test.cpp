@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guarantee of ghost surfaces (docs/design/0012-ghost-surfaces.md), by a depth that shares no code with the engine.
+#include "dismantle/certificates/certificate_engine.h"
+#include "tests/certificates/grabbed_component.h"
+#include "tests/support/depth_oracle.h"
+#include "tests/support/faulty_meshes.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/swept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+using namespace grabbed;
+using scenes::component;
+
+constexpr double kRounding = 1e-9;
+
+/// A pyramid on its tip, with edges or faces along the diagonals of a mesh.
+TriangleMesh needle(double degrees, double height, double tip) {
+  const double b = height * std::tan(degrees * 3.14159265358979 / 360);
+  return {{{0, 0, tip}, {b, b, tip + height}, {-b, b, tip + height}, {-b, -b, tip + height}, {b, -b, tip + height}},
+          {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 4, 3}}, {{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}}};
+}
+
+/// A knife on its edge.
+TriangleMesh wedge(double degrees, double length, double height, double edge) {
+  const double b = height * std::tan(degrees * 3.14159265358979 / 360), top = edge + height;
+  return {{{-length, 0, edge},
+           {length, 0, edge},
+           {length, b, top},
+           {-length, b, top},
+           {length, -b, top},
+           {-length, -b, top}},
+          {{{0, 1, 2}}, {{0, 2, 3}}, {{1, 0, 5}}, {{1, 5, 4}}, {{3, 2, 4}}, {{3, 4, 5}}, {{1, 4, 2}}, {{0, 3, 5}}}};
+}
+
+TriangleMesh turned(TriangleMesh mesh, double angle, Vec3 shift = {}) {
+  return scenes::moved(std::move(mesh), {shift, quat_about({0, 0, 1}, angle)});
+}
+
+TriangleMesh upside_down(TriangleMesh mesh) {
+  for (Face& f : mesh.faces) std::swap(f.v[1], f.v[2]);
+  return mesh;
+}
+
+TriangleMesh at(const Component& c, const Pose& pose) {
+  return scenes::moved(*c.mesh, pose);
+}
+
+/// The depth of components 0 and 1 now, by samples.
+double depth_now(const Assembly& assembly, const CertificateEngine& engine, double step) {
+  return oracle::sampled_depth(at(assembly.components[0], engine.poses()[0]),
+                               at(assembly.components[1], engine.poses()[1]), step)
+      .depth;
+}
+
+/// Presses component 0 down onto component 1 in steps. @return its height at the end
+double pressed(const Assembly& assembly, ResponseKind response, int steps = 20, double step = -0.05) {
+  const PairStates states = states_of(assembly);
+  Grabbed h(assembly, states, 0);
+  for (int k = 1; k <= steps; ++k) {
+    h.engine.step({{0, 0, step * k}, {}}, response);
+    EXPECT_LE(depth_now(assembly, h.engine, 10), kTolerance + kRounding) << "step " << k;
+  }
+  return h.engine.poses()[0].position.z;
+}
+
+const ResponseKind kResponses[] = {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide};
+
+TEST(GhostEngine, StopsTipsAndEdgesThatArePressedOnAFaceAlongItsMesh) {
+  const double quarter = 3.14159265358979 / 4;
+  for (const double offset : {0.0, 2e-6, -3e-6}) {
+    const TriangleMesh shapes[] = {turned(needle(20, 30, 0.52), quarter, {offset, 0, 0}),
+                                   turned(needle(5, 30, 0.52), 0, {offset, offset, 0}),
+                                   turned(wedge(2, 40, 30, 0.52), quarter, {0, offset, 0}),
+                                   turned(wedge(20, 3, 5, 0.52), quarter, {offset, 0, 0})};
+    for (const TriangleMesh& shape : shapes)
+      for (const ResponseKind response : kResponses) {
+        const Assembly assembly =
+            scenes::assembly({component("tip", shape), component("block", scenes::box({-20, -20, -20}, {20, 20, 0}))});
+        SCOPED_TRACE(testing::Message() << "offset " << offset << " shape " << (&shape - shapes) << " response "
+                                        << static_cast<int>(response));
+        const double height = pressed(assembly, response);
+        EXPECT_GE(height, -0.52 - kTolerance);
+        EXPECT_LE(height, response == ResponseKind::Touch ? -0.52 + kTolerance : -0.5);
+      }
+  }
+}
+
+TEST(GhostEngine, PassesNothingThroughASheetThatRestsOnASolid) {
+  for (const bool up : {true, false})
+    for (const double height : {0.0, 0.003, 0.03}) {
+      const TriangleMesh plain = scenes::sheet(3, height), sheet = up ? plain : upside_down(plain);
+      const Assembly assembly =
+          scenes::assembly({component("sheet", sheet), component("cube", scenes::box({-20, -20, -20}, {20, 20, 0}))});
+      const PairStates states = states_of(assembly);
+      for (const ResponseKind response : kResponses) {
+        SCOPED_TRACE(testing::Message() << "up " << up << " height " << height << " response "
+                                        << static_cast<int>(response));
+        Grabbed cube(assembly, states, 1), sheet_down(assembly, states, 0), sheet_up(assembly, states, 0);
+        for (int k = 1; k <= 30; ++k) {
+          cube.engine.step({{0, 0, 0.1 * k}, {}}, response);
+          sheet_down.engine.step({{0, 0, -0.1 * k}, {}}, response);
+          sheet_up.engine.step({{0, 0, 0.1 * k}, {}}, response);
+        }
+        EXPECT_LE(cube.engine.poses()[1].position.z, height + kTolerance);
+        EXPECT_GE(sheet_down.engine.poses()[0].position.z, -height - kTolerance);
+        EXPECT_NEAR(sheet_up.engine.poses()[0].position.z, 3, 1e-9);
+      }
+    }
+}
+
+TEST(GhostEngine, PassesNothingThroughAFoilThinnerThanTheTolerance) {
+  for (const double thickness : {0.1, 0.4, 1.0, 10.0})
+    for (const ResponseKind response : kResponses) {
+      const Assembly assembly =
+          scenes::assembly({component("weight", scenes::box({-3, -3, 0.5}, {3, 3, 4})),
+                            component("foil", scenes::box({-20, -20, -thickness * kTolerance}, {20, 20, 0}))});
+      EXPECT_GE(pressed(assembly, response, 60), -0.5 - kTolerance) << thickness;
+    }
+}
+
+TEST(GhostEngine, LetsSheetsThatTouchPartButNotPass) {
+  for (const bool up : {true, false}) {
+    const TriangleMesh plain = scenes::sheet(3, 0), upper = up ? plain : upside_down(plain);
+    const Assembly assembly = scenes::assembly({component("upper", upper), component("lower", scenes::sheet(9, 0))});
+    const PairStates states = states_of(assembly);
+    // Which of the two is above follows from the normals of the first.
+    Grabbed apart(assembly, states, 0), through(assembly, states, 0);
+    const double away = up ? -1 : 1;
+    for (int k = 1; k <= 20; ++k) {
+      apart.engine.step({{0, 0, 0.05 * k * away}, {}}, ResponseKind::Slide);
+      through.engine.step({{0, 0, -0.05 * k * away}, {}}, ResponseKind::Slide);
+    }
+    EXPECT_NEAR(apart.engine.poses()[0].position.z, away, 1e-9);
+    EXPECT_LE(std::abs(through.engine.poses()[0].position.z), kTolerance);
+  }
+}
+
+/// A random convex or hollow shape of about 2 mm.
+TriangleMesh random_shape(std::mt19937_64& random) {
+  switch (random() % 5) {
+    case 0:
+      return needle(10 + static_cast<double>(random() % 60), 2, -1);
+    case 1:
+      return wedge(5 + static_cast<double>(random() % 60), 1, 2, -1);
+    case 2:
+      return scenes::box({-1, -0.6, -0.3}, {1, 0.6, 0.3});
+    case 3:
+      return scenes::tube(1, 0.6, -0.8, 0.8, 6 + static_cast<std::uint32_t>(random() % 5));
+    default:
+      return scenes::box({-1, -1, -0.004}, {1, 1, 0.004});  // a foil
+  }
+}
+
+TEST(GhostEngine, NeverGetsDeeperThanTheTolerance) {
+  std::mt19937_64 random(20261123);
+  int contacts = 0;
+  for (int member = 0; member < 60; ++member) {
+    SCOPED_TRACE(member);
+    const TriangleMesh a = scenes::moved(random_shape(random), scenes::random_pose(random, 0.1, 3));
+    const TriangleMesh b = scenes::moved(random_shape(random), scenes::random_pose(random, 0.1, 3));
+    const Assembly assembly = scenes::assembly({component("a", scenes::moved(a, {{0, 0, 4}, {}})), component("b", b)});
+    const PairStates states = states_of(assembly);
+    Grabbed h(assembly, states, 0);
+    const ResponseKind response = kResponses[member % 3];
+    std::vector<Pose> made{{}};
+    for (int k = 0; k < 25; ++k) {
+      const Vec3 towards = scenes::random_vector(random, 0.6) - Vec3{0, 0, 5};
+      const Pose target{towards, quat_about(normalized(scenes::random_vector(random, 1)), 0.3)};
+      const StepResult step = h.engine.step(target, response);
+      contacts += step.reached ? 0 : 1;
+      made.insert(made.end(), step.poses.begin(), step.poses.end());
+      ASSERT_LE(depth_now(assembly, h.engine, 0.25), kTolerance + kRounding) << "step " << k;
+    }
+    // What was free one way is free the other way; parts of slides are cut at other poses on the way back.
+    for (std::size_t k = made.size() - 1; k-- > 0 && response != ResponseKind::Slide;)
+      ASSERT_TRUE(h.engine.step(made[k], ResponseKind::Stop).reached) << "back to pose " << k;
+  }
+  EXPECT_GT(contacts, 300);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/ghost_surface.h"
+
+#include "tests/support/meshes.h"
+#include "tests/support/swept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+constexpr double kLength = 0.01;
+
+/// The least and the greatest distance by which the faces' planes are retracted at their corners.
+std::pair<double, double> retraction(const TriangleMesh& mesh, const std::vector<Vec3>& ghost) {
+  double least = 1e9, greatest = -1e9;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const Vec3 normal = normalized(normal_unscaled(mesh.triangle(f)));
+    for (const std::uint32_t v : mesh.faces[f].v) {
+      const double by = dot(normal, mesh.vertices[v] - ghost[v]);
+      least = std::min(least, by);
+      greatest = std::max(greatest, by);
+    }
+  }
+  return {least, greatest};
+}
+
+TEST(GhostSurface, RetractsEveryFaceAndDisplacesNoVertexFurtherThanAllowed) {
+  for (const TriangleMesh& mesh : {scenes::box({0, 0, 0}, {4, 5, 6}), scenes::tube(5, 3, 0, 10, 48, 4)}) {
+    const std::vector<Vec3> ghost = ghost_vertices(mesh.vertices, mesh.faces, kLength);
+    for (std::size_t v = 0; v < ghost.size(); ++v)
+      EXPECT_LE(length(ghost[v] - mesh.vertices[v]), kLength * (1 + 1e-12));
+    const auto [least, greatest] = retraction(mesh, ghost);
+    EXPECT_GE(least, kLength / std::sqrt(3.0) * (1 - 1e-9)) << "at the corners of a box";
+    EXPECT_LE(greatest, kLength / std::sqrt(2.0) * (1 + 1e-9));
+  }
+}
+
+TEST(GhostSurface, KeepsCylindersAndFlatFacesWhatTheyAre) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 10, 48, 4);
+  const std::vector<Vec3> ghost = ghost_vertices(mesh.vertices, mesh.faces, kLength);
+  const auto [least, greatest] = retraction(mesh, ghost);
+  EXPECT_NEAR(least, greatest, 2e-3 * kLength) << "rims are a little sharper than right-angled";
+  const double retracted = kLength / std::sqrt(2.0) / std::cos(3.14159265358979 / 48);
+  for (std::size_t v = 0; v < ghost.size(); ++v) {
+    const Vec3 p = mesh.vertices[v];
+    const double radius = std::hypot(p.x, p.y), wanted = radius > 4 ? 5 - retracted : 3 + retracted;
+    EXPECT_NEAR(std::hypot(ghost[v].x, ghost[v].y), wanted, 2e-3 * kLength);
+  }
+}
+
+TEST(GhostSurface, RetractsSharpTipsByTheWholeLength) {
+  const double half = 0.1;  // of the cone's opening [rad]
+  TriangleMesh cone{{{0, 0, 0}, {0, 0, 10}}, {}};
+  for (std::uint32_t k = 0; k < 24; ++k) {
+    const double q = 2 * 3.14159265358979 * k / 24, r = 10 * std::tan(half);
+    cone.vertices.push_back({r * std::cos(q), r * std::sin(q), 10});
+    const std::uint32_t next = 2 + (k + 1) % 24;
+    cone.faces.push_back({{0, next, 2 + k}});
+    cone.faces.push_back({{1, 2 + k, next}});
+  }
+  const std::vector<Vec3> ghost = ghost_vertices(cone.vertices, cone.faces, kLength);
+  EXPECT_NEAR(ghost[0].z, kLength, 1e-6);
+  EXPECT_NEAR(std::hypot(ghost[0].x, ghost[0].y), 0, 1e-6);
+}
+
+TEST(GhostSurface, MovesVerticesAtOnePositionAlike) {
+  TriangleMesh box = scenes::box({0, 0, 0}, {4, 5, 6});
+  const std::vector<Vec3> welded = ghost_vertices(box.vertices, box.faces, kLength);
+  TriangleMesh soup;
+  for (std::uint32_t f = 0; f < box.faces.size(); ++f) {
+    for (const std::uint32_t v : box.faces[f].v) soup.vertices.push_back(box.vertices[v]);
+    soup.faces.push_back({{3 * f, 3 * f + 1, 3 * f + 2}});
+  }
+  const std::vector<Vec3> loose = ghost_vertices(soup.vertices, soup.faces, kLength);
+  for (std::uint32_t f = 0; f < box.faces.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k) EXPECT_LT(length(loose[3 * f + k] - welded[box.faces[f].v[k]]), 1e-15);
+}
+
+}  // namespace
+}  // namespace dismantle
