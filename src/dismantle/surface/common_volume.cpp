@@ -96,8 +96,9 @@ class VolumeRays {
     Vec3 point = box_.lower, direction;
     const Vec3 size = box_.size();
     const int across = (axis_ + 1) % 3, up = (axis_ + 2) % 3;
-    point[across] += size[across] * (static_cast<double>(cell % kCells) + u) / kCells;
-    point[up] += size[up] * (static_cast<double>(cell / kCells) + v) / kCells;
+    const std::size_t column = cell % kCells, row = cell / kCells;
+    point[across] += size[across] * (static_cast<double>(column) + u) / kCells;
+    point[up] += size[up] * (static_cast<double>(row) + v) / kCells;
     // From before both, so that winding numbers begin at 0.
     const double before = diagonal(a_.get().surface().bounds()) + diagonal(b_.get().surface().bounds());
     point[axis_] -= before;
@@ -115,7 +116,7 @@ class VolumeRays {
     for (std::size_t k = 0; k < count; ++k) {
       std::optional<double> length;
       for (int attempt = 0; attempt < kTries && !length; ++attempt) {
-        const auto move = static_cast<std::uint64_t>(2 * attempt);
+        const std::uint64_t move = 2 * static_cast<std::uint64_t>(attempt);
         length = length_at(c, random_number(c, cell.rays, move), random_number(c, cell.rays, move + 1));
       }
       ++cell.rays;
