@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
+#include "dismantle/engine/chords.h"
 
 #include <vector>
 
@@ -39,6 +40,9 @@ struct CertificateSweeper::PartTask {
   std::vector<SweepContact> blocked;  ///< Triangle pairs that block the motion.
   std::size_t device_tests = 0;       ///< Triangle-pair tests that a device made.
 };
+
+/// Ghost surfaces are displaced by at most this share of the tolerance: the rest is for the arcs' deviation.
+inline constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
 
 /// Sorts by components and faces.
 void sort_blocked(std::vector<SweepContact>& pairs);
