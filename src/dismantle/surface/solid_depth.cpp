@@ -89,7 +89,7 @@ class DepthSearch {
   }
 
  private:
-  /// What no piece needs to be known below.
+  /// Pieces whose bound is at most this are not divided further [mm].
   double goal() const { return best_.attained + std::max(options_.gap, options_.relative_gap * best_.attained); }
 
   bool drop(double bound) {

@@ -11,8 +11,8 @@
 
 namespace dismantle {
 
-/// The surface of a component in the assembled state, and what is inside it: for queries about solids, whatever faults
-/// their meshes have. Immutable; may be shared between threads.
+/// The surface of a component in the assembled state and its winding number, for queries about solids with faulty
+/// meshes. Immutable; may be shared between threads.
 class SolidShape {
  public:
   /// An empty shape.
@@ -24,7 +24,7 @@ class SolidShape {
   bool empty() const { return surface_ == nullptr; }
   /// Its triangles [mm, assembly frame].
   const SurfaceTree& surface() const { return *surface_; }
-  /// What is inside.
+  /// Its winding number [mm, assembly frame].
   const WindingNumber& winding() const { return *winding_; }
 
  private:

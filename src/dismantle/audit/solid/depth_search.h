@@ -19,7 +19,7 @@ struct DepthPair {
   PairSweep sweep;  ///< Their surfaces and motions; its allowance and resolution are not used.
 };
 
-/// What a search for depths has to find.
+/// The depths that a search looks for, and the accuracy of its result.
 struct DepthGoal {
   double floor = 0;         ///< Depths up to this are not of interest [mm].
   double slack = 0;         ///< How far the result may be below the greatest depth, where that is above the floor [mm].

@@ -20,7 +20,7 @@ inline constexpr double kCrackWidth = 1e-4;
 
 /// The boundary of a surface as a chain of edges: where faces do not cancel each other. Edges that have vertices of
 /// others in between (T-junctions) are cut there, so that cracks cancel. Empty for a surface that is closed up to
-/// cracks, whatever its orientation.
+/// cracks, in either orientation.
 std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh);
 
 /// The solid angle at `point` of the strip from an edge to infinity along the unit vector `direction` [sr]; positive

@@ -13,8 +13,8 @@ namespace dismantle::audit {
 struct FollowedPoint {
   Vec3 body;                  ///< Where it is in its body [mm].
   std::optional<Vec3> ghost;  ///< Its ghost [mm, frame of the surface]; none while all sides are free.
-  bool has_been_clear =
-      false;  ///< It has been further from the surface than allowed; before that, both sides are free.
+  /// It has been further from the surface than allowed; before that, both sides are free.
+  bool has_been_clear = false;
 };
 
 /// Part of the diagonal of the smaller of two components that points of their surfaces are apart from each other.
@@ -34,7 +34,7 @@ struct Crossing {
   Vec3 point;                 ///< Where it is [mm, frame of the surface].
 };
 
-/// What a point of one body is allowed to do in the frame of the surface of the other.
+/// The limits for points of one body, in the frame of the other body's surface.
 struct CrossingRule {
   Span<const RelativeMotion> motions;  ///< Of the points relative to the surface, in each segment.
   Span<const double> allowed;          ///< Largest distance of a point from its ghost in each segment [mm].

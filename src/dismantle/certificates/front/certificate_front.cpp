@@ -6,8 +6,6 @@
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace dismantle {
 

@@ -18,7 +18,7 @@ enum class SurfacePair : std::uint8_t {
   FixedGhost,   ///< The moving component and the ghost of the fixed one, without an allowance.
 };
 
-/// What a sweep tests: two components, and which of their surfaces.
+/// Two components and the surfaces by which a sweep tests them.
 struct TestedPair {
   ComponentId moving;                         ///< The component that moves.
   ComponentId fixed;                          ///< The other component.

@@ -93,7 +93,7 @@ class Displacing {
       const std::uint32_t v = first_[request_.own->faces[face_own].v[i]];
       const double distance = request_.gap + dot(axis, plain[i]) - nearest;
       if (distance <= -request_.max_length) continue;
-      // What displaced the vertex before stays.
+      // The displacement that the vertex starts with counts as a bound, too.
       if (bounds_[v].empty())
         if (const Vec3 before = displaced_[v] - request_.own->vertices[v]; length(before) > 0)
           bounds_[v].push_back({before / length(before), length(before)});
