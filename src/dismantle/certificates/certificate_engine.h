@@ -51,8 +51,8 @@ struct CertificateDevice {
 
 /// The method `certificates` (docs/design/0006-certificates.md) with responses Stop, Touch and Slide: fronts of
 /// separating certificates over static trees of oriented boxes. Components that do not overlap in the assembled state
-/// get no deeper into each other than the tolerance, and do not pass through each other (docs/guarantee.md). The same input gives
-/// the same results with every executor, thread count, lane width and device.
+/// get no deeper into each other than the tolerance, and do not pass through each other (docs/guarantee.md). The same
+/// input gives the same results with every executor, thread count, lane width and device.
 class CertificateEngine final : public MotionEngine {
  public:
   /// All components in the assembled state. `assembly` must outlive the engine.
