@@ -108,7 +108,7 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
     displacement[k / 2] = k % 2 == 0 ? distance : -distance;
     engine.jump(poses);
     engine.grab({&moving, 1});
-    if (!straight_is_free(now, states, engine.embedded_pairs(), moving, displacement)) continue;
+    if (!straight_is_free(now, states, engine.overlapping_pairs(), moving, displacement)) continue;
     ++row.straight_motions;
     const Pose& pose = poses[moving.value];
     const StepResult result = engine.step({pose.position + displacement, pose.rotation}, ResponseKind::Slide);

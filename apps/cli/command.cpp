@@ -49,13 +49,9 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command.add_option("--fit", o.fit, "Deepest initial overlap that is a fit (default: 1% of the smaller component)")
-      ->type_name("MM")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
   command
       .add_option("--pairs", o.pairs,
-                  "What overlapping pairs may do: auto (contact, fit, embedded) or paper (all free)")
+                  "What pairs that touch or overlap may do: auto (get no deeper) or paper (anything until they have been apart)")
       ->transform(CLI::CheckedTransformer(kRules))
       ->type_name("auto|paper")
       ->group(group);
@@ -139,7 +135,6 @@ Result<Assembly> load(const CommonOptions& options) {
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance) {
   ClassifyOptions classify;
   classify.tolerance = options.tolerance;
-  classify.fit = options.fit;
   classify.clearance = clearance;
   classify.rule = options.pairs;
   classify.executor = make_executor(options);

@@ -34,7 +34,6 @@ struct CommonOptions {
   std::string assembly_file;                 ///< The argument ASSEMBLY.
   ImportOptions import;                      ///< --units, --deflection, --angular-deflection.
   double tolerance = 0;                      ///< [mm]; 0: default.
-  double fit = 0;                            ///< [mm]; 0: default.
   ClassifyRule pairs = ClassifyRule::Auto;   ///< What overlapping pairs may do.
   std::size_t simplify = 0;                  ///< Approximate number of triangles; 0: no simplification.
   DeviceChoice device = DeviceChoice::Auto;  ///< --device.

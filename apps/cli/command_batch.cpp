@@ -38,10 +38,10 @@ struct BatchCommand {
 /// Everything but the input that a result depends on.
 std::string options_text(const BatchCommand& c) {
   return fmt::format(
-      "dismantle {} units={} deflection={} angular={} tolerance={} fit={} pairs={} simplify={} "
+      "dismantle {} units={} deflection={} angular={} tolerance={} pairs={} simplify={} "
       "clearance={} time-limit={} check-only={} memory={} cpu-time={}",
       DISMANTLE_VERSION, c.common.import.units, c.common.import.deflection, c.common.import.angular_deflection,
-      c.common.tolerance, c.common.fit, static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit,
+      c.common.tolerance, static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit,
       c.check_only, c.limits.memory_gib, c.limits.cpu_seconds);
 }
 

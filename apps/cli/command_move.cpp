@@ -52,7 +52,7 @@ std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
                        motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.blocking_pairs.size(), r.sweeps,
                        stage_text(r.cost, kVerticesStage), stage_text(r.cost, kRefitStage),
                        stage_text(r.cost, kFrontStage), stage_text(r.cost, kIntersectionStage), r.cost.ms, r.cost.pairs,
-                       r.cost.triangle_pairs, r.cost.embedded_pairs, r.cost.tests, r.cost.device_tests, r.cost.replays);
+                       r.cost.triangle_pairs, r.cost.overlapping_pairs, r.cost.tests, r.cost.device_tests, r.cost.replays);
   }
   return csv;
 }

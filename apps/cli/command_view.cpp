@@ -94,7 +94,6 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   if (!o.web_folder.empty()) options.web_folder = o.web_folder;
   options.model.import = o.common.import;
   options.model.classify.tolerance = o.common.tolerance;
-  options.model.classify.fit = o.common.fit;
   options.model.classify.rule = o.common.pairs;
   options.model.classify.executor = executor;
   options.model.simplify = o.common.simplify;

@@ -34,12 +34,9 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   const auto assembly = std::make_shared<const Assembly>(std::move(*ready));
   model.assembly = assembly;
 
-  ClassifyOptions classify = options.classify;
-  classify.progress = progress;
-  Result<PairStates> pairs = classify_pairs(*assembly, classify);
-  if (!pairs) return pairs.error();
-  const ClashOptions clash{classify.tolerance, classify.clearance, options.executor, progress};
-  Result<Clashes> clashes = find_clashes(*assembly, clash);
+  const ClassifyOptions& classify = options.classify;
+  Result<Clashes> clashes = find_clashes(
+      *assembly, {classify.tolerance, classify.clearance, true, options.executor, progress});
   if (!clashes) return clashes.error();
   model.clashes = std::move(*clashes);
   if (!report_progress(progress, "preparing the view", -1)) return Error{ErrorKind::Failed, "cancelled"};
@@ -48,7 +45,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
-  model.session = std::make_unique<Session>(*assembly, std::move(*pairs), engine);
+  model.session = std::make_unique<Session>(*assembly, pair_states(model.clashes, classify.rule), engine);
   return model;
 }
 

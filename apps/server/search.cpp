@@ -29,7 +29,7 @@ PairStates pairs_of(const SessionSnapshot& snapshot, const PairStates& all,
   pairs.tolerance = all.tolerance;
   for (ComponentPair p : all.pairs) {
     const auto is_same = [&](const ComponentPair& e) { return e.a == p.a && e.b == p.b; };
-    if (p.state == PairState::Embedded && std::none_of(embedded.begin(), embedded.end(), is_same)) continue;
+    if ((p.state == PairState::Overlapping || p.state == PairState::Free) && std::none_of(embedded.begin(), embedded.end(), is_same)) continue;
     p.a = local(snapshot, p.a);
     p.b = local(snapshot, p.b);
     if (p.a.valid() && p.b.valid()) pairs.pairs.push_back(p);
@@ -126,7 +126,7 @@ SessionSnapshot current_snapshot(const Session& session) {
     moved.assembly_from_mesh = transform_from_pose(current.poses.back()) * moved.assembly_from_mesh;
     current.assembly.components.push_back(std::move(moved));
   }
-  current.pairs = pairs_of(current, session.pairs(), session.engine().embedded_pairs());
+  current.pairs = pairs_of(current, session.pairs(), session.engine().overlapping_pairs());
   return current;
 }
 

@@ -52,7 +52,7 @@ class FrontBasedEngine final : public SweepEngine {
   void commit() override;
   void jump(Span<const RigidTransform> state) override;
   Span<const RigidTransform> state() const override { return start_; }
-  std::vector<ComponentPair> embedded_pairs() const override { return embedded_.pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override { return embedded_.pairs(); }
 
  private:
   void set_end(Span<const RigidTransform> next);

@@ -55,7 +55,7 @@ class ObbDiscreteEngine final : public MotionEngine {
     poses_.assign(poses.begin(), poses.end());
   }
   Span<const Pose> poses() const override { return poses_; }
-  std::vector<ComponentPair> embedded_pairs() const override { return {}; }
+  std::vector<ComponentPair> overlapping_pairs() const override { return {}; }
 
  private:
   std::vector<BlockingPair> first_contact(const Pose& target) const;

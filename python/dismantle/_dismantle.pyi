@@ -257,7 +257,6 @@ def check(
     assembly: Assembly,
     *,
     tolerance: float = 0.0,
-    fit: float = 0.0,
     clearance: float = 0.0,
     pairs: str = "auto",
     threads: int = 0,

@@ -66,28 +66,19 @@ std::shared_ptr<Assembly> from_meshes(const py::dict& meshes, const std::string&
   return std::make_shared<Assembly>(value_or_raise(builder.finish({})));
 }
 
-CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance, double fit, double clearance,
+CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance, double clearance,
                     const std::string& pairs, int threads, const py::object& progress) {
-  if (!(tolerance >= 0) || !(fit >= 0) || !(clearance >= 0))
+  if (!(tolerance >= 0) || !(clearance >= 0))
     raise_usage("the pairs cannot be checked (a length is negative); give 0 for the default");
   if (pairs != "auto" && pairs != "paper")
     raise_usage("there is no rule '" + pairs + "' (pairs are 'auto' or 'paper'); give one of these");
   PythonProgress watched(progress);
-  ClassifyOptions options;
-  options.tolerance = tolerance;
-  options.fit = fit;
-  options.clearance = clearance;
-  options.rule = pairs == "auto" ? ClassifyRule::Auto : ClassifyRule::Paper;
-  options.executor = executor_of(threads);
-  options.progress = watched.callback();
-  Result<PairStates> states = without_gil([&] { return classify_pairs(*assembly, options); });
-  if (!states) watched.finish();
-  PairStates allowed = value_or_raise(std::move(states));
-  const ClashOptions clash{tolerance, clearance, options.executor, options.progress};
-  Result<Clashes> clashes = without_gil([&] { return find_clashes(*assembly, clash); });
+  const ClashOptions options{tolerance, clearance, true, executor_of(threads), watched.callback()};
+  Result<Clashes> clashes = without_gil([&] { return find_clashes(*assembly, options); });
   watched.finish();
-  return std::make_shared<CheckedAssembly>(
-      CheckedAssembly{assembly, std::move(allowed), value_or_raise(std::move(clashes))});
+  Clashes found = value_or_raise(std::move(clashes));
+  PairStates states = pair_states(found, pairs == "auto" ? ClassifyRule::Auto : ClassifyRule::Paper);
+  return std::make_shared<CheckedAssembly>(CheckedAssembly{assembly, std::move(states), std::move(found)});
 }
 
 py::array_t<double> transform_array(const RigidTransform& t) {
@@ -272,10 +263,10 @@ void bind_assembly(py::module_& module) {
              "m, um, in, ft; default: by the format). STEP: `deflection` [mm] and `angular_deflection` [rad] of the "
              "tessellation; 0: default.");
   module.def(
-      "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("fit") = 0.0,
+      "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0,
       py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Finds all pairs of components that touch, overlap or are near in the assembled state, and how deep each may get "
-      "in motion. `tolerance` and `fit` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
+      "in motion. `tolerance` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
       "the rule, 'auto' or "
       "'paper'.");
 }

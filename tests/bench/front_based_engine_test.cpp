@@ -59,7 +59,7 @@ TEST(FrontBasedEngine, DecidesAsStreamsDoesAmongPairsInContactAndEmbedded) {
     const Executor two(ExecutorKind::Threads, 2);
     const auto engine = make_front_based_engine(assembly, states, {test, two, 64});
     const auto rigid = make_front_based_engine(assembly, states, {test, two, 64}, FrontBasedWork::MovingComponents);
-    const std::size_t embedded = streams->embedded_pairs().size();
+    const std::size_t embedded = streams->overlapping_pairs().size();
     std::size_t free = 0, blocked = 0;
     for (int step = 0; step < 60; ++step) {
       const std::vector<RigidTransform> next = shaken(random, *streams);
@@ -71,12 +71,12 @@ TEST(FrontBasedEngine, DecidesAsStreamsDoesAmongPairsInContactAndEmbedded) {
       streams->commit();
       engine->commit();
       rigid->commit();
-      ASSERT_EQ(rigid->embedded_pairs(), streams->embedded_pairs());
-      ASSERT_EQ(engine->embedded_pairs(), streams->embedded_pairs());
+      ASSERT_EQ(rigid->overlapping_pairs(), streams->overlapping_pairs());
+      ASSERT_EQ(engine->overlapping_pairs(), streams->overlapping_pairs());
     }
     EXPECT_GT(free, 5u);
     EXPECT_GT(blocked, 5u);
-    EXPECT_LT(engine->embedded_pairs().size(), embedded);
+    EXPECT_LT(engine->overlapping_pairs().size(), embedded);
   }
 }
 
@@ -88,10 +88,10 @@ TEST(FrontBasedEngine, JumpsAsStreamsDoes) {
   std::vector<RigidTransform> state(2);
   state[1] = transform_from_pose(scenes::shift(2, 0, 1));
   engine->jump(state);
-  EXPECT_EQ(engine->embedded_pairs().size(), 1u);
+  EXPECT_EQ(engine->overlapping_pairs().size(), 1u);
   state[1] = transform_from_pose(scenes::shift(2, 0, 10));
   engine->jump(state);
-  EXPECT_TRUE(engine->embedded_pairs().empty());
+  EXPECT_TRUE(engine->overlapping_pairs().empty());
   state[1] = transform_from_pose(scenes::shift(2, 0, 0));
   EXPECT_FALSE(engine->sweep(state, 0).free);
 }

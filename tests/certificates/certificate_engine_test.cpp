@@ -195,9 +195,9 @@ TEST(CertificateEngine, ExemptsAnEmbeddedPairUntilItIsApart) {
   classify.fit = 0.05;
   const PairStates states = *classify_pairs(assembly, classify);
   Grabbed h(assembly, states, 0);
-  ASSERT_EQ(h.engine.embedded_pairs().size(), 1u);
+  ASSERT_EQ(h.engine.overlapping_pairs().size(), 1u);
   for (int step = 1; step <= 30; ++step) h.engine.step({{0, 0, 0.5 * step}, {}}, ResponseKind::Slide);
-  EXPECT_TRUE(h.engine.embedded_pairs().empty());
+  EXPECT_TRUE(h.engine.overlapping_pairs().empty());
   EXPECT_NEAR(h.engine.poses()[0].position.z, 15, 1e-12);
   // It cannot return now.
   const StepResult back = h.engine.step({{0, 0, 5}, {}}, ResponseKind::Slide);

@@ -49,13 +49,13 @@ class Comparison {
       expected_->commit();
       engine_->commit();
     }
-    EXPECT_EQ(engine_->embedded_pairs(), expected_->embedded_pairs());
+    EXPECT_EQ(engine_->overlapping_pairs(), expected_->overlapping_pairs());
     return result;
   }
   void jump(const std::vector<RigidTransform>& state) {
     expected_->jump(state);
     engine_->jump(state);
-    EXPECT_EQ(engine_->embedded_pairs(), expected_->embedded_pairs());
+    EXPECT_EQ(engine_->overlapping_pairs(), expected_->overlapping_pairs());
   }
   std::vector<RigidTransform> state() const { return {engine_->state().begin(), engine_->state().end()}; }
 

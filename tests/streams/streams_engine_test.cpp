@@ -93,11 +93,11 @@ TEST(StreamsEngine, FreesAnEmbeddedPegUntilItPartsAndBlocksItWhenItComesBack) {
         {pair_of(0, 1, PairState::Embedded, 0)}, kTolerance, options(test));
     for (int step = 1; step <= 19; ++step) {
       ASSERT_TRUE(scene.move({{1, shift(0.05 * step, 0, 0.1 * step)}}).free) << step;
-      EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u) << step;
+      EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u) << step;
     }
     ASSERT_TRUE(scene.move({{1, shift(1, 0, 1)}}).free);  // back in is free, too, until they have separated
     ASSERT_TRUE(scene.move({{1, shift(1, 0, 2.5)}}).free);
-    EXPECT_TRUE(scene.engine().embedded_pairs().empty());
+    EXPECT_TRUE(scene.engine().overlapping_pairs().empty());
     const SweepResult blocked = scene.move({{1, shift(1, 0, 1)}});
     EXPECT_FALSE(blocked.free);
     EXPECT_NEAR(blocked.toi, 0.5 / 1.5, 0.02);
@@ -116,7 +116,7 @@ TEST(StreamsEngine, NoticesThatAnEmbeddedPairPartsAndMeetsAgainWithinOneStep) {
     const SweepResult result = scene.sweep({{1, shift(end, 0, 0)}});
     EXPECT_FALSE(result.free);
     EXPECT_NEAR(result.toi, 4 / end, 0.02 / end);
-    EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // only a commit ends its exemption
+    EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u);  // only a commit ends its exemption
   }
 }
 
@@ -125,10 +125,10 @@ TEST(StreamsEngine, KeepsASolidInsideAnotherEmbeddedUntilItIsOut) {
                     {pair_of(0, 1, PairState::Embedded, 0)}, kTolerance, options());
   for (int step = 1; step <= 11; ++step) {
     ASSERT_TRUE(scene.move({{1, shift(0.01, 0.02, 0.53 * step)}}).free) << step;
-    EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u) << step;
+    EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u) << step;
   }
   ASSERT_TRUE(scene.move({{1, shift(0.01, 0.02, 6.5)}}).free);
-  EXPECT_TRUE(scene.engine().embedded_pairs().empty());
+  EXPECT_TRUE(scene.engine().overlapping_pairs().empty());
   EXPECT_FALSE(scene.move({{1, shift(0, 0, 0)}}).free);
 }
 
@@ -139,14 +139,14 @@ TEST(StreamsEngine, DropsEmbeddedPairsThatAJumpParts) {
                     {pair_of(0, 1, PairState::Embedded, 0), pair_of(0, 2, PairState::Embedded, 0)}, kTolerance,
                     options());
   scene.jump({{1, shift(2, 0, 1)}, {2, shift(0, 1, 0)}});
-  EXPECT_EQ(scene.engine().embedded_pairs().size(), 2u);
+  EXPECT_EQ(scene.engine().overlapping_pairs().size(), 2u);
   scene.jump({{1, shift(2, 0, 10)}});
-  ASSERT_EQ(scene.engine().embedded_pairs().size(), 1u);
-  EXPECT_EQ(scene.engine().embedded_pairs().front().b, ComponentId(2));
+  ASSERT_EQ(scene.engine().overlapping_pairs().size(), 1u);
+  EXPECT_EQ(scene.engine().overlapping_pairs().front().b, ComponentId(2));
   EXPECT_EQ(scene.engine().state()[1].translation, (Vec3{2, 0, 10}));
   EXPECT_FALSE(scene.move({{1, shift(2, 0, 0)}}).free);
   scene.jump({{1, shift(2, 0, 0)}});
-  EXPECT_EQ(scene.engine().embedded_pairs().size(), 1u);  // it is not exempted again
+  EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u);  // it is not exempted again
 }
 
 TEST(StreamsEngine, LetsComponentsThatMoveTogetherTouchAndTestsThoseThatDoNot) {
@@ -263,7 +263,7 @@ TEST(StreamsEngine, GivesTheSameBytesOnEveryExecutorFromEveryCapacity) {
         ASSERT_EQ(result.sizes.triangle_pairs, expected.sizes.triangle_pairs);
         ASSERT_EQ(result.sizes.elementary_tests, expected.sizes.elementary_tests);
         if (result.free) engine->commit();
-        ASSERT_EQ(engine->embedded_pairs(), engines[0]->embedded_pairs());
+        ASSERT_EQ(engine->overlapping_pairs(), engines[0]->overlapping_pairs());
       }
     }
     EXPECT_GE(contacts, 10u);

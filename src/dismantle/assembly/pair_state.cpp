@@ -14,10 +14,10 @@ std::string_view name_of(PairState state) {
       return "near";
     case PairState::Contact:
       return "contact";
-    case PairState::Fit:
-      return "fit";
-    case PairState::Embedded:
-      return "embedded";
+    case PairState::Overlapping:
+      return "overlapping";
+    case PairState::Free:
+      return "free";
   }
   return "";
 }

@@ -3,6 +3,7 @@
 
 #include "dismantle/core/id.h"
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -10,14 +11,14 @@ namespace dismantle {
 
 /// The relation of two components in the assembled state (docs/guarantee.md).
 enum class PairState {
-  Clear,     ///< Apart; allowed penetration: the tolerance.
-  Near,      ///< Apart, but closer than the clearance that the user gave.
-  Contact,   ///< Touching, or overlapping by no more than the tolerance; allowed: the tolerance.
-  Fit,       ///< Overlapping by no more than the fit limit; allowed: the initial depth plus the tolerance.
-  Embedded,  ///< Overlapping more deeply (the paper's S_i): free until apart, then Clear permanently.
+  Clear,        ///< Apart.
+  Near,         ///< Apart, but closer than the clearance that the user gave.
+  Contact,      ///< Touching, or overlapping by no more than the tolerance.
+  Overlapping,  ///< Deeper in each other than the tolerance.
+  Free,         ///< Touching or overlapping, and not checked until they have been apart (ClassifyRule::Paper).
 };
 
-/// The name of a state in files: "clear", "near", "contact", "fit" or "embedded".
+/// The name of a state: "clear", "near", "contact", "overlapping" or "free".
 std::string_view name_of(PairState state);
 
 /// A pair of components in the assembled state, and its allowance.
@@ -27,9 +28,9 @@ struct ComponentPair {
   ///@}
   PairState state = PairState::Clear;  ///< Its relation.
   double distance = 0;                 ///< Distance where apart, else 0 [mm].
-  double penetration = 0;              ///< Largest depth of an intersecting triangle pair [mm].
-  double allowed_penetration = 0;      ///< Depth allowed at any time [mm]; infinite for Embedded.
-  std::size_t triangle_pairs = 0;      ///< Number of triangle pairs that intersect; touching counts.
+  double depth = 0;                    ///< Depth of the two solids, an upper bound [mm]; 0 where apart.
+  /// Depth allowed until the two have been apart; then it is the tolerance [mm]. Infinite for Free.
+  double allowed_depth = 0;
   friend bool operator==(const ComponentPair&, const ComponentPair&) = default;
 };
 

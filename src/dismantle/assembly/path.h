@@ -29,8 +29,8 @@ struct PathPair {
   ///@{ Names of the components.
   std::string a, b;
   ///@}
-  PairState state = PairState::Fit;  ///< Fit or Embedded.
-  double allowed_penetration = 0;    ///< Depth allowed at any time [mm]; infinite for Embedded, until the pair parts.
+  PairState state = PairState::Overlapping;  ///< Overlapping or Free.
+  double allowed_penetration = 0;    ///< Depth allowed at any time [mm]; infinite for Free, until the pair parts.
   friend bool operator==(const PathPair&, const PathPair&) = default;
 };
 

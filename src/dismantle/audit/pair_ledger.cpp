@@ -12,9 +12,9 @@ PairLedger::PairLedger(const Assembly& assembly, const Path& path) {
     const auto a = assembly.find(pair.a), b = assembly.find(pair.b);
     if (!a || !b || *a == *b) continue;
     PairRecord& record = get(std::min(*a, *b).value, std::max(*a, *b).value);
-    if (pair.state == PairState::Embedded) {
+    if (pair.state == PairState::Free) {
       record.embedded = true;
-    } else if (pair.state == PairState::Fit && std::isfinite(pair.allowed_penetration)) {
+    } else if (pair.state == PairState::Overlapping && std::isfinite(pair.allowed_penetration)) {
       record.allowed = std::max(record.allowed, pair.allowed_penetration);
     }
   }

@@ -13,7 +13,7 @@ namespace dismantle {
 class CertificateEngine::Impl {
  public:
   Impl(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, CertificateDevice device)
-      : sweeper(assembly, pairs, options, std::move(device)), response(sweeper, assembly, pairs) {}
+      : sweeper(assembly, pairs, options, std::move(device)), response(sweeper) {}
 
   CertificateSweeper sweeper;
   CertificateResponse response;
@@ -49,8 +49,8 @@ Span<const Pose> CertificateEngine::poses() const {
   return impl_->sweeper.poses();
 }
 
-std::vector<ComponentPair> CertificateEngine::embedded_pairs() const {
-  return impl_->response.embedded_pairs();
+std::vector<ComponentPair> CertificateEngine::overlapping_pairs() const {
+  return impl_->sweeper.overlapping_pairs();
 }
 
 std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {

@@ -50,8 +50,8 @@ struct CertificateDevice {
 };
 
 /// The method `certificates` (docs/design/0006-certificates.md) with responses Stop, Touch and Slide: fronts of
-/// separating certificates over static trees of oriented boxes. Components that do not overlap in the assembled state
-/// get no deeper into each other than the tolerance, and do not pass through each other (docs/guarantee.md). The same
+/// separating certificates over static trees of oriented boxes. Components get no deeper into each other than their
+/// allowance, and do not pass through each other (docs/guarantee.md). The same
 /// input gives the same results with every executor, thread count, lane width and device.
 class CertificateEngine final : public MotionEngine {
  public:
@@ -70,7 +70,7 @@ class CertificateEngine final : public MotionEngine {
   bool can_respond(ResponseKind) const override { return true; }
   void jump(Span<const Pose> poses) override;
   Span<const Pose> poses() const override;
-  std::vector<ComponentPair> embedded_pairs() const override;
+  std::vector<ComponentPair> overlapping_pairs() const override;
 
   /// The contacts of the moving set at its pose: all triangle pairs nearer than `reach` [mm], by components and faces.
   /// Empty without a moving set.
@@ -78,18 +78,15 @@ class CertificateEngine final : public MotionEngine {
   /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
   /// components that are equally near, the first. Infinite without a moving set.
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
-  /// The first contact of the one screw from the pose of the moving set to `target`; embedded pairs are free all the
-  /// way. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at
+  /// The first contact of the one screw from the pose of the moving set to `target`. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at
   /// the same time. @pre the moving set is not empty
   FirstContact first_contact(const Pose& target) const;
   /// The first contact of each of some translations of the moving set [mm, world] from its pose, in a fraction of the
   /// time of first_contact(). The motion is certainly free up to toi; the first contact may be a few tolerances beyond.
-  /// A pair that touches at the start is swept again from where it would stop, up to a few times, so that a fit comes
-  /// out. Nothing moves. @pre the moving set is not empty
+  /// Nothing moves. @pre the moving set is not empty
   std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) const;
   /// The contact that blocks the translation of one component by `displacement` [mm] past one other, both in their
-  /// assembled poses whatever was moved since; none if it is free, or the two are embedded. Leaves the rule of the
-  /// guarantee for vertices to step(). May be called by many threads at the same time.
+  /// assembled poses whatever was moved since; none if it is free. May be called by many threads at the same time.
   std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& displacement,
                                                   StraightSearch search) const;
   /// Number of pairs of nodes of the fronts of the moving set.

@@ -2,7 +2,6 @@
 #include "dismantle/certificates/certificate_queries.h"
 
 #include "dismantle/certificates/straight_motion.h"
-#include "dismantle/engine/vertex_depth_guard.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/narrowphase/penetration_triangle_triangle.h"
 #include "dismantle/surface/solid_distance.h"
@@ -43,7 +42,7 @@ std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double lim
     if (sweeper.moves(fixed) || sweeper.solid(fixed).tree.empty()) continue;
     const PlacedSolid fixed_solid{&sweeper.solid(fixed), transform_from_pose(sweeper.poses()[k])};
     for (const ComponentId moving : sweeper.moving_set()) {
-      if (sweeper.solid(moving).tree.empty() || sweeper.allowed(moving, fixed) < 0) continue;
+      if (sweeper.solid(moving).tree.empty() || sweeper.guarded(moving, fixed).guard != PairGuard::Ghosts) continue;
       const PlacedSolid moving_solid{&sweeper.solid(moving), moving_at};
       const double bound = bounds_distance(moving_solid, fixed_solid);
       if (bound < limit) pairs.push_back({moving, fixed, moving_solid, fixed_solid, bound});
@@ -107,10 +106,6 @@ FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target
 
 namespace {
 
-/// A pair that touches at the start and is blocked is swept again from there if that gets it this many tolerances
-/// further: the side on which two overlapping faces are is chosen at the start of a sweep.
-constexpr double kNewStart = 8;
-constexpr int kMaxStarts = 8;
 /// Each sweep for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
 /// contacts that are hardly nearer each time would go on forever.
 constexpr double kShorter = 0.05;
@@ -139,35 +134,11 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   return contact;
 }
 
-/// The same from the start, for a pair that touches there.
-std::optional<StraightContact> contact_from_fit(const CertificateSweeper& sweeper, const LinearMotion& motion,
-                                                double to, StraightSearch search) {
-  const double whole = length(motion.displacement);
-  double from = 0;
-  for (int starts = 1;; ++starts) {
-    const double next = std::min(to, from + kNewStart * sweeper.tolerance() / whole);
-    if (const auto contact = contact_between(sweeper, motion, from, next, search)) return contact;
-    const auto contact = contact_between(sweeper, motion, next, to, StraightSearch::First);
-    if (!contact || starts == kMaxStarts) return contact;
-    from = contact->distance / whole;
-  }
-}
-
 /// The motion in the frame of the fixed component.
 StraightMover mover(const CertificateSweeper& sweeper, const LinearMotion& motion) {
   const RigidTransform back = inverse(transform_from_pose(motion.pose_fixed));
   return {sweeper.solid(motion.moving), back * transform_from_pose(motion.pose_moving),
           back.rotation * motion.displacement};
-}
-
-/// The contact of a vertex that would get deeper than any may: no other start makes this motion free.
-std::optional<StraightContact> deep_contact(const CertificateSweeper& sweeper, const LinearMotion& motion,
-                                            const StraightMover& moving) {
-  const auto deep = deep_vertex_on(moving, sweeper.solid(motion.fixed),
-                                   VertexDepthGuard::kLimit * sweeper.allowed(motion.moving, motion.fixed));
-  if (!deep) return std::nullopt;
-  return StraightContact{deep->fraction * length(motion.displacement), FaceId(deep->face_moving),
-                         FaceId(deep->face_fixed), transform_from_pose(motion.pose_fixed) * deep->point};
 }
 
 /// The first contact of the whole moving set: the contact of one component shortens the motion for the others.
@@ -200,19 +171,9 @@ std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, S
 
 std::optional<StraightContact> straight_contact(const CertificateSweeper& sweeper, const LinearMotion& motion,
                                                 StraightSearch search) {
-  const double allowed = sweeper.allowed(motion.moving, motion.fixed);
-  if (allowed < 0 || sweeper.solid(motion.moving).tree.empty() || sweeper.solid(motion.fixed).tree.empty())
-    return std::nullopt;
-  const StraightMover moving = mover(sweeper, motion);
-  if (passes_by(moving, sweeper.solid(motion.fixed))) return std::nullopt;
-  // Ghost surfaces keep vertices from getting deep, and start on the right side.
-  const bool plain = sweeper.surface_pairs(motion.moving, motion.fixed)[0] == SurfacePair::Plain;
-  if (!plain) return contact_between(sweeper, motion, 0, 1, search);
-  const auto deep = deep_contact(sweeper, motion, moving);
-  if (deep && search == StraightSearch::Any) return deep;
-  const double to = deep ? deep->distance / length(motion.displacement) : 1;
-  const auto contact = contact_from_fit(sweeper, motion, to, search);
-  return contact ? contact : deep;
+  if (sweeper.solid(motion.moving).tree.empty() || sweeper.solid(motion.fixed).tree.empty()) return std::nullopt;
+  if (passes_by(mover(sweeper, motion), sweeper.solid(motion.fixed))) return std::nullopt;
+  return contact_between(sweeper, motion, 0, 1, search);
 }
 
 }  // namespace dismantle

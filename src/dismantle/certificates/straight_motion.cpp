@@ -2,7 +2,6 @@
 #include "dismantle/certificates/straight_motion.h"
 
 #include "dismantle/math/vec3f.h"
-#include "dismantle/surface/solid_tree_query.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +11,6 @@
 namespace dismantle {
 
 namespace {
-
-/// Number of vertices of each solid that are examined, spread over it.
-constexpr std::size_t kVertices = 48;
 
 /// The search ends undecided after this many pairs of nodes.
 constexpr std::size_t kMaxShadows = 20'000;
@@ -95,45 +91,6 @@ class Shadows {
   Vec3 ahead_;
 };
 
-/// Where along a ray a vertex is deep in a solid.
-struct DeepPoint {
-  double fraction = 0;
-  std::uint32_t face = 0;
-};
-
-/// Halfway between where the ray enters the solid, or starts, and where it leaves it again.
-std::optional<DeepPoint> deep_point(const SolidTree& solid, Vec3 from, Vec3 displacement, double depth) {
-  const double whole = length(displacement);
-  const Vec3 ahead = displacement / whole;
-  std::optional<std::vector<RayCrossing>> crossings = crossings_of(solid, from, ahead);
-  if (!crossings) return std::nullopt;
-  double before = 0;
-  for (const RayCrossing& crossing : *crossings) {
-    const double middle = std::min(whole, 0.5 * (before + crossing.distance));
-    if (crossing.outward && middle > before && crossing.distance - before > depth) {
-      const NearestFace nearest = nearest_face(solid, from + middle * ahead, crossing.face, depth);
-      if (nearest.distance > depth) return DeepPoint{middle / whole, nearest.face};
-    }
-    before = crossing.distance;
-    if (before > whole) break;
-  }
-  return std::nullopt;
-}
-
-/// The first of a few vertices of `from`, at pose `at` in the frame of `into`, that the displacement takes deep into
-/// it.
-std::optional<std::pair<std::uint32_t, DeepPoint>> deep_vertex_of(const SolidTree& from, const RigidTransform& at,
-                                                                  const SolidTree& into, Vec3 displacement,
-                                                                  double depth) {
-  const std::size_t count = from.vertices.size(), stride = std::max<std::size_t>(1, count / kVertices);
-  for (std::size_t v = 0; v < count; v += stride) {
-    if (from.around_begin[v] == from.around_begin[v + 1]) continue;  // of no face
-    if (const auto point = deep_point(into, at * from.vertices[v], displacement, depth))
-      return std::pair(static_cast<std::uint32_t>(v), *point);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
@@ -153,23 +110,6 @@ bool passes_by(const StraightMover& moving, const SolidTree& fixed) {
       split_a ? open.emplace_back(node_a.child + k, b) : open.emplace_back(a, node_b.child + k);
   }
   return true;
-}
-
-std::optional<DeepVertex> deep_vertex_on(const StraightMover& moving, const SolidTree& fixed, double depth) {
-  const SolidTree& solid = moving.solid;
-  if (!solid.has_outside || !fixed.has_outside || !(length(moving.displacement) > 0)) return std::nullopt;
-  const auto face_at = [](const SolidTree& of, std::uint32_t v) { return of.around[of.around_begin[v]]; };
-  if (const auto found = deep_vertex_of(solid, moving.at, fixed, moving.displacement, depth)) {
-    const auto& [v, point] = *found;
-    return DeepVertex{point.fraction, face_at(solid, v), point.face,
-                      moving.at * solid.vertices[v] + point.fraction * moving.displacement};
-  }
-  const RigidTransform back = inverse(moving.at);
-  if (const auto found = deep_vertex_of(fixed, back, solid, -(back.rotation * moving.displacement), depth)) {
-    const auto& [v, point] = *found;
-    return DeepVertex{point.fraction, point.face, face_at(fixed, v), fixed.vertices[v]};
-  }
-  return std::nullopt;
 }
 
 }  // namespace dismantle

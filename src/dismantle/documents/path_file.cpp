@@ -59,13 +59,13 @@ class PathReader {
     if (in_.ok() && pair.a == pair.b) in_.fail(b, "the same component as a");
     const JsonNode state = in_.member(node, "state");
     const std::string name = in_.text(state);
-    if (name == name_of(PairState::Embedded)) {
-      pair.state = PairState::Embedded;
-    } else if (name != name_of(PairState::Fit) && in_.ok()) {
+    if (name == "embedded") {
+      pair.state = PairState::Free;
+    } else if (name != "fit" && in_.ok()) {
       in_.fail(state, in_quotes(name) + " is neither \"fit\" nor \"embedded\"");
     }
     const JsonNode allowed = in_.member(node, "allowed_penetration_mm");
-    if (pair.state == PairState::Fit) {
+    if (pair.state == PairState::Overlapping) {
       pair.allowed_penetration = length(allowed);
     } else {
       pair.allowed_penetration = std::numeric_limits<double>::infinity();
@@ -110,10 +110,10 @@ class PathReader {
 };
 
 JsonValue pair_json(const PathPair& pair) {
-  const bool free = pair.state == PairState::Embedded;
+  const bool free = pair.state == PairState::Free;
   return {{"a", pair.a},
           {"b", pair.b},
-          {"state", name_of(pair.state)},
+          {"state", free ? "embedded" : "fit"},
           {"allowed_penetration_mm", free ? JsonValue() : JsonValue(pair.allowed_penetration)}};
 }
 

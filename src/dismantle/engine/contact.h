@@ -49,4 +49,7 @@ struct FirstContact {
   friend bool operator==(const FirstContact&, const FirstContact&) = default;
 };
 
+/// The part of a motion, after its first contact, whose contacts a sweep reports.
+inline constexpr double kContactWindow = 0x1p-10;
+
 }  // namespace dismantle

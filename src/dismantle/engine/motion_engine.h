@@ -53,7 +53,7 @@ class MotionEngine {
   /// The pose of every component, shape [component_count].
   virtual Span<const Pose> poses() const = 0;
   /// The pairs that are still embedded.
-  virtual std::vector<ComponentPair> embedded_pairs() const = 0;
+  virtual std::vector<ComponentPair> overlapping_pairs() const = 0;
 };
 
 }  // namespace dismantle

@@ -11,11 +11,11 @@ PairRule rule_of(const ComponentPair& pair) {
   switch (pair.state) {
     case PairState::Clear:
     case PairState::Near:
-      return {PairTest::Ordinary, pair.allowed_penetration};
+      return {PairTest::Ordinary, pair.allowed_depth};
     case PairState::Contact:
-    case PairState::Fit:
-      return {PairTest::Certified, pair.allowed_penetration};
-    case PairState::Embedded:
+      return {PairTest::Certified, pair.allowed_depth};
+    case PairState::Overlapping:
+    case PairState::Free:
       return {PairTest::Discrete, 0};
   }
   return {};

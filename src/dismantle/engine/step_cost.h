@@ -20,7 +20,7 @@ struct StepCost {
   std::size_t triangle_pairs = 0;  ///< Triangle pairs left by the broad phase (`streams`: of the last sweep).
   std::size_t tests = 0;           ///< Continuous tests of triangles or of their features, over all sweeps.
   std::size_t device_tests = 0;    ///< Those of `tests` that a device computed.
-  std::size_t embedded_pairs = 0;  ///< Component pairs that are still embedded.
+  std::size_t overlapping_pairs = 0;  ///< Component pairs that are still embedded.
   std::size_t replays = 0;         ///< Stages repeated because a buffer was full.
   std::vector<StageTime> stages;   ///< In the order in which they run; empty for a method without stages.
 };

@@ -48,16 +48,15 @@ VertexDepthGuard::VertexDepthGuard(const Assembly& assembly, const PairStates& p
       trees_(assembly.components.size()),
       executor_(executor) {
   for (const ComponentPair& p : pairs.pairs) {
-    if (p.state != PairState::Fit && p.state != PairState::Contact) continue;
-    max_allowance_ = std::max(max_allowance_, p.allowed_penetration);
-    // The triangles of a fit may all be apart, or end where those of the other begin: only its vertices are deep.
-    if (p.state == PairState::Contact && p.penetration <= kNoticeableShare * tolerance_) {
-      consider(p.a, p.b, p.allowed_penetration);
+    if (p.state != PairState::Contact) continue;
+    max_allowance_ = std::max(max_allowance_, p.allowed_depth);
+    if (p.depth <= kNoticeableShare * tolerance_) {
+      consider(p.a, p.b, p.allowed_depth);
       continue;
     }
     considered_.insert({p.a, p.b});
-    watch(p.a, p.b, p.allowed_penetration);
-    watch(p.b, p.a, p.allowed_penetration);
+    watch(p.a, p.b, p.allowed_depth);
+    watch(p.b, p.a, p.allowed_depth);
   }
 }
 

@@ -94,7 +94,7 @@ std::vector<ComponentId> RemovalFacts::unsupported_after(const WorkStep& step, C
   std::vector<ComponentId> unsupported;
   for (const ComponentId c : neighbours(removed)) {
     const bool is_held = std::any_of(pairs_.pairs.begin(), pairs_.pairs.end(), [&](const ComponentPair& pair) {
-      const bool grips = pair.state == PairState::Fit || pair.state == PairState::Embedded;
+      const bool grips = pair.state == PairState::Overlapping || pair.state == PairState::Free;
       if (!grips || (pair.a != c && pair.b != c)) return false;
       const ComponentId other = pair.a == c ? pair.b : pair.a;
       return has(around, other) && !has(removed, other);

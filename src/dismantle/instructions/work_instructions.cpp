@@ -59,7 +59,7 @@ std::string counted_name(const WorkInstructions& instructions, const CountedPart
 struct CountedOverlap {
   std::size_t own_line = 0, other_line = 0;  ///< Lines of the bill of materials.
   std::string depth;                         ///< [mm]
-  PairState state = PairState::Fit;
+  PairState state = PairState::Overlapping;
   std::vector<ComponentId> own, others;  ///< Without duplicates.
 
   bool is_like(const CountedOverlap& o) const {
@@ -283,10 +283,10 @@ class Writer {
       const std::string names =
           overlapping_name(o.own, o.own_line) + " and " + overlapping_name(o.others, o.other_line);
       instruction.notes.push_back(
-          {Kind::Overlap, o.state == PairState::Fit
-                              ? names + " overlap by " + o.depth + " mm: close fit, press fit or thread."
-                              : "The CAD models of " + names + " interfere by " + o.depth +
-                                    " mm; collision between them is not checked while they overlap."});
+          {Kind::Overlap, o.state == PairState::Overlapping
+                              ? "The CAD models of " + names + " overlap by " + o.depth +
+                                    " mm: press fit, thread, or an error of the model."
+                              : "Collision between " + names + " is not checked until they are apart."});
     }
     if (listed < overlaps.size())
       instruction.notes.push_back(
@@ -297,7 +297,7 @@ class Writer {
     return components.size() == 1 ? assembly_[components[0]].name : counted_name(result_, {line, components.size()});
   }
 
-  /// The fits and embedded pairs that a step separates; equal ones are counted.
+  /// The overlapping pairs that a step separates; equal ones are counted.
   std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
     std::vector<ComponentId> set;
     for (const RemovalMove& removal : step.removals)
@@ -308,12 +308,12 @@ class Writer {
     };
     std::vector<CountedOverlap> found;
     for (const ComponentPair& pair : pairs_.pairs) {
-      if (pair.state != PairState::Fit && pair.state != PairState::Embedded) continue;
+      if (pair.state != PairState::Overlapping && pair.state != PairState::Free) continue;
       if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
       const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
       if (!is_in(around, other)) continue;
       const CountedOverlap one{
-          lines_[own.value], lines_[other.value], number_text(pair.penetration), pair.state, {}, {}};
+          lines_[own.value], lines_[other.value], number_text(pair.depth), pair.state, {}, {}};
       auto like = std::find_if(found.begin(), found.end(), [&](const CountedOverlap& o) { return o.is_like(one); });
       if (like == found.end()) like = found.insert(found.end(), one);
       if (!is_in(like->own, own)) like->own.push_back(own);

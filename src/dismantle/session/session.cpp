@@ -56,13 +56,13 @@ Session::Session(const Assembly& assembly, PairStates pairs, const CertificateOp
 std::unique_ptr<CertificateEngine> Session::make_engine(const PairList& embedded) const {
   PairStates states = pairs_;
   std::erase_if(states.pairs, [&](const ComponentPair& p) {
-    return p.state == PairState::Embedded && !std::binary_search(embedded.begin(), embedded.end(), std::pair(p.a, p.b));
+    return (p.state == PairState::Overlapping || p.state == PairState::Free) && !std::binary_search(embedded.begin(), embedded.end(), std::pair(p.a, p.b));
   });
   return std::make_unique<CertificateEngine>(*assembly_, states, options_);
 }
 
 PairList Session::embedded() const {
-  return pair_list(engine_->embedded_pairs());
+  return pair_list(engine_->overlapping_pairs());
 }
 
 Result<Done> Session::check_no_playback() const {

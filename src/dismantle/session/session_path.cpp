@@ -10,8 +10,8 @@ Path empty_path(const Assembly& assembly, const PairStates& states) {
   for (const Component& c : assembly.components) path.components.push_back(c.name);
   path.tolerance = states.tolerance;
   for (const ComponentPair& p : states.pairs) {
-    if (p.state != PairState::Fit && p.state != PairState::Embedded) continue;
-    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, p.state, p.allowed_penetration});
+    if (p.state != PairState::Overlapping && p.state != PairState::Free) continue;
+    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, p.state, p.allowed_depth});
   }
   return path;
 }

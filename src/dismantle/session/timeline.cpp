@@ -33,10 +33,10 @@ Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const Move& 
   return ids;
 }
 
-PairList embedded_pairs(const PairStates& pairs) {
+PairList overlapping_pairs(const PairStates& pairs) {
   PairList list;
   for (const ComponentPair& p : pairs.pairs)
-    if (p.state == PairState::Embedded) list.emplace_back(p.a, p.b);
+    if (p.state == PairState::Overlapping || p.state == PairState::Free) list.emplace_back(p.a, p.b);
   return list;
 }
 
@@ -66,7 +66,7 @@ Result<Timeline> Timeline::of_path(const Assembly& assembly, const PairStates& p
         return does_not_fit(i, "does not begin where '" + assembly[c].name + "' is then");
       poses[c.value] = move.frames.back().pose;
     }
-    timeline.add({move.label, *set, move.frames, 0, embedded_pairs(pairs), {}});
+    timeline.add({move.label, *set, move.frames, 0, overlapping_pairs(pairs), {}});
   }
   return timeline;
 }

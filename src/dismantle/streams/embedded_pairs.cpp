@@ -33,7 +33,7 @@ EmbeddedPairs::EmbeddedPairs(const Assembly& assembly, const PairStates& states)
     boxes_.push_back(assembled_bounds(c));
   }
   for (const ComponentPair& pair : states.pairs)
-    if (pair.state == PairState::Embedded) pairs_.push_back(pair);
+    if (pair.state == PairState::Overlapping || pair.state == PairState::Free) pairs_.push_back(pair);
 }
 
 bool EmbeddedPairs::any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const {

@@ -36,7 +36,7 @@ class GuardedEngine final : public SweepEngine {
     guard_.jump();
   }
   Span<const RigidTransform> state() const override { return engine_->state(); }
-  std::vector<ComponentPair> embedded_pairs() const override { return engine_->embedded_pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override { return engine_->overlapping_pairs(); }
 
  private:
   std::unique_ptr<SweepEngine> engine_;

@@ -39,7 +39,7 @@ class Stepper {
     cost.replays += swept.sizes.replays;
     cost.pairs = swept.sizes.front;
     cost.triangle_pairs = swept.sizes.triangle_pairs;
-    cost.embedded_pairs = swept.sizes.intersection_pairs;
+    cost.overlapping_pairs = swept.sizes.intersection_pairs;
     const double stages[] = {swept.timings.vertices, swept.timings.refit, swept.timings.front,
                              swept.timings.intersection};
     for (std::size_t k = 0; k < cost.stages.size(); ++k) cost.stages[k].ms += stages[k];

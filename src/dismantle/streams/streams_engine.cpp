@@ -26,7 +26,7 @@ class StreamsEngine final : public SweepEngine {
   void commit() override;
   void jump(Span<const RigidTransform> state) override;
   Span<const RigidTransform> state() const override { return backend_->state(); }
-  std::vector<ComponentPair> embedded_pairs() const override { return embedded_.pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override { return embedded_.pairs(); }
 
  private:
   EmbeddedStep embedded_step(const MovingStreams& streams, double path_deviation) const;

@@ -21,9 +21,6 @@ enum class ElementaryTest {
                ///< allowance and are tested with Certified all the same.
 };
 
-/// The part of a motion, after its first contact, whose contacts a sweep reports.
-inline constexpr double kContactWindow = 0x1p-10;
-
 /// Wall times of the stages of a sweep, as in Table 1 of Du et al. 2015 [ms].
 struct StageTimings {
   double vertices = 0;      ///< S_tm -> S_v
@@ -80,7 +77,7 @@ class SweepEngine {
   /// The current state, one transform a component.
   virtual Span<const RigidTransform> state() const = 0;
   /// The pairs that are still embedded: in the intersection stream S_i.
-  virtual std::vector<ComponentPair> embedded_pairs() const = 0;
+  virtual std::vector<ComponentPair> overlapping_pairs() const = 0;
 };
 
 /// Makes the paper's method (docs/design/0004-streams.md) on the threads of the options' executor, with all components

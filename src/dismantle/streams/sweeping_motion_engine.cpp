@@ -47,7 +47,7 @@ class SweepingMotionEngine final : public MotionEngine {
   }
 
   Span<const Pose> poses() const override { return poses_; }
-  std::vector<ComponentPair> embedded_pairs() const override { return engine_->embedded_pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override { return engine_->overlapping_pairs(); }
 
  private:
   const Assembly& assembly_;

@@ -21,8 +21,13 @@ constexpr double kGapOfTolerance = 0.1;
 /// Compares pairs of components.
 class PairCheck {
  public:
-  PairCheck(const AssemblySurface& surface, const std::vector<SolidShape>& shapes, double tolerance, double clearance)
-      : surface_(surface), shapes_(shapes), tolerance_(tolerance), clearance_(clearance) {
+  PairCheck(const AssemblySurface& surface, const std::vector<SolidShape>& shapes, double tolerance,
+            const ClashOptions& options)
+      : surface_(surface),
+        shapes_(shapes),
+        tolerance_(tolerance),
+        clearance_(options.clearance),
+        volumes_(options.volumes) {
     depth_options_.gap = kGapOfTolerance * tolerance;
   }
 
@@ -41,6 +46,7 @@ class PairCheck {
     // Where the search ended early, only what was found counts.
     if ((depth.capped ? depth.attained : depth.depth) > tolerance_) {
       clash.state = ClashState::Overlapping;
+      if (!volumes_) return clash;
       const CommonVolume volume = common_volume(first, second);
       clash.volume = volume.volume;
       clash.volume_error = volume.standard_error;
@@ -77,6 +83,7 @@ class PairCheck {
   const AssemblySurface& surface_;
   const std::vector<SolidShape>& shapes_;
   double tolerance_, clearance_;
+  bool volumes_;
   DepthOptions depth_options_;
 };
 
@@ -111,7 +118,7 @@ Result<Clashes> find_clashes(const Assembly& assembly, const ClashOptions& optio
   if (!run_all(shapes.size(), "building the hierarchy", options,
                [&](std::size_t c) { shapes[c] = SolidShape(assembly.components[c]); }))
     return cancelled;
-  const PairCheck check(surface, shapes, clashes.tolerance, options.clearance);
+  const PairCheck check(surface, shapes, clashes.tolerance, options);
   std::vector<std::optional<Clash>> found(candidates.size());
   if (!run_all(found.size(), "comparing components", options, [&](std::size_t i) {
         const auto [a, b] = candidates[i];

@@ -13,6 +13,7 @@ namespace dismantle {
 struct ClashOptions {
   double tolerance = 0;       ///< Depth that counts as touching [mm]; 0: default_tolerance(assembly).
   double clearance = 0;       ///< Pairs that are apart by less than this are Near [mm].
+  bool volumes = true;        ///< Finds what pairs have in common, and which contain others, too.
   Executor executor;          ///< Runs the pairs; the result does not depend on it.
   ProgressCallback progress;  ///< Called under a lock, from any thread; false cancels.
 };

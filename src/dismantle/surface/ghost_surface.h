@@ -16,6 +16,22 @@ namespace dismantle {
 /// @return the displaced vertices [mm]
 std::vector<Vec3> ghost_vertices(Span<const Vec3> vertices, Span<const Face> faces, double max_length);
 
+/// How far the faces of a mesh are to be retracted into the solid, and how long displacements may be.
+struct FaceRetractions {
+  Span<const double> needed;  ///< Of each face [mm]; 0 for faces that need none.
+  double extra = 0;           ///< More than that for faces that need some [mm].
+  double usual = 0;           ///< For the others [mm].
+  double max_length = 0;      ///< Largest displacement of a vertex [mm].
+};
+
+/// As ghost_vertices(), with distances for each face. Where a displacement would be too long, `extra` and `usual` are
+/// shortened there first.
+std::vector<Vec3> retracted_vertices(Span<const Vec3> vertices, Span<const Face> faces,
+                                     const FaceRetractions& retractions);
+
+/// Faces whose normals point out of the solid: those of an inside-out mesh turned round.
+std::vector<Face> outward_faces(Span<const Face> faces, bool inside_out);
+
 /// The slot of the first vertex at the same position, for each vertex.
 std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices);
 

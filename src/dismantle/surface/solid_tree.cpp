@@ -45,6 +45,7 @@ SolidTree make_displaced_tree(const SolidTree& solid, std::vector<Vec3> vertices
   displaced.vertices = std::move(vertices);
   displaced.faces = solid.faces;
   displaced.has_outside = solid.has_outside;
+  displaced.inside_out = solid.inside_out;
   displaced.normals = solid.normals;
   displaced.around_begin = solid.around_begin;
   displaced.around = solid.around;
@@ -63,6 +64,7 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   solid.vertices = assembled_vertices(component);
   solid.faces = component.mesh->faces;
   solid.has_outside = component.faults.bounds_solid();
+  solid.inside_out = component.faults.open_edges == 0 && component.faults.inside_out;
   Recognised found;
   found.axes = revolution_axes(solid.vertices, solid.faces);
   found.threads = thread_axes(solid.vertices, solid.faces, found.axes);

@@ -19,6 +19,8 @@ struct SolidTree {
   /// The mesh bounds a volume and its normals point outwards (MeshFaults::bounds_solid). The next three arrays are
   /// empty where not.
   bool has_outside = false;
+  /// The mesh bounds a volume, but its normals point inwards.
+  bool inside_out = false;
   std::vector<Vec3> normals;                ///< Unit outward normal of each face.
   std::vector<std::uint32_t> around_begin;  ///< Begin of each vertex's range in `around`, shape [vertex_count + 1].
   std::vector<std::uint32_t> around;        ///< Faces at each vertex.

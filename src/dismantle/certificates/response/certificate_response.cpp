@@ -17,15 +17,11 @@ using Clock = std::chrono::steady_clock;
 
 /// A motion that was shortened this many times and is still blocked is not made.
 constexpr int kMaxShortenings = 6;
-using Shortening = GuardedMover::Shortening;
 
 }  // namespace
 
-CertificateResponse::CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs)
-    : sweeper_(sweeper),
-      mover_(sweeper, assembly, pairs),
-      contacts_(sweeper),
-      reach_(std::numeric_limits<double>::infinity()) {}
+CertificateResponse::CertificateResponse(CertificateSweeper& sweeper)
+    : sweeper_(sweeper), contacts_(sweeper), reach_(std::numeric_limits<double>::infinity()) {}
 
 StepResult CertificateResponse::step(const Pose& target, ResponseKind response) {
   const Clock::time_point start = Clock::now();
@@ -41,7 +37,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
   if (result.reached) result.blocking_pairs.clear();
-  result.cost.embedded_pairs = mover_.embedded_pairs().size();
+  result.cost.overlapping_pairs = sweeper_.overlapping_pairs().size();
   result.cost.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return result;
 }
@@ -54,15 +50,14 @@ CertificateSweep CertificateResponse::sweep(const ScrewMotion& motion, double wi
   result.cost.triangle_pairs += found.triangle_tests;
   result.cost.tests += found.triangle_tests;
   result.cost.device_tests += found.device_tests;
-  mover_.set_near_component_pairs(found.near_component_pairs);
   return found;
 }
 
-double CertificateResponse::advance(const ScrewMotion& motion, double fraction, Shortening shortening,
-                                    StepResult& result) {
-  const double made = mover_.advance(motion, fraction, shortening);
-  if (made > 0) result.poses.push_back(sweeper_.pose());
-  return made;
+void CertificateResponse::advance(const ScrewMotion& motion, double fraction, StepResult& result) {
+  if (!(fraction > 0)) return;
+  sweeper_.move_to(motion.at(fraction));
+  sweeper_.part_others();
+  result.poses.push_back(sweeper_.pose());
 }
 
 void CertificateResponse::report(const CertificateSweep& sweep, StepResult& result) const {
@@ -93,12 +88,9 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
     const double next = at + fraction > 1 - 1e-9 ? 1 : at + fraction;
     const ScrewMotion motion = sweeper_.motion_to(whole.at(next));
     const double free = free_fraction(motion, touch, result);
-    const bool made = advance(motion, free, Shortening::Allowed, result) >= 1;
-    reach_ = made ? reach_ * kTryGrowth : std::max(kMinTry * tolerance, 2 * free * motion.path_length);
-    if (!made) {
-      if (free == 1) result.blocking_pairs = mover_.blocking_vertices();
-      break;
-    }
+    advance(motion, free, result);
+    reach_ = free == 1 ? reach_ * kTryGrowth : std::max(kMinTry * tolerance, 2 * free * motion.path_length);
+    if (free < 1) break;
     at = next;
   }
   // All of it is on one screw.
@@ -144,7 +136,7 @@ void CertificateResponse::begin() {
 }
 
 void CertificateResponse::jump(Span<const Pose> poses) {
-  mover_.jump(poses);
+  sweeper_.jump(poses);
   begin();
 }
 

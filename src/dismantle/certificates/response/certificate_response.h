@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/certificates/response/guarded_mover.h"
 #include "dismantle/certificates/response/slide_contacts.h"
 
 namespace dismantle {
@@ -10,8 +9,8 @@ namespace dismantle {
 /// one step.
 class CertificateResponse {
  public:
-  /// The sweeper and the assembly must outlive the response.
-  CertificateResponse(CertificateSweeper& sweeper, const Assembly& assembly, const PairStates& pairs);
+  /// The sweeper must outlive the response.
+  explicit CertificateResponse(CertificateSweeper& sweeper);
 
   /// Forgets the contacts of the last step: another set was grabbed.
   void begin();
@@ -19,16 +18,14 @@ class CertificateResponse {
   StepResult step(const Pose& target, ResponseKind response);
   /// As CertificateEngine::jump().
   void jump(Span<const Pose> poses);
-  /// The pairs that are still embedded.
-  std::vector<ComponentPair> embedded_pairs() const { return mover_.embedded_pairs(); }
 
  private:
   struct SlideState;
   struct SlideTrial;
 
   CertificateSweep sweep(const ScrewMotion& motion, double window, SweepBudget budget, StepResult& result);
-  /// Moves along the motion up to `fraction` of it, and reports the pose. @return the fraction made
-  double advance(const ScrewMotion& motion, double fraction, GuardedMover::Shortening shortening, StepResult& result);
+  /// Moves along the motion up to `fraction` of it, which is free, and reports the pose.
+  void advance(const ScrewMotion& motion, double fraction, StepResult& result);
   void report(const CertificateSweep& sweep, StepResult& result) const;
 
   /// Responses Stop and Touch.
@@ -55,8 +52,6 @@ class CertificateResponse {
   bool search_again();
   /// Makes up for what whole cylinders withheld, and reports the contacts.
   void end_slide(const Pose& target, StepResult& result);
-  /// Adds the vertices that blocked the last motion as contacts. @return true if they bound the twist further
-  bool add_blocking_vertices(StepResult& result);
   ///@}
 
   ///@{ Twists of the moving set about its center.
@@ -71,7 +66,6 @@ class CertificateResponse {
   ///@}
 
   CertificateSweeper& sweeper_;
-  GuardedMover mover_;
   SlideContacts contacts_;              ///< Of the last step of response Slide.
   std::vector<SweepContact> stopping_;  ///< The pairs that stopped the last motion of Stop or Touch.
   double reach_;               ///< Slide and Touch try motions of at most this length [mm]; it grows after free ones.

@@ -21,11 +21,10 @@ constexpr double kTouching = 1e-2;
 /// Where a pair uses the reserve, a motion is made up to this share of what the certificates allow.
 constexpr double kShareBeyondReserve = 0.5;
 
-/// As kSlideReserve for pairs of a ghost.
-constexpr double kGhostReserve = 0.3, kGhostFitReserve = 0.1;
+/// The share of the tolerance that is kept of every gap, for the second-order part of twists; and of the play of a
+/// cylinder in its bore, whose rows leave out only the bending of the twist.
+constexpr double kReserve = 0.3, kFitReserve = 0.1;
 
-/// As kSlideReserve for a cylinder in its bore, whose rows leave out only the bending of the twist.
-constexpr double kFitReserve = 0.45;
 /// A twist is bounded again where it takes a cylinder further, at most this many times.
 constexpr int kFitCuts = 6;
 /// It may exceed the bound by less than this share of the tolerance.
@@ -58,13 +57,6 @@ bool SlideContacts::add(const SweepContact& pair) {
   return geometry(pair).patch.count > 0;
 }
 
-bool SlideContacts::add_vertex(const SweepContact& pair) {
-  for (const SweepContact& known : vertices_)
-    if (same_faces(known, pair)) return false;
-  vertices_.push_back(pair);
-  return geometry(pair).patch.count > 0;
-}
-
 bool SlideContacts::add_fit(const BlockedFit& fit) {
   const auto same = [&](const BlockedFit& known) {
     return known.moving == fit.moving && known.fixed == fit.fixed && known.surfaces == fit.surfaces &&
@@ -76,12 +68,9 @@ bool SlideContacts::add_fit(const BlockedFit& fit) {
   return !ends(fit).empty();
 }
 
-void SlideContacts::drop_vertices() {
-  vertices_.clear();
-}
-
 void SlideContacts::choose_axes(const ScrewMotion& motion) {
   std::erase_if(pairs_, [&](SweepContact& pair) {
+    if (pair.surfaces == SurfacePair::Plain) return false;
     const TrianglePairResult found = sweeper_.sweep_pair(pair, motion);
     if (found.free || length_squared(found.contact.axis) == 0) return true;
     pair.axis = found.contact.axis;
@@ -92,21 +81,29 @@ void SlideContacts::choose_axes(const ScrewMotion& motion) {
 double SlideContacts::fraction_within_reserve(const SweepContact& pair) const {
   if (length_squared(pair.axis) == 0) return 0;
   const double gap = geometry(pair).gap;
-  const double available =
-      gap +
-      (pair.surfaces == SurfacePair::Plain ? sweeper_.allowed(pair.tested()) - kArcShare * sweeper_.tolerance() : 0);
-  const double wanted = gap + deepest(pair);
-  const double share = available > 0 ? wanted / available : 0;
+  const double share = gap > 0 ? (gap - reserve()) / gap : 0;
   // A pair that uses the reserve already goes half of what is left.
   return pair.toi * std::max(share, kShareBeyondReserve);
 }
 
 SlideContacts::PairGeometry SlideContacts::geometry(const SweepContact& pair) const {
+  if (pair.surfaces != SurfacePair::Plain)
+    return geometry_of(pair, sweeper_.moving_surface(pair.tested()), sweeper_.fixed_surface(pair.tested()));
+  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[pair.fixed.value]);
+  PairGeometry s;
+  s.normal = -(fixed.rotation * pair.axis);
+  const Vec3 now = transform_from_pose(sweeper_.pose()) * pair.point;
+  s.gap = dot(s.normal, now - fixed * pair.limit);
+  s.patch.points[s.patch.count++] = {now, s.gap};
+  return s;
+}
+
+SlideContacts::PairGeometry SlideContacts::geometry_of(const SweepContact& pair, const SolidTree& moving_surface,
+                                                       const SolidTree& fixed_surface) const {
   const RigidTransform moving = transform_from_pose(sweeper_.pose());
-  const Pose& fixed_pose = sweeper_.poses()[pair.fixed.value];
-  const RigidTransform fixed = transform_from_pose(fixed_pose);
-  const Triangle own = sweeper_.moving_surface(pair.tested()).triangle(pair.face_moving.value);
-  const Triangle other = sweeper_.fixed_surface(pair.tested()).triangle(pair.face_fixed.value);
+  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[pair.fixed.value]);
+  const Triangle own = moving_surface.triangle(pair.face_moving.value);
+  const Triangle other = fixed_surface.triangle(pair.face_fixed.value);
   const Triangle own_now{{moving * own[0], moving * own[1], moving * own[2]}};
   const Triangle other_now{{fixed * other[0], fixed * other[1], fixed * other[2]}};
   PairGeometry s;
@@ -155,9 +152,8 @@ std::vector<SlideContacts::FitEnd> SlideContacts::ends(const BlockedFit& blocked
   return both;
 }
 
-double SlideContacts::deepest(const SweepContact& pair) const {
-  if (pair.surfaces != SurfacePair::Plain) return -kGhostReserve * sweeper_.tolerance();
-  return sweeper_.allowed(pair.tested()) - kSlideReserve * sweeper_.tolerance();
+double SlideContacts::reserve() const {
+  return kReserve * sweeper_.tolerance();
 }
 
 double SlideContacts::withheld() const {
@@ -167,8 +163,7 @@ double SlideContacts::withheld() const {
 }
 
 double SlideContacts::max_off(const BlockedFit& fit) const {
-  if (fit.surfaces != SurfacePair::Plain) return fit.fit.room - kGhostFitReserve * sweeper_.tolerance();
-  return fit.fit.room + sweeper_.allowed(fit.moving, fit.fixed) - kFitReserve * sweeper_.tolerance();
+  return fit.fit.room - kFitReserve * sweeper_.tolerance();
 }
 
 bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
@@ -188,7 +183,7 @@ bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double cha
   return bounded;
 }
 
-void SlideContacts::bound(const SweepContact& pair, double deepest, double characteristic_length,
+void SlideContacts::bound(const SweepContact& pair, double characteristic_length,
                           std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
   const PairGeometry s = geometry(pair);
@@ -199,17 +194,13 @@ void SlideContacts::bound(const SweepContact& pair, double deepest, double chara
     const ContactPatch::Point& p = s.patch.points[i];
     const Vec3 turn = (1 / characteristic_length) * cross(p.on_upper - center, s.normal);
     bounds.push_back(
-        {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, -(p.gap + deeper + deepest))});
+        {{s.normal.x, s.normal.y, s.normal.z, turn.x, turn.y, turn.z}, std::min(0.0, reserve() - p.gap - deeper)});
   }
 }
 
 SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) const {
   std::vector<HalfSpace> bounds;
-  for (const SweepContact& pair : pairs_) bound(pair, deepest(pair), characteristic_length, bounds);
-  for (const SweepContact& pair : vertices_)
-    bound(pair,
-          VertexDepthGuard::kLimit * sweeper_.allowed(pair.moving, pair.fixed) - kSlideReserve * sweeper_.tolerance(),
-          characteristic_length, bounds);
+  for (const SweepContact& pair : pairs_) bound(pair, characteristic_length, bounds);
   std::vector<BoundingFit> bounding_fits;
   for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
   Twist found = solve(wanted, characteristic_length, bounds);
@@ -249,9 +240,11 @@ ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) cons
 
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
   std::vector<ContactPoint> points;
-  for (SweepContact pair : pairs_) {
-    pair.surfaces = SurfacePair::Plain;  // points and gaps are those of the components, not of ghosts
-    const PairGeometry s = geometry(pair);
+  for (const SweepContact& pair : pairs_) {
+    // Points and gaps are those of the components, not of ghosts.
+    const PairGeometry s = pair.surfaces == SurfacePair::Plain
+                               ? geometry(pair)
+                               : geometry_of(pair, sweeper_.solid(pair.moving), sweeper_.solid(pair.fixed));
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.
     const double touching = s.patch.nearest().gap + kTouching * sweeper_.tolerance();

@@ -3,7 +3,6 @@
 
 #include "dismantle/certificates/response/contact_patch.h"
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
-#include "dismantle/engine/vertex_depth_guard.h"
 #include "dismantle/math/nearest_twist.h"
 
 #include <vector>
@@ -21,7 +20,6 @@ class SlideContacts {
   /// Removes all contacts.
   void clear() {
     pairs_.clear();
-    vertices_.clear();
     fits_.clear();
   }
   /// Removes all pairs of triangles.
@@ -35,12 +33,6 @@ class SlideContacts {
   bool add_fit(const BlockedFit& fit);
   /// Upper bound of how much of a motion the whole cylinders withhold that their triangles would allow [mm].
   double withheld() const;
-  /// Adds a vertex that would get too deep behind a face, until drop_vertices(): no triangle-pair test finds it.
-  /// @param pair a face of the vertex and that face
-  /// @return true if it bounds the twist in a new way
-  bool add_vertex(const SweepContact& pair);
-  /// Removes all vertices.
-  void drop_vertices();
   /// Gives every pair the axis that lets a motion go furthest, and removes pairs that do not block it.
   void choose_axes(const ScrewMotion& motion);
   /// Removes contacts whose gap is more than `reach` [mm].
@@ -52,12 +44,12 @@ class SlideContacts {
     Vec3 rotation;         ///< [rad]
     bool bounded = false;  ///< Some contact holds it back.
   };
-  /// The twist nearest to `wanted` that takes no triangle pair deeper than its allowance less kSlideReserve of the
-  /// tolerance, to first order.
+  /// The twist nearest to `wanted` that keeps a share of the tolerance of every gap, to first order: room for the
+  /// second-order part of twists.
   /// @param characteristic_length weighs rotations against translations [mm]
   Twist nearest(const Twist& wanted, double characteristic_length) const;
 
-  /// The fraction of a motion on which `pair` is blocked that should be made, so that kSlideReserve is kept if it can.
+  /// The fraction of a motion on which `pair` is blocked that should be made, so that the reserve is kept if it can.
   double fraction_within_reserve(const SweepContact& pair) const;
 
   /// The contacts with a gap of at most `reach` [mm] at the present pose, by components and faces.
@@ -71,12 +63,13 @@ class SlideContacts {
     double gap = 0;      ///< Along the normal [mm].
   };
   PairGeometry geometry(const SweepContact& pair) const;
-  /// The depth that a pair may have at the end of a twist [mm]; negative for a gap.
-  double deepest(const SweepContact& pair) const;
+  /// That of two triangles of these surfaces of the pair's components.
+  PairGeometry geometry_of(const SweepContact& pair, const SolidTree& moving_surface,
+                           const SolidTree& fixed_surface) const;
+  /// The gap that is kept at the end of a twist [mm].
+  double reserve() const;
   /// Adds the rows of nearest_twist() by which the pair bounds the twist.
-  /// @param deepest as deepest()
-  void bound(const SweepContact& pair, double deepest, double characteristic_length,
-             std::vector<HalfSpace>& bounds) const;
+  void bound(const SweepContact& pair, double characteristic_length, std::vector<HalfSpace>& bounds) const;
 
   /// An end of the part of a cylinder that is in its bore.
   struct FitEnd {
@@ -104,12 +97,7 @@ class SlideContacts {
 
   const CertificateSweeper& sweeper_;
   std::vector<SweepContact> pairs_;
-  std::vector<SweepContact> vertices_;
   std::vector<BlockedFit> fits_;
 };
-
-/// Response Slide keeps this share of the tolerance from every allowance, and less of it from ghost surfaces: room for
-/// the second-order part of twists.
-inline constexpr double kSlideReserve = 0.65;
 
 }  // namespace dismantle

@@ -12,7 +12,6 @@ namespace dismantle {
 
 namespace {
 
-using Shortening = GuardedMover::Shortening;
 using Twist = SlideContacts::Twist;
 
 /// Sweeps of one step, apart from free ones of an unbounded motion.
@@ -33,7 +32,6 @@ constexpr double kContactReach = 8;
 
 void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
-  contacts_.drop_vertices();
   SlideState state;
   state.target = target;
   state.axes_chosen = state.contacts_here = contacts_.empty();
@@ -79,19 +77,14 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
 
 bool CertificateResponse::make_free(const SlideTrial& trial, const ScrewMotion& motion, SlideState& state,
                                     StepResult& result) {
-  bool made = advance(motion, 1, Shortening::None, result) > 0;
-  if (add_blocking_vertices(result)) {
-    ++state.tries;
-    return true;
-  }
-  if (!made) made = advance(motion, 1, Shortening::Allowed, result) > 0;
+  advance(motion, 1, result);
   const bool was_on_course = std::exchange(state.on_course, !trial.twist.bounded);
   // Motions along one screw are reported as one.
-  if (made && was_on_course && state.on_course) result.poses.erase(result.poses.end() - 2);
+  if (was_on_course && state.on_course) result.poses.erase(result.poses.end() - 2);
   reach_ *= kTryGrowth;
   state.axes_chosen = state.contacts_here = false;
-  if (made && !trial.creeping) hardly_moved_ = 0;
-  return made && !trial.creeping && !(sweeper_.pose() == state.target);
+  if (!trial.creeping) hardly_moved_ = 0;
+  return !trial.creeping && !(sweeper_.pose() == state.target);
 }
 
 bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotion& motion,
@@ -115,10 +108,9 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
     return !(reach_ < kRestShare * sweeper_.tolerance());
   }
   reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
-  const bool made = make_part(motion, fraction, window, result);
-  if (!add_blocking_vertices(result) && !made) return false;
+  if (!make_part(motion, fraction, window, result)) return false;
   state.axes_chosen = state.on_course = state.contacts_here = false;
-  if (made && !trial.creeping) hardly_moved_ = 0;
+  if (!trial.creeping) hardly_moved_ = 0;
   return true;
 }
 
@@ -126,10 +118,10 @@ bool CertificateResponse::make_part(const ScrewMotion& motion, double fraction, 
   // The pose at the end of a part of a rotation is not on the chords that were swept.
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, fraction /= 2) {
     if (fraction * motion.path_length < kRestShare * sweeper_.tolerance()) return false;
-    if (motion.deviation == 0) return advance(motion, fraction, Shortening::Allowed, result) > 0;
-    const ScrewMotion part = sweeper_.motion_to(motion.at(fraction));
-    if (sweep(part, window, SweepBudget::Bounded, result).free)
-      return advance(part, 1, Shortening::Allowed, result) > 0;
+    const ScrewMotion part = motion.deviation == 0 ? motion : sweeper_.motion_to(motion.at(fraction));
+    if (motion.deviation > 0 && !sweep(part, window, SweepBudget::Bounded, result).free) continue;
+    advance(part, motion.deviation == 0 ? fraction : 1, result);
+    return true;
   }
   return false;
 }
@@ -144,35 +136,16 @@ void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance();
   if (left.path_length > 0 && left.path_length <= contacts_.withheld()) {
     const CertificateSweep found = sweep(left, kContactWindow, SweepBudget::Bounded, result);
-    if (found.free && advance(left, 1, Shortening::None, result) > 0)
+    if (found.free) {
+      advance(left, 1, result);
       result.clearance = std::min(result.clearance, found.clearance);
+    }
   }
   contacts_.drop_beyond(kContactReach * tolerance);
   result.contact_points = contacts_.points(tolerance);
   // No triangles were reported for contacts of whole cylinders.
   if (!result.blocking_pairs.empty()) return;
   for (const ContactPoint& c : result.contact_points) result.blocking_pairs.push_back(blocking_pair_of(c, 0));
-}
-
-bool CertificateResponse::add_blocking_vertices(StepResult& result) {
-  if (mover_.blocking_vertices().empty()) return false;
-  result.blocking_pairs = mover_.blocking_vertices();
-  bool news = false;
-  for (const BlockingPair& c : mover_.blocking_vertices()) {
-    const bool a_moves = sweeper_.moves(c.a);
-    SweepContact pair{
-        a_moves ? c.a : c.b, a_moves ? c.b : c.a, a_moves ? c.face_a : c.face_b, a_moves ? c.face_b : c.face_a, 0, {}};
-    // Out of the face that the vertex is behind.
-    const bool moving_is_outer = (c.rule == BlockingRule::VertexOfB) == a_moves;
-    const ComponentId outer = moving_is_outer ? pair.moving : pair.fixed;
-    const FaceId face = moving_is_outer ? pair.face_moving : pair.face_fixed;
-    const Vec3 out = normalized(normal_unscaled(sweeper_.solid(outer).triangle(face.value)));
-    const Mat3 seen = mat3_from_quat((inverse(sweeper_.poses()[pair.fixed.value]) * sweeper_.pose()).rotation);
-    pair.axis = moving_is_outer ? seen * out : -out;
-    news |= contacts_.add_vertex(pair);
-  }
-  mover_.clear_blocking_vertices();
-  return news;
 }
 
 Twist CertificateResponse::bent_little(Twist twist) const {

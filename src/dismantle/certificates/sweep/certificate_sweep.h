@@ -13,7 +13,7 @@ namespace dismantle {
 /// The surfaces of a moving and a fixed component that are tested against each other
 /// (docs/design/0012-ghost-surfaces.md).
 enum class SurfacePair : std::uint8_t {
-  Plain,        ///< Both as they are, with an allowance: components that overlap in the assembled state.
+  Plain,        ///< Both as they are: for distances only.
   MovingGhost,  ///< The ghost of the moving component and the fixed one, without an allowance.
   FixedGhost,   ///< The moving component and the ghost of the fixed one, without an allowance.
 };
@@ -25,7 +25,8 @@ struct TestedPair {
   SurfacePair surfaces = SurfacePair::Plain;  ///< Their surfaces.
 };
 
-/// A contact of two triangles that blocks a sweep: they would cross, or get deeper than their allowance. The engine
+/// A contact of two triangles that blocks a sweep: they would cross, or, of components without ghosts, a point of one
+/// would get too deep behind the other (SurfacePair::Plain). The engine
 /// reports it as a BlockingPair, which has no axis.
 struct SweepContact {
   ComponentId moving;  ///< A component of the moving set.
@@ -37,6 +38,10 @@ struct SweepContact {
   /// them.
   Vec3 axis;
   SurfacePair surfaces = SurfacePair::Plain;  ///< The surfaces that the two triangles are of.
+  ///@{ SurfacePair::Plain: along the axis, the point of the moving component [mm, assembled] may go as far as the limit,
+  /// which is fixed to the other one [mm, assembled].
+  Vec3 point{}, limit{};
+  ///@}
 
   /// The components and surfaces.
   TestedPair tested() const { return {moving, fixed, surfaces}; }
@@ -63,9 +68,6 @@ struct CertificateSweep {
   std::size_t front = 0;              ///< Node pairs of the fronts used.
   std::size_t triangle_tests = 0;     ///< Triangle-pair tests made.
   std::size_t device_tests = 0;       ///< Those of them that a device made.
-  /// Moving and fixed: component pairs of which some triangles were neither certainly apart throughout nor met face on
-  /// face.
-  std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs;
 };
 
 /// The amount of work that a sweep may do. All budgets are safe; smaller ones are faster, but may block earlier.

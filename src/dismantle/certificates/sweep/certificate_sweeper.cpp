@@ -33,11 +33,6 @@ GhostOf ghost_of(SurfacePair surfaces) {
   return GhostOf::None;
 }
 
-/// `pose` in the frame of something at `frame`; exact if that is the assembled pose.
-Pose seen_from(const Pose& frame, const Pose& pose) {
-  return frame == Pose{} ? pose : inverse(frame) * pose;
-}
-
 }  // namespace
 
 void sort_blocked(std::vector<SweepContact>& pairs) {
@@ -55,12 +50,12 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
     : assembly_(&assembly),
       options_(options),
       kernels_(front_kernels(options.lanes)),
-      rules_(pairs),
+      tolerance_(pairs.tolerance),
       store_(assembly, kGhostLength * pairs.tolerance, options.executor),
       device_(std::move(device)),
       poses_(assembly.components.size()),
       is_moving_(assembly.components.size()) {
-  prepare_ghosts();
+  prepare_ghosts(pairs);
 }
 
 void CertificateSweeper::grab(Span<const ComponentId> components) {
@@ -92,27 +87,17 @@ void CertificateSweeper::jump(Span<const Pose> poses) {
     std::fill(is_moving_.begin(), is_moving_.end(), false);
   }
   poses_.assign(poses.begin(), poses.end());
+  restore_allowances();
 }
 
 ScrewMotion CertificateSweeper::motion_between(const Pose& start, const Pose& end) const {
   return screw_motion(start, end, transform_from_pose(start) * center_, radius_);
 }
 
-double CertificateSweeper::allowed(ComponentId a, ComponentId b) const {
-  const PairRule rule = rules_.view().find(std::min(a, b).value, std::max(a, b).value);
-  return rule.test == PairTest::Discrete ? -1 : rule.allowed_penetration;
-}
-
-Span<const SurfacePair> CertificateSweeper::surface_pairs(ComponentId a, ComponentId b) const {
-  static constexpr SurfacePair kAll[] = {SurfacePair::Plain, SurfacePair::MovingGhost, SurfacePair::FixedGhost};
-  const bool plain = allowed(a, b) > tolerance() || plain_pairs_.count(std::minmax(a, b)) > 0;
-  return plain ? Span<const SurfacePair>(kAll, 1) : Span<const SurfacePair>(kAll + 1, 2);
-}
-
 TrianglePairSweep CertificateSweeper::triangle_pair_sweep(const TestedPair& pair, const ScrewMotion& motion,
                                                           SweepBudget budget) const {
   const Pose& frame = poses_[pair.fixed.value];
-  TrianglePairRules rules{allowed(pair), tolerance(), {}};
+  TrianglePairRules rules{0, tolerance(), {}};
   if (budget == SweepBudget::Bounded || budget == SweepBudget::WholeCylinders) {
     rules.limits.steps = kBoundedSteps;
     rules.limits.min_progress = std::max(rules.limits.min_progress, kBoundedShare * tolerance() / motion.path_length);
@@ -133,7 +118,7 @@ void CertificateSweeper::for_each_near(const ScrewMotion& motion, double reach, 
       const double gap = store_.spheres().gap(moving, from, to, motion.deviation, fixed, poses_[k]);
       if (gap > reach) {
         result.clearance = std::min(result.clearance, gap);
-      } else if (allowed(moving, fixed) >= 0) {
+      } else {
         visit(moving, fixed);
       }
     }
@@ -165,7 +150,7 @@ TrianglePairTest CertificateSweeper::triangle_pair_test(const PairSweep& pair, P
                               pair.tested.surfaces});
     }
     const float gap = -rounded_up(-found.gap);
-    const bool cut_short = task.horizon < 1 && found.gap < -pair.allowed;
+    const bool cut_short = task.horizon < 1 && found.gap < 0;
     return TrianglePairVerdict{found.free, gap, cut_short, pair.triangle_pairs.certificate(found)};
   };
 }
@@ -183,6 +168,7 @@ std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(con
                                                                              CertificateSweep& result) {
   std::vector<PairSweep> pairs;
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
+    sweep_depth(motion_past(motion, moving, fixed), result);
     for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
       const TestedPair tested{moving, fixed, surfaces};
       CertificateFront& front = store_.prepare(moving, fixed, ghost_of(surfaces), poses_);
@@ -190,7 +176,7 @@ std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(con
       PairMotion pair_motion = triangle_pairs.motion();
       if (budget != SweepBudget::Exhaustive) pair_motion.max_blocked = kSampleSize;
       if (budget == SweepBudget::WholeCylinders) pair_motion.max_fit_deviation = tolerance();
-      pairs.push_back({tested, &front, triangle_pairs, front.prepare_sweep(pair_motion), allowed(tested)});
+      pairs.push_back({tested, &front, triangle_pairs, front.prepare_sweep(pair_motion), displaced(moving, fixed)});
     }
   });
   return pairs;
@@ -224,6 +210,7 @@ CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double win
     result.front += pair.front->size();
   }
   finish(result, window);
+  if (result.free) part_swept(pairs);
   return result;
 }
 
@@ -231,15 +218,13 @@ void CertificateSweeper::collect(const std::vector<PartTask>& tasks, std::vector
                                  CertificateSweep& result) {
   for (const PartTask& task : tasks) {
     PairSweep& pair = pairs[task.pair];
-    result.clearance = std::min(result.clearance, pair.clearance(task.found));
+    pair.apart_by = std::min(pair.apart_by, pair.clearance(task.found));
+    result.clearance = std::min(result.clearance, pair.apart_by);
     result.triangle_tests += task.found.triangle_tests;
     result.device_tests += task.device_tests;
     result.complete &= task.found.complete;
     pair.free &= task.found.complete && task.found.blocked == 0;
     const std::pair both{pair.tested.moving, pair.tested.fixed};
-    if (pair.may_touch(task.found) &&
-        (result.near_component_pairs.empty() || result.near_component_pairs.back() != both))
-      result.near_component_pairs.push_back(both);
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());
     for (const CylinderFit& fit : task.found.fits)
       result.fits.push_back({both.first, both.second, fit, pair.tested.surfaces});
@@ -282,6 +267,12 @@ void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, co
   });
 }
 
+CertificateSweeper::SeenMotion CertificateSweeper::motion_past(const ScrewMotion& motion, ComponentId moving,
+                                                              ComponentId fixed) const {
+  const Pose& frame = poses_[fixed.value];
+  return {moving, fixed, seen_from(frame, motion.start), seen_from(frame, motion.end)};
+}
+
 TrianglePairResult CertificateSweeper::sweep_pair(const SweepContact& pair, const ScrewMotion& motion) const {
   return triangle_pair_sweep(pair.tested(), motion, SweepBudget::Bounded)
       .test(pair.face_moving.value, pair.face_fixed.value, pair.axis);
@@ -293,6 +284,7 @@ CertificateSweep CertificateSweeper::sweep_pairs(Span<const SweepContact> pairs,
   std::optional<TrianglePairSweep> triangle_pairs;
   const SweepContact* last = nullptr;
   for (const SweepContact& pair : pairs) {
+    if (pair.surfaces == SurfacePair::Plain) continue;
     if (!last || last->moving != pair.moving || last->fixed != pair.fixed || last->surfaces != pair.surfaces)
       triangle_pairs.emplace(triangle_pair_sweep(pair.tested(), motion, SweepBudget::Exhaustive));
     last = &pair;
@@ -311,6 +303,7 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
+    sweep_depth(motion_past(motion, moving, fixed), result);
     for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
       const TestedPair tested{moving, fixed, surfaces};
       std::optional<CertificateFront> fresh;
@@ -318,7 +311,8 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
       if (!front) front = &fresh.emplace(store_.new_front(moving, fixed, ghost_of(surfaces)));
       const TrianglePairSweep triangle_pairs = triangle_pair_sweep(tested, motion, SweepBudget::Exhaustive);
       sweep_const(*front,
-                  {tested, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()), allowed(tested)},
+                  {tested, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()),
+                   displaced(moving, fixed)},
                   window, result);
     }
   });
@@ -329,19 +323,20 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
 CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to) const {
   const ComponentId moving = motion.moving, fixed = motion.fixed;
   CertificateSweep result;
-  if (allowed(moving, fixed) < 0 || solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
+  if (solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
   const auto at = [&](double share) {
     return seen_from(motion.pose_fixed,
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
+  sweep_depth({moving, fixed, at(from), at(to)}, result);
   for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,
-                                           {allowed(tested), tolerance(), {}});
+                                           {0, tolerance(), {}});
     PairMotion pair_motion = triangle_pairs.motion();
     pair_motion.max_blocked = 1;
     const CertificateFront front = store_.new_front(moving, fixed, ghost_of(surfaces));
-    sweep_const(front, {tested, nullptr, triangle_pairs, front.prepare_sweep(pair_motion), allowed(tested)}, 0, result);
+    sweep_const(front, {tested, nullptr, triangle_pairs, front.prepare_sweep(pair_motion), 0}, 0, result);
   }
   finish(result, 0);
   return result;

@@ -2,21 +2,38 @@
 #pragma once
 
 #include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/certificates/ghosts/find_pair_ghosts.h"
 #include "dismantle/certificates/sweep/certificate_sweep.h"
 #include "dismantle/certificates/sweep/front_store.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
-#include "dismantle/engine/pair_rules.h"
+#include "dismantle/assembly/pair_state.h"
 #include "dismantle/math/screw.h"
 
-#include <set>
+#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace dismantle {
 
+/// The way in which two components are kept from getting deeper into each other.
+enum class PairGuard : std::uint8_t {
+  Ghosts,  ///< Ghost surfaces that never cross the other component.
+  Depth,   ///< None were found for the overlap: the depth of the two solids is bounded.
+  None,    ///< Not at all, until they have been apart.
+};
+
+/// Two components that have been given an allowance of their own.
+struct GuardedPair {
+  PairGuard guard = PairGuard::Ghosts;  ///< Until they have been apart.
+  double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
+  double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
+  bool parted = false;                  ///< They have been apart: they are treated like any other pair.
+};
+
 /// Sweeps of the moving set along screws, by the fronts between its components and all others
-/// (docs/design/0006-certificates.md). Components that do not overlap in the assembled state are each tested against
-/// the ghost surface of the other. Keeps the poses of all components. Embedded pairs are ignored.
+/// (docs/design/0006-certificates.md). Each component is tested against the ghost surface of the other one. Keeps the
+/// poses of all components. Pairs without ghost surfaces (PairGuard) are ignored.
 class CertificateSweeper {
  public:
   /// All components in the assembled state, none grabbed. `assembly` must outlive the sweeper.
@@ -44,7 +61,7 @@ class CertificateSweeper {
   /// As sweep() for a motion from any pose, leaving the fronts unchanged: any number may run in parallel.
   CertificateSweep sweep_const(const ScrewMotion& motion, double window) const;
   /// Sweeps part of a translation of one component past another: reports if it is free, and else some contacts, not
-  /// necessarily the first. Independent of the moving set and of all poses. Free while the two are embedded.
+  /// necessarily the first. Independent of the moving set and of all poses. Free for pairs without ghost surfaces.
   /// @param from, to the part, as fractions of the displacement
   CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to) const;
   /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
@@ -64,16 +81,13 @@ class CertificateSweeper {
   Span<const Pose> poses() const { return poses_; }
 
   /// The tolerance [mm].
-  double tolerance() const { return rules_.tolerance(); }
-  /// Allowed penetration depth of triangles of the two components [mm]; negative if they are embedded.
-  double allowed(ComponentId a, ComponentId b) const;
-  /// The surfaces of two components that are tested: each with the ghost of the other, or those of components that
-  /// overlap in the assembled state as they are.
+  double tolerance() const { return tolerance_; }
+  /// What two components may do.
+  GuardedPair guarded(ComponentId a, ComponentId b) const;
+  /// The pairs with an allowance of their own that have not been apart since, a < b.
+  std::vector<ComponentPair> overlapping_pairs() const;
+  /// The surfaces of two components that are tested: each with the ghost of the other; none without ghosts.
   Span<const SurfacePair> surface_pairs(ComponentId a, ComponentId b) const;
-  /// Allowed penetration of the triangles of two surfaces [mm]: 0 if one is a ghost.
-  double allowed(const TestedPair& pair) const {
-    return pair.surfaces == SurfacePair::Plain ? allowed(pair.moving, pair.fixed) : 0;
-  }
   ///@{ The surfaces of a pair.
   const SolidTree& moving_surface(const TestedPair& pair) const {
     return pair.surfaces == SurfacePair::MovingGhost ? store_.ghost(pair.moving, pair.fixed) : solid(pair.moving);
@@ -82,8 +96,10 @@ class CertificateSweeper {
     return pair.surfaces == SurfacePair::FixedGhost ? store_.ghost(pair.fixed, pair.moving) : solid(pair.fixed);
   }
   ///@}
-  /// Ends the embedded state of a pair: it is swept from now on.
-  void part(ComponentId a, ComponentId b) { rules_.part(std::min(a, b), std::max(a, b)); }
+  /// From now on the pair is treated like any other pair. @pre they are further apart than the tolerance
+  void part(ComponentId a, ComponentId b) { set_parted(a, b, true); }
+  /// Parts the pairs of the moving set that are apart at its pose and are not swept by ghosts, which sweep() parts.
+  void part_others();
 
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return store_.solid(c); }
@@ -100,13 +116,28 @@ class CertificateSweeper {
   struct PairSweep;
   struct PartTask;
 
-  /// Finds ghost surfaces that are apart in the assembled state for the components whose own are not, such as sheets
-  /// that rest on others. Pairs without any are tested as they are.
-  void prepare_ghosts();
-  /// True if the ghosts of two components are apart in the assembled state.
-  bool ghosts_apart(ComponentId a, ComponentId b) const;
-  /// Looks for ghosts of their own for two components a < b. @return false if there are none
-  bool separate_ghosts(ComponentId a, ComponentId b);
+  /// Finds the ghost surfaces of components that touch or overlap in the assembled state.
+  void prepare_ghosts(const PairStates& pairs);
+  void set_parted(ComponentId a, ComponentId b, bool parted);
+  /// True if two components are further apart than the tolerance, and none is inside the other.
+  bool apart(ComponentId a, ComponentId b);
+  /// Parts pairs that were apart throughout a sweep that was free.
+  void part_swept(const std::vector<PairSweep>& pairs);
+  /// A motion of a component with respect to another one [assembled frame of the fixed one].
+  struct SeenMotion {
+    ComponentId moving, fixed;
+    Pose start, end;
+  };
+  SeenMotion motion_past(const ScrewMotion& motion, ComponentId moving, ComponentId fixed) const;
+  /// The shape of a component, built when first asked for.
+  const SolidShape& shape(ComponentId c);
+  /// Adds the contact of components whose depth is bounded, if there is one.
+  void sweep_depth(const SeenMotion& motion, CertificateSweep& result) const;
+  double displaced(ComponentId a, ComponentId b) const {
+    return guarded(a, b).displaced + (1 - kGhostLength) * tolerance_;
+  }
+  /// Gives the pairs back their allowance that are not apart at the present poses by the ghosts that all have.
+  void restore_allowances();
   /// The pairs of faces of two components at rest that are nearer than `reach` [mm], and possibly some more.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> near_faces(ComponentId moving, ComponentId fixed,
                                                                   const ScrewMotion& rest, double reach) const;
@@ -134,8 +165,9 @@ class CertificateSweeper {
   const Assembly* assembly_;
   CertificateOptions options_;
   FrontKernels kernels_;
-  PairRules rules_;
-  std::set<std::pair<ComponentId, ComponentId>> plain_pairs_;  ///< Without ghosts, although they do not overlap.
+  double tolerance_;
+  std::map<std::pair<ComponentId, ComponentId>, GuardedPair> guarded_;  ///< Those with an allowance of their own.
+  std::map<ComponentId, std::shared_ptr<const SolidShape>> shapes_;     ///< Of components whose depth is bounded.
   FrontStore store_;
   CertificateDevice device_;
   std::vector<Pose> poses_;

@@ -12,9 +12,10 @@ FrontStore::FrontStore(const Assembly& assembly, double ghost_length, const Exec
     solids_.push_back(make_solid_tree(c, executor));
     const SolidTree& solid = solids_.back();
     // Sheets have no inside to retreat to.
-    ghosts_.push_back(make_displaced_tree(
-        solid, solid.has_outside ? ghost_vertices(solid.vertices, solid.faces, ghost_length) : solid.vertices,
-        executor));
+    std::vector<Vec3> displaced = solid.vertices;
+    if (solid.has_outside || solid.inside_out)
+      displaced = ghost_vertices(displaced, outward_faces(solid.faces, solid.inside_out), ghost_length);
+    ghosts_.push_back(make_displaced_tree(solid, std::move(displaced), executor));
     const Aabb box = assembled_bounds(c);
     const Vec3 center = box.empty() ? Vec3{} : box.center();
     double radius = 0;
@@ -26,13 +27,22 @@ FrontStore::FrontStore(const Assembly& assembly, double ghost_length, const Exec
 
 const SolidTree& FrontStore::ghost(ComponentId c, ComponentId other) const {
   const auto own = pair_ghosts_.find({std::min(c, other), std::max(c, other)});
-  return own == pair_ghosts_.end() ? ghosts_[c.value] : own->second[c < other ? 0 : 1];
+  return own == pair_ghosts_.end() || !own->second.in_use ? ghosts_[c.value] : own->second.ghosts[c < other ? 0 : 1];
 }
 
-void FrontStore::set_ghosts(ComponentId a, ComponentId b, std::vector<Vec3> vertices_a, std::vector<Vec3> vertices_b,
+void FrontStore::set_ghosts(ComponentId a, ComponentId b, const std::array<std::vector<Vec3>, 2>& vertices,
                             const Executor& executor) {
-  pair_ghosts_[{a, b}] = {make_displaced_tree(solid(a), std::move(vertices_a), executor),
-                          make_displaced_tree(solid(b), std::move(vertices_b), executor)};
+  PairTrees& trees = pair_ghosts_[{a, b}];
+  trees.ghosts[0] = make_displaced_tree(solid(a), vertices[0], executor);
+  trees.ghosts[1] = make_displaced_tree(solid(b), vertices[1], executor);
+}
+
+void FrontStore::use_own_ghosts(ComponentId a, ComponentId b, bool own) {
+  const auto found = pair_ghosts_.find({std::min(a, b), std::max(a, b)});
+  if (found == pair_ghosts_.end() || found->second.in_use == own) return;
+  found->second.in_use = own;
+  fronts_.erase({found->first, GhostOf::First});
+  fronts_.erase({found->first, GhostOf::Second});
 }
 
 void FrontStore::prepare_radial(const Executor& executor) {
@@ -61,7 +71,8 @@ CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, GhostOf gho
   const SolidTree& of_a = ghost == GhostOf::First ? this->ghost(a, b) : solid(a);
   const SolidTree& of_b = ghost == GhostOf::Second ? this->ghost(b, a) : solid(b);
   // Matches name the threads of the first component first, and belong to the surfaces that they were found in.
-  const bool matched = a < b && pair_ghosts_.find({a, b}) == pair_ghosts_.end();
+  const auto own = pair_ghosts_.find({a, b});
+  const bool matched = a < b && (own == pair_ghosts_.end() || !own->second.in_use);
   const auto threads = matched ? threads_.find({{a, b}, ghost}) : threads_.end();
   return {of_a.tree, of_b.tree, of_a.revolution.get(), of_b.revolution.get(),
           threads == threads_.end() ? Span<const ThreadMatch>{} : threads->second};

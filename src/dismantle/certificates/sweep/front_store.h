@@ -32,8 +32,10 @@ class FrontStore {
   /// their own.
   const SolidTree& ghost(ComponentId c, ComponentId other) const;
   /// Gives two components a < b ghost surfaces of their own: displaced vertices of either.
-  void set_ghosts(ComponentId a, ComponentId b, std::vector<Vec3> vertices_a, std::vector<Vec3> vertices_b,
+  void set_ghosts(ComponentId a, ComponentId b, const std::array<std::vector<Vec3>, 2>& vertices,
                   const Executor& executor);
+  /// Uses the ghosts that two components have of their own, or those that they have against all others.
+  void use_own_ghosts(ComponentId a, ComponentId b, bool own);
   /// The bounding spheres of all components.
   const BoundingSpheres& spheres() const { return spheres_; }
 
@@ -68,7 +70,11 @@ class FrontStore {
   static FrontKey key_of(ComponentId x, ComponentId y, GhostOf ghost);
 
   std::vector<SolidTree> solids_, ghosts_;
-  std::map<PairKey, std::array<SolidTree, 2>> pair_ghosts_;  ///< Pairs that have some of their own.
+  struct PairTrees {
+    SolidTree ghosts[2];
+    bool in_use = true;
+  };
+  std::map<PairKey, PairTrees> pair_ghosts_;  ///< Pairs that have some of their own.
   BoundingSpheres spheres_;
   std::map<FrontKey, Entry> fronts_;
   std::map<FrontKey, std::vector<ThreadMatch>> threads_;  ///< Pairs without mating threads have no entry.

@@ -4,6 +4,7 @@
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 #include "dismantle/engine/chords.h"
 
+#include <limits>
 #include <vector>
 
 /// The working memory of sweeps: for the sweeper's own sources.
@@ -15,19 +16,14 @@ struct CertificateSweeper::PairSweep {
   CertificateFront* front;           ///< Their stored front; null in sweeps that leave fronts unchanged.
   TrianglePairSweep triangle_pairs;  ///< The tests of their triangles.
   PreparedSweep sweep;               ///< Their motion for the front.
-  double allowed;                    ///< [mm]
+  double displaced;                  ///< Largest displacement of their ghost surfaces [mm].
   bool free = true;                  ///< As far as is known by now.
+  double apart_by = std::numeric_limits<double>::infinity();  ///< As clearance() of all parts [mm].
 
   /// Lower bound of the distance of the two components during the sweep, from a part's result [mm]: a ghost surface may
-  /// be farther away than the surface itself by the length of its displacements, which is at most the tolerance.
+  /// be farther away than the surface itself by the length of its displacements.
   double clearance(const FrontSweep& found) const {
-    const double displaced = tested.surfaces == SurfacePair::Plain ? 0 : triangle_pairs.kernel().rules.tolerance;
     return static_cast<double>(found.min_gap) - static_cast<double>(sweep.error) - displaced;
-  }
-  /// True if, by a part's result, the surfaces of two components that overlap from the start may touch.
-  bool may_touch(const FrontSweep& found) const {
-    return tested.surfaces == SurfacePair::Plain &&
-           static_cast<double>(found.min_gap) < static_cast<double>(sweep.limit) + allowed;
   }
 };
 
@@ -41,8 +37,10 @@ struct CertificateSweeper::PartTask {
   std::size_t device_tests = 0;       ///< Triangle-pair tests that a device made.
 };
 
-/// Ghost surfaces are displaced by at most this share of the tolerance: the rest is for the arcs' deviation.
-inline constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
+/// `pose` in the frame of something at `frame`; exact if that is the assembled pose.
+inline Pose seen_from(const Pose& frame, const Pose& pose) {
+  return frame == Pose{} ? pose : inverse(frame) * pose;
+}
 
 /// Sorts by components and faces.
 void sort_blocked(std::vector<SweepContact>& pairs);

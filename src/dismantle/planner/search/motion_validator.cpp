@@ -37,7 +37,7 @@ void MotionValidator::stand(const ComponentSet& present) {
 MotionValidator::Trial MotionValidator::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
   engine_.grab(set);
   moving_ = set[0];
-  embedded_ = engine_.embedded_pairs();
+  embedded_ = engine_.overlapping_pairs();
   Trial trial = trial_of(go_straight(direction, way), set);
   put_back();
   return trial;
@@ -100,7 +100,7 @@ const CertificateEngine& MotionValidator::hold(ComponentId component) {
 void MotionValidator::take(ComponentId component) {
   engine_.grab({&component, 1});
   moving_ = component;
-  embedded_ = engine_.embedded_pairs();
+  embedded_ = engine_.overlapping_pairs();
 }
 
 void MotionValidator::go_back(const Pose& pose) {

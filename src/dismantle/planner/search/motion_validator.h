@@ -55,7 +55,7 @@ class MotionValidator {
   StepResult go_straight(const Vec3& direction, double way);
   StepResult go_part(const Pose& target, const Vec3& direction);
   Trial trial_of(const StepResult& made, Span<const ComponentId> set) const;
-  bool some_parted() const { return engine_.embedded_pairs().size() != embedded_.size(); }
+  bool some_parted() const { return engine_.overlapping_pairs().size() != embedded_.size(); }
 
   const Assembly& assembly_;
   const PairStates& pairs_;

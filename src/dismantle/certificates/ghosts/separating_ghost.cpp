@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/certificates/sweep/separating_ghost.h"
+#include "dismantle/certificates/ghosts/separating_ghost.h"
 
 #include "dismantle/certificates/sweep/triangle_pair_sweep_kernel.h"
 #include "dismantle/math/least_vector.h"

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pairs of components without ghost surfaces, whose depth is bounded; and pairs that part.
+#include "dismantle/certificates/sweep/certificate_sweeper.h"
+#include "dismantle/certificates/sweep/sweep_tasks.h"
+#include "dismantle/surface/solid_distance.h"
+#include "dismantle/surface/swept_depth.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// Contacts of depths are found to within a motion of this share of the tolerance.
+constexpr double kResolution = 0.25;
+
+}  // namespace
+
+void CertificateSweeper::sweep_depth(const SeenMotion& motion, CertificateSweep& result) const {
+  const GuardedPair pair = guarded(motion.moving, motion.fixed);
+  if (pair.guard != PairGuard::Depth) return;
+  const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
+  const double way = std::max(length(end.translation - start.translation), tolerance_);
+  const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
+  // The arcs' share is kept for translations as well: a rotation may follow.
+  const double limit = pair.allowed - kArcShare * tolerance_;
+  const auto deep = first_deeper(swept, limit, kResolution * tolerance_ / way);
+  result.clearance = 0;
+  if (!deep) return;
+  const Screw screw = screw_between(motion.start, motion.end);
+  const Pose then = screw_at(screw, deep->time) * motion.start;
+  const RigidTransform at = transform_from_pose(then);
+  SweepContact contact{motion.moving, motion.fixed, FaceId(deep->face_a), FaceId(deep->face_b), deep->free_until, {}};
+  const Vec3 inside = deep->of_a ? deep->point : at * deep->nearest;
+  const Vec3 surface = deep->of_a ? deep->nearest : at * deep->point;
+  contact.axis = normalized(inside - surface);
+  contact.limit = inside;
+  contact.point = inverse(at) * inside;
+  result.blocked.push_back(contact);
+}
+
+const SolidShape& CertificateSweeper::shape(ComponentId c) {
+  std::shared_ptr<const SolidShape>& known = shapes_[c];
+  if (!known) known = std::make_shared<const SolidShape>((*assembly_)[c], options_.executor);
+  return *known;
+}
+
+void CertificateSweeper::part_swept(const std::vector<PairSweep>& pairs) {
+  // Both surface pairs of two components follow each other.
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+    const TestedPair& tested = pairs[i].tested;
+    if (std::min(pairs[i].apart_by, pairs[i + 1].apart_by) > tolerance_) set_parted(tested.moving, tested.fixed, true);
+  }
+}
+
+void CertificateSweeper::part_others() {
+  for (auto& [key, pair] : guarded_) {
+    if (pair.parted || is_moving_[key.first.value] == is_moving_[key.second.value]) continue;
+    const RigidTransform b = transform_from_pose(poses_[key.second.value]);
+    const bool far = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]) > tolerance_;
+    if (far || (pair.guard != PairGuard::Ghosts && apart(key.first, key.second)))
+      set_parted(key.first, key.second, true);
+  }
+}
+
+bool CertificateSweeper::apart(ComponentId a, ComponentId b) {
+  const RigidTransform at_a = transform_from_pose(poses_[a.value]), at_b = transform_from_pose(poses_[b.value]);
+  const PlacedSolid first{&solid(a), at_a}, second{&solid(b), at_b};
+  if (first.solid->tree.empty() || second.solid->tree.empty() || bounds_distance(first, second) > tolerance_)
+    return true;
+  if (solid_distance(first, second, 2 * tolerance_).distance <= tolerance_) return false;
+  const auto inside = [&](ComponentId inner, ComponentId outer, const RigidTransform& outer_from_inner) {
+    const WindingNumber& winding = shape(outer).winding();
+    const std::vector<Vec3>& points = solid(inner).vertices;
+    return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return winding.inside(outer_from_inner * p); });
+  };
+  return !inside(a, b, inverse(at_b) * at_a) && !inside(b, a, inverse(at_a) * at_b);
+}
+
+void CertificateSweeper::restore_allowances() {
+  for (auto& [key, pair] : guarded_) {
+    if (!pair.parted) continue;
+    const Pose &a = poses_[key.first.value], &b = poses_[key.second.value];
+    const bool as_assembled = a == b;
+    if (as_assembled || !(sweep_linear({key.first, key.second, {}, a, b}, 0, 1).free || apart(key.first, key.second)))
+      set_parted(key.first, key.second, false);
+  }
+}
+
+}  // namespace dismantle

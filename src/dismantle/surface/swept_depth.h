@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/surface/solid_shape.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace dismantle {
+
+/// A rigid motion of a shape `a` in the assembled frame of a shape `b`, on which every point moves linearly.
+struct SweptPair {
+  const SolidShape* a = nullptr;  ///< The moving shape; never null.
+  const SolidShape* b = nullptr;  ///< The fixed shape; never null.
+  RigidTransform start;           ///< Pose of `a` in the frame of `b` at time 0.
+  RigidTransform end;             ///< At time 1.
+};
+
+/// A point that gets too deep.
+struct DeepPoint {
+  double free_until = 0;     ///< No point is deeper than the limit before this time.
+  double time = 0;           ///< The point is deeper at this time.
+  bool of_a = true;          ///< It is a point of the surface of `a`, inside `b`; else of `b`, inside `a`.
+  std::uint32_t face_a = 0;  ///< The face of `a` that it is on, or is nearest to.
+  std::uint32_t face_b = 0;  ///< The same of `b`.
+  Vec3 point;                ///< The point [mm, frame of the other shape].
+  Vec3 nearest;              ///< The nearest point of the other surface [mm, in its frame].
+};
+
+/// Finds out if a point of either surface gets deeper inside the other solid than `limit` [mm] during a motion; depth
+/// as in solid_depth(). Branch and bound over surfaces and time: what it does not find does not exist. A piece of a
+/// surface stays within the limit if its corners are no further from any one triangle of the other surface than that at
+/// both ends of an interval, as that distance is a convex function; or if the other surface does not meet a ball around
+/// the piece for so long, and its middle is outside. A search that takes more than `max_pieces` pieces counts as if a
+/// point had been found.
+/// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
+std::optional<DeepPoint> first_deeper(const SweptPair& pair, double limit, double resolution,
+                                      std::size_t max_pieces = 200000);
+
+}  // namespace dismantle
