@@ -48,8 +48,8 @@ PairStates states_for(const Settings& settings) {
     ComponentPair pair;
     pair.a = ComponentId(0);
     pair.b = ComponentId(1);
-    pair.state = PairState::Fit;
-    pair.allowed_penetration = states.tolerance - 2 * settings.clearance;
+    pair.state = PairState::Contact;
+    pair.allowed_depth = states.tolerance - 2 * settings.clearance;
     states.pairs.push_back(pair);
   }
   return states;

@@ -47,7 +47,7 @@ BenchScene shaft(const std::string& name, const BenchSize& size, double clearanc
   touching.a = ComponentId(0);
   touching.b = ComponentId(1);
   touching.state = PairState::Contact;
-  touching.allowed_penetration = kTolerance;
+  touching.allowed_depth = kTolerance;
   bench.states.pairs.push_back(touching);
   return bench;
 }

@@ -86,11 +86,11 @@ bool straight_is_free(const Assembly& now, const PairStates& states, const std::
   for (const Component& c : now.components) path.components.push_back(c.name);
   path.tolerance = kStuckAllowance * states.tolerance;
   for (const ComponentPair& pair : states.pairs) {
-    if (pair.state != PairState::Fit) continue;
-    path.pairs.push_back({now[pair.a].name, now[pair.b].name, pair.state, kStuckAllowance * pair.allowed_penetration});
+    if (pair.state != PairState::Overlapping) continue;
+    path.pairs.push_back({now[pair.a].name, now[pair.b].name, pair.state, kStuckAllowance * pair.allowed_depth});
   }
   for (const ComponentPair& pair : embedded)
-    path.pairs.push_back({now[pair.a].name, now[pair.b].name, PairState::Embedded, pair.allowed_penetration});
+    path.pairs.push_back({now[pair.a].name, now[pair.b].name, PairState::Free, pair.allowed_depth});
   path.moves.push_back({"straight", {now[moving].name}, {{0, {}}, {1, {displacement, {}}}}});
   const AuditReport report = audit_path(now, path);
   return std::none_of(report.violations.begin(), report.violations.end(),

@@ -112,7 +112,7 @@ Result<ExportInput> read(ExportCommand command) {
   if (!exported.path) return exported;
 
   note_other_version(*exported.path, exported.assembly);
-  Result<Timeline> timeline = Timeline::of_path(exported.assembly, PairStates{}, *exported.path);
+  Result<Timeline> timeline = Timeline::of_path(exported.assembly, *exported.path);
   if (!timeline) return timeline.error();
   exported.timeline = std::move(*timeline);
   return exported;

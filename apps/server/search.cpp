@@ -22,14 +22,15 @@ std::vector<ComponentId> local(const SessionSnapshot& snapshot, const std::vecto
   return found;
 }
 
-/// The pairs of the snapshot, without embedded pairs that have parted.
+/// The pairs of the snapshot, without overlapping pairs that have parted.
 PairStates pairs_of(const SessionSnapshot& snapshot, const PairStates& all,
-                    const std::vector<ComponentPair>& embedded) {
+                    const std::vector<ComponentPair>& overlapping) {
   PairStates pairs;
   pairs.tolerance = all.tolerance;
   for (ComponentPair p : all.pairs) {
     const auto is_same = [&](const ComponentPair& e) { return e.a == p.a && e.b == p.b; };
-    if ((p.state == PairState::Overlapping || p.state == PairState::Free) && std::none_of(embedded.begin(), embedded.end(), is_same)) continue;
+    const bool overlapped = p.state == PairState::Overlapping || p.state == PairState::Free;
+    if (overlapped && std::none_of(overlapping.begin(), overlapping.end(), is_same)) continue;
     p.a = local(snapshot, p.a);
     p.b = local(snapshot, p.b);
     if (p.a.valid() && p.b.valid()) pairs.pairs.push_back(p);

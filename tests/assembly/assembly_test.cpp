@@ -33,9 +33,9 @@ TEST(Assembly, PlacesInstancesOfASharedMesh) {
 
 TEST(PairStates, FindsAPairInEitherOrder) {
   PairStates states;
-  states.pairs.push_back({ComponentId(0), ComponentId(2), PairState::Fit, 0, 0.1, 0.11, 4});
-  states.pairs.push_back({ComponentId(1), ComponentId(2), PairState::Contact, 0, 0, 0.01, 1});
-  EXPECT_EQ(states.find(ComponentId(2), ComponentId(0))->state, PairState::Fit);
+  states.pairs.push_back({ComponentId(0), ComponentId(2), PairState::Overlapping, 0, 0.1, 0.11});
+  states.pairs.push_back({ComponentId(1), ComponentId(2), PairState::Contact, 0, 0, 0.01});
+  EXPECT_EQ(states.find(ComponentId(2), ComponentId(0))->state, PairState::Overlapping);
   EXPECT_EQ(states.find(ComponentId(1), ComponentId(2))->state, PairState::Contact);
   EXPECT_EQ(states.find(ComponentId(0), ComponentId(1)), nullptr);
 }

@@ -73,7 +73,7 @@ TEST(MotionBatch, StopsLinearMotionsWhereSweepsDoAndGivesTheSameBytesEverywhere)
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     RandomState scene(random);
-    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Embedded; });
+    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Free; });
     std::vector<Vec3> displacements;
     for (int i = 0; i < 60; ++i) displacements.push_back(scenes::random_vector(random, i % 2 == 0 ? 0.3 : 30));
     const auto batches = all_batches(scene.assembly, scene.states);
@@ -102,7 +102,7 @@ TEST(MotionBatch, StopsScrewsWhereSweepsDoAndGivesTheSameBytesEverywhere) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     RandomState scene(random);
-    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Embedded; });
+    std::erase_if(scene.states.pairs, [](const ComponentPair& p) { return p.state == PairState::Free; });
     const RigidSet set = make_rigid_set(scene.assembly, scene.moving);
     std::vector<Pose> targets;
     for (int i = 0; i < 12; ++i) targets.push_back(scenes::random_pose(random, 4, 0.4) * scene.poses[3]);
@@ -145,15 +145,15 @@ TEST(MotionBatch, NamesTheComponentAndTheFacesThatMeetFirst) {
   EXPECT_TRUE(contacts[2].free);
 }
 
-TEST(MotionBatch, ExemptsEmbeddedPairsAndLimitsFitsToTheirAllowance) {
+TEST(MotionBatch, ExemptsFreePairsAndNoOthers) {
   const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-5, -5, -1}, {5, 5, 1})),
                                               scenes::component("peg", scenes::box({-1, -1, -2}, {1, 1, 2}))});
   const std::vector<ComponentId> peg{ComponentId(1)};
   const std::vector<Vec3> displacements{{2, 0, 0}, {0, 0, 9}};
-  const auto embedded =
-      make_motion_batch(assembly, {kTolerance, {pair_of(0, 1, PairState::Embedded, 0)}}, Executor(), DeviceChoice::Cpu);
-  embedded.batch->set_state(std::vector<Pose>(2), peg);
-  for (const FirstContact& contact : embedded.batch->straight_contacts(displacements)) EXPECT_TRUE(contact.free);
+  const auto exempt =
+      make_motion_batch(assembly, {kTolerance, {pair_of(0, 1, PairState::Free, 0)}}, Executor(), DeviceChoice::Cpu);
+  exempt.batch->set_state(std::vector<Pose>(2), peg);
+  for (const FirstContact& contact : exempt.batch->straight_contacts(displacements)) EXPECT_TRUE(contact.free);
   const auto ordinary = make_motion_batch(assembly, {kTolerance, {}}, Executor(), DeviceChoice::Cpu);
   ordinary.batch->set_state(std::vector<Pose>(2), peg);
   for (const FirstContact& contact : ordinary.batch->straight_contacts(displacements)) EXPECT_EQ(contact.toi, 0);

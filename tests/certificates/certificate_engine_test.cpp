@@ -187,15 +187,16 @@ TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
   EXPECT_LE(r.clearance, h.engine.clearance().distance);
 }
 
-TEST(CertificateEngine, ExemptsAnEmbeddedPairUntilItIsApart) {
+TEST(CertificateEngine, AllowsAnOverlappingPairItsDepthUntilItIsApart) {
   const Assembly assembly = scenes::assembly(
-      {component("rod", box({0, 0, 0}, {4, 4, 20})), component("block", box({-10, -10, -10}, {10, 10, 10}))});
+      {component("rod", box({4, 4, 0}, {8, 8, 20})), component("block", box({-10, -10, -10}, {10, 10, 10}))});
   ClassifyOptions classify;
   classify.tolerance = kTolerance;
-  classify.fit = 0.05;
   const PairStates states = *classify_pairs(assembly, classify);
   Grabbed h(assembly, states, 0);
   ASSERT_EQ(h.engine.overlapping_pairs().size(), 1u);
+  // Its corner is 6 mm deep, and would get deeper.
+  EXPECT_EQ(h.engine.step({{-1, -1, 0}, {}}, ResponseKind::Stop).pose, Pose{});
   for (int step = 1; step <= 30; ++step) h.engine.step({{0, 0, 0.5 * step}, {}}, ResponseKind::Slide);
   EXPECT_TRUE(h.engine.overlapping_pairs().empty());
   EXPECT_NEAR(h.engine.poses()[0].position.z, 15, 1e-12);

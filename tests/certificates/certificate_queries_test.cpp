@@ -47,7 +47,7 @@ TEST(CertificateQueries, MeasuresTheClearanceExactly) {
     double minimum = 1e9;
     for (std::uint32_t k = 0; k < 8; ++k)
       if (k != c && !(states.find(ComponentId(c), ComponentId(k)) &&
-                      states.find(ComponentId(c), ComponentId(k))->state == PairState::Embedded))
+                      states.find(ComponentId(c), ComponentId(k))->state == PairState::Overlapping))
         minimum = std::min(minimum, surface_distance(surface, ComponentId(c), ComponentId(k), 1e9));
     const Clearance clearance = h.engine.clearance();
     EXPECT_NEAR(clearance.distance, minimum, 1e-9);

@@ -12,7 +12,7 @@ namespace {
 using namespace scenes;
 
 /// Expects closed meshes, oriented outwards, without degenerate triangles; and the pair's state.
-void expect_sound(const SlideScene& scene, PairState state, double penetration = 0) {
+void expect_sound(const SlideScene& scene, PairState state, double depth = 0) {
   for (const Component& c : scene.assembly.components) {
     EXPECT_EQ(c.faults, MeshFaults{}) << c.name;
     EXPECT_GT(signed_volume(*c.mesh), 0) << c.name;
@@ -23,10 +23,10 @@ void expect_sound(const SlideScene& scene, PairState state, double penetration =
   ASSERT_TRUE(states.ok());
   const ComponentPair* pair = states->find(ComponentId(0), scene.moving);
   EXPECT_EQ(pair ? pair->state : PairState::Clear, state);
-  if (penetration > 0) {
+  if (depth > 0) {
     ASSERT_NE(pair, nullptr);
-    EXPECT_GT(pair->penetration, 0.5 * penetration);
-    EXPECT_LT(pair->penetration, 1.5 * penetration);
+    EXPECT_GT(pair->depth, 0.5 * depth);
+    EXPECT_LT(pair->depth, 1.5 * depth);
   }
 }
 
@@ -39,7 +39,7 @@ TEST(SlideScenes, HaveValidMeshesAtEveryClearance) {
   }
   expect_sound(part_in_corner(), PairState::Contact);
   expect_sound(plate_in_slot(0.0004), PairState::Contact);
-  expect_sound(press_fit_pin(64, 0.02), PairState::Fit, 0.02);
+  expect_sound(press_fit_pin(64, 0.02), PairState::Overlapping, 0.02);
 }
 
 TEST(SlideScenes, HaveGearsThatMeshWhereverTheyHaveRolled) {

@@ -39,10 +39,9 @@ TEST(ClassifyPairs, CallsExactlyTouchingFacesContact) {
   const PairStates states = classified(two(box({0, 0, 0}, {1, 1, 1}), box({1, 0.25, 0.25}, {2, 0.75, 0.75})));
   ASSERT_EQ(states.pairs.size(), 1u);
   EXPECT_EQ(states.pairs[0].state, PairState::Contact);
-  EXPECT_EQ(states.pairs[0].penetration, 0);
+  EXPECT_EQ(states.pairs[0].depth, 0);
   EXPECT_EQ(states.pairs[0].distance, 0);
-  EXPECT_GT(states.pairs[0].triangle_pairs, 0u);
-  EXPECT_DOUBLE_EQ(states.pairs[0].allowed_penetration, 0.01);
+  EXPECT_DOUBLE_EQ(states.pairs[0].allowed_depth, 0.01);
 }
 
 TEST(ClassifyPairs, CallsAGapWithinToleranceContactAndOneWithinClearanceNear) {
@@ -54,28 +53,28 @@ TEST(ClassifyPairs, CallsAGapWithinToleranceContactAndOneWithinClearanceNear) {
   EXPECT_TRUE(classified(assembly, 0.001).pairs.empty());
 }
 
-TEST(ClassifyPairs, CallsAPressedPinAFitAndAllowsItsDepth) {
+TEST(ClassifyPairs, CallsAPressedPinOverlappingAndAllowsItsDepthAndTheTolerance) {
   const PairStates states = classified(two(tube(5, 0, -2, 22, 64), tube(9, 4.95, 0, 20, 64)));
   ASSERT_EQ(states.pairs.size(), 1u);
   const ComponentPair& pair = states.pairs[0];
-  EXPECT_EQ(pair.state, PairState::Fit);
-  EXPECT_NEAR(pair.penetration, 0.05, 0.002);
-  EXPECT_GE(pair.allowed_penetration, pair.penetration + 0.01);
-  EXPECT_LE(pair.allowed_penetration, pair.penetration + 0.0101);
+  EXPECT_EQ(pair.state, PairState::Overlapping);
+  EXPECT_NEAR(pair.depth, 0.05, 0.002);
+  EXPECT_DOUBLE_EQ(pair.allowed_depth, pair.depth + 0.01);
 }
 
-TEST(ClassifyPairs, CallsADeepOverlapEmbedded) {
+TEST(ClassifyPairs, TreatsADeepOverlapLikeAShallowOne) {
   const PairStates states = classified(two(tube(5, 0, -2, 22, 64), tube(9, 3, 0, 20, 64)));
   ASSERT_EQ(states.pairs.size(), 1u);
-  EXPECT_EQ(states.pairs[0].state, PairState::Embedded);
-  EXPECT_TRUE(std::isinf(states.pairs[0].allowed_penetration));
+  EXPECT_EQ(states.pairs[0].state, PairState::Overlapping);
+  EXPECT_NEAR(states.pairs[0].allowed_depth, 2.01, 0.03);
 }
 
-TEST(ClassifyPairs, CallsASolidInsideAnotherEmbedded) {
+TEST(ClassifyPairs, GivesASolidInsideAnotherTheDepthOfItsDeepestPoint) {
   const PairStates states = classified(two(box({0, 0, 0}, {10, 10, 10}), box({4, 4, 4}, {6, 6, 6})));
   ASSERT_EQ(states.pairs.size(), 1u);
-  EXPECT_EQ(states.pairs[0].state, PairState::Embedded);
-  EXPECT_EQ(states.pairs[0].triangle_pairs, 0u);
+  EXPECT_EQ(states.pairs[0].state, PairState::Overlapping);
+  EXPECT_GE(states.pairs[0].depth, 4);
+  EXPECT_LE(states.pairs[0].depth, 4.04);
 }
 
 TEST(ClassifyPairs, ListsNoPairForASolidInACavity) {
@@ -89,16 +88,18 @@ TEST(ClassifyPairs, ListsNoPairForASolidInACavity) {
   EXPECT_TRUE(classified(two(shell, box({4, 4, 4}, {6, 6, 6}))).pairs.empty());
 }
 
-TEST(ClassifyPairs, MakesEveryIntersectingPairEmbeddedByThePapersRule) {
+TEST(ClassifyPairs, MakesEveryPairThatTouchesFreeByThePapersRule) {
   const Assembly touching = two(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1}));
-  EXPECT_EQ(classified(touching, 0.01, 0, ClassifyRule::Paper).pairs.at(0).state, PairState::Embedded);
+  const PairStates states = classified(touching, 0.01, 0, ClassifyRule::Paper);
+  EXPECT_EQ(states.pairs.at(0).state, PairState::Free);
+  EXPECT_TRUE(std::isinf(states.pairs[0].allowed_depth));
 }
 
 TEST(ClassifyPairs, FindsDeepVerticesThatFineTrianglesHide) {
   // A finely tessellated pin 0.2 mm too thick: no triangle of it is deeper than its own size, but its vertices are.
   const PairStates states = classified(two(tube(5, 0, 1, 19, 160, 160), tube(9, 4.8, 0, 20, 160, 160)));
   ASSERT_EQ(states.pairs.size(), 1u);
-  EXPECT_GE(2 * (states.pairs[0].allowed_penetration - 0.01), 0.199);
+  EXPECT_GE(states.pairs[0].depth, 0.199);
 }
 
 TEST(ClassifyPairs, GivesTheSameForEveryThreadCount) {

@@ -10,12 +10,14 @@
 namespace dismantle {
 namespace {
 
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 ComponentPair pair(std::uint32_t a, std::uint32_t b, PairState state, double allowed) {
   ComponentPair p;
   p.a = ComponentId(a);
   p.b = ComponentId(b);
   p.state = state;
-  p.allowed_penetration = allowed;
+  p.allowed_depth = allowed;
   return p;
 }
 
@@ -23,13 +25,14 @@ TEST(PairRules, GiveEveryStateItsTest) {
   PairStates states;
   states.tolerance = 0.01;
   states.pairs = {pair(0, 1, PairState::Near, 0.01), pair(0, 2, PairState::Contact, 0.01),
-                  pair(1, 2, PairState::Fit, 0.3),
-                  pair(1, 5, PairState::Embedded, std::numeric_limits<double>::infinity())};
+                  pair(1, 2, PairState::Contact, 0.3),
+                  pair(1, 5, PairState::Overlapping, 2), pair(2, 5, PairState::Free, kUnlimited)};
   const PairRules rules(states);
   EXPECT_EQ(rules.view().find(0, 1).test, PairTest::Ordinary);
   EXPECT_EQ(rules.view().find(0, 2).test, PairTest::Certified);
   EXPECT_EQ(rules.view().find(1, 2).allowed_penetration, 0.3);
   EXPECT_EQ(rules.view().find(1, 5).test, PairTest::Discrete);
+  EXPECT_EQ(rules.view().find(2, 5).test, PairTest::Discrete);
   EXPECT_EQ(rules.view().find(3, 4).test, PairTest::Ordinary);
   EXPECT_EQ(rules.view().find(3, 4).allowed_penetration, 0.01);
 }
@@ -37,7 +40,7 @@ TEST(PairRules, GiveEveryStateItsTest) {
 TEST(PairRules, AllowASeparatedPairTheToleranceForGood) {
   PairStates states;
   states.tolerance = 0.02;
-  states.pairs = {pair(3, 9, PairState::Embedded, std::numeric_limits<double>::infinity())};
+  states.pairs = {pair(3, 9, PairState::Free, kUnlimited)};
   PairRules rules(states);
   rules.part(ComponentId(3), ComponentId(9));
   EXPECT_EQ(rules.view().find(3, 9).test, PairTest::Certified);
@@ -53,7 +56,7 @@ TEST(PairRules, FindEveryPairOfManyAndNoOther) {
   }
   PairStates states;
   states.tolerance = 1;
-  for (const auto& [a, b] : listed) states.pairs.push_back(pair(a, b, PairState::Fit, 2 + a + 1000.0 * b));
+  for (const auto& [a, b] : listed) states.pairs.push_back(pair(a, b, PairState::Contact, 2 + a + 1000.0 * b));
   const PairRules rules(states);
   for (std::uint32_t a = 0; a < 500; ++a) {
     for (std::uint32_t b = a + 1; b < 500; ++b) {

@@ -37,7 +37,7 @@ inline Path bolted_lid_path() {
 
 inline PairStates bolted_lid_pairs() {
   const auto contact = [](std::uint32_t a, std::uint32_t b) {
-    return ComponentPair{ComponentId(a), ComponentId(b), PairState::Contact, 0, 0, 0.01, 4};
+    return ComponentPair{ComponentId(a), ComponentId(b), PairState::Contact, 0, 0, 0.01};
   };
   return {0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
 }

@@ -60,7 +60,7 @@ TEST(UnsupportedAfter, IsWhatStoodOnWhatIsTakenAway) {
                                        scenes::component("cup", scenes::box({5, -3, 0}, {12, 3, 9})),
                                        scenes::component("lamp", scenes::box({5, -3, -9}, {12, 3, -2}))});
   const auto contact = [](std::uint32_t p, std::uint32_t q) {
-    return ComponentPair{ComponentId(p), ComponentId(q), PairState::Contact, 0, 0, 0.01, 4};
+    return ComponentPair{ComponentId(p), ComponentId(q), PairState::Contact, 0, 0, 0.01};
   };
   PairStates pairs{0.01, {contact(0, 1), contact(1, 2), contact(1, 3)}};
   const WorkStep step{{{{ComponentId(1)}, {{}, {{100, 0, 0}, {}}}}}, std::vector<Pose>(4)};
@@ -68,7 +68,7 @@ TEST(UnsupportedAfter, IsWhatStoodOnWhatIsTakenAway) {
             std::vector<ComponentId>{ComponentId(2)})
       << "the lamp was unsupported before, too";
 
-  pairs.pairs.insert(pairs.pairs.begin() + 1, {ComponentId(0), ComponentId(2), PairState::Fit, 0, 0.1, 0.11, 4});
+  pairs.pairs.insert(pairs.pairs.begin() + 1, {ComponentId(0), ComponentId(2), PairState::Overlapping, 0, 0.1, 0.11});
   EXPECT_TRUE(RemovalFacts(a, pairs, {}).unsupported_after(step, ComponentId(0)).empty()) << "it fits into the wall";
 }
 

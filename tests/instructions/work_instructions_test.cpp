@@ -62,29 +62,28 @@ TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
   Path path = scenes::bolted_lid_path();
   path.moves = {{"all", {"lid", "bolt", "bolt#2"}, {{0, {}}, {1, {{0, 0, 60}, {}}}}}};
   PairStates pairs = scenes::bolted_lid_pairs();
-  pairs.pairs[0] = {ComponentId(0), ComponentId(1), PairState::Fit, 0, 0.05, 0.06, 4};
+  pairs.pairs[0] = {ComponentId(0), ComponentId(1), PairState::Overlapping, 0, 0.05, 0.06};
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, path);
   EXPECT_EQ(made.steps[0].title, "Remove lid and 2 \u00d7 bolt together");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "Remove these 3 parts as a unit.\n");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "lid and base overlap by 0.05 mm: close fit, press fit or thread.\n");
+            "The CAD models of lid and base overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
 
-  pairs.pairs[0].state = PairState::Embedded;
+  pairs.pairs[0].state = PairState::Free;
   EXPECT_EQ(said(written(scenes::bolted_lid(), pairs, path).steps[0], InstructionNote::Kind::Overlap),
-            "The CAD models of lid and base interfere by 0.05 mm; collision between them is not checked while they "
-            "overlap.\n");
+            "Collision between lid and base is not checked until they are apart.\n");
 }
 
 TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
   PairStates pairs = scenes::bolted_lid_pairs();
   for (const std::size_t k : {1, 2})
-    pairs.pairs[k] = {ComponentId(1), ComponentId(static_cast<std::uint32_t>(k + 1)), PairState::Fit, 0, 0.05, 0.06, 4};
+    pairs.pairs[k] = {ComponentId(1), ComponentId(static_cast<std::uint32_t>(k + 1)), PairState::Overlapping, 0, 0.05, 0.06};
   WorkInstructionsOptions options = small();
   options.product = "vice";
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path(), options);
   EXPECT_EQ(made.title, "Disassembly of vice");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "2 \u00d7 bolt and lid overlap by 0.05 mm: close fit, press fit or thread.\n");
+            "The CAD models of 2 \u00d7 bolt and lid overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
 }
 
 TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {

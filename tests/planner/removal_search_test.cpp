@@ -22,10 +22,10 @@ class RemovalSearchTest : public testing::Test {
     for (std::uint32_t k = 0; k < count; ++k)
       components.push_back(scenes::component("box", scenes::box({0, 0, 0}, {1, 1, 1})));
     scene_ = {scenes::assembly(std::move(components)), {0.01, {}}};
-    // Embedded pairs do not block: only the given relations do.
+    // Free pairs do not block: only the given relations do.
     for (std::uint32_t a = 0; a < count; ++a)
       for (std::uint32_t b = a + 1; b < count; ++b)
-        scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Embedded, 0, 1, 1, 1});
+        scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Free, 0, 1, 1});
     engine_.emplace(scene_.assembly, scene_.pairs);
     features_.assign(count, shape_features(*scene_.assembly.components[0].mesh));
     table_.emplace(*engine_, features_, kAlways);

@@ -262,7 +262,7 @@ TEST(SessionPlayback, ShowsWhatWasTakenAwayAtItsTime) {
   EXPECT_TRUE(table.session().is_removed(ComponentId(0)));
 }
 
-TEST(SessionPlayback, PlaysAnEmbeddedPairApartAndTogetherAgain) {
+TEST(SessionPlayback, PlaysAnOverlappingPairApartAndTogetherAgain) {
   Table table(scenes::assembly(
       {component("lump", box({0, 0, 0}, {10, 10, 10})), component("body", box({5, -5, -5}, {30, 15, 15}))}));
   table.move(kFirst, {-20, 0, 0}, 20);

@@ -94,7 +94,7 @@ TEST(Session, UndoesAndRedoesToTheSameBits) {
   }
 }
 
-TEST(Session, LetsAnEmbeddedPairPartAgainAfterItsPartingWasUndone) {
+TEST(Session, LetsAnOverlappingPairPartAgainAfterItsPartingWasUndone) {
   Table table(scenes::assembly(
       {component("lump", box({0, 0, 0}, {10, 10, 10})), component("body", box({5, -5, -5}, {30, 15, 15}))}));
   table.move(kFirst, {-20, 0, 0}, 20);

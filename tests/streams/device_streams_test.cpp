@@ -150,11 +150,11 @@ TEST_P(DeviceStreams, BringDownAnyNumberOfContactsFromCapacityOne) {
   EXPECT_GT(blocked.blocking_pairs.size(), 256u);
 }
 
-TEST_P(DeviceStreams, FollowEmbeddedPairsUntilTheyPartFromCapacityOne) {
+TEST_P(DeviceStreams, FollowFreePairsUntilTheyPartFromCapacityOne) {
   const Assembly assembly = scenes::assembly({scenes::component("plate", scenes::box({-10, -10, -3}, {10, 10, 0})),
                                               scenes::component("peg", scenes::tube(1.5, 0, -2, 6, 24, 6)),
                                               scenes::component("core", scenes::box({5, 5, -2}, {6, 6, -1}))});
-  const PairStates states{kTolerance, {pair_of(0, 1, PairState::Embedded, 0), pair_of(0, 2, PairState::Embedded, 0)}};
+  const PairStates states{kTolerance, {pair_of(0, 1, PairState::Free, 0), pair_of(0, 2, PairState::Free, 0)}};
   Comparison engines = compared(assembly, states, ElementaryTest::Certified, 1);
   const auto peg_at = [](double z) { return std::vector<RigidTransform>{{}, transform_from_pose(shift(0, 0, z)), {}}; };
   for (int step = 1; step <= 15; ++step) EXPECT_TRUE(engines.move(peg_at(0.1 * step)).free);

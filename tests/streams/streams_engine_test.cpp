@@ -86,11 +86,11 @@ TEST(StreamsEngine, LetsAPegTurnAndGoThroughATubeButNotThroughItsWall) {
   }
 }
 
-TEST(StreamsEngine, FreesAnEmbeddedPegUntilItPartsAndBlocksItWhenItComesBack) {
+TEST(StreamsEngine, ExemptsAPegUntilItPartsAndBlocksItWhenItComesBack) {
   for (const ElementaryTest test : kBothTests) {
     EngineScene scene(
         {{"plate", scenes::box({-10, -10, -3}, {10, 10, 0})}, {"peg", scenes::tube(1.5, 0, -2, 6, 24, 6)}},
-        {pair_of(0, 1, PairState::Embedded, 0)}, kTolerance, options(test));
+        {pair_of(0, 1, PairState::Free, 0)}, kTolerance, options(test));
     for (int step = 1; step <= 19; ++step) {
       ASSERT_TRUE(scene.move({{1, shift(0.05 * step, 0, 0.1 * step)}}).free) << step;
       EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u) << step;
@@ -105,14 +105,14 @@ TEST(StreamsEngine, FreesAnEmbeddedPegUntilItPartsAndBlocksItWhenItComesBack) {
 }
 
 // Out of one wall and into the next in one step: it is apart in between, so the second wall blocks.
-TEST(StreamsEngine, NoticesThatAnEmbeddedPairPartsAndMeetsAgainWithinOneStep) {
+TEST(StreamsEngine, NoticesThatAFreePairPartsAndMeetsAgainWithinOneStep) {
   TriangleMesh channel = scenes::box({0, -5, -5}, {1, 5, 5});
   const TriangleMesh wall = scenes::box({6, -5, -5}, {7, 5, 5});
   for (const Vec3& p : wall.vertices) channel.vertices.push_back(p);
   for (const Face& f : wall.faces) channel.faces.push_back({{f.v[0] + 8, f.v[1] + 8, f.v[2] + 8}});
   for (const double end : {5.0, 20.0}) {  // into the second wall; through it
     EngineScene scene({{"channel", channel}, {"peg", scenes::box({0.4, -1, -1}, {2, 1, 1})}},
-                      {pair_of(0, 1, PairState::Embedded, 0)}, kTolerance, options());
+                      {pair_of(0, 1, PairState::Free, 0)}, kTolerance, options());
     const SweepResult result = scene.sweep({{1, shift(end, 0, 0)}});
     EXPECT_FALSE(result.free);
     EXPECT_NEAR(result.toi, 4 / end, 0.02 / end);
@@ -120,9 +120,9 @@ TEST(StreamsEngine, NoticesThatAnEmbeddedPairPartsAndMeetsAgainWithinOneStep) {
   }
 }
 
-TEST(StreamsEngine, KeepsASolidInsideAnotherEmbeddedUntilItIsOut) {
+TEST(StreamsEngine, KeepsASolidInsideAnotherFreeUntilItIsOut) {
   EngineScene scene({{"block", scenes::box({-5, -5, -5}, {5, 5, 5})}, {"core", scenes::box({-1, -1, -1}, {1, 1, 1})}},
-                    {pair_of(0, 1, PairState::Embedded, 0)}, kTolerance, options());
+                    {pair_of(0, 1, PairState::Free, 0)}, kTolerance, options());
   for (int step = 1; step <= 11; ++step) {
     ASSERT_TRUE(scene.move({{1, shift(0.01, 0.02, 0.53 * step)}}).free) << step;
     EXPECT_EQ(scene.engine().overlapping_pairs().size(), 1u) << step;
@@ -132,11 +132,11 @@ TEST(StreamsEngine, KeepsASolidInsideAnotherEmbeddedUntilItIsOut) {
   EXPECT_FALSE(scene.move({{1, shift(0, 0, 0)}}).free);
 }
 
-TEST(StreamsEngine, DropsEmbeddedPairsThatAJumpParts) {
+TEST(StreamsEngine, DropsFreePairsThatAJumpParts) {
   EngineScene scene({{"plate", scenes::box({-10, -10, -3}, {10, 10, 0})},
                      {"peg", scenes::box({-1, -1, -2}, {1, 1, 2})},
                      {"core", scenes::box({5, 5, -2}, {6, 6, -1})}},
-                    {pair_of(0, 1, PairState::Embedded, 0), pair_of(0, 2, PairState::Embedded, 0)}, kTolerance,
+                    {pair_of(0, 1, PairState::Free, 0), pair_of(0, 2, PairState::Free, 0)}, kTolerance,
                     options());
   scene.jump({{1, shift(2, 0, 1)}, {2, shift(0, 1, 0)}});
   EXPECT_EQ(scene.engine().overlapping_pairs().size(), 2u);

@@ -22,7 +22,7 @@ inline ComponentPair pair_of(std::uint32_t a, std::uint32_t b, PairState state, 
   pair.a = ComponentId(a);
   pair.b = ComponentId(b);
   pair.state = state;
-  pair.allowed_penetration = state == PairState::Embedded ? std::numeric_limits<double>::infinity() : allowed;
+  pair.allowed_depth = state == PairState::Free ? std::numeric_limits<double>::infinity() : allowed;
   return pair;
 }
 
@@ -68,7 +68,7 @@ class EngineScene {
   std::unique_ptr<SweepEngine> engine_;
 };
 
-/// The pairs whose surfaces intersect, by testing every triangle pair: Contact within the tolerance, else Embedded.
+/// The pairs whose surfaces intersect, by testing every triangle pair: Contact within the tolerance, else Free.
 inline PairStates states_by_brute_force(const Assembly& assembly, double tolerance) {
   PairStates states;
   states.tolerance = tolerance;
@@ -86,7 +86,7 @@ inline PairStates states_by_brute_force(const Assembly& assembly, double toleran
         }
       }
       if (depth < 0) continue;
-      states.pairs.push_back(pair_of(a, b, depth <= tolerance ? PairState::Contact : PairState::Embedded, tolerance));
+      states.pairs.push_back(pair_of(a, b, depth <= tolerance ? PairState::Contact : PairState::Free, tolerance));
     }
   }
   return states;

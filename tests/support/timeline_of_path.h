@@ -9,7 +9,7 @@ namespace dismantle::scenes {
 
 /// The timeline of a path of a scene that has no contacts. Fails the test if the path does not fit the assembly.
 inline Timeline timeline_of(const Assembly& assembly, const Path& path) {
-  const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
+  const Result<Timeline> timeline = Timeline::of_path(assembly, path);
   EXPECT_TRUE(timeline.ok()) << timeline.error().message;
   return *timeline;
 }

@@ -46,13 +46,14 @@ class MotionEngine {
   /// True if step() implements this response.
   virtual bool can_respond(ResponseKind response) const = 0;
 
-  /// Puts all components at `poses` without a test (undo, or a recorded state known to be free). Embedded pairs that
-  /// are apart there count as parted from then on. Releases the moving set if that changes the pose of one of it.
+  /// Puts all components at `poses` without a test (undo, or a recorded state known to be free). Overlapping pairs
+  /// that are apart there have the tolerance for their allowance from then on; those that overlap there have their own
+  /// again. Releases the moving set if that changes the pose of one of it.
   /// @param poses shape [component_count]
   virtual void jump(Span<const Pose> poses) = 0;
   /// The pose of every component, shape [component_count].
   virtual Span<const Pose> poses() const = 0;
-  /// The pairs that are still embedded.
+  /// The pairs with an allowance of their own that have not been apart yet.
   virtual std::vector<ComponentPair> overlapping_pairs() const = 0;
 };
 

@@ -50,7 +50,7 @@ bool depends_on_direction(ExportFormat format) {
 Result<std::string> exported_file(ExportFormat format, const Assembly& assembly, const Path& path,
                                   const ExportOptions& options) {
   DISMANTLE_EXPECT(!has_own_writer(format));
-  const Result<Timeline> timeline = Timeline::of_path(assembly, PairStates{}, path);
+  const Result<Timeline> timeline = Timeline::of_path(assembly, path);
   if (!timeline) return timeline.error();
   switch (format) {
     case ExportFormat::Glb:

@@ -9,7 +9,9 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
+/// Its records of entries list pairs of components at their ends, which are not used.
+constexpr std::uint32_t kVersionWithPairs = 1;
 constexpr std::string_view kMagic = "dismantle-journal";
 constexpr std::size_t kHeadBytes = 8;  // length and hash
 
@@ -41,11 +43,6 @@ class Payload {
     for (const double v : {f.time, f.pose.position.x, f.pose.position.y, f.pose.position.z, f.pose.rotation.w,
                            f.pose.rotation.x, f.pose.rotation.y, f.pose.rotation.z})
       number(v);
-    return *this;
-  }
-  Payload& pairs(const PairList& list) {
-    count(list.size());
-    for (const auto& [a, b] : list) number(a.value).number(b.value);
     return *this;
   }
   std::string record() const {
@@ -95,13 +92,8 @@ class Source {
     for (double& one : v) one = number<double>();
     return {v[0], {{v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}}};
   }
-  PairList pairs(std::size_t component_count) {
-    PairList list(count(8));
-    for (auto& [a, b] : list) {
-      a = component(component_count);
-      b = component(component_count);
-    }
-    return list;
+  void skip_pairs() {
+    for (std::size_t left = count(8); left > 0; --left) number<std::uint64_t>();
   }
 
  private:
@@ -166,7 +158,10 @@ class JournalReplay {
   }
 
   bool take_header(Source& in) {
-    if (has_header_ || in.text() != kMagic || in.number<std::uint32_t>() != kVersion) return false;
+    if (has_header_ || in.text() != kMagic) return false;
+    const auto version = in.number<std::uint32_t>();
+    if (version != kVersion && version != kVersionWithPairs) return false;
+    has_pairs_ = version == kVersionWithPairs;
     JournalHeader& h = contents_.header;
     h.assembly_name = in.text();
     h.assembly_sha256 = in.text();
@@ -184,7 +179,7 @@ class JournalReplay {
     for (std::size_t i = 0; i < entry.components.size(); ++i)
       entry.removed_before.push_back(in.number<std::uint8_t>() != 0);
     entry.frames = {in.frame()};
-    entry.embedded_before = entry.embedded_after = in.pairs(all);
+    if (has_pairs_) in.skip_pairs();
     if (!in.ok() || !in.is_at_end() || entry.components.empty()) return false;
     end_open();
     open_ = std::move(entry);
@@ -200,10 +195,9 @@ class JournalReplay {
 
   bool end(Source& in) {
     const auto removed = in.number<std::uint8_t>();
-    PairList embedded = in.pairs(contents_.header.component_count);
+    if (has_pairs_) in.skip_pairs();
     if (!open_ || !in.ok() || !in.is_at_end()) return false;
     if (removed != 0) open_->removed_after = removed == 2;
-    open_->embedded_after = std::move(embedded);
     end_open();
     return true;
   }
@@ -216,7 +210,7 @@ class JournalReplay {
 
   std::optional<SessionEntry> open_;
   JournalContents contents_;
-  bool has_header_ = false;
+  bool has_header_ = false, has_pairs_ = false;
 };
 
 }  // namespace
@@ -237,7 +231,7 @@ std::string begin_record(const SessionEntry& entry) {
   out.text(entry.label).count(entry.components.size());
   for (const ComponentId c : entry.components) out.number(c.value);
   for (const bool removed : entry.removed_before) out.number(static_cast<std::uint8_t>(removed));
-  return out.frame(entry.frames.front()).pairs(entry.embedded_before).record();
+  return out.frame(entry.frames.front()).record();
 }
 
 std::string frames_record(Span<const Frame> frames) {
@@ -249,7 +243,7 @@ std::string frames_record(Span<const Frame> frames) {
 
 std::string end_record(const SessionEntry& entry) {
   const int removed = entry.removed_after ? 1 + static_cast<int>(*entry.removed_after) : 0;
-  return Payload(JournalRecord::End).number(static_cast<std::uint8_t>(removed)).pairs(entry.embedded_after).record();
+  return Payload(JournalRecord::End).number(static_cast<std::uint8_t>(removed)).record();
 }
 
 std::string plain_record(JournalRecord kind) {

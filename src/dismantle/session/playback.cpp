@@ -70,15 +70,6 @@ TimelinePosition Playback::next_position(double goal) const {
   return speed_ > 0 ? forward(goal) : backward(goal);
 }
 
-bool Playback::is_excused(const StepResult& step, std::size_t move) const {
-  const PairList& embedded = timeline_.moves()[move].embedded_before;
-  return !step.blocking_pairs.empty() &&
-         std::all_of(step.blocking_pairs.begin(), step.blocking_pairs.end(), [&](const auto& c) {
-           return std::binary_search(embedded.begin(), embedded.end(),
-                                     std::pair(std::min(c.a, c.b), std::max(c.a, c.b)));
-         });
-}
-
 void Playback::put(MotionEngine& engine, const TimelinePosition& position) const {
   engine.jump(timeline_.poses_at(position, component_count_));
   engine.grab(timeline_.moves()[position.move].components);
@@ -114,10 +105,9 @@ bool Playback::go(MotionEngine& engine, const TimelinePosition& next, StepResult
   const Pose pose = timeline_.pose_of(next);
   result = engine.step(pose, ResponseKind::Stop);
   if (!result.reached) {
-    const bool excused =
-        is_excused(result, next.move) || is_free_the_other_way(engine, next) || is_free_by_sliding(engine, next);
-    if (!excused && !block_) block_ = PlaybackBlock{timeline_.time_of(position_), blocker(result, set)};
-    if (!excused && source_ == PlaybackSource::Guide) {
+    const bool is_free = is_free_the_other_way(engine, next) || is_free_by_sliding(engine, next);
+    if (!is_free && !block_) block_ = PlaybackBlock{timeline_.time_of(position_), blocker(result, set)};
+    if (!is_free && source_ == PlaybackSource::Guide) {
       put(engine, position_);
       return false;
     }

@@ -22,7 +22,7 @@ struct PlaybackBlock {
 
 /// Plays a timeline with an engine, forward or backward at any speed. It passes through every frame, bit for bit, and
 /// the engine checks every screw motion again. If a motion is blocked, the block is kept: a guide ends there; a
-/// recording goes on (a free motion is free in reverse, and so is a pair that was embedded when it was recorded).
+/// recording goes on, as it was free when it was recorded.
 class Playback {
  public:
   /// A paused playback at the start. @param tolerance [mm]; `assembly` must outlive this
@@ -70,7 +70,6 @@ class Playback {
   TimelinePosition forward(double goal) const;
   TimelinePosition backward(double goal) const;
   bool go(MotionEngine& engine, const TimelinePosition& next, StepResult& result);
-  bool is_excused(const StepResult& step, std::size_t move) const;
   /// The engine is conservative, depending on its state. A motion that it blocks as one sweep is accepted if the
   /// reversed screw is free, or if the set slides to within the tolerance of its end.
   bool is_free_the_other_way(MotionEngine& engine, const TimelinePosition& next) const;

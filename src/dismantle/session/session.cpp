@@ -14,13 +14,6 @@ constexpr double kLongestRest = 0.05;
 /// Duration of the first step after a rest [s]: about one screen frame.
 constexpr double kStepTime = 1.0 / 60;
 
-PairList pair_list(const std::vector<ComponentPair>& pairs) {
-  PairList list;
-  for (const ComponentPair& p : pairs) list.emplace_back(p.a, p.b);
-  std::sort(list.begin(), list.end());
-  return list;
-}
-
 /// The bounding box of the assembled set.
 Aabb assembled_box(const Assembly& assembly, Span<const ComponentId> components) {
   Aabb box;
@@ -52,18 +45,6 @@ Session::Session(const Assembly& assembly, PairStates pairs, const CertificateOp
       engine_(std::make_unique<CertificateEngine>(assembly, pairs_, options)),
       removed_(assembly.components.size(), false),
       visibility_(assembly.components.size()) {}
-
-std::unique_ptr<CertificateEngine> Session::make_engine(const PairList& embedded) const {
-  PairStates states = pairs_;
-  std::erase_if(states.pairs, [&](const ComponentPair& p) {
-    return (p.state == PairState::Overlapping || p.state == PairState::Free) && !std::binary_search(embedded.begin(), embedded.end(), std::pair(p.a, p.b));
-  });
-  return std::make_unique<CertificateEngine>(*assembly_, states, options_);
-}
-
-PairList Session::embedded() const {
-  return pair_list(engine_->overlapping_pairs());
-}
 
 Result<Done> Session::check_no_playback() const {
   if (activity_ != SessionActivity::Playback) return Done{};
@@ -99,7 +80,6 @@ SessionEntry Session::new_entry(std::string_view verb, Span<const ComponentId> c
   entry.label = std::string(verb) + " " + names_of(*assembly_, components);
   entry.components.assign(components.begin(), components.end());
   entry.frames = {{0, poses()[components[0].value]}};
-  entry.embedded_before = entry.embedded_after = embedded();
   for (const ComponentId c : components) entry.removed_before.push_back(removed_[c.value]);
   return entry;
 }
@@ -151,7 +131,6 @@ bool Session::finish_entry() {
     if (journal_) journal_->drop();
     return false;
   }
-  entry.embedded_after = embedded();
   if (journal_) journal_->end(entry);
   entries_.resize(done_count_);
   entries_.push_back(std::move(entry));
@@ -176,27 +155,15 @@ bool Session::release() {
 
 void Session::cancel_drag() {
   if (activity_ != SessionActivity::Drag) return;
-  put(*open_, open_->frames.front(), open_->embedded_before);
+  put(*open_, open_->frames.front());
   if (journal_) journal_->drop();
   be_idle();
 }
 
-void Session::put(Span<const Pose> poses, const PairList& wanted) {
-  const std::vector<Pose> all(poses.begin(), poses.end());  // `poses` may refer to the engine's own
-  const auto includes = [](const PairList& a, const PairList& b) {
-    return std::includes(a.begin(), a.end(), b.begin(), b.end());
-  };
-  if (!includes(embedded(), wanted)) engine_ = make_engine(wanted);
-  engine_->jump(all);
-  if (includes(wanted, embedded())) return;
-  engine_ = make_engine(wanted);
-  engine_->jump(all);
-}
-
-void Session::put(const SessionEntry& entry, const Frame& frame, const PairList& wanted) {
+void Session::put(const SessionEntry& entry, const Frame& frame) {
   std::vector<Pose> all(poses().begin(), poses().end());
   for (const ComponentId c : entry.components) all[c.value] = frame.pose;
-  put(all, wanted);
+  engine_->jump(all);
 }
 
 Result<Done> Session::undo() {
@@ -208,7 +175,7 @@ Result<Done> Session::undo() {
   }
   if (done_count_ == 0) return Error{ErrorKind::Usage, "nothing can be undone (nothing was done yet)"};
   const SessionEntry& entry = entries_[--done_count_];
-  put(entry, entry.frames.front(), entry.embedded_before);
+  put(entry, entry.frames.front());
   for (std::size_t i = 0; i < entry.components.size(); ++i)
     removed_[entry.components[i].value] = entry.removed_before[i];
   if (journal_) journal_->undo();
@@ -220,7 +187,7 @@ Result<Done> Session::redo() {
   release();
   if (done_count_ == entries_.size()) return Error{ErrorKind::Usage, "nothing can be redone (nothing was undone)"};
   const SessionEntry& entry = entries_[done_count_++];
-  put(entry, entry.frames.back(), entry.embedded_after);
+  put(entry, entry.frames.back());
   if (entry.removed_after)
     for (const ComponentId c : entry.components) removed_[c.value] = *entry.removed_after;
   if (journal_) journal_->redo();
@@ -249,7 +216,7 @@ Path Session::recording() const {
 
 void Session::reset() {
   stop_playback();
-  engine_ = std::make_unique<CertificateEngine>(*assembly_, pairs_, options_);
+  engine_->jump(std::vector<Pose>(poses().size()));
   entries_.clear();
   done_count_ = 0;
   removed_.assign(removed_.size(), false);
@@ -274,16 +241,13 @@ void Session::restore(JournalContents contents) {
   entries_ = std::move(contents.entries);
   done_count_ = contents.done_count;
   std::vector<Pose> all(poses().size());
-  PairList wanted = embedded();
   for (const SessionEntry& entry : done()) {
     for (const ComponentId c : entry.components) {
       all[c.value] = entry.frames.back().pose;
       if (entry.removed_after) removed_[c.value] = *entry.removed_after;
     }
-    wanted = entry.embedded_after;
   }
-  put(all, wanted);
-  if (contents.is_open) entries_[done_count_ - 1].embedded_after = embedded();
+  engine_->jump(all);
   if (!journal_) return;
   for (const SessionEntry& entry : entries_) {
     journal_->begin(entry);

@@ -167,17 +167,14 @@ class Session {
     int stuck = 0;  ///< Number of consecutive targets that were not reached.
   };
 
-  std::unique_ptr<CertificateEngine> make_engine(const PairList& embedded) const;
-  PairList embedded() const;
   Result<Done> check_set(Span<const ComponentId> components) const;
   Result<Done> check_one_pose(Span<const ComponentId> components) const;
   Result<Done> check_no_playback() const;
   SessionEntry new_entry(std::string_view verb, Span<const ComponentId> components) const;
   bool finish_entry();
   void write_frames(std::size_t from);
-  /// Puts all components at `poses`, with these pairs embedded.
-  void put(Span<const Pose> poses, const PairList& embedded);
-  void put(const SessionEntry& entry, const Frame& frame, const PairList& embedded);
+  /// Puts the components of an entry at the pose of one of its frames.
+  void put(const SessionEntry& entry, const Frame& frame);
   void begin(SessionActivity activity, std::string_view verb, std::vector<ComponentId> set);
   void begin_automatic(AutomaticKind kind, std::vector<Frame> targets);
   void be_idle();
@@ -209,7 +206,6 @@ class Session {
   std::optional<Playback> playback_;
   std::vector<bool> played_removed_;
   std::vector<Pose> live_poses_;  ///< Before the playback.
-  PairList live_embedded_;
   std::optional<Guide> guide_;
   std::unique_ptr<Journal> journal_;
 };

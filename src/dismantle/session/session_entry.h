@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/assembly/pair_state.h"
+#include "dismantle/core/id.h"
 #include "dismantle/assembly/path.h"
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace dismantle {
-
-/// Pairs of components a < b, ordered.
-using PairList = std::vector<std::pair<ComponentId, ComponentId>>;
 
 /// The unit of undo: a rigid motion of a set, its removal or return, or both.
 struct SessionEntry {
   std::string label;                    ///< "move screw", "take out screw", "put back screw"
   std::vector<ComponentId> components;  ///< The moving set; not empty, all at one pose.
   std::vector<Frame> frames;            ///< As in Move: the first is the start pose at time 0.
-  PairList embedded_before;             ///< Embedded pairs before the entry.
-  PairList embedded_after;              ///< Embedded pairs after it.
   std::vector<bool> removed_before;     ///< For each component of the set: removed before the entry.
   std::optional<bool> removed_after;    ///< Removed after the entry; none: unchanged.
   friend bool operator==(const SessionEntry&, const SessionEntry&) = default;

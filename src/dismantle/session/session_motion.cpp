@@ -272,7 +272,6 @@ Result<Done> Session::open_playback(PlaybackSource source) {
   if (timeline.moves().empty())
     return Error{ErrorKind::Usage, "there is nothing to play (nothing was moved yet); move something first"};
   live_poses_.assign(poses().begin(), poses().end());
-  live_embedded_ = embedded();
   const double at = source == PlaybackSource::Guide ? 0 : timeline.duration();
   playback_.emplace(source, std::move(timeline), *assembly_, pairs_.tolerance);
   activity_ = SessionActivity::Playback;
@@ -282,9 +281,7 @@ Result<Done> Session::open_playback(PlaybackSource source) {
 }
 
 void Session::put_playback() {
-  // The pairs that may be embedded at that position; those that are apart there are cleared by the engine.
-  const TimelineMove& move = playback_->timeline().moves()[playback_->position().move];
-  put(playback_->poses(), move.embedded_before);
+  engine_->jump(playback_->poses());
   played_removed_ = playback_->removed();
 }
 
@@ -316,13 +313,13 @@ void Session::pause() {
 void Session::stop_playback() {
   if (!playback_) return;
   playback_.reset();
-  put(live_poses_, live_embedded_);
+  engine_->jump(live_poses_);
   activity_ = SessionActivity::Idle;
 }
 
 Result<Done> Session::set_guide(std::string name, std::string text, const Path& path) {
   if (playback_ && playback_->source() == PlaybackSource::Guide) stop_playback();
-  Result<Timeline> timeline = Timeline::of_path(*assembly_, pairs_, path);
+  Result<Timeline> timeline = Timeline::of_path(*assembly_, path);
   if (!timeline) return timeline.error();
   guide_ = Guide{std::move(name), std::move(text), std::move(*timeline)};
   return Done{};

@@ -33,13 +33,6 @@ Result<std::vector<ComponentId>> find_set(const Assembly& assembly, const Move& 
   return ids;
 }
 
-PairList overlapping_pairs(const PairStates& pairs) {
-  PairList list;
-  for (const ComponentPair& p : pairs.pairs)
-    if (p.state == PairState::Overlapping || p.state == PairState::Free) list.emplace_back(p.a, p.b);
-  return list;
-}
-
 }  // namespace
 
 void Timeline::add(TimelineMove move) {
@@ -50,11 +43,11 @@ void Timeline::add(TimelineMove move) {
 Timeline Timeline::of_entries(Span<const SessionEntry> entries) {
   Timeline timeline;
   for (const SessionEntry& e : entries)
-    timeline.add({e.label, e.components, e.frames, 0, e.embedded_before, e.removed_after});
+    timeline.add({e.label, e.components, e.frames, 0, e.removed_after});
   return timeline;
 }
 
-Result<Timeline> Timeline::of_path(const Assembly& assembly, const PairStates& pairs, const Path& path) {
+Result<Timeline> Timeline::of_path(const Assembly& assembly, const Path& path) {
   Timeline timeline;
   std::vector<Pose> poses(assembly.components.size());
   for (std::size_t i = 0; i < path.moves.size(); ++i) {
@@ -66,7 +59,7 @@ Result<Timeline> Timeline::of_path(const Assembly& assembly, const PairStates& p
         return does_not_fit(i, "does not begin where '" + assembly[c].name + "' is then");
       poses[c.value] = move.frames.back().pose;
     }
-    timeline.add({move.label, *set, move.frames, 0, overlapping_pairs(pairs), {}});
+    timeline.add({move.label, *set, move.frames, 0, {}});
   }
   return timeline;
 }

@@ -17,7 +17,6 @@ struct TimelineMove {
   std::vector<ComponentId> components;  ///< The moving set.
   std::vector<Frame> frames;            ///< At least one.
   double start = 0;                     ///< [s]
-  PairList embedded_before;             ///< Pairs that may be embedded during the move.
   std::optional<bool> removed_after;    ///< Removed after the move; none: unchanged.
   /// [s]
   double duration() const { return frames.back().time; }
@@ -38,7 +37,7 @@ class Timeline {
   static Timeline of_entries(Span<const SessionEntry> entries);
   /// The timeline of a path. Errors: Unreadable if the path does not fit the assembly: unknown names, a set with
   /// different poses, a move that does not start at the poses of its components.
-  static Result<Timeline> of_path(const Assembly& assembly, const PairStates& pairs, const Path& path);
+  static Result<Timeline> of_path(const Assembly& assembly, const Path& path);
 
   /// In order.
   const std::vector<TimelineMove>& moves() const { return moves_; }

@@ -87,7 +87,7 @@ void CertificateSweeper::jump(Span<const Pose> poses) {
     std::fill(is_moving_.begin(), is_moving_.end(), false);
   }
   poses_.assign(poses.begin(), poses.end());
-  restore_allowances();
+  find_parted();
 }
 
 ScrewMotion CertificateSweeper::motion_between(const Pose& start, const Pose& end) const {

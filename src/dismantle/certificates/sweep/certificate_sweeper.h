@@ -136,8 +136,8 @@ class CertificateSweeper {
   double displaced(ComponentId a, ComponentId b) const {
     return guarded(a, b).displaced + (1 - kGhostLength) * tolerance_;
   }
-  /// Gives the pairs back their allowance that are not apart at the present poses by the ghosts that all have.
-  void restore_allowances();
+  /// Finds the pairs that have parted from the present poses.
+  void find_parted();
   /// The pairs of faces of two components at rest that are nearer than `reach` [mm], and possibly some more.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> near_faces(ComponentId moving, ComponentId fixed,
                                                                   const ScrewMotion& rest, double reach) const;

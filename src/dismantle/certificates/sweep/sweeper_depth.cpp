@@ -77,13 +77,14 @@ bool CertificateSweeper::apart(ComponentId a, ComponentId b) {
   return !inside(a, b, inverse(at_b) * at_a) && !inside(b, a, inverse(at_a) * at_b);
 }
 
-void CertificateSweeper::restore_allowances() {
+void CertificateSweeper::find_parted() {
   for (auto& [key, pair] : guarded_) {
-    if (!pair.parted) continue;
-    const Pose &a = poses_[key.first.value], &b = poses_[key.second.value];
-    const bool as_assembled = a == b;
-    if (as_assembled || !(sweep_linear({key.first, key.second, {}, a, b}, 0, 1).free || apart(key.first, key.second)))
-      set_parted(key.first, key.second, false);
+    const auto [first, second] = key;
+    const Pose &a = poses_[first.value], &b = poses_[second.value];
+    // A pair that has parted remains so where the ghost surfaces that all have do not meet.
+    const bool parted = !(a == b) && ((pair.parted && sweep_linear({first, second, {}, a, b}, 0, 1).free) ||
+                                      apart(first, second));
+    if (parted != pair.parted) set_parted(first, second, parted);
   }
 }
 

@@ -20,9 +20,7 @@ constexpr std::size_t kSweepEffort = 32, kFrontShare = 128;
 
 MotionValidator::MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
                                  double far, KeepGoing keep_going)
-    : assembly_(assembly),
-      pairs_(pairs),
-      options_(options),
+    : tolerance_(pairs.tolerance),
       far_(far),
       keep_going_(std::move(keep_going)),
       engine_(assembly, pairs, options),
@@ -37,30 +35,24 @@ void MotionValidator::stand(const ComponentSet& present) {
 MotionValidator::Trial MotionValidator::try_straight(Span<const ComponentId> set, const Vec3& direction, double way) {
   engine_.grab(set);
   moving_ = set[0];
-  embedded_ = engine_.overlapping_pairs();
   Trial trial = trial_of(go_straight(direction, way), set);
   put_back();
   return trial;
 }
 
-MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<const ComponentId> set) const {
+MotionValidator::Trial MotionValidator::trial_of(const StepResult& made, Span<const ComponentId> set) {
   Trial trial{made.reached, {}};
   const auto moves = [&](ComponentId c) { return std::find(set.begin(), set.end(), c) != set.end(); };
   const auto add = [&](ComponentId a, ComponentId b) {
     if (moves(a) != moves(b)) trial.against.emplace_back(moves(a) ? a : b, moves(a) ? b : a);
   };
   for (const BlockingPair& c : made.blocking_pairs) add(c.a, c.b);
-  // Embedded pairs that have parted and meet again are stopped by a rule that names no faces.
-  if (!trial.free && trial.against.empty() && some_parted())
-    for (const ComponentPair& pair : embedded_) add(pair.a, pair.b);
   std::sort(trial.against.begin(), trial.against.end());
   trial.against.erase(std::unique(trial.against.begin(), trial.against.end()), trial.against.end());
   return trial;
 }
 
 void MotionValidator::put_back() {
-  // Pairs that have parted would still count as parted back in the assembled pose.
-  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
   engine_.jump(poses_);
 }
 
@@ -87,7 +79,7 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
     StepResult made = step(target, ResponseKind::Touch);
     // A restart may go on where a sweep stopped: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * pairs_.tolerance)
+    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * tolerance_)
       return made;
   }
 }
@@ -100,11 +92,9 @@ const CertificateEngine& MotionValidator::hold(ComponentId component) {
 void MotionValidator::take(ComponentId component) {
   engine_.grab({&component, 1});
   moving_ = component;
-  embedded_ = engine_.overlapping_pairs();
 }
 
 void MotionValidator::go_back(const Pose& pose) {
-  if (some_parted()) engine_ = CertificateEngine(assembly_, pairs_, options_);
   std::vector<Pose> poses = poses_;
   poses[moving_.value] = pose;
   engine_.jump(poses);

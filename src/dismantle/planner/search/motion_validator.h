@@ -54,18 +54,14 @@ class MotionValidator {
   /// From the present pose.
   StepResult go_straight(const Vec3& direction, double way);
   StepResult go_part(const Pose& target, const Vec3& direction);
-  Trial trial_of(const StepResult& made, Span<const ComponentId> set) const;
-  bool some_parted() const { return engine_.overlapping_pairs().size() != embedded_.size(); }
+  static Trial trial_of(const StepResult& made, Span<const ComponentId> set);
 
-  const Assembly& assembly_;
-  const PairStates& pairs_;
-  CertificateOptions options_;
+  double tolerance_;
   double far_;
   KeepGoing keep_going_;
   CertificateEngine engine_;
   std::vector<Pose> poses_;
-  ComponentId moving_;                   ///< One of the moving set.
-  std::vector<ComponentPair> embedded_;  ///< Embedded pairs when it became the moving set.
+  ComponentId moving_;  ///< One of the moving set.
   std::size_t effort_ = 0;
 };
 
