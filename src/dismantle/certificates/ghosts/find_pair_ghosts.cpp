@@ -8,9 +8,6 @@
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/surface/ghost_surface.h"
 
-#include "dismantle/narrowphase/intersect_triangle_triangle.h"
-#include <cstdio>
-#include <cstdlib>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,14 +16,20 @@ namespace dismantle {
 
 namespace {
 
-/// Displacements as multiples of the depth plus the tolerance: the shorter ones are tried first.
+/// The largest displacements that are tried, the shorter ones first. The long ones are for corners between faces that
+/// are retracted; the faces themselves are not retracted further.
 constexpr double kFactors[] = {1, 1.1, kMaxGhostFactor};
+/// Faces are retracted by these multiples of what the samples need, as far as the depth of the pair lets them: between
+/// the samples more may be needed, and where one patch lies on two others less may be had.
+constexpr double kMargins[] = {1.6, 1};
 /// Ghosts are made to be apart by these shares of the tolerance, the larger ones if they can be.
 constexpr double kGaps[] = {0.62, 0.3, 0.1};
 /// Retractions below this share of the tolerance are within the play of the ghosts that components have.
 constexpr double kPlay = 0.3;
 /// Shallower pairs do not overlap, as a share of the tolerance.
 constexpr double kOverlap = 0.1;
+/// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
+constexpr std::size_t kMaxNear = 200000;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
 
@@ -36,6 +39,8 @@ double solid_angle(const Triangle& t, Vec3 p) {
   const double x = length(a), y = length(b), z = length(c);
   return 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
 }
+
+using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// One component's ghost against the other component, both in the assembled state.
 class GhostSide {
@@ -49,7 +54,7 @@ class GhostSide {
         retraction_(overlap_retraction(own_, other_, request.depth, request.tolerance)) {}
 
   const OverlapRetraction& retraction() const { return retraction_; }
-  bool usual_is_apart() const { return apart(*usual_); }
+  bool usual_is_apart() const { return apart(*usual_, near_faces(*usual_, 0)); }
 
   /// Displaced vertices with displacements of at most `max_length`; nothing if none are found.
   std::optional<std::vector<Vec3>> find(double max_length) const {
@@ -57,47 +62,31 @@ class GhostSide {
     const SolidTree& own = *own_.tree;
     std::vector<std::vector<Vec3>> starts;
     if (own.has_outside || own.inside_out || request_.depth > tolerance)
-      starts.push_back(retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
-                                          {retraction_.needed, usual, usual, max_length}));
+      for (const double margin : kMargins)
+        starts.push_back(retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
+                                            {needed(margin), usual, usual, max_length}));
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
-    for (std::vector<Vec3>& start : starts)
-      if (apart(make_displaced_tree(own, start, {}))) return std::move(start);
-    if (std::getenv("GDBG2")) {
-      double most = 0; int n = 0;
-      for (double x : retraction_.needed) most = std::max(most, x), n += x > 0;
-      std::fprintf(stderr, "  side %d: depth %.5g max_length %.5g turning %.5g needed %.5g (%d of %zu faces)\n", is_a_, request_.depth, max_length, retraction_.turning, most, n, retraction_.needed.size());
-      for (auto& start : starts) { dbg(make_displaced_tree(own, start, {}), start); }
-    }
     if (starts.empty()) starts.push_back(own.vertices);
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>> near = near_faces(2 * max_length);
+    const FacePairs near = near_faces(own, 2 * max_length);
+    for (std::vector<Vec3>& start : starts)
+      if (apart(displaced(start), near)) return std::move(start);
+    if (near.size() > kMaxNear) return std::nullopt;
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
-        auto moved = separating_ghost({own_.tree, other_.tree, start, near, max_length, share * tolerance, is_a_});
-        if (moved && apart(make_displaced_tree(own, *moved, {}))) return moved;
+        auto moved = separating_ghost({&own, other_.tree, start, near, max_length, share * tolerance, is_a_});
+        if (moved && apart(displaced(*moved), near)) return moved;
       }
     return std::nullopt;
   }
 
  private:
-  /// A front of a surface of this component and the other component.
-  CertificateFront front(const SolidTree& surface) const {
-    return {surface.tree, other_.tree->tree, surface.revolution.get(), other_.tree->revolution.get(), {}};
+  /// How far the faces are retracted [mm].
+  std::vector<double> needed(double margin) const {
+    std::vector<double> needed = retraction_.needed;
+    for (double& n : needed) n = std::max(n, std::min(margin * n, request_.depth));
+    return needed;
   }
 
-  void dbg(const SolidTree& surface, const std::vector<Vec3>& start) const {
-    double len = 0;
-    for (std::size_t i = 0; i < start.size(); ++i) len = std::max(len, length(start[i] - own_.tree->vertices[i]));
-    int n = 0, shown = 0;
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
-      for (std::uint32_t g = 0; g < other_.tree->faces.size() && surface.faces.size() * other_.tree->faces.size() < 100000000; ++g) {
-        const Triangle s = surface.triangle(f), t = other_.tree->triangle(g);
-        if (!intersect_triangle_triangle(s, t)) continue;
-        ++n;
-        if (shown++ < 4) { const Vec3 a = normalized(normal_unscaled(own_.tree->triangle(f))), b = normalized(normal_unscaled(t)); const Vec3 c = (t[0]+t[1]+t[2])/3, d=(s[0]+s[1]+s[2])/3;
-          std::fprintf(stderr, "    face %u n (%.2f %.2f %.2f) at (%.3f %.3f %.3f) needed %.4g displ %.4g %.4g %.4g; other %u n (%.2f %.2f %.2f) at (%.3f %.3f %.3f)\n", f, a.x,a.y,a.z, d.x,d.y,d.z, retraction_.needed[f], length(start[own_.tree->faces[f].v[0]] - own_.tree->vertices[own_.tree->faces[f].v[0]]), length(start[own_.tree->faces[f].v[1]] - own_.tree->vertices[own_.tree->faces[f].v[1]]), length(start[own_.tree->faces[f].v[2]] - own_.tree->vertices[own_.tree->faces[f].v[2]]), g, b.x,b.y,b.z, c.x,c.y,c.z); }
-      }
-    std::fprintf(stderr, "   start: longest %.5g, %d crossing pairs\n", len, n);
-  }
   bool overlaps() const { return request_.depth > kOverlap * request_.tolerance; }
 
   /// The vertices, those inside the other component moved out of it the shortest way.
@@ -131,29 +120,30 @@ class GhostSide {
            some(other_.tree->vertices, inside_surface);
   }
 
-  bool apart(const SolidTree& surface) const {
-    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
-    PairMotion motion = still.motion();
-    motion.max_blocked = 1;
-    const CertificateFront pairs = front(surface);
-    bool free = true;
-    const TrianglePairTest test = [&](const TrianglePairCandidate& candidate) {
-      const Vec3f hint = candidate.hint;
-      const TrianglePairResult found =
-          still.test(candidate.face_moving, candidate.face_fixed, {hint.x, hint.y, hint.z});
-      free &= found.free;
-      return TrianglePairVerdict{found.free, 0, false, {}};
-    };
-    return pairs.sweep_const(pairs.prepare_sweep(motion), request_.kernels, test).complete && free &&
-           !contained(surface);
+  /// This component's surface with other positions of its vertices, without a tree.
+  SolidTree displaced(std::vector<Vec3> vertices) const {
+    SolidTree surface;
+    surface.vertices = std::move(vertices);
+    surface.faces = own_.tree->faces;
+    return surface;
   }
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_faces(double reach) const {
-    const TrianglePairSweep still(*own_.tree, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
+  /// True if a surface and the other component do not meet.
+  /// @param near all pairs of their faces that may
+  bool apart(const SolidTree& surface, const FacePairs& near) const {
+    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
+    const auto meet = [&](const auto& faces) { return !still.test(faces.first, faces.second, {}).free; };
+    return std::none_of(near.begin(), near.end(), meet) && !contained(surface);
+  }
+
+  /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more.
+  FacePairs near_faces(const SolidTree& surface, double reach) const {
+    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
     PairMotion motion = still.motion();
     motion.allowed = -reach;
-    const CertificateFront pairs = front(*own_.tree);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> faces;
+    const CertificateFront pairs{
+        surface.tree, other_.tree->tree, surface.revolution.get(), other_.tree->revolution.get(), {}};
+    FacePairs faces;
     const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
       faces.emplace_back(candidate.face_moving, candidate.face_fixed);
       return TrianglePairVerdict{};

@@ -7,12 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <queue>
 #include <utility>
 
 namespace dismantle {
@@ -21,21 +18,15 @@ namespace {
 
 /// Depths below this share of the tolerance do not count as an overlap.
 constexpr double kNoticeable = 0.1;
-/// Parts of triangles are divided until they add less than this share of the tolerance to what is needed.
-constexpr double kFineness = 0.25;
-/// At most so many parts of each surface are looked at.
-constexpr std::size_t kMaxParts = 20000;
 /// A face is retracted for a point whose nearest way out is no further than 45 degrees from it.
 constexpr double kAlong = 0.7;
-/// Retractions are at most this multiple of the depth.
-constexpr double kMaxOfDepth = 1.5;
 /// Facets of cylinders have normals across the axis to within this sine.
 constexpr double kAcross = 0.1;
 /// Two axes are one if they are no further apart than so many tolerances where the components meet, and their
 /// directions differ by no more than this sine.
 constexpr double kSameAxis = 1, kSameDirection = 1e-4;
-/// The corners of a facet of a cylinder are this nearly on one circle, and its middle is no nearer to the axis than this
-/// share of the radius.
+/// The corners of a facet of a cylinder are this nearly on one circle, and its middle is no nearer to the axis than
+/// this share of the radius.
 constexpr double kOnCircle = 0.999, kSmallestFacet = 0.7;
 
 class Retraction {
@@ -50,8 +41,8 @@ class Retraction {
   OverlapRetraction find() {
     find_patches();
     if (depth_ > kNoticeable * tolerance_) {
-      look_inside(*own_.tree, other_, true);
-      look_inside(*other_.tree, own_, false);
+      look_at_samples(*own_.tree, other_, true);
+      look_at_samples(*other_.tree, own_, false);
     }
     allow_turning();
     for (std::uint32_t f = 0; f < needed_.size(); ++f) needed_[root(f)] = std::max(needed_[root(f)], needed_[f]);
@@ -60,51 +51,40 @@ class Retraction {
   }
 
  private:
-  /// A part of a face, and the largest depth that it may have.
-  struct Part {
-    double bound = 0;
-    Triangle corners;
-    std::uint32_t face = 0;
-  };
-  struct Shallower {
-    bool operator()(const Part& a, const Part& b) const { return a.bound < b.bound; }
-  };
-
-  /// Looks for points of a surface inside a component, the possibly deepest first.
-  void look_inside(const SolidTree& tree, const OverlapSide& inside, bool of_own) {
-    std::priority_queue<Part, std::vector<Part>, Shallower> parts;
-    for (std::uint32_t f = 0; f < tree.faces.size(); ++f) add({depth_, tree.triangle(f), f}, inside, of_own, parts);
-    for (std::size_t seen = 0; !parts.empty() && seen < kMaxParts; ++seen) {
-      const Part part = parts.top();
-      parts.pop();
-      const Triangle& t = part.corners;
-      const int k = longest_edge(t);
-      const Vec3 middle = (t[k] + t[(k + 1) % 3]) / 2;
-      add({part.bound, {{t[k], middle, t[(k + 2) % 3]}}, part.face}, inside, of_own, parts);
-      add({part.bound, {{middle, t[(k + 1) % 3], t[(k + 2) % 3]}}, part.face}, inside, of_own, parts);
+  /// Looks at the middles of the faces of a surface, and at the ends and middles of their edges in the component's box.
+  void look_at_samples(const SolidTree& tree, const OverlapSide& inside, bool of_own) {
+    const Aabb& box = inside.shape->surface().bounds();
+    for (std::uint32_t f = 0; f < tree.faces.size(); ++f) {
+      const Triangle t = tree.triangle(f);
+      look_at((t[0] + t[1] + t[2]) / 3, f, inside, of_own);
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 from = t[i], edge = t[(i + 1) % 3] - t[i];
+        const auto [begin, end] = part_in_box(from, edge, box);
+        if (begin > end) continue;
+        for (const double at : {begin, (begin + end) / 2, end}) look_at(from + at * edge, f, inside, of_own);
+      }
     }
   }
 
-  template <class Parts>
-  void add(Part part, const OverlapSide& inside, bool of_own, Parts& parts) {
-    const SurfaceTree& surface = inside.shape->surface();
-    const Triangle& t = part.corners;
-    const Vec3 center = (t[0] + t[1] + t[2]) / 3;
-    const MeshDistance nearest = surface.distance(center);
-    double radius = 0, from_face = 0;
-    for (int i = 0; i < 3; ++i) {
-      radius = std::max(radius, length(t[i] - center));
-      from_face = std::max(from_face, surface.distance_to_face(t[i], nearest.face));
+  /// The part of a segment in a box, as shares of it; empty if the first is larger.
+  static std::pair<double, double> part_in_box(Vec3 from, Vec3 edge, const Aabb& box) {
+    double begin = 0, end = 1;
+    for (int k = 0; k < 3; ++k) {
+      if (edge[k] == 0) {
+        if (from[k] < box.lower[k] || from[k] > box.upper[k]) return {1, 0};
+        continue;
+      }
+      const double a = (box.lower[k] - from[k]) / edge[k], b = (box.upper[k] - from[k]) / edge[k];
+      begin = std::max(begin, std::min(a, b));
+      end = std::min(end, std::max(a, b));
     }
-    const bool is_inside = inside.shape->winding().inside(center);
-    if (nearest.distance > radius && !is_inside) return;
-    part.bound = std::min({part.bound, from_face, nearest.distance + radius});
-    const double enough = kFineness * tolerance_;
-    if (part.bound < enough) return;
-    const std::uint32_t patch = root(of_own ? part.face : nearest.face);
-    if (is_inside) need(part.face, center, nearest, of_own, inside);
-    // Nothing of it needs more than the patch does already.
-    if (part.bound > needed_[patch] + enough && radius > enough) parts.push(part);
+    return {begin, end};
+  }
+
+  void look_at(Vec3 point, std::uint32_t face, const OverlapSide& inside, bool of_own) {
+    const MeshDistance nearest = inside.shape->surface().distance(point);
+    if (nearest.distance <= needed_[root(of_own ? face : nearest.face)]) return;
+    if (nearest.distance <= depth_ && inside.shape->winding().inside(point)) need(face, point, nearest, of_own, inside);
   }
 
   void need(std::uint32_t face, Vec3 point, const MeshDistance& nearest, bool of_own, const OverlapSide& inside) {
@@ -116,21 +96,12 @@ class Retraction {
     const double along = (of_own ? -1 : 1) * dot(normals_[retracted], out);
     if (along < kAlong) return;
     double& needed = needed_[root(retracted)];
-    needed = std::max(needed, std::min(nearest.distance / along, kMaxOfDepth * depth_));
-  }
-
-  static int longest_edge(const Triangle& t) {
-    int longest = 0;
-    for (int i = 1; i < 3; ++i)
-      if (length_squared(t[(i + 1) % 3] - t[i]) > length_squared(t[(longest + 1) % 3] - t[longest])) longest = i;
-    return longest;
+    needed = std::max(needed, nearest.distance / along);
   }
 
   /// Retracts the facets of cylinders about a common axis until no corner of one meets the middle of the other's.
   void allow_turning() {
-    if (std::getenv("GDBG2")) std::fprintf(stderr, "rev %d %d\n", own_.tree->revolution ? (int)own_.tree->revolution->axes().size() : -1, other_.tree->revolution ? (int)other_.tree->revolution->axes().size() : -1);
     if (!own_.tree->revolution || !other_.tree->revolution) return;
-    if (std::getenv("GDBG2")) { for (auto& x : own_.tree->revolution->axes()) std::fprintf(stderr, "  axis %g %g %g dir %g %g %g turn %g\n", x.point.x, x.point.y, x.point.z, x.direction.x, x.direction.y, x.direction.z, x.turn); }
     for (const RevolutionAxis& mine : own_.tree->revolution->axes())
       for (const RevolutionAxis& theirs : other_.tree->revolution->axes())
         if (same(mine, theirs)) allow_turning(AxisFrame(mine.point, mine.direction));
@@ -184,7 +155,6 @@ class Retraction {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
         const double overlap = shaft.farthest - bore.nearest;
-        if (std::getenv("GDBG2")) std::fprintf(stderr, "  coaxial %g %g: overlap %g\n", mine_radius, their_radius, overlap);
         const double sagittas = (shaft.farthest - shaft.nearest) + (bore.farthest - bore.nearest);
         if (overlap <= 0 || overlap > depth_ + sagittas + tolerance_) continue;
         turning_ = std::max(turning_, overlap);

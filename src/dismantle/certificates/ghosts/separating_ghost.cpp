@@ -2,6 +2,7 @@
 #include "dismantle/certificates/ghosts/separating_ghost.h"
 
 #include "dismantle/certificates/sweep/triangle_pair_sweep_kernel.h"
+#include "dismantle/geometry/aabb.h"
 #include "dismantle/math/least_vector.h"
 #include "dismantle/surface/ghost_surface.h"
 
@@ -14,6 +15,8 @@ namespace {
 
 /// Rounds of finding faces that are not apart and displacing their corners.
 constexpr int kRounds = 20;
+/// It is given up after so many rounds in which no fewer faces were found than in one before.
+constexpr int kStalledRounds = 5;
 /// Faces count as apart at this share of the gap that is aimed at.
 constexpr double kEnough = 0.5;
 /// Faces count as touching up to this share of the gap.
@@ -25,13 +28,16 @@ class Displacing {
       : request_(request),
         first_(first_at_position(request.own->vertices)),
         bounds_(request.own->vertices.size()),
+        is_new_(request.own->faces.size(), true),
         displaced_(request.start.begin(), request.start.end()) {}
 
-  /// Adds the bounds of all pairs of faces that are not apart. @return true if there were any
-  bool add_bounds() {
+  /// Adds the bounds of all pairs of faces that are not apart. @return the number of such pairs
+  std::size_t add_bounds() {
     changed_.clear();
-    for (const auto& [face_own, face_other] : request_.near) add_bounds(face_own, face_other);
-    return !changed_.empty();
+    std::size_t found = 0;
+    for (const auto& [face_own, face_other] : request_.near)
+      if (is_new_[face_own] && !boxes_are_apart(face_own, face_other)) found += add_bounds(face_own, face_other);
+    return found;
   }
 
   /// Displaces the vertices whose bounds changed. @return false if one would have to go too far
@@ -43,8 +49,14 @@ class Displacing {
       if (!least || length(*least) > request_.max_length) return false;
       displaced_[v] = request_.own->vertices[v] + *least;
     }
+    std::vector<bool> is_changed(displaced_.size());
+    for (const std::uint32_t v : changed_) is_changed[v] = true;
     for (std::size_t v = 0; v < displaced_.size(); ++v)
-      if (std::binary_search(changed_.begin(), changed_.end(), first_[v])) displaced_[v] = displaced_[first_[v]];
+      if (is_changed[first_[v]]) displaced_[v] = displaced_[first_[v]];
+    for (std::size_t f = 0; f < is_new_.size(); ++f) {
+      const Face& face = request_.own->faces[f];
+      is_new_[f] = is_changed[first_[face.v[0]]] || is_changed[first_[face.v[1]]] || is_changed[first_[face.v[2]]];
+    }
     return true;
   }
 
@@ -82,11 +94,20 @@ class Displacing {
     return nearest - std::max({dot(axis, own[0]), dot(axis, own[1]), dot(axis, own[2])});
   }
 
-  void add_bounds(std::uint32_t face_own, std::uint32_t face_other) {
+  /// True if the boxes of two faces tell that they are apart.
+  bool boxes_are_apart(std::uint32_t face_own, std::uint32_t face_other) const {
+    Aabb box, other;
+    for (const Vec3& p : displaced(face_own).corner) box.extend(p);
+    for (const Vec3& p : request_.other->triangle(face_other).corner) other.extend(p);
+    const Vec3 gap = max(other.lower - box.upper, box.lower - other.upper);
+    return std::max({gap.x, gap.y, gap.z}) >= request_.gap;
+  }
+
+  /// @return true if the pair is not apart
+  bool add_bounds(std::uint32_t face_own, std::uint32_t face_other) {
     const Triangle own = displaced(face_own), other = request_.other->triangle(face_other);
     const Vec3 axis = axis_of(face_own, own, other);
-    if (length_squared(axis) == 0) return;
-    if (gap_along(axis, own, other) >= kEnough * request_.gap) return;
+    if (length_squared(axis) == 0 || gap_along(axis, own, other) >= kEnough * request_.gap) return false;
     const double nearest = std::min({dot(axis, other[0]), dot(axis, other[1]), dot(axis, other[2])});
     const Triangle plain = request_.own->triangle(face_own);
     for (int i = 0; i < 3; ++i) {
@@ -100,11 +121,13 @@ class Displacing {
       bounds_[v].push_back({-axis, distance});
       changed_.push_back(v);
     }
+    return true;
   }
 
   const GhostRequest& request_;
   std::vector<std::uint32_t> first_;
   std::vector<std::vector<VectorBound>> bounds_;  // of the first vertex at each position
+  std::vector<bool> is_new_;                      // for each face, if a corner was displaced since it was looked at
   std::vector<Vec3> displaced_;
   std::vector<std::uint32_t> changed_;
 };
@@ -113,9 +136,13 @@ class Displacing {
 
 std::optional<std::vector<Vec3>> separating_ghost(const GhostRequest& request) {
   Displacing displacing(request);
-  for (int round = 0; round < kRounds; ++round) {
-    if (!displacing.add_bounds()) return displacing.take();
+  std::size_t fewest = request.near.size() + 1;
+  for (int round = 0, stalled = 0; round < kRounds && stalled < kStalledRounds; ++round) {
+    const std::size_t found = displacing.add_bounds();
+    if (found == 0) return displacing.take();
     if (!displacing.displace()) return std::nullopt;
+    stalled = found < fewest ? 0 : stalled + 1;
+    fewest = std::min(fewest, found);
   }
   return std::nullopt;
 }

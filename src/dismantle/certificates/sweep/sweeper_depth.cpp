@@ -82,8 +82,8 @@ void CertificateSweeper::find_parted() {
     const auto [first, second] = key;
     const Pose &a = poses_[first.value], &b = poses_[second.value];
     // A pair that has parted remains so where the ghost surfaces that all have do not meet.
-    const bool parted = !(a == b) && ((pair.parted && sweep_linear({first, second, {}, a, b}, 0, 1).free) ||
-                                      apart(first, second));
+    const bool parted =
+        !(a == b) && ((pair.parted && sweep_linear({first, second, {}, a, b}, 0, 1).free) || apart(first, second));
     if (parted != pair.parted) set_parted(first, second, parted);
   }
 }

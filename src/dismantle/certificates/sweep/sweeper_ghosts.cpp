@@ -5,8 +5,6 @@
 #include "dismantle/certificates/sweep/sweep_tasks.h"
 #include "dismantle/surface/solid_distance.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -58,10 +56,9 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
         guarded_[{a, b}] = {PairGuard::None, kUnlimited};
         continue;
       }
-      const bool overlap = known && known->state == PairState::Overlapping;
-      if (!overlap && bounds_distance({&solid(a), {}}, {&solid(b), {}}) > tolerance_) continue;
-      touching.push_back({a, b, known ? known->depth : 0, {}});
-      if (known && known->allowed_depth > tolerance_) guarded_[{a, b}].allowed = known->allowed_depth;
+      if (!known || known->state == PairState::Near) continue;
+      touching.push_back({a, b, known->depth, {}});
+      if (known->allowed_depth > tolerance_) guarded_[{a, b}].allowed = known->allowed_depth;
     }
   Shapes shapes(*assembly_);
   options_.executor.for_each_heavy(touching.size(), [&](std::size_t i) {
@@ -76,7 +73,6 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
                                 kernels_});
   });
   for (const Touching& t : touching) {
-    if (std::getenv("GDBG")) std::fprintf(stderr, "%s / %s depth %.5g: %s length %.5g\n", (*assembly_)[t.a].name.c_str(), (*assembly_)[t.b].name.c_str(), t.depth, !t.found ? "NONE" : t.found->max_length == 0 ? "usual" : "own", t.found ? t.found->max_length : 0);
     if (t.found && t.found->max_length == 0) continue;
     GuardedPair& pair = guarded_[{t.a, t.b}];
     if (t.found) {
