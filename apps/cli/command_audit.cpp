@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 
-#include "dismantle/audit/audit_depth.h"
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/documents/path_file.h"
 
@@ -21,7 +20,6 @@ struct AuditCommand {
   CommonOptions common;
   std::string path_file;
   std::size_t list = 10;
-  bool solids = false;
 };
 
 std::size_t frame_count(const Path& path) {
@@ -32,130 +30,94 @@ std::size_t frame_count(const Path& path) {
 
 Json to_json(const AuditViolation& v, const Assembly& a) {
   const auto name = [&a](ComponentId id) { return id.valid() ? Json(a[id].name) : Json(nullptr); };
-  return {{"kind", name_of(v.kind)}, {"move", v.move == AuditViolation::kAssembledState ? Json(nullptr) : Json(v.move)},
-          {"frame", v.frame},        {"t", v.time},
-          {"a", name(v.a)},          {"b", name(v.b)},
-          {"depth_mm", v.depth},     {"allowed_mm", v.allowed},
-          {"message", v.message}};
+  Json json = {{"kind", name_of(v.kind)},
+               {"move", v.move == AuditViolation::kAssembledState ? Json(nullptr) : Json(v.move)},
+               {"frame", v.frame},
+               {"t", v.time},
+               {"a", name(v.a)},
+               {"b", name(v.b)},
+               {"message", v.message}};
+  if (v.kind == AuditViolationKind::PathInconsistent) return json;
+  json["of"] = name(v.point_of_a ? v.a : v.b);
+  json["point"] = {v.point.x, v.point.y, v.point.z};
+  json["depth_mm"] = v.depth;
+  json["allowed_mm"] = v.allowed;
+  json["greatest_mm"] = v.greatest;
+  return json;
+}
+
+Json to_json(const AuditPair& pair, const Assembly& a) {
+  const bool checked = pair.state != PathPairState::Free;
+  return {{"a", a[pair.a].name},
+          {"b", a[pair.b].name},
+          {"state", name_of(pair.state)},
+          {"checked", checked ? "always" : "once apart"},
+          {"initial_depth_mm", checked ? Json(pair.initial_depth) : Json(nullptr)},
+          {"allowed_mm", checked ? Json(pair.allowed) : Json(nullptr)},
+          {"parted", pair.parted}};
 }
 
 Json to_json(const AuditReport& report, const Assembly& a, const Path& path) {
-  Json violations = Json::array(), pairs = Json::array();
+  Json pairs = Json::array(), violations = Json::array();
+  for (const AuditPair& pair : report.pairs) pairs.push_back(to_json(pair, a));
   for (const AuditViolation& v : report.violations) violations.push_back(to_json(v, a));
-  for (const AuditPairDepth& pair : report.depths)
-    pairs.push_back(
-        {{"a", a[pair.a].name}, {"b", a[pair.b].name}, {"deepest_mm", pair.deepest}, {"allowed_mm", pair.allowed}});
   return {
       {"format", "dismantle-audit"},
-      {"version", 1},
+      {"version", 2},
       {"assembly", {{"file", a.source_file}, {"components", a.components.size()}, {"triangles", triangle_count(a)}}},
       {"moves", path.moves.size()},
       {"frames", frame_count(path)},
       {"holds", report.holds()},
+      {"unchecked_pairs", report.count(PathPairState::Free)},
+      {"declared_pairs", report.count(PathPairState::Declared)},
       {"tolerance_mm", report.tolerance},
-      {"resolution_mm", report.resolution},
-      {"samples", report.samples},
+      {"slack_mm", report.slack},
+      {"sheets", report.sheets},
+      {"pieces", report.pieces},
       {"seconds", report.seconds},
       {"violations", violations},
       {"pairs", pairs}};
 }
 
+/// Lists the pairs in a state that is not the audit's own finding.
+void print_pairs(const AuditReport& report, const Assembly& a, PathPairState state, std::size_t list) {
+  const std::size_t count = report.count(state);
+  if (count == 0) return;
+  const char* pairs = count == 1 ? "pair" : "pairs";
+  if (state == PathPairState::Free)
+    fmt::print("{} {} unchecked until they have been apart:\n", count, pairs);
+  else
+    fmt::print("{} {} declared by the user to get deeper:\n", count, pairs);
+  std::size_t printed = 0;
+  for (const AuditPair& pair : report.pairs) {
+    if (pair.state != state || printed == list) continue;
+    ++printed;
+    const std::string allowed =
+        state == PathPairState::Free ? "" : fmt::format(", {:.4g} mm allowed", pair.allowed);
+    fmt::print("  \"{}\" and \"{}\"{}{}\n", a[pair.a].name, a[pair.b].name, allowed,
+               pair.parted ? ", apart since" : "");
+  }
+  if (count > list) fmt::print("  ... and {} more\n", count - list);
+}
+
 void print_text(const AuditReport& report, const Assembly& a, const Path& path, std::size_t list) {
-  fmt::print("{} moves, {} frames; tolerance {:.4g} mm; {} samples in {:.2f} s\n", path.moves.size(), frame_count(path),
-             report.tolerance, report.samples, report.seconds);
-  const auto deepest = std::max_element(
-      report.depths.begin(), report.depths.end(), [](const AuditPairDepth& p, const AuditPairDepth& q) {
-        return p.deepest / std::max(p.allowed, 1e-300) < q.deepest / std::max(q.allowed, 1e-300);
-      });
-  if (deepest != report.depths.end())
-    fmt::print("deepest relative to its allowance: \"{}\" and \"{}\", {:.4g} mm (allowed: {:.4g} mm)\n",
-               a[deepest->a].name, a[deepest->b].name, deepest->deepest, deepest->allowed);
-  if (report.holds()) {
-    fmt::print("the guarantee holds\n");
+  fmt::print("{} moves, {} frames; tolerance {:.4g} mm, slack {:.4g} mm; {} pieces in {:.2f} s\n", path.moves.size(),
+             frame_count(path), report.tolerance, report.slack, report.pieces, report.seconds);
+  if (report.sheets > 0) fmt::print("{} of {} components bound no volume\n", report.sheets, a.components.size());
+  print_pairs(report, a, PathPairState::Declared, list);
+  print_pairs(report, a, PathPairState::Free, list);
+  const std::size_t count = report.violations.size(), unchecked = report.count(PathPairState::Free);
+  if (count == 0) {
+    fmt::print("the guarantee holds{}\n", unchecked > 0 ? ", except for the unchecked pairs" : "");
     return;
   }
-  fmt::print("the guarantee does not hold: {} violation{}\n", report.violations.size(),
-             report.violations.size() == 1 ? "" : "s");
-  for (std::size_t i = 0; i < std::min(list, report.violations.size()); ++i) {
+  fmt::print("the guarantee does not hold: {} violation{}\n", count, count == 1 ? "" : "s");
+  for (std::size_t i = 0; i < std::min(list, count); ++i) {
     const AuditViolation& v = report.violations[i];
     const bool in_move = v.kind == AuditViolationKind::PathInconsistent && v.move != AuditViolation::kAssembledState;
     fmt::print("  {}: {}{}\n", name_of(v.kind), in_move ? fmt::format("move {}: ", v.move + 1) : "", v.message);
   }
-  if (report.violations.size() > list) fmt::print("  ... and {} more\n", report.violations.size() - list);
-}
-
-Json to_json(Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-
-Json to_json(const DepthAuditPair& pair, const Assembly& a) {
-  Json json = {{"a", a[pair.a].name},        {"b", a[pair.b].name},   {"initial_depth_mm", pair.initial_depth},
-               {"allowed_mm", pair.allowed}, {"parted", pair.parted}, {"violation", nullptr}};
-  if (!pair.violated) return json;
-  const DepthViolation& v = pair.violation;
-  json["violation"] = {{"rule", name_of(v.rule)},
-                       {"move", v.move},
-                       {"frame", v.frame},
-                       {"t", v.time},
-                       {"of", a[v.point_of_a ? pair.a : pair.b].name},
-                       {"point", to_json(v.point)},
-                       {"depth_mm", v.depth},
-                       {"allowed_mm", v.allowed},
-                       {"greatest_mm", v.greatest},
-                       {"message", v.message}};
-  return json;
-}
-
-Json to_json(const DepthAudit& audit, const Assembly& a, const Path& path) {
-  Json pairs = Json::array(), inconsistencies = Json::array();
-  for (const DepthAuditPair& pair : audit.pairs) pairs.push_back(to_json(pair, a));
-  for (const AuditViolation& v : audit.inconsistencies) inconsistencies.push_back(to_json(v, a));
-  return {
-      {"format", "dismantle-audit-solids"},
-      {"version", 1},
-      {"assembly", {{"file", a.source_file}, {"components", a.components.size()}, {"triangles", triangle_count(a)}}},
-      {"moves", path.moves.size()},
-      {"frames", frame_count(path)},
-      {"holds", audit.holds()},
-      {"tolerance_mm", audit.tolerance},
-      {"slack_mm", audit.slack},
-      {"sheets", audit.sheets},
-      {"pieces", audit.pieces},
-      {"seconds", audit.seconds},
-      {"inconsistencies", inconsistencies},
-      {"pairs", pairs}};
-}
-
-void print_text(const DepthAudit& audit, const Assembly& a, const Path& path, std::size_t list) {
-  fmt::print("{} moves, {} frames; tolerance {:.4g} mm, slack {:.4g} mm; {} pieces in {:.2f} s\n", path.moves.size(),
-             frame_count(path), audit.tolerance, audit.slack, audit.pieces, audit.seconds);
-  if (audit.sheets > 0) fmt::print("{} of {} components bound no volume\n", audit.sheets, a.components.size());
-  const std::size_t count = audit.violation_count() + audit.inconsistencies.size();
-  if (count == 0) {
-    fmt::print("the guarantee holds\n");
-    return;
-  }
-  fmt::print("the guarantee does not hold: {} violation{}\n", count, count == 1 ? "" : "s");
-  std::vector<std::string> lines;
-  for (const AuditViolation& v : audit.inconsistencies)
-    lines.push_back(fmt::format("{}: {}", name_of(v.kind), v.message));
-  for (const DepthAuditPair& pair : audit.pairs)
-    if (pair.violated) lines.push_back(fmt::format("{}: {}", name_of(pair.violation.rule), pair.violation.message));
-  for (std::size_t i = 0; i < std::min(list, lines.size()); ++i) fmt::print("  {}\n", lines[i]);
-  if (lines.size() > list) fmt::print("  ... and {} more\n", lines.size() - list);
-}
-
-/// Prints an audit, of either kind.
-template <class Audit>
-ExitCode print(const Audit& audit, const AuditCommand& command, const Assembly& assembly, const Path& path) {
-  if (!audit.complete)
-    return report({ErrorKind::Failed, "the audit was not finished (cancelled); run the command again"});
-  if (command.common.json) {
-    fmt::print("{}\n", to_json(audit, assembly, path).dump(2, ' ', false, Json::error_handler_t::replace));
-  } else {
-    print_text(audit, assembly, path, command.list);
-  }
-  return audit.holds() ? ExitCode::Done : ExitCode::No;
+  if (count > list) fmt::print("  ... and {} more\n", count - list);
 }
 
 ExitCode run_audit(const AuditCommand& command) {
@@ -166,27 +128,32 @@ ExitCode run_audit(const AuditCommand& command) {
   if (!assembly) return report(assembly.error());
   note_other_version(*path, *assembly);
 
-  const ProgressCallback progress = progress_printer(command.common);
-  if (command.solids) return print(audit_depth(*assembly, *path, {executor, progress}), command, *assembly, *path);
-  return print(audit_path(*assembly, *path, {executor, progress}), command, *assembly, *path);
+  const AuditReport audit = audit_path(*assembly, *path, {executor, progress_printer(command.common)});
+  if (!audit.complete)
+    return report({ErrorKind::Failed, "the audit was not finished (cancelled); run the command again"});
+  if (command.common.json) {
+    fmt::print("{}\n", to_json(audit, *assembly, *path).dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(audit, *assembly, *path, command.list);
+  }
+  return audit.holds() ? ExitCode::Done : ExitCode::No;
 }
 
 }  // namespace
 
 void add_audit_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "audit", "Verify that a path holds the guarantee: components never penetrate more than allowed");
+      "audit", "Verify that a path holds the guarantee: nothing gets deeper, nothing passes through");
   auto options = std::make_shared<AuditCommand>();
   add_assembly_argument(*command, options->common);
   command->add_option("PATH", options->path_file, "Path written by move or plan (*.path.json)")->required();
   command->add_option("--list", options->list, "Number of violations to list (--json lists all)")
       ->type_name("N")
       ->capture_default_str();
-  command->add_flag("--solids", options->solids,
-                    "Check the depth of solids: no point of a surface is deeper inside another component than allowed");
   add_common_options(*command, options->common);
   command->footer(
-      "Exit code 0: the guarantee holds; 1: it does not. Tolerance and allowances are those of the path;\n"
+      "Exit code 0: the guarantee holds; 1: it does not. Pairs that the path calls free (--pairs paper, method\n"
+      "streams) are not checked until they have been apart, and are listed. The tolerance is that of the path;\n"
       "--deflection and --simplify must be the same as when the path was made.");
   command->callback([options, &exit_code] { exit_code = run_audit(*options); });
 }

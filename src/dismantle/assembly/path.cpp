@@ -5,6 +5,18 @@
 
 namespace dismantle {
 
+std::string_view name_of(PathPairState state) {
+  switch (state) {
+    case PathPairState::Overlapping:
+      return "overlapping";
+    case PathPairState::Declared:
+      return "declared";
+    case PathPairState::Free:
+      return "free";
+  }
+  return "";
+}
+
 std::vector<Frame> reversed(std::vector<Frame> frames) {
   std::reverse(frames.begin(), frames.end());
   const double duration = frames.empty() ? 0 : frames.front().time;

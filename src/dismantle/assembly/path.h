@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/assembly/pair_state.h"
 #include "dismantle/math/rigid_transform.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dismantle {
@@ -24,23 +24,40 @@ struct Move {
   friend bool operator==(const Move&, const Move&) = default;
 };
 
-/// A pair that is allowed more penetration than the tolerance.
+/// Why a pair of a path may be deeper than the tolerance.
+enum class PathPairState {
+  Overlapping,  ///< The components overlap in the assembled state.
+  Declared,     ///< The user allowed it: a flexible part.
+  Free,         ///< Not checked until the components have been apart (ClassifyRule::Paper, method `streams`).
+};
+
+/// The name of a state in path files: "overlapping", "declared" or "free".
+std::string_view name_of(PathPairState state);
+
+/// A pair that may be deeper in each other than the tolerance until it has been apart.
 struct PathPair {
   ///@{ Names of the components.
   std::string a, b;
   ///@}
-  PairState state = PairState::Overlapping;  ///< Overlapping or Free.
-  double allowed_penetration = 0;    ///< Depth allowed at any time [mm]; infinite for Free, until the pair parts.
+  PathPairState state = PathPairState::Overlapping;  ///< Why it may be.
+  double initial_depth = 0;  ///< Depth of the solids in the assembled state, an upper bound [mm].
+  double allowed_depth = 0;  ///< Depth allowed until the two have been apart [mm]; infinite for Free.
   friend bool operator==(const PathPair&, const PathPair&) = default;
 };
 
+/// The version of the path files that are written.
+inline constexpr int kPathVersion = 2;
+
 /// The moves that a session recorded or a planner found: docs/formats.md, `*.path.json`.
 struct Path {
+  /// Version of the file. In version 1, which measured depth between triangles, `pairs` is empty: it does not tell which
+  /// components overlap.
+  int version = kPathVersion;
   std::string assembly_file;            ///< Assembly::source_file.
   std::string assembly_sha256;          ///< Assembly::source_sha256.
   std::vector<std::string> components;  ///< Names of all components of the assembly.
   double tolerance = 0;                 ///< Depth allowed for all pairs that are not listed [mm].
-  std::vector<PathPair> pairs;          ///< Pairs with another allowance.
+  std::vector<PathPair> pairs;          ///< Pairs that may be deeper than that.
   std::vector<Move> moves;              ///< In order.
   std::vector<std::string> removed;     ///< Names of the components that are removed in the end.
   friend bool operator==(const Path&, const Path&) = default;

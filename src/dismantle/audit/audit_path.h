@@ -9,12 +9,11 @@
 
 namespace dismantle {
 
-/// The resolution of an audit relative to the tolerance: between two samples that no certificate covers, a pair moves
-/// by at most the resolution.
-inline constexpr double kAuditResolution = 0.1;
+/// The slack of an audit relative to the tolerance.
+inline constexpr double kAuditSlack = 0.1;
 
-/// The smallest tolerance from which the resolution is computed, relative to the assembly's diagonal: with a tolerance
-/// of 0 the distance of samples would be 0.
+/// The smallest tolerance from which the slack is computed, relative to the assembly's diagonal: with a tolerance of 0
+/// there would be none.
 inline constexpr double kAuditMinTolerance = 1e-7;
 
 /// Options of audit_path().
@@ -23,16 +22,22 @@ struct AuditOptions {
   ProgressCallback progress;  ///< Returning false cancels: the report is not complete then.
 };
 
-/// Checks the guarantee of docs/formats.md, "Path", for a path of an assembly. It shares no code with what makes paths:
-/// every screw motion is sampled densely in time, with steps that certified separating axes lengthen
-/// (docs/design/0002-audit.md). The allowance of a pair is the tolerance or its own.
-///   1. If the report holds, the depth of two triangles of different components was never above their allowance plus
-///   half
-///      the resolution, and no vertex was deeper inside a closed component than twice the allowance plus that.
-///   2. A violation that is reported occurred at a sample, beyond rounding.
-///   3. At the frames and in the assembled state the decision is exact up to rounding.
-/// An embedded pair parts at the first frame at which all its triangles are further apart than the resolution and
-/// neither component is inside the other; from then on it is an ordinary pair.
+/// Checks by the definition that nothing in a path gets deeper than allowed (docs/guarantee.md,
+/// docs/design/0011-audit-of-solids.md). The depth of a point of a surface inside another component is its distance
+/// from that component's surface; inside is where the winding number is more than 1/2 in magnitude. The allowance of a
+/// pair is the tolerance; for a pair that is deeper than that in the assembled state, that depth plus the tolerance,
+/// or what the path allows if that is less, until it has been apart at a frame. The audit computes the depths in the
+/// assembled state itself: a path that claims or allows more than they justify is inconsistent, and so is one that does
+/// not list a pair that overlaps. `Declared` pairs are allowed what the path declares, `Free` pairs anything, until
+/// they have been apart; the report lists them.
+///   1. If the report holds, no point of any surface was deeper inside another component than the allowance plus the
+///      slack, at any instant of any screw.
+///   2. A depth that is reported as a violation was found at a point and an instant, more than half the slack above the
+///      allowance.
+///   3. Components that bound no volume (sheets) have no inside. Where one component of a pair is a sheet, or thinner
+///      than four tolerances, points of both surfaces are followed in time: none goes through the other surface by more
+///      than the allowance plus the slack (AuditViolationKind::Crossing). What passes between these points is not seen.
+/// It shares no collision code with what makes paths.
 AuditReport audit_path(const Assembly& assembly, const Path& path, const AuditOptions& options = {});
 
 }  // namespace dismantle

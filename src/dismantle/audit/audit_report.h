@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/path.h"
 #include "dismantle/core/id.h"
+#include "dismantle/math/vec3.h"
 
 #include <cstddef>
 #include <string>
@@ -10,20 +12,18 @@
 
 namespace dismantle {
 
-/// The part of the guarantee (docs/formats.md, "Path") that a path violates.
+/// The part of the guarantee (docs/guarantee.md) that a path violates.
 enum class AuditViolationKind {
-  PathInconsistent,    ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, ...
-  TrianglesIntersect,  ///< The depth of two triangles is above the pair's allowance.
-  VertexInside,        ///< A vertex is deeper than twice the allowance inside a closed component.
-  EmbeddedMetAgain,    ///< An embedded pair parted and then violated one of the two rules above.
+  PathInconsistent,  ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, an allowance
+                     ///< above the depth at the start, ...
+  Depth,             ///< A point of one surface is deeper inside the other component than allowed.
+  Crossing,          ///< A point of one surface went through the other by more than allowed; one is a sheet, or thin.
 };
 
-/// The name of a kind in `dismantle audit --json`: "path-inconsistent", "triangles-intersect", "vertex-inside" or
-/// "embedded-met-again".
+/// The name of a kind in `dismantle audit --json`: "path-inconsistent", "depth" or "crossing".
 std::string_view name_of(AuditViolationKind kind);
 
-/// The first violation of one rule by one pair in one move, and the largest depth in that screw motion. The rest of the
-/// move is not checked for the pair.
+/// A contradiction in the file, or the first violation of a rule by a pair.
 struct AuditViolation {
   /// The value of `move` before the first one.
   static constexpr std::size_t kAssembledState = static_cast<std::size_t>(-1);
@@ -31,38 +31,48 @@ struct AuditViolation {
   AuditViolationKind kind = AuditViolationKind::PathInconsistent;  ///< The rule.
   std::size_t move = kAssembledState;                              ///< Index of the move.
   std::size_t frame = 0;  ///< Index of the frame at which the screw motion starts.
-  double time = 0;        ///< Time of the first sample that violates the rule [s of the move].
-  ///@{ The pair, a < b; invalid for PathInconsistent.
+  double time = 0;        ///< Time of a point that violates the rule in that motion [s of the move].
+  ///@{ The pair, a < b; invalid where the file does not contradict a pair.
   ComponentId a, b;
   ///@}
-  double depth = 0;     ///< Largest depth at a sample of the screw motion [mm].
-  double allowed = 0;   ///< The depth that the rule allows [mm].
-  std::string message;  ///< All of it in one sentence.
+  double depth = 0;         ///< Depth of the point, or how far it went through the surface [mm].
+  double allowed = 0;       ///< The depth that is allowed at that time [mm].
+  Vec3 point;               ///< Where it is [mm, assembly frame].
+  bool point_of_a = false;  ///< It is a point of the surface of a; else of b.
+  double greatest = 0;      ///< The greatest depth that was found over the path [mm].
+  std::string message;      ///< All of it in one sentence.
   friend bool operator==(const AuditViolation&, const AuditViolation&) = default;
 };
 
-/// The largest depth of the triangles of a pair, allowed or not.
-struct AuditPairDepth {
+/// A pair that has more than the tolerance for its allowance until it has been apart.
+struct AuditPair {
   ///@{ The pair, a < b.
   ComponentId a, b;
   ///@}
-  double deepest = 0;  ///< Largest depth over all samples [mm].
-  double allowed = 0;  ///< The pair's allowance [mm].
-  friend bool operator==(const AuditPairDepth&, const AuditPairDepth&) = default;
+  PathPairState state = PathPairState::Overlapping;  ///< Why: it overlaps in the assembled state, or the file says so.
+  /// Depth in the assembled state [mm], an upper bound; 0 where it is within the tolerance, and for Free.
+  double initial_depth = 0;
+  double allowed = 0;   ///< The allowance until the pair has been apart [mm]; infinite for Free.
+  bool parted = false;  ///< It has been apart.
+  friend bool operator==(const AuditPair&, const AuditPair&) = default;
 };
 
-/// Result and cost of an audit.
+/// Result and cost of audit_path().
 struct AuditReport {
-  std::vector<AuditViolation> violations;  ///< In the order of the path; within a move by (a, b, kind).
-  std::vector<AuditPairDepth> depths;      ///< Pairs with a depth above 0 by (a, b), except embedded ones.
+  std::vector<AuditViolation> violations;  ///< Of the file, then one of each pair that violates a rule, by (a, b).
+  std::vector<AuditPair> pairs;            ///< By (a, b).
   double tolerance = 0;                    ///< Of the path [mm].
-  double resolution = 0;    ///< Largest relative movement between two samples that no certificate covers [mm].
-  std::size_t samples = 0;  ///< Number of exact depths and signed distances evaluated.
-  double seconds = 0;       ///< Wall time.
-  bool complete = false;    ///< False where the audit was cancelled.
+  double slack = 0;        ///< A path that holds is nowhere deeper than allowed by more than this [mm].
+  std::size_t sheets = 0;  ///< Number of components that bound no volume.
+  std::size_t pieces = 0;  ///< Number of pieces of surface and time that were examined.
+  double seconds = 0;      ///< Wall time.
+  bool complete = false;   ///< False where the audit was cancelled.
 
-  /// True if the guarantee holds: the audit is complete and found no violation.
+  /// True if the guarantee holds: the audit is complete and found no violation. Free pairs are not part of that until
+  /// they have been apart.
   bool holds() const { return complete && violations.empty(); }
+  /// Number of pairs in a state.
+  std::size_t count(PathPairState state) const;
 };
 
 }  // namespace dismantle

@@ -83,7 +83,7 @@ Interval interval_of(const RelativeMotion& motion) {
   return interval;
 }
 
-IntervalTree::IntervalTree(const PairSweep& pair, const std::vector<MotionSpan>& spans) : pair_(pair), spans_(spans) {
+IntervalTree::IntervalTree(const PairMotion& pair, const std::vector<MotionSpan>& spans) : pair_(pair), spans_(spans) {
   add_span(0);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/audit/sweep_triangles.h"
+#include "dismantle/audit/motion/motion_span.h"
+#include "dismantle/audit/pair_motion.h"
 
 #include <cstdint>
 #include <deque>
@@ -50,7 +51,7 @@ class IntervalTree {
   static constexpr int kMaxHalvings = 6;
 
   /// @param spans of motion_spans(); both must outlive the tree
-  IntervalTree(const PairSweep& pair, const std::vector<MotionSpan>& spans);
+  IntervalTree(const PairMotion& pair, const std::vector<MotionSpan>& spans);
 
   /// An interval; 0 is the root. References remain valid.
   const Interval& operator[](std::uint32_t i) const { return intervals_[i]; }
@@ -63,7 +64,7 @@ class IntervalTree {
   std::uint32_t add_span(std::uint32_t span);
   std::uint32_t add_part(std::uint32_t span, double s, double duration);
 
-  const PairSweep& pair_;
+  const PairMotion& pair_;
   const std::vector<MotionSpan>& spans_;
   std::deque<Interval> intervals_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/geometry/triangle.h"
+#include "dismantle/math/rigid_transform.h"
 
 namespace dismantle::audit {
 
@@ -63,6 +64,11 @@ inline double highest(const Triangle& t, Vec3 axis) {
 /// The smallest projection of a triangle on an axis.
 inline double lowest(const Triangle& t, Vec3 axis) {
   return -highest(t, -axis);
+}
+
+/// A triangle, transformed.
+inline Triangle transformed(const RigidTransform& transform, const Triangle& t) {
+  return {{transform * t[0], transform * t[1], transform * t[2]}};
 }
 
 /// A directed axis and the gap from a to b along it.

@@ -22,7 +22,7 @@ class PathReader {
   Result<Path> read(const nlohmann::json& document) {
     const JsonNode root{&document, nullptr, {}, 0};
     Path path;
-    in_.expect_format(root, "dismantle-path");
+    path.version = in_.expect_format(root, "dismantle-path", kPathVersion);
     read_assembly(root, path);
     path.tolerance = length(in_.member(root, "tolerance_mm"));
     read_pairs(in_.optional_member(root, "pairs"), path);
@@ -48,10 +48,14 @@ class PathReader {
   void read_pairs(const JsonNode& pairs, Path& path) {
     if (!in_.ok() || pairs.json == nullptr) return;
     const std::size_t count = in_.size(pairs);
-    for (std::size_t i = 0; i < count && in_.ok(); ++i) path.pairs.push_back(pair(pairs.at(i)));
+    for (std::size_t i = 0; i < count && in_.ok(); ++i) {
+      const PathPair read = pair(pairs.at(i), path.version);
+      // Depth between triangles says nothing about that of solids.
+      if (path.version > 1) path.pairs.push_back(read);
+    }
   }
 
-  PathPair pair(const JsonNode& node) {
+  PathPair pair(const JsonNode& node, int version) {
     PathPair pair;
     const JsonNode a = in_.member(node, "a"), b = in_.member(node, "b");
     pair.a = known(a);
@@ -59,19 +63,30 @@ class PathReader {
     if (in_.ok() && pair.a == pair.b) in_.fail(b, "the same component as a");
     const JsonNode state = in_.member(node, "state");
     const std::string name = in_.text(state);
-    if (name == "embedded") {
-      pair.state = PairState::Free;
-    } else if (name != "fit" && in_.ok()) {
-      in_.fail(state, in_quotes(name) + " is neither \"fit\" nor \"embedded\"");
+    if (version == 1) {
+      if (in_.ok() && name != "fit" && name != "embedded")
+        in_.fail(state, in_quotes(name) + " is neither \"fit\" nor \"embedded\"");
+      return pair;
     }
-    const JsonNode allowed = in_.member(node, "allowed_penetration_mm");
-    if (pair.state == PairState::Overlapping) {
-      pair.allowed_penetration = length(allowed);
+    read_state(state, name, pair);
+    pair.initial_depth = length(in_.member(node, "initial_depth_mm"));
+    const JsonNode allowed = in_.member(node, "allowed_depth_mm");
+    if (pair.state != PathPairState::Free) {
+      pair.allowed_depth = length(allowed);
     } else {
-      pair.allowed_penetration = std::numeric_limits<double>::infinity();
-      if (in_.ok() && !allowed.json->is_null()) in_.fail(allowed, "not null, though the pair is embedded");
+      pair.allowed_depth = std::numeric_limits<double>::infinity();
+      if (in_.ok() && !allowed.json->is_null()) in_.fail(allowed, "not null, though the pair is free");
     }
     return pair;
+  }
+
+  void read_state(const JsonNode& node, const std::string& name, PathPair& pair) {
+    for (const PathPairState state : {PathPairState::Overlapping, PathPairState::Declared, PathPairState::Free}) {
+      if (name != name_of(state)) continue;
+      pair.state = state;
+      return;
+    }
+    if (in_.ok()) in_.fail(node, in_quotes(name) + " is none of \"overlapping\", \"declared\" and \"free\"");
   }
 
   void read_moves(const JsonNode& moves, Path& path) {
@@ -110,11 +125,12 @@ class PathReader {
 };
 
 JsonValue pair_json(const PathPair& pair) {
-  const bool free = pair.state == PairState::Free;
+  const bool free = pair.state == PathPairState::Free;
   return {{"a", pair.a},
           {"b", pair.b},
-          {"state", free ? "embedded" : "fit"},
-          {"allowed_penetration_mm", free ? JsonValue() : JsonValue(pair.allowed_penetration)}};
+          {"state", name_of(pair.state)},
+          {"initial_depth_mm", pair.initial_depth},
+          {"allowed_depth_mm", free ? JsonValue() : JsonValue(pair.allowed_depth)}};
 }
 
 std::string move_text(const Move& move) {
@@ -142,8 +158,8 @@ std::string path_text(const Path& path) {
   std::vector<std::string> pairs, moves;
   for (const PathPair& pair : path.pairs) pairs.push_back(json_line(pair_json(pair)));
   for (const Move& move : path.moves) moves.push_back(move_text(move));
-  return "{\n  \"format\": \"dismantle-path\", \"version\": 1,\n  \"assembly\": {\"file\": " +
-         json_line(path.assembly_file) + ", \"sha256\": " + json_line(path.assembly_sha256) +
+  return "{\n  \"format\": \"dismantle-path\", \"version\": " + std::to_string(path.version) +
+         ",\n  \"assembly\": {\"file\": " + json_line(path.assembly_file) + ", \"sha256\": " + json_line(path.assembly_sha256) +
          ",\n    \"components\": " + json_line(path.components) +
          "},\n  \"tolerance_mm\": " + json_line(path.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
          "],\n  \"moves\": [" + json_lines(moves, 4) + "],\n  \"removed\": " + json_line(path.removed) + "\n}\n";

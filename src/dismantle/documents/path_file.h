@@ -16,17 +16,17 @@ constexpr std::size_t kLargestJsonFile = std::size_t{512} << 20;
 
 /// Reads `*.path.json` (docs/formats.md). Checks everything that does not need the assembly: format and version,
 /// numbers finite and sane, times from 0 and never decreasing, quaternions of unit length (within 1e-6; scaled to 1),
-/// components of pairs and moves listed in the file. An `embedded` pair's allowance becomes infinite. `pairs`,
-/// `removed` and a move's `label` may be absent; members not described in docs/formats.md are ignored. Errors:
-/// Unreadable, with the position ("moves[2].frames[5].rotation").
+/// components of pairs and moves listed in the file. A `free` pair's allowance becomes infinite. Of a file of version 1 the
+/// pairs are checked and left out. `pairs`, `removed` and a move's `label` may be absent; members not described in
+/// docs/formats.md are ignored. Errors: Unreadable, with the position ("moves[2].frames[5].rotation").
 Result<Path> read_path(const std::filesystem::path& file);
 
 /// As read_path, from text; `file_name` is for messages.
 Result<Path> parse_path(std::string_view text, const std::string& file_name);
 
-/// The path in the format of docs/formats.md, one frame a line. Reading it back gives an equal Path, doubles bit for
-/// bit.
-/// @pre all numbers finite (except the allowance of an Embedded pair); names in UTF-8
+/// The path in the format of docs/formats.md, one frame a line; a path of version 1 in that version. Reading it back
+/// gives an equal Path, doubles bit for bit.
+/// @pre all numbers finite (except the allowance of a Free pair); no pairs in version 1; names in UTF-8
 std::string path_text(const Path& path);
 
 /// Writes path_text, whole or not at all. Errors: Failed.

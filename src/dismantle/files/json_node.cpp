@@ -94,11 +94,15 @@ std::vector<std::string> JsonReader::texts(const JsonNode& array) {
   return values;
 }
 
-void JsonReader::expect_format(const JsonNode& root, std::string_view format) {
+int JsonReader::expect_format(const JsonNode& root, std::string_view format, int newest) {
   const JsonNode name = member(root, "format");
   if (text(name) != format && ok()) fail(name, "not \"" + std::string(format) + "\"");
   const JsonNode version = member(root, "version");
-  if (ok() && *version.json != 1) fail(version, "not 1, the only version that this program knows");
+  for (int v = 1; v <= newest && ok(); ++v)
+    if (*version.json == v) return v;
+  fail(version, newest == 1 ? "not 1, the only version that this program knows"
+                            : "not 1 to " + std::to_string(newest) + ", the versions that this program knows");
+  return newest;
 }
 
 }  // namespace dismantle

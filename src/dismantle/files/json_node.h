@@ -56,8 +56,8 @@ class JsonReader {
   std::string text(const JsonNode& node);
   /// An array of strings.
   std::vector<std::string> texts(const JsonNode& array);
-  /// Fails unless the document declares `format`, version 1.
-  void expect_format(const JsonNode& root, std::string_view format);
+  /// The version of a document; fails unless it declares `format` and a version from 1 to `newest`.
+  int expect_format(const JsonNode& root, std::string_view format, int newest = 1);
 
  private:
   std::string file_name_;

@@ -11,7 +11,8 @@ Path empty_path(const Assembly& assembly, const PairStates& states) {
   path.tolerance = states.tolerance;
   for (const ComponentPair& p : states.pairs) {
     if (p.state != PairState::Overlapping && p.state != PairState::Free) continue;
-    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, p.state, p.allowed_depth});
+    const PathPairState state = p.state == PairState::Free ? PathPairState::Free : PathPairState::Overlapping;
+    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, state, p.depth, p.allowed_depth});
   }
   return path;
 }

@@ -10,7 +10,8 @@
 
 namespace dismantle {
 
-/// A path without moves: component names, tolerance, and the pairs that are allowed more than the tolerance.
+/// A path without moves: component names, tolerance, and the pairs that may be deeper than the tolerance: Overlapping
+/// and Free ones.
 Path empty_path(const Assembly& assembly, const PairStates& states);
 
 /// The bounding box of a component at a pose [mm].

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/audit/motion/motion_span.h"
-#include "dismantle/audit/sweep_triangles.h"
+#include "dismantle/audit/pair_motion.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,11 +14,6 @@ struct SegmentRun {
   std::uint32_t first = 0;  ///< Index of the first segment.
   std::uint32_t count = 0;  ///< Number of segments.
 };
-
-/// The runs of segments in which a body turns about one axis at one pitch, by at least two radians; in order.
-/// @param tolerance largest difference of the motions of a point that counts as the same motion [mm per rad]
-std::vector<SegmentRun> helical_runs(const std::vector<MotionSegment>& segments, const AuditBody& body,
-                                     double tolerance);
 
 /// One helical motion of b relative to a through a run of segments.
 struct HelicalMotion {
@@ -34,7 +28,9 @@ struct HelicalMotion {
   Vec3 axis_coordinates(Vec3 x_a) const { return frame * (x_a - origin); }
 };
 
-/// The motion of a pair in a run of helical_runs(); nothing where its deviation is above the resolution.
-std::optional<HelicalMotion> helical_motion(const PairSweep& pair, const SegmentRun& run);
+/// The helical motion that is closest to that of a pair in a run of segments; nothing where it turns by less than two
+/// radians in all.
+/// @param flat an advance along the axis by less than this in all counts as none, and as deviation [mm]
+std::optional<HelicalMotion> helical_motion(const PairMotion& pair, const SegmentRun& run, double flat);
 
 }  // namespace dismantle::audit

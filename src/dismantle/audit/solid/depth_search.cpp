@@ -14,18 +14,20 @@ namespace {
 /// within the limit of it.
 class DepthSearch {
  public:
-  DepthSearch(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b, const DepthGoal& goal)
+  DepthSearch(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b, const DepthGoal& goal,
+              const std::vector<bool>& done)
       : pair_(pair),
         of_b_(of_b),
         points_(of_b ? *pair.b : *pair.a),
         solid_(of_b ? *pair.a : *pair.b),
-        tree_(pair.sweep, spans),
-        pieces_(solid_, goal, pair.sweep.rounding),
+        tree_(pair.motion, spans),
+        pieces_(solid_, goal, pair.motion.rounding),
         first_segment_(spans.front().first) {
     for (std::uint32_t k = 0; k < spans.front().count; ++k) {
-      const RelativeMotion& motion = pair.sweep.motions[first_segment_ + k];
+      const RelativeMotion& motion = pair.motion.motions[first_segment_ + k];
       motions_.push_back(of_b ? motion : reversed_roles(motion));
     }
+    if (!done.empty()) find_done(0, done);
   }
 
   DepthFindings run() {
@@ -37,12 +39,21 @@ class DepthSearch {
     for (DepthSample* sample : {&found.deepest, &found.first}) {
       sample->of_b = of_b_;
       if (sample->depth > 0 && !of_b_)
-        sample->point_a = pair_.sweep.motions[sample->segment].at(sample->s) * sample->point_a;
+        sample->point_a = pair_.motion.motions[sample->segment].at(sample->s) * sample->point_a;
     }
     return found;
   }
 
  private:
+  /// Finds the nodes below node i of which all faces are done. @return whether node i is one
+  bool find_done(std::uint32_t i, const std::vector<bool>& faces) {
+    const BoxNode& node = points_.surface().node(i);
+    if (done_.size() <= i) done_.resize(i + 1, false);
+    if (node.leaf()) return done_[i] = faces[node.face];
+    const bool left = find_done(i + 1, faces), right = find_done(node.right, faces);
+    return done_[i] = left && right;
+  }
+
   /// Nodes in `nodes_`, and the distance up to which they are all.
   struct Range {
     std::size_t first = 0, count = 0;
@@ -76,7 +87,7 @@ class DepthSearch {
 
   /// True if all of a box certainly stays within the limit of the surface of `solid`.
   bool near_surface(const BoxNode& box, std::uint32_t interval) {
-    const double radius = box.radius + movement(interval, box), limit = pieces_.limit() - pair_.sweep.rounding;
+    const double radius = box.radius + movement(interval, box), limit = pieces_.limit() - pair_.motion.rounding;
     if (radius >= limit) return false;
     const SurfacePoint closest = solid_.surface().closest(center(interval, box), last_face_);
     last_face_ = closest.face;
@@ -106,7 +117,7 @@ class DepthSearch {
   }
 
   void visit(std::uint32_t node, std::uint32_t interval, const Range& parent) {
-    if (pieces_.ended()) return;
+    if (pieces_.ended() || (!done_.empty() && done_[node])) return;
     const BoxNode& box = points_.surface().node(node);
     if (near_surface(box, interval)) return;
     const std::size_t before = nodes_.size();
@@ -153,6 +164,7 @@ class DepthSearch {
   PieceSearch pieces_;
   std::uint32_t first_segment_;
   std::uint32_t last_face_ = 0;
+  std::vector<bool> done_;               // by node of `points`; empty for none
   std::vector<RelativeMotion> motions_;  // of `points` in the frame of `solid`
   std::vector<std::uint32_t> nodes_;     // a stack of ranges of nodes of `solid`
   std::vector<std::uint32_t> stack_, faces_;
@@ -161,7 +173,7 @@ class DepthSearch {
 }  // namespace
 
 DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b,
-                           const DepthGoal& goal) {
+                           const DepthGoal& goal, const std::vector<bool>& done) {
   const SolidBody& solid = of_b ? *pair.a : *pair.b;
   if (!solid.solid() || pair.a->surface().empty() || pair.b->surface().empty()) {
     DepthFindings none;
@@ -169,7 +181,7 @@ DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>&
     none.complete = true;
     return none;
   }
-  return DepthSearch(pair, spans, of_b, goal).run();
+  return DepthSearch(pair, spans, of_b, goal, done).run();
 }
 
 }  // namespace dismantle::audit

@@ -3,7 +3,7 @@
 
 #include "dismantle/audit/motion/motion_span.h"
 #include "dismantle/audit/solid/solid_body.h"
-#include "dismantle/audit/sweep_triangles.h"
+#include "dismantle/audit/pair_motion.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ struct DepthPair {
   const SolidBody* a = nullptr;
   const SolidBody* b = nullptr;
   ///@}
-  PairSweep sweep;  ///< Their surfaces and motions; its allowance and resolution are not used.
+  PairMotion motion;  ///< Of their surfaces.
 };
 
 /// The depths that a search looks for, and the accuracy of its result.
@@ -51,7 +51,8 @@ struct DepthFindings {
 /// others are divided. `DepthFindings::bound` is floor + slack, or, where a sample is above floor + slack / 2, the
 /// larger of that and growth * deepest + slack / 2.
 /// @param spans of motion_spans() @param of_b true for the points of b inside a, false for those of a inside b
-DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b,
-                           const DepthGoal& goal);
+/// @param done faces that are known to be no deeper than the floor and the slack and are left out, by index; or empty
+DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b, const DepthGoal& goal,
+                           const std::vector<bool>& done = {});
 
 }  // namespace dismantle::audit

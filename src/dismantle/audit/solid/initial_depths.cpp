@@ -28,6 +28,17 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_boxes(const Ass
   return pairs;
 }
 
+/// The pairs that the path lists as free, in order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> free_pairs(const DepthContext& context) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const PathPair& pair : context.path.pairs) {
+    const auto a = context.assembly.find(pair.a), b = context.assembly.find(pair.b);
+    if (a && b && pair.state == PathPairState::Free) pairs.push_back(std::minmax(a->value, b->value));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 }  // namespace
 
 DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b,
@@ -35,43 +46,48 @@ DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, 
   DepthPair pair;
   pair.a = context.bodies[a_and_b.first].get();
   pair.b = context.bodies[a_and_b.second].get();
-  pair.sweep.a = &pair.a->surface();
-  pair.sweep.b = &pair.b->surface();
-  const RigidTransform world_from_a = pair.sweep.a->world_from_body(pose_a);
+  pair.motion.a = &pair.a->surface();
+  pair.motion.b = &pair.b->surface();
+  const RigidTransform world_from_a = pair.motion.a->world_from_body(pose_a);
   double position = max_abs(pose_a.position);
   for (const MotionSegment& segment : segments) {
-    pair.sweep.motions.push_back(
-        relative_motion(world_from_a, pair.sweep.b->world_from_body(segment.start), segment.screw));
+    pair.motion.motions.push_back(
+        relative_motion(world_from_a, pair.motion.b->world_from_body(segment.start), segment.screw));
     position = std::max(position, max_abs(segment.start.position));
   }
-  pair.sweep.rounding = kRoundingUnits * std::numeric_limits<double>::epsilon() *
-                        (pair.sweep.a->coordinate_bound() + pair.sweep.b->coordinate_bound() + 2 * position);
+  pair.motion.rounding = kRoundingUnits * std::numeric_limits<double>::epsilon() *
+                        (pair.motion.a->coordinate_bound() + pair.motion.b->coordinate_bound() + 2 * position);
   return pair;
 }
 
 bool find_initial_depths(DepthContext& context, double progress_from, double progress_to) {
-  const auto pairs = overlapping_boxes(context.assembly);
-  const std::vector<MotionSegment> still = {MotionSegment{}};
+  auto pairs = overlapping_boxes(context.assembly);
+  const auto free = free_pairs(context);
+  std::erase_if(pairs, [&](const auto& pair) { return std::binary_search(free.begin(), free.end(), pair); });
   std::vector<DepthFindings> found(2 * pairs.size());
   const bool completed = context.run(found.size(), progress_from, progress_to, [&](std::size_t i) {
-    const auto& [a, b] = pairs[i / 2];
-    if (context.bodies[a]->surface().empty() || context.bodies[b]->surface().empty()) return;
-    const DepthPair pair = make_depth_pair(context, {a, b}, Pose{}, still);
-    found[i] = search_depth(pair, motion_spans(still, 0, 1, pair.b->surface()), i % 2 == 1,
-                            {context.path.tolerance, context.slack, 1.002});
+    found[i] = search_assembled(context, pairs[i / 2], i % 2 == 1, {context.path.tolerance, context.slack, 1.002});
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const DepthFindings& of_a = found[2 * i];
     const DepthFindings& of_b = found[2 * i + 1];
     context.pieces += of_a.samples + of_b.samples;
     if (of_a.first.depth == 0 && of_b.first.depth == 0) continue;
-    DepthAuditPair& pair = context.ledger[pairs[i]];
+    AuditPair& pair = context.ledger[pairs[i]].pair;
     pair.a = ComponentId(pairs[i].first);
     pair.b = ComponentId(pairs[i].second);
     pair.initial_depth = std::max(of_a.first.depth > 0 ? of_a.bound : 0, of_b.first.depth > 0 ? of_b.bound : 0);
     pair.allowed = pair.initial_depth + context.path.tolerance;
   }
   return completed;
+}
+
+DepthFindings search_assembled(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b, bool of_b,
+                               const DepthGoal& goal) {
+  if (context.bodies[a_and_b.first]->surface().empty() || context.bodies[a_and_b.second]->surface().empty()) return {};
+  const std::vector<MotionSegment> still = {MotionSegment{}};
+  const DepthPair pair = make_depth_pair(context, a_and_b, Pose{}, still);
+  return search_depth(pair, motion_spans(still, 0, 1, pair.b->surface()), of_b, goal);
 }
 
 }  // namespace dismantle::audit

@@ -13,17 +13,17 @@ struct Side {
   Crossing crossing;                               ///< What was found.
 };
 
-DepthViolation violation_of(const MovePairs& move, const Side& side, double allowed) {
+AuditViolation violation_of(const MovePairs& move, const Side& side, double allowed) {
   const MovePair& pair = move.pairs[side.pair];
   const MotionSegment& segment = move.segments[side.crossing.segment];
-  DepthViolation violation;
-  violation.rule = DepthRule::Crossing;
+  AuditViolation violation;
+  violation.kind = AuditViolationKind::Crossing;
   violation.frame = segment.frame;
   violation.time = segment.time + side.crossing.s * segment.duration;
   violation.depth = side.crossing.beyond;
   violation.allowed = allowed;
   Vec3 point = side.crossing.point;
-  if (!side.of_b) point = pair.pair.sweep.motions[side.crossing.segment].at(side.crossing.s) * point;
+  if (!side.of_b) point = pair.pair.motion.motions[side.crossing.segment].at(side.crossing.s) * point;
   violation.point = pair.pair.a->surface().world_from_body(pair.pose_a) * point;
   violation.point_of_a = side.of_b == (pair.b < pair.a);
   violation.greatest = side.crossing.beyond;
@@ -56,14 +56,14 @@ bool check_move_crossings(DepthContext& context, const MovePairs& move, double p
   const bool completed = context.run(sides.size(), progress_from, progress_to, [&](std::size_t i) {
     Side& side = sides[i];
     const MovePair& pair = move.pairs[side.pair];
-    std::vector<RelativeMotion> motions = pair.pair.sweep.motions;
+    std::vector<RelativeMotion> motions = pair.pair.motion.motions;
     if (!side.of_b) std::transform(motions.begin(), motions.end(), motions.begin(), reversed_roles);
     std::vector<double> allowed(motions.size(), pair.allowed);
     std::fill(allowed.begin() + std::min<std::ptrdiff_t>(pair.parted, std::ptrdiff_t(allowed.size())), allowed.end(),
               context.path.tolerance);
     const SolidBody& surface = side.of_b ? *pair.pair.a : *pair.pair.b;
     side.crossing =
-        follow_points(surface.surface(), *side.followed, {motions, allowed, context.slack, pair.pair.sweep.rounding});
+        follow_points(surface.surface(), *side.followed, {motions, allowed, context.slack, pair.pair.motion.rounding});
   });
   for (const Side& side : sides) {
     if (side.crossing.beyond == 0) continue;

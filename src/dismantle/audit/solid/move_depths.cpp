@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/helical_clearance.h"
 #include "dismantle/audit/solid/move_pairs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace dismantle::audit {
 
@@ -40,6 +43,7 @@ class MoveDepths {
 
  private:
   void add_chunks(std::size_t i, std::uint32_t first, std::uint32_t end, double allowed) {
+    if (std::isinf(allowed)) return;  // a free pair
     for (; first < end; first += kSpanSegments) {
       Chunk chunk;
       chunk.pair = i;
@@ -50,22 +54,29 @@ class MoveDepths {
     }
   }
 
-  DepthFindings search_chunk(const Chunk& chunk, bool of_b, const DepthGoal& goal) const {
+  DepthFindings search_chunk(const Chunk& chunk, bool of_b, const DepthGoal& goal,
+                             const std::vector<bool>& done = {}) const {
     const MovePair& pair = move_.pairs[chunk.pair];
     const auto spans = motion_spans(move_.segments, chunk.first, chunk.count, pair.pair.b->surface());
-    return search_depth(pair.pair, spans, of_b, goal);
+    return search_depth(pair.pair, spans, of_b, goal, done);
   }
 
   /// Searches both sides of a chunk in turns, until one violates the allowance or both are done.
   void verify(Chunk& chunk) const {
+    std::optional<ClearFaces> clear;
     for (std::size_t pieces = kFirstPieces; chunk.violation().depth == 0; pieces *= kMorePieces) {
       for (int side = 0; side < 2 && chunk.violation().depth == 0; ++side) {
         if (chunk.found[side].complete) continue;
         const std::size_t before = chunk.found[side].samples;
-        chunk.found[side] = search_chunk(chunk, side == 1, {chunk.allowed, context_.slack, 1, true, pieces});
+        const std::vector<bool> none;
+        chunk.found[side] = search_chunk(chunk, side == 1, {chunk.allowed, context_.slack, 1, true, pieces},
+                                         !clear ? none : (side == 0 ? clear->of_a : clear->of_b));
         chunk.found[side].samples += before;
       }
       if (chunk.found[0].complete && chunk.found[1].complete) return;
+      if (pieces == kFirstPieces && chunk.violation().depth == 0)
+        clear = clear_in_helical_motion(move_.pairs[chunk.pair].pair, {chunk.first, chunk.count},
+                                        chunk.allowed + context_.slack);
     }
   }
 
@@ -115,17 +126,18 @@ class MoveDepths {
     });
     if (!completed) return false;
     for (std::size_t i = 0; i < first.size(); ++i) {
-      DepthAuditPair& entry = enter_violation(context_, move_, move_.pairs[found[i].pair], violation_of(found[i]));
+      LedgerEntry& entry = enter_violation(context_, move_, move_.pairs[found[i].pair], violation_of(found[i]));
       entry.violation.greatest = std::max(entry.violation.greatest, depth[i]);
     }
     return true;
   }
 
-  DepthViolation violation_of(const Chunk& chunk) const {
+  AuditViolation violation_of(const Chunk& chunk) const {
     const MovePair& pair = move_.pairs[chunk.pair];
     const DepthSample& sample = chunk.violation();
     const MotionSegment& segment = move_.segments[sample.segment];
-    DepthViolation violation;
+    AuditViolation violation;
+    violation.kind = AuditViolationKind::Depth;
     violation.frame = segment.frame;
     violation.time = segment.time + sample.s * segment.duration;
     violation.depth = sample.depth;

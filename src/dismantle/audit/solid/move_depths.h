@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/path.h"
-#include "dismantle/audit/depth_audit.h"
+#include "dismantle/audit/audit_report.h"
 #include "dismantle/audit/solid/depth_search.h"
 #include "dismantle/audit/solid/sheet_crossing.h"
 #include "dismantle/core/progress.h"
@@ -17,8 +17,19 @@
 
 namespace dismantle::audit {
 
+/// A pair that has an allowance of its own, or violates a rule.
+struct LedgerEntry {
+  AuditPair pair;            ///< For the report, if it has an allowance of its own.
+  bool violated = false;     ///< It violates a rule.
+  AuditViolation violation;  ///< The first violation, where there is one.
+  /// True if it has an allowance of its own.
+  bool listed() const { return pair.allowed > 0; }
+  /// True if it still has an allowance of its own.
+  bool joined() const { return listed() && !pair.parted; }
+};
+
 /// The pairs of a path, by (a, b) with a < b.
-using DepthLedger = std::map<std::pair<std::uint32_t, std::uint32_t>, DepthAuditPair>;
+using DepthLedger = std::map<std::pair<std::uint32_t, std::uint32_t>, LedgerEntry>;
 
 /// The data that all searches of an audit of depths share.
 struct DepthContext {
@@ -27,12 +38,12 @@ struct DepthContext {
   const Path& path;
   ///@}
   std::vector<std::unique_ptr<const SolidBody>> bodies;  ///< Of each component.
-  DepthLedger ledger;                                    ///< Pairs that overlap at the start, or violate a rule.
+  DepthLedger ledger;                                    ///< Pairs with allowances of their own, or violations.
   /// Points of the first component followed in the frame of the second.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<FollowedPoint>> followed;
-  double slack = 0;        ///< DepthAudit::slack [mm].
-  std::size_t pieces = 0;  ///< DepthAudit::pieces.
-  ///@{ Of DepthAuditOptions.
+  double slack = 0;        ///< AuditReport::slack [mm].
+  std::size_t pieces = 0;  ///< AuditReport::pieces.
+  ///@{ Of AuditOptions.
   const Executor& executor;
   const ProgressCallback& progress;
   ///@}
@@ -55,9 +66,17 @@ struct DepthContext {
 DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b,
                           const Pose& pose_a, const std::vector<MotionSegment>& segments);
 
-/// Finds the depths of all pairs in the assembled state and enters those that overlap in the ledger; false where it was
-/// cancelled.
+/// The search of one side of a pair in the assembled state.
+DepthFindings search_assembled(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b, bool of_b,
+                               const DepthGoal& goal);
+
+/// Finds the depths in the assembled state of all pairs but those that the path lists as free, and enters those that
+/// overlap in the ledger, with their depth plus the tolerance for an allowance; false where it was cancelled.
 bool find_initial_depths(DepthContext& context, double progress_from, double progress_to);
+
+/// Enters the allowances of the pairs that the path lists in the ledger, and compares them with the depths found.
+/// @return where the path claims or allows more than these justify, or leaves out a pair that overlaps
+std::vector<AuditViolation> apply_path_pairs(DepthContext& context);
 
 /// Checks all pairs of a moving and a stationary component in move `index`; false where it was cancelled.
 /// @param poses of all components before it @pre can_follow(the move)

@@ -18,7 +18,7 @@ bool apart(const DepthPair& pair, const RigidTransform& a_from_b, double margin)
 /// True if the sphere around b meets the box of a at some time; always for a pair that has still to come apart.
 bool comes_near(const DepthContext& context, const MovePair& pair, const std::vector<MotionSegment>& segments) {
   const auto known = context.ledger.find(pair.key());
-  if (known != context.ledger.end() && known->second.initial_depth > 0 && !known->second.parted) return true;
+  if (known != context.ledger.end() && known->second.joined()) return true;
   const AuditBody& body_a = context.bodies[pair.a]->surface();
   const AuditBody& body_b = context.bodies[pair.b]->surface();
   const RigidTransform a_from_world = inverse(body_a.world_from_body(pair.pose_a));
@@ -56,8 +56,10 @@ MovePairs find_move_pairs(const DepthContext& context, Span<const Pose> poses, s
       pair.pose_a = poses[a];
       pair.allowed = context.path.tolerance;
       const auto known = context.ledger.find(pair.key());
-      const bool overlaps = known != context.ledger.end() && known->second.initial_depth > 0;
-      if (overlaps && !known->second.parted) pair.allowed = known->second.allowed;
+      if (known != context.ledger.end() && known->second.joined()) {
+        pair.allowed = known->second.pair.allowed;
+        pair.joined = true;
+      }
       if (!comes_near(context, pair, move.segments)) continue;
       pair.pair = make_depth_pair(context, {a, b}, poses[a], move.segments);
       move.pairs.push_back(std::move(pair));
@@ -73,24 +75,23 @@ bool part_move_pairs(DepthContext& context, MovePairs& move, double progress_fro
   const bool completed = context.run(move.pairs.size(), progress_from, progress_to, [&](std::size_t i) {
     MovePair& pair = move.pairs[i];
     pair.parted = count;
-    if (pair.allowed == context.path.tolerance) return;
+    if (!pair.joined) return;
     for (std::uint32_t k = 0; k < count && pair.parted == count; ++k)
-      if (apart(pair.pair, pair.pair.sweep.motions[k].start, context.slack)) pair.parted = k;
+      if (apart(pair.pair, pair.pair.motion.motions[k].start, context.slack)) pair.parted = k;
   });
   for (const MovePair& pair : move.pairs)
-    if (pair.parted < count) context.ledger.at(pair.key()).parted = true;
+    if (pair.parted < count) context.ledger.at(pair.key()).pair.parted = true;
   return completed;
 }
 
-DepthAuditPair& enter_violation(DepthContext& context, const MovePairs& move, const MovePair& pair,
-                                const DepthViolation& violation) {
-  DepthAuditPair& entry = context.ledger[pair.key()];
+LedgerEntry& enter_violation(DepthContext& context, const MovePairs& move, const MovePair& pair,
+                             const AuditViolation& violation) {
+  LedgerEntry& entry = context.ledger[pair.key()];
   if (entry.violated) return entry;
-  entry.a = ComponentId(pair.key().first);
-  entry.b = ComponentId(pair.key().second);
-  if (entry.allowed == 0) entry.allowed = context.path.tolerance;
   entry.violated = true;
   entry.violation = violation;
+  entry.violation.a = ComponentId(pair.key().first);
+  entry.violation.b = ComponentId(pair.key().second);
   entry.violation.move = move.move;
   return entry;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/audit/profile_tree.h"
+#include "dismantle/audit/motion/profile_tree.h"
 
-#include "dismantle/audit/follow_triangles.h"
 #include "dismantle/audit/triangle_axes.h"
 
 #include <algorithm>
@@ -197,7 +196,7 @@ double ProfileFrame::max_difference(int k, double distance, double radius) const
   return distance * std::sqrt(1 + of_u[k] * of_u[k] * slope * slope);
 }
 
-ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion) {
+ProfileFrame profile_frame(const PairMotion& pair, const HelicalMotion& motion) {
   const RigidTransform& start = pair.motions[motion.run.first].start;
   NormalHistogram histogram;
   Arc r;
@@ -295,18 +294,18 @@ struct ProfileTree::Builder {
   }
 };
 
-ProfileTree::ProfileTree(const AuditBody& body, const RigidTransform& a_from_body, const HelicalMotion& motion,
+ProfileTree::ProfileTree(const std::vector<Triangle>& triangles, const HelicalMotion& motion,
                          const ProfileFrame& frame) {
   Builder builder{frame, {}, {}, {}, {}};
-  const std::uint32_t count = body.face_count();
+  const auto count = static_cast<std::uint32_t>(triangles.size());
   builder.order.resize(count);
   std::iota(builder.order.begin(), builder.order.end(), 0u);
-  for (std::uint32_t f = 0; f < count; ++f) {
-    const std::array<Vec3, 3> corners = corners_about_axis(motion, transformed(a_from_body, body.triangle(f)));
+  for (const Triangle& t : triangles) {
+    const std::array<Vec3, 3> corners = corners_about_axis(motion, t);
     builder.faces.push_back(bounds_of(corners, frame));
     builder.facing.push_back(builder.facing_of(corners));
   }
-  builder.nodes.reserve(2 * count);
+  builder.nodes.reserve(2 * triangles.size());
   builder.build(0, count);
   nodes_ = std::move(builder.nodes);
 }

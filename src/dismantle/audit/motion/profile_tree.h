@@ -50,7 +50,7 @@ struct ProfileFrame {
 
 /// The frame with the most frequent normal directions of the surfaces of b, and of a at the same distances from the
 /// axis: for a thread, the directions perpendicular to its flanks.
-ProfileFrame profile_frame(const PairSweep& pair, const HelicalMotion& motion);
+ProfileFrame profile_frame(const PairMotion& pair, const HelicalMotion& motion);
 
 /// A node of a ProfileTree, depth first: the left child is the next node.
 struct ProfileNode {
@@ -65,13 +65,12 @@ struct ProfileNode {
   bool leaf() const { return right == 0; }
 };
 
-/// A tree over the triangles of a body for one helical motion: divided first by normal and position in the profile, so
+/// A tree over triangles for one helical motion: divided first by normal and position in the profile, so
 /// that a flank of a thread is one node, then by position along and about the axis.
 class ProfileTree {
  public:
-  /// @param motion in the frame of a; @param a_from_body the pose of the body in it
-  ProfileTree(const AuditBody& body, const RigidTransform& a_from_body, const HelicalMotion& motion,
-              const ProfileFrame& frame);
+  /// @param triangles at the begin of the motion, in its frame (of a); a leaf's `face` is an index in them. @pre not empty
+  ProfileTree(const std::vector<Triangle>& triangles, const HelicalMotion& motion, const ProfileFrame& frame);
   /// A node; 0 is the root.
   const ProfileNode& node(std::uint32_t i) const { return nodes_[i]; }
 
