@@ -1,392 +1,215 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/audit/audit_path.h"
 
-#include "tests/audit/audit_scenes.h"
+#include "tests/audit/depth_scenes.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace dismantle {
 namespace {
 
-using audit_scenes::count;
-using audit_scenes::messages;
-using audit_scenes::move_through;
-using audit_scenes::path_of;
-using audit_scenes::shifted;
-using audit_scenes::turned_about_z;
-using scenes::assembly;
-using scenes::box;
-using scenes::component;
-using scenes::tube;
+using depth_scenes::along;
+using depth_scenes::audit_pair;
+using depth_scenes::blind_hole;
+using depth_scenes::block;
+using depth_scenes::circle;
+using depth_scenes::cracked;
+using depth_scenes::inside_out;
+using depth_scenes::messages;
+using depth_scenes::prism;
+using depth_scenes::sheet;
+using depth_scenes::steps;
 
-constexpr double kTolerance = 0.01;
+constexpr Vec3 kUp{0, 0, 1}, kDown{0, 0, -1};
 
-/// A unit cube above a plate, `gap` between them:
-///      +--+
-///      |  |        cube (moves)
-///      +--+
-///   ==========     plate, its top at z = 0
-Assembly cube_over_plate(double gap, double plate_thickness = 1) {
-  return assembly({component("plate", box({-10, -10, -plate_thickness}, {10, 10, 0})),
-                   component("cube", box({-0.5, -0.5, gap}, {0.5, 0.5, gap + 1}))});
+/// Components that end `beyond` under the plane that they start 1 mm above.
+AuditReport press(const TriangleMesh& tool, double beyond) {
+  return audit_pair(block(), tool, along(kDown, {0, 0.5, 1 + beyond}));
 }
 
-AuditReport audit(const Assembly& a, std::vector<Move> moves, std::vector<PathPair> pairs = {}) {
-  Path path = path_of(a, kTolerance);
-  path.moves = std::move(moves);
-  path.pairs = std::move(pairs);
-  return audit_path(a, path);
+TEST(AuditPath, RejectsPointsThatSinkIntoABlockAlongAMeshEdge) {
+  for (const TriangleMesh& tool :
+       {depth_scenes::pyramid(20, 30, 1), depth_scenes::cone(24, 20, 4, 1), depth_scenes::wedge(2, 60, 30, 1)}) {
+    const AuditReport deep = press(tool, 0.4);
+    ASSERT_EQ(deep.violations.size(), 1u);
+    const AuditViolation& violation = deep.violations[0];
+    EXPECT_EQ(violation.frame, 1u);
+    EXPECT_LE(violation.greatest, 0.4 + 1e-9);
+    EXPECT_GE(violation.greatest, 0.4 / 1.05 - 0.001);
+    EXPECT_TRUE(press(tool, 0.005).holds()) << messages(press(tool, 0.005));
+    EXPECT_TRUE(press(tool, 0.01).holds());
+    EXPECT_FALSE(press(tool, 0.0112).holds());
+  }
 }
 
-TEST(AuditPath, HoldsForAnEmptyPathOfAnAssemblyWithoutOverlaps) {
-  const AuditReport report = audit(cube_over_plate(0), {});
-  EXPECT_TRUE(report.holds()) << messages(report);
-  EXPECT_TRUE(audit_path(Assembly{}, Path{}).holds());
+TEST(AuditPath, RejectsABallDeeperThanTheTolerance) {
+  const TriangleMesh plate = scenes::box({-20, -20, -5}, {20, 20, 0}),
+                     ball = depth_scenes::ball(48, 24, 0.5, {3, 1, 1});
+  EXPECT_TRUE(audit_pair(plate, ball, along(kDown, {0, 0.549}), 0.05).holds());
+  EXPECT_FALSE(audit_pair(plate, ball, along(kDown, {0, 0.56}), 0.05).holds());
 }
 
-TEST(AuditPath, FindsTunnellingThroughAThinPlateInOneFrame) {
-  const Assembly a = cube_over_plate(5, 0.001);
-  const AuditReport report = audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})});
-  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
-  ASSERT_FALSE(report.violations.empty());
-  EXPECT_NEAR(report.violations[0].time, 0.1 * 5 / 20, 1e-4);
+TEST(AuditPath, RejectsACubeThatGoesThroughASheetThatLiesOnItEitherWayRound) {
+  for (const double z : {0.0, -0.005})
+    for (const bool up : {true, false}) {
+      const TriangleMesh on = up ? sheet(3, z) : inside_out(sheet(3, z));
+      const AuditReport through = audit_pair(on, block(), along(kUp, steps(0.1, 31)));
+      EXPECT_EQ(through.sheets, 1u);
+      ASSERT_EQ(through.violations.size(), 1u) << z << up;
+      EXPECT_GT(through.violations[0].greatest, 2.9);
+      EXPECT_TRUE(audit_pair(block(), on, along(kUp, steps(0.1, 31))).holds());
+      EXPECT_TRUE(audit_pair(on, block(), along(kUp, {0, 0.003})).holds());
+    }
 }
 
-TEST(AuditPath, FindsTunnellingThroughASheetInOneFrame) {
-  TriangleMesh sheet;
-  sheet.vertices = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}};
-  sheet.faces = {{{0, 1, 2}}, {{0, 2, 3}}};
-  const Assembly a = assembly({component("sheet", sheet), component("cube", box({0, 0, 5}, {1, 1, 6}))});
-  EXPECT_TRUE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -4.9)})}).holds());
-  EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(0, 0, -20)})}).holds());
+TEST(AuditPath, RejectsAPegThroughTheBottomOfItsHoleAlsoWithCracks) {
+  const TriangleMesh hole = blind_hole(48, 5, 12, 15, 30), peg = prism(circle(48, 5.02), 20, 45);
+  for (const bool crack : {false, true}) {
+    const TriangleMesh h = crack ? cracked(hole, 1) : hole, p = crack ? cracked(peg, 1) : peg;
+    EXPECT_TRUE(audit_pair(h, p, along(kDown, steps(0.5, 10))).holds());
+    const AuditReport through = audit_pair(h, p, along(kDown, steps(2.5, 9)));
+    ASSERT_EQ(through.violations.size(), 1u);
+    EXPECT_NEAR(through.pairs[0].initial_depth, 0.02, 0.002);
+    EXPECT_EQ(through.violations[0].frame, 2u);
+    EXPECT_GT(through.violations[0].greatest, 4.7);
+  }
+}
+
+TEST(AuditPath, LetsCrossingRodsPartAndRejectsThatTheyCrossAgain) {
+  const TriangleMesh a = scenes::moved(prism(circle(32, 5), -50, 50), {{}, quat_about({0, 1, 0}, std::acos(0.0))});
+  const TriangleMesh b = scenes::moved(prism(circle(32, 5), -50, 50), {{}, quat_about({1, 0, 0}, std::acos(0.0))});
+  std::vector<double> way = steps(1, 20);
+  EXPECT_TRUE(audit_pair(b, a, along(kUp, way)).holds());
+  way.push_back(10.5);
+  const AuditReport apart = audit_pair(b, a, along(kUp, way));
+  EXPECT_TRUE(apart.holds()) << messages(apart);
+  EXPECT_TRUE(apart.pairs[0].parted);
+  EXPECT_NEAR(apart.pairs[0].initial_depth, 5, 0.03);
+  way.push_back(8);
+  const AuditReport again = audit_pair(b, a, along(kUp, way));
+  ASSERT_EQ(again.violations.size(), 1u);
+  EXPECT_EQ(again.violations[0].frame, 21u);
+  EXPECT_EQ(again.violations[0].allowed, 0.01);
+  EXPECT_NE(messages(again).find("as they have been apart"), std::string::npos);
+}
+
+TEST(AuditPath, LetsOverlappingGearsComeOffAlongTheirAxisOnly) {
+  const TriangleMesh large = prism(depth_scenes::gear(24, 22, 26.5, 0), 0, 10);
+  const TriangleMesh small =
+      scenes::moved(prism(depth_scenes::gear(16, 14, 18.5, std::numbers::pi), 0, 10), {{40, 0, 0}, {}});
+  const AuditReport axial = audit_pair(large, small, along(kUp, steps(2, 10)));
+  EXPECT_TRUE(axial.holds()) << messages(axial);
+  EXPECT_EQ(axial.pairs.size(), 1u);
+  EXPECT_FALSE(audit_pair(large, small, along({-1, 0, 0}, steps(0.25, 4))).holds());
+}
+
+TEST(AuditPath, LetsAScrewInASmallerHoleOutAlongItsAxisOnly) {
+  const TriangleMesh plate = blind_hole(48, 3.3, 12, 2, 20), screw = prism(circle(36, 4), 5, 35);
+  const AuditReport axial = audit_pair(plate, screw, along(kUp, steps(2.5, 10)));
+  EXPECT_TRUE(axial.holds()) << messages(axial);
+  const AuditReport sideways = audit_pair(plate, screw, along({1, 0, 0}, steps(0.1, 100)));
+  ASSERT_EQ(sideways.violations.size(), 1u);
+  EXPECT_EQ(sideways.violations[0].frame, 0u);
+}
+
+TEST(AuditPath, RejectsAnOverlapThatDeepensWithinOneMotion) {
+  const TriangleMesh ball = depth_scenes::ball(48, 24, 0.5, {3, 1, 0});
+  for (const double way : {0.008, 0.03, 0.2}) {
+    EXPECT_EQ(audit_pair(block(), ball, along(kDown, {0, way})).holds(), way < 0.01) << way;
+    EXPECT_EQ(audit_pair(ball, block(), along(kUp, {0, way})).holds(), way < 0.01) << way;
+  }
+  EXPECT_TRUE(audit_pair(block(), ball, along(kUp, {0, 2})).holds());
+}
+
+TEST(AuditPath, RejectsAWeightThatPassesThroughAFoilThinnerThanTheTolerance) {
+  const TriangleMesh foil = scenes::box({-20, -20, -0.004}, {20, 20, 0}), weight = scenes::box({-3, -3, 1}, {3, 3, 4});
+  EXPECT_TRUE(audit_pair(foil, weight, along(kDown, {0, 1.009})).holds());
+  EXPECT_FALSE(audit_pair(foil, weight, along(kDown, {0, 1.03})).holds());
+  EXPECT_FALSE(audit_pair(foil, weight, along(kDown, {0, 20})).holds());
+}
+
+TEST(AuditPath, SeesAThinPartThatIsDeepOnlyBetweenFrames) {
+  const TriangleMesh wall = scenes::box({-0.5, -20, -20}, {0.5, 20, 20}),
+                     blade = scenes::box({-0.1, -1, -1}, {0.1, 1, 1});
+  const TriangleMesh start = scenes::moved(blade, {{-30, 0, 0}, {}});
+  EXPECT_FALSE(audit_pair(wall, start, along({1, 0, 0}, {0, 60})).holds());
+  EXPECT_TRUE(audit_pair(wall, start, along({1, 0, 0}, {0, 29})).holds());
 }
 
 /// A cube turns by 90 degrees about its centre, above a plate: midway its edge reaches sqrt(1/2) below the centre.
-AuditReport audit_turning_cube(double overlap) {
+AuditReport turn_cube(double overlap, Vec3 far, double climb) {
   const double reach = std::sqrt(0.5);
-  const Assembly a = assembly({component("plate", box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10})),
-                               component("cube", box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}))});
-  return audit(a, {move_through({"cube"}, {Pose{}, turned_about_z(std::acos(0.0), {})})});
+  Pose end = audit_scenes::turned_about_z(std::acos(0.0), far);
+  end.position.z += climb;
+  return audit_pair(
+      scenes::moved(scenes::box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10}), {far, {}}),
+      scenes::moved(scenes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), {far, {}}), {Pose{}, end});
 }
 
-TEST(AuditPath, FindsAMidFrameGrazeThatIsClearAtBothFrames) {
-  const AuditReport report = audit_turning_cube(1.5 * kTolerance);
-  ASSERT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 1u) << messages(report);
-  EXPECT_NEAR(report.violations[0].time, 0.05, 0.01);
-  EXPECT_LE(report.violations[0].depth, 1.5 * kTolerance + 1e-9);
-}
-
-TEST(AuditPath, AcceptsAGrazeWithinTheTolerance) {
-  const AuditReport report = audit_turning_cube(0.9 * kTolerance);
-  EXPECT_TRUE(report.holds()) << messages(report);
-  EXPECT_FALSE(audit_turning_cube(1.06 * kTolerance).holds());
-}
-
-TEST(AuditPath, FindsAGrazeOfAScrewThatIsClearAtBothFrames) {
-  const auto run = [](double overlap) {
-    const double reach = std::sqrt(0.5);
-    const Assembly a = assembly({component("plate", box({-10, -11 - reach + overlap, -10}, {10, -reach + overlap, 10})),
-                                 component("cube", box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}))});
-    Pose end = turned_about_z(std::acos(0.0), {});
-    end.position.z = 3;
-    return audit(a, {move_through({"cube"}, {Pose{}, end})});
-  };
-  EXPECT_FALSE(run(1.5 * kTolerance).holds());
-  EXPECT_TRUE(run(0.9 * kTolerance).holds());
-}
-
-TEST(AuditPath, AcceptsSlidingInExactContact) {
-  const Assembly a = cube_over_plate(0);
-  std::vector<Pose> poses;
-  for (int k = 0; k <= 20; ++k) poses.push_back({{0.35 * k, 0.1 * k, 0}, quat_about({0, 0, 1}, 0.05 * k)});
-  const AuditReport report = audit(a, {move_through({"cube"}, poses)});
-  EXPECT_TRUE(report.holds()) << messages(report);
-  EXPECT_LT(report.samples, 20000u);
-}
-
-TEST(AuditPath, AcceptsRestingWithinTheToleranceAndRefusesDeeper) {
-  const Assembly a = cube_over_plate(0);
-  EXPECT_TRUE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -0.9 * kTolerance)})}).holds());
-  EXPECT_FALSE(audit(a, {move_through({"cube"}, {shifted(0, 0, 0), shifted(3, 0, -1.1 * kTolerance)})}).holds());
-}
-
-/// A pin of 24 sides in a hole of 24 sides, `clearance` between them; negative for a press fit.
-Assembly pin_in_hole(double clearance) {
-  return assembly({component("housing", tube(10, 5, 0, 10, 24)), component("pin", tube(5 - clearance, 0, 1, 12, 24))});
-}
-
-TEST(AuditPath, AcceptsAPinThatLeavesItsHoleWithTinyClearance) {
-  std::vector<Pose> poses;
-  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0, 0, 0.5 * k));
-  const AuditReport report = audit(pin_in_hole(0.001), {move_through({"pin"}, poses)});
-  EXPECT_TRUE(report.holds()) << messages(report);
-}
-
-TEST(AuditPath, FindsAPinThatLeavesThroughTheWall) {
-  std::vector<Pose> poses;
-  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0.7 * k, 0, 0));
-  const AuditReport report = audit(pin_in_hole(0.001), {move_through({"pin"}, poses)});
-  EXPECT_FALSE(report.holds());
-}
-
-TEST(AuditPath, FindsAnUndeclaredFitAndAcceptsADeclaredOne) {
-  std::vector<Pose> poses;
-  for (int k = 0; k <= 30; ++k) poses.push_back(shifted(0, 0, 0.5 * k));
-  const Assembly a = pin_in_hole(-0.05);
-  const AuditReport undeclared = audit(a, {move_through({"pin"}, poses)});
-  ASSERT_FALSE(undeclared.holds());
-  EXPECT_EQ(undeclared.violations[0].move, AuditViolation::kAssembledState);
-  EXPECT_EQ(undeclared.violations[0].kind, AuditViolationKind::TrianglesIntersect);
-
-  ASSERT_EQ(undeclared.depths.size(), 1u);
-  const double depth = undeclared.depths[0].deepest;
-  EXPECT_GT(depth, 0.04);
-  const PathPair fit{"pin", "housing", PairState::Fit, depth + kTolerance};
-  const AuditReport declared = audit(a, {move_through({"pin"}, poses)}, {fit});
-  EXPECT_TRUE(declared.holds()) << messages(declared);
-}
-
-TEST(AuditPath, FindsAFitThatGoesDeeperThanDeclared) {
-  const Assembly a = pin_in_hole(-0.05);
-  const PathPair fit{"pin", "housing", PairState::Fit, 0.06};
-  EXPECT_FALSE(audit(a, {move_through({"pin"}, {Pose{}, shifted(0.3, 0, 0)})}, {fit}).holds());
-}
-
-TEST(AuditPath, ExemptsAnEmbeddedPairUntilItSeparatesAndFindsItMeetingAgain) {
-  const Assembly a = cube_over_plate(-0.5);
-  const PathPair embedded{"cube", "plate", PairState::Embedded, 0};
-  const std::vector<Pose> away = {Pose{}, shifted(1, 0, 0), shifted(1, 0, -0.2), shifted(1, 0, 2)};
-  EXPECT_TRUE(audit(a, {move_through({"cube"}, away)}, {embedded}).holds());
-  EXPECT_FALSE(audit(a, {move_through({"cube"}, away)}).holds());
-
-  const Move back = move_through({"cube"}, {away.back(), shifted(1, 0, 0)});
-  const AuditReport report = audit(a, {move_through({"cube"}, away), back}, {embedded});
-  EXPECT_EQ(count(report, AuditViolationKind::EmbeddedMetAgain), report.violations.size());
-  EXPECT_FALSE(report.violations.empty());
-  const Move touch = move_through({"cube"}, {away.back(), shifted(1, 0, 0.5)});
-  EXPECT_TRUE(audit(a, {move_through({"cube"}, away), touch}, {embedded}).holds());
-}
-
-TEST(AuditPath, DoesNotTakeAnEmbeddedPartInsideAnotherAsSeparated) {
-  const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
-                               component("ball", box({-1, -1, -1}, {1, 1, 1}))});
-  const PathPair embedded{"block", "ball", PairState::Embedded, 0};
-  EXPECT_TRUE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2, 0, 0), shifted(20, 0, 0)})}, {embedded}).holds());
-}
-
-TEST(AuditPath, FindsAComponentInsideAnotherInTheAssembledState) {
-  const Assembly a = assembly({component("block", box({-5, -5, -5}, {5, 5, 5})),  //
-                               component("ball", box({-1, -1, -1}, {1, 1, 1}))});
-  const AuditReport report = audit(a, {});
-  ASSERT_EQ(count(report, AuditViolationKind::VertexInside), 1u);
-  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 0u);
-  EXPECT_DOUBLE_EQ(report.violations[0].depth, 4);
-}
-
-/// Rule 1 does not see a surface tessellated finer than the tolerance: its triangles are never deep in anything.
-TEST(AuditPath, FindsATinyComponentThatEndsUpInsideAnother) {
-  const double size = 0.5 * kTolerance;
-  const Assembly a = assembly(
-      {component("block", box({-5, -5, -5}, {5, 5, 5})), component("grain", box({0, 0, 6}, {size, size, 6 + size}))});
-  const std::vector<Pose> in = {Pose{}, shifted(0, 0, -0.6), shifted(0, 0, -1.5), shifted(0, 0, -3)};
-  const AuditReport report = audit(a, {move_through({"grain"}, in)});
-  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
-  EXPECT_EQ(count(report, AuditViolationKind::TrianglesIntersect), 0u) << messages(report);
-  const AuditReport mirrored = audit(a, {move_through({"block"}, {Pose{}, shifted(0, 0, 0.6), shifted(0, 0, 3)})});
-  EXPECT_EQ(count(mirrored, AuditViolationKind::VertexInside), 1u) << messages(mirrored);
-}
-
-TEST(AuditPath, FindsATinyComponentThatPassesThroughInOneFrame) {
-  const double size = 0.5 * kTolerance;
-  const Assembly a = assembly(
-      {component("block", box({-5, -5, -5}, {5, 5, 5})), component("grain", box({0, 0, 6}, {size, size, 6 + size}))});
-  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -20)})});
-  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
-}
-
-/// In one frame it passes a plate thinner than the allowed depth of a vertex, and then enters a block.
-TEST(AuditPath, FollowsAVertexBeyondTheFirstSurfaceThatItCrosses) {
-  const double size = 0.5 * kTolerance;
-  TriangleMesh both = box({-5, -5, 0}, {5, 5, 1.5 * kTolerance});
-  const TriangleMesh block = box({-5, -5, -9}, {5, 5, -4});
-  const auto first = static_cast<std::uint32_t>(both.vertices.size());
-  both.vertices.insert(both.vertices.end(), block.vertices.begin(), block.vertices.end());
-  for (const Face& f : block.faces) both.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
-  const Assembly a = assembly(
-      {component("plate and block", both), component("grain", box({0.1, 0.2, 1}, {0.1 + size, 0.2 + size, 1 + size}))});
-  EXPECT_TRUE(audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -3)})}).holds());
-  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, shifted(0, 0, -7)})});
-  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
-}
-
-/// A grain of `size` (below the tolerance: rule 1 does not see it) with its bottom `height` above a large block.
-Assembly grain_over_block(double size, double height) {
-  return assembly({component("block", box({-50, -50, -50}, {50, 50, 0})),
-                   component("grain", box({0.1, 0.2, height}, {0.1 + size, 0.2 + size, height + size}))});
-}
-
-TEST(AuditPath, FollowsAVertexInsideFromMoveToMove) {
-  const double size = 0.5 * kTolerance;
-  const Assembly a = grain_over_block(size, 1);
-  const Pose below = shifted(0, 0, -1 - 1.2 * size);
-  const Move in = move_through({"grain"}, {Pose{}, below});
-  EXPECT_TRUE(audit(a, {in}).holds());
-  const Move deeper = move_through({"grain"}, {below, below * shifted(0, 0, -0.1)});
-  const Move back = move_through({"grain"}, {below, below * shifted(0, 0, 2)});
-  EXPECT_TRUE(audit(a, {in, back}).holds());
-  const AuditReport report = audit(a, {in, deeper});
-  ASSERT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
-  EXPECT_EQ(report.violations[0].move, 1u);
-  const Move block_up = move_through({"block"}, {Pose{}, shifted(0, 0, 0.1)});
-  EXPECT_EQ(count(audit(a, {in, block_up}), AuditViolationKind::VertexInside), 1u);
-}
-
-Pose turned_about_y(double angle, Vec3 point) {
-  const Quat q = quat_about({0, 1, 0}, angle);
-  return {point - mat3_from_quat(q) * point, q};
-}
-
-/// The ends of the arc are on the surface, its middle below:  ---.       .---
-///                                                               `-----'
-TEST(AuditPath, FollowsAVertexOnItsArcNotOnTheChord) {
-  const double radius = 10;
-  const auto run = [&](double sagitta) {
-    const double half = std::acos(1 - sagitta / radius);
-    const Assembly a = grain_over_block(0.5 * kTolerance, -0.4 * kTolerance);
-    const Vec3 axis{0.1 + radius * std::sin(half), 0, radius * std::cos(half)};
-    return audit(a, {move_through({"grain"}, {Pose{}, turned_about_y(-2 * half, axis)})});
-  };
-  EXPECT_TRUE(run(1.5 * kTolerance).holds());
-  EXPECT_EQ(count(run(2.6 * kTolerance), AuditViolationKind::VertexInside), 1u) << messages(run(2.6 * kTolerance));
-}
-
-/// It starts parallel to the surface and curves through it: only the acceleration reveals the crossing.
-TEST(AuditPath, FindsACrossingCausedOnlyByTheCurvatureOfThePath) {
-  const double size = 0.2 * kTolerance, radius = 10;
-  const Assembly a = grain_over_block(size, 0.1 * kTolerance);
-  const double angle = std::acos(1 - 0.5 * kTolerance / radius);
-  const Pose below = turned_about_y(angle, {0.1 + size / 2, 0, -radius});
-  const Pose deep = shifted(0, 0, -1) * below;
-  EXPECT_TRUE(audit(a, {move_through({"grain"}, {Pose{}, below})}).holds());
-  const AuditReport report = audit(a, {move_through({"grain"}, {Pose{}, below, deep})});
-  EXPECT_EQ(count(report, AuditViolationKind::VertexInside), 1u) << messages(report);
-}
-
-/// A finely tessellated rod makes more than half a turn in a few frames; it meets a pin between two frames.
-TEST(AuditPath, FindsAPinThatASwingingRodPassesInMidFrame) {
-  const Vec3 pin{9 * std::cos(0.4), 9 * std::sin(0.4), 0};
-  const Assembly a = assembly(
-      {component("pin", box(pin - Vec3{0.2, 0.2, 5}, pin + Vec3{0.2, 0.2, 5})),
-       component("rod", scenes::moved(tube(0.3, 0, -10, 10, 8, 60), {{}, quat_about({0, 1, 0}, std::acos(0.0))}))});
-  const auto swing = [&](int first, int last) {
-    std::vector<Pose> poses;
-    for (int k = first; k <= last; ++k) poses.push_back(turned_about_z(0.8 * k, {}));
-    return poses;
-  };
-  EXPECT_FALSE(audit(a, {move_through({"rod"}, swing(0, 5))}).holds());
-  EXPECT_FALSE(audit(a, {move_through({"rod"}, swing(0, 1))}).holds());
-  Pose lifted = shifted(0, 0, 6);
-  std::vector<Pose> over;
-  for (const Pose& pose : swing(0, 5)) over.push_back(lifted * pose);
-  EXPECT_TRUE(audit(a, {move_through({"rod"}, {Pose{}, lifted}), move_through({"rod"}, over)}).holds());
-}
-
-TEST(AuditPath, AcceptsAComponentInTheCavityOfAnother) {
-  TriangleMesh shell = box({-5, -5, -5}, {5, 5, 5});
-  TriangleMesh cavity = box({-3, -3, -3}, {3, 3, 3});
-  for (Face face : cavity.faces) {
-    std::swap(face.v[1], face.v[2]);
-    for (std::uint32_t& v : face.v) v += 8;
-    shell.faces.push_back(face);
-  }
-  shell.vertices.insert(shell.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
-  const Assembly a = assembly({component("shell", shell), component("ball", box({-1, -1, -1}, {1, 1, 1}))});
-  const AuditReport report = audit(a, {move_through({"ball"}, {Pose{}, shifted(2, 2, 2), shifted(-2, 0, 1)})});
-  EXPECT_TRUE(report.holds()) << messages(report);
-  EXPECT_FALSE(audit(a, {move_through({"ball"}, {Pose{}, shifted(2.2, 0, 0)})}).holds());
-}
-
-TEST(AuditPath, ChecksOnlyPairsOfWhichOneMoves) {
-  const Assembly a =
-      assembly({component("plate", box({-10, -10, -1}, {10, 10, 0})), component("left", box({-3, 0, 0}, {-2, 1, 1})),
-                component("right", box({2, 0.5, 0}, {3, 1.5, 1}))});
-  const Move both = move_through({"left", "right"}, {Pose{}, shifted(5, 0, 0)});
-  EXPECT_TRUE(audit(a, {both}).holds());
-  const Move left = move_through({"left"}, {Pose{}, shifted(5, 0, 0)});
-  const AuditReport report = audit(a, {left});
-  ASSERT_FALSE(report.violations.empty());
-  for (const AuditViolation& violation : report.violations) {
-    EXPECT_EQ(violation.a, ComponentId(1));
-    EXPECT_EQ(violation.b, ComponentId(2));
+TEST(AuditPath, SeesArcsThatDipBetweenFrames) {
+  for (const double climb : {0.0, 3.0}) {
+    EXPECT_TRUE(turn_cube(0.0095, {}, climb).holds()) << messages(turn_cube(0.0095, {}, climb));
+    EXPECT_FALSE(turn_cube(0.0112, {}, climb).holds());
   }
 }
 
-TEST(AuditPath, ContinuesFromTheEndOfThePrecedingMoves) {
-  const Assembly a = cube_over_plate(5);
-  const Move sideways = move_through({"cube"}, {Pose{}, shifted(20, 0, 0)});
-  const Move down = move_through({"cube"}, {shifted(20, 0, 0), shifted(20, 0, -8)});
-  EXPECT_TRUE(audit(a, {sideways, down}).holds());
-  const Move plate_up = move_through({"plate"}, {Pose{}, shifted(20, 0, 0), shifted(20, 0, 6)});
-  EXPECT_FALSE(audit(a, {sideways, plate_up}).holds());
+TEST(AuditPath, DecidesFarFromTheOriginAsNearIt) {
+  for (const Vec3 far : {Vec3{1e5, -2e5, 3e4}, Vec3{-1e6, 0, 0}}) {
+    EXPECT_TRUE(turn_cube(0.0095, far, 0).holds()) << messages(turn_cube(0.0095, far, 0));
+    EXPECT_FALSE(turn_cube(0.0112, far, 0).holds());
+  }
 }
 
-TEST(AuditPath, GivesTheSameReportForEveryExecutor) {
+TEST(AuditPath, CountsInsideOutAndOpenMeshesAsSolids) {
+  const TriangleMesh tool = depth_scenes::pyramid(20, 30, 1);
+  for (const TriangleMesh& solid :
+       {inside_out(block()), cracked(block(), 3), depth_scenes::without(block(), 0), cracked(inside_out(block()), 2)}) {
+    EXPECT_FALSE(audit_pair(solid, tool, along(kDown, {0, 1.4})).holds());
+    EXPECT_TRUE(audit_pair(solid, tool, along(kDown, {0, 1.008})).holds());
+    EXPECT_FALSE(audit_pair(tool, solid, along(kUp, {0, 1.4})).holds());
+  }
+}
+
+TEST(AuditPath, SeesAlignedSolidsOfTheSameCrossSectionPushedIntoEachOther) {
+  const TriangleMesh lower = scenes::box({0, 0, -2}, {1, 1, 0}), upper = scenes::box({0, 0, 0}, {1, 1, 2});
+  EXPECT_TRUE(audit_pair(lower, upper, along(kDown, {0, 0.009})).holds());
+  EXPECT_FALSE(audit_pair(lower, upper, along(kDown, {0, 0.02})).holds());
+}
+
+TEST(AuditPath, AcceptsLongSlidingContactCheaply) {
   std::vector<Pose> poses;
-  for (int k = 0; k <= 100; ++k) poses.push_back({{0.05 * k, 0, 0.02 * k}, quat_about({1, 0, 0}, 0.01 * k)});
-  const Assembly a = pin_in_hole(0.02);
-  Path path = path_of(a, kTolerance);
-  path.moves = {move_through({"pin"}, poses)};
-  const AuditReport serial = audit_path(a, path);
-  EXPECT_FALSE(serial.holds());
-  for (const Executor& executor :
-       {Executor(ExecutorKind::Threads, 2), Executor(ExecutorKind::Threads, 7), Executor(ExecutorKind::Shuffled)}) {
-    const AuditReport other = audit_path(a, path, {executor, {}});
-    EXPECT_EQ(other.violations, serial.violations);
-    EXPECT_EQ(other.depths, serial.depths);
-    EXPECT_EQ(other.samples, serial.samples);
-  }
+  for (int k = 0; k <= 20; ++k) poses.push_back({{0.35 * k, 0.1 * k, -0.0003 * k}, quat_about({0, 0, 1}, 0.05 * k)});
+  const AuditReport audit = audit_pair(block(), scenes::box({-3, -3, 0}, {3, 3, 3}), poses);
+  EXPECT_TRUE(audit.holds()) << messages(audit);
+  EXPECT_LT(audit.pieces, 20000u);
 }
 
-TEST(AuditPath, IsNotCompleteWhenCancelled) {
-  const Assembly a = cube_over_plate(0);
-  Path path = path_of(a, kTolerance);
-  path.moves = {move_through({"cube"}, {Pose{}, shifted(1, 0, 0)})};
-  int calls = 0;
-  AuditOptions options;
-  options.progress = [&calls](std::string_view, double) { return ++calls < 3; };
-  const AuditReport report = audit_path(a, path, options);
-  EXPECT_FALSE(report.complete);
-  EXPECT_FALSE(report.holds());
-  double last = -1;
-  options.progress = [&last](std::string_view, double fraction) {
-    EXPECT_GE(fraction, last);
-    last = fraction;
-    return true;
-  };
-  EXPECT_TRUE(audit_path(a, path, options).holds());
-  EXPECT_EQ(last, 1);
+TEST(AuditPath, ReportsMoveFrameTimePointAndInconsistentFiles) {
+  const Assembly a = scenes::assembly(
+      {scenes::component("block", block()), scenes::component("pin", scenes::box({1, 2, 1}, {2, 3, 9}))});
+  Path path = audit_scenes::path_of(a, 0.01);
+  path.moves = {audit_scenes::move_through({"block"}, along(kDown, {0, 1})),
+                audit_scenes::move_through({"pin"}, along(kDown, {0, 1, 2, 4}))};
+  const AuditReport audit = audit_path(a, path);
+  ASSERT_EQ(audit.violations.size(), 1u);
+  const AuditViolation& violation = audit.violations[0];
+  EXPECT_EQ(violation.move, 1u);
+  EXPECT_EQ(violation.frame, 2u);
+  EXPECT_GT(violation.time, 0.2);
+  EXPECT_LE(violation.time, 0.3);
+  EXPECT_LE(violation.point.z, -1);
+  EXPECT_GT(violation.point.x, 0.999);
+  EXPECT_LT(violation.point.x, 2.001);
+  path.moves[1].frames[0].pose.position.x = 1;
+  EXPECT_EQ(audit_scenes::count(audit_path(a, path), AuditViolationKind::PathInconsistent), 1u);
 }
 
-TEST(AuditPath, WorksFarFromTheOriginAndAtAllScales) {
-  for (const double scale : {1e-2, 1.0, 1e2}) {
-    const Vec3 far{1e4, -2e4, 1.5e4};
-    const auto scaled_box = [&](Vec3 lower, Vec3 upper) { return box(far + scale * lower, far + scale * upper); };
-    const Assembly a = assembly({component("plate", scaled_box({-10, -10, -1}, {10, 10, 0})),
-                                 component("cube", scaled_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}))});
-    const double tolerance = 1e-3 * scale;
-    const auto holds = [&](double dip) {
-      Path path = path_of(a, tolerance);
-      // Turns about the cube's vertical axis and dips by `dip` tolerances meanwhile.
-      const Quat q = quat_about({0, 0, 1}, 1);
-      const Vec3 across = far - mat3_from_quat(q) * far;
-      path.moves = {move_through({"cube"}, {Pose{}, {across - Vec3{0, 0, dip * tolerance}, q}})};
-      return audit_path(a, path).holds();
-    };
-    EXPECT_TRUE(holds(0.9)) << scale;
-    EXPECT_FALSE(holds(1.1)) << scale;
-  }
+TEST(AuditPath, CanBeCancelled) {
+  const Assembly a = scenes::assembly({scenes::component("a", block()), scenes::component("b", block())});
+  const AuditReport audit =
+      audit_path(a, audit_scenes::path_of(a, 0.01), {{}, [](std::string_view, double) { return false; }});
+  EXPECT_FALSE(audit.complete);
+  EXPECT_FALSE(audit.holds());
 }
 
 }  // namespace

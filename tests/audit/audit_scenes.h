@@ -12,8 +12,10 @@
 /// Paths and moves for the tests of the audit.
 namespace dismantle::audit_scenes {
 
+/// A path without moves, of version 1: its pairs are what the audit finds.
 inline Path path_of(const Assembly& assembly, double tolerance) {
   Path path;
+  path.version = 1;
   path.tolerance = tolerance;
   for (const Component& component : assembly.components) path.components.push_back(component.name);
   return path;

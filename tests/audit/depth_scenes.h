@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/audit/audit_depth.h"
+#include "dismantle/audit/audit_path.h"
 #include "tests/audit/audit_scenes.h"
 
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -167,12 +166,12 @@ inline TriangleMesh block() {
 }
 
 /// Audits one move of the second of two components.
-inline DepthAudit audit_pair(const TriangleMesh& fixed, const TriangleMesh& moving, const std::vector<Pose>& poses,
+inline AuditReport audit_pair(const TriangleMesh& fixed, const TriangleMesh& moving, const std::vector<Pose>& poses,
                              double tolerance = 0.01) {
   const Assembly a = scenes::assembly({scenes::component("fixed", fixed), scenes::component("moving", moving)});
   Path path = audit_scenes::path_of(a, tolerance);
   path.moves = {audit_scenes::move_through({"moving"}, poses)};
-  return audit_depth(a, path);
+  return audit_path(a, path);
 }
 
 /// The poses of a translation along `direction`, one a distance.
@@ -189,11 +188,6 @@ inline std::vector<double> steps(double step, int count) {
   return distances;
 }
 
-inline std::string messages(const DepthAudit& audit) {
-  std::string text;
-  for (const AuditViolation& violation : audit.inconsistencies) text += violation.message + "\n";
-  for (const DepthAuditPair& pair : audit.pairs) text += pair.violation.message + "\n";
-  return text;
-}
+using audit_scenes::messages;
 
 }  // namespace dismantle::depth_scenes

@@ -104,7 +104,7 @@ TEST(Interval, ReachBoundsTheTravelOfAPoint) {
 struct Scene {
   AuditBody a{scenes::component("a", scenes::box({0, 0, 0}, {2, 2, 2}))};
   AuditBody b{scenes::component("b", scenes::box({3, 0, 0}, {4, 1, 2}))};
-  PairSweep pair;
+  PairMotion pair;
   std::vector<MotionSpan> spans;
 
   explicit Scene(int count) {

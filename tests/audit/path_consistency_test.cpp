@@ -50,7 +50,7 @@ TEST(PathConsistency, FindsNamesThatTheAssemblyDoesNotHave) {
   EXPECT_EQ(faults_after([](Path& p) { p.components.push_back("third"); }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.moves[1].components.push_back("third"); }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.removed.push_back("third"); }), 1u);
-  EXPECT_EQ(faults_after([](Path& p) { p.pairs.push_back({"left", "third", PairState::Fit, 0.1}); }), 1u);
+  EXPECT_EQ(faults_after([](Path& p) { p.pairs.push_back({"left", "third", PathPairState::Declared, 0, 0.1}); }), 1u);
 }
 
 TEST(PathConsistency, FindsDuplicateNames) {
@@ -87,11 +87,11 @@ TEST(PathConsistency, FindsQuaternionsThatAreNotUnitAndNumbersThatAreNotFinite) 
 }
 
 TEST(PathConsistency, FindsInvalidPairs) {
-  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "left", PairState::Fit, 0.1}}; }), 1u);
-  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PairState::Near, 0.1}}; }), 1u);
-  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PairState::Fit, -0.1}}; }), 1u);
+  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "left", PathPairState::Declared, 0, 0.1}}; }), 1u);
+  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PathPairState::Declared, -0.1, 0.1}}; }), 1u);
+  EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PathPairState::Declared, 0, -0.1}}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) {
-              p.pairs = {{"left", "right", PairState::Fit, 0.1}, {"right", "left", PairState::Fit, 0.2}};
+              p.pairs = {{"left", "right", PathPairState::Declared, 0, 0.1}, {"right", "left", PathPairState::Declared, 0, 0.2}};
             }),
             1u);
 }

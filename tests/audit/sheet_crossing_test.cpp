@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/audit/audit_depth.h"
+#include "dismantle/audit/audit_path.h"
 #include "dismantle/audit/solid/ghost_point.h"
 #include "dismantle/audit/solid/solid_body.h"
 
@@ -20,15 +20,16 @@ using depth_scenes::steps;
 
 constexpr Vec3 kDown{0, 0, -1};
 
-bool crosses(const DepthAudit& audit) {
-  return audit.violation_count() == 1 && audit.pairs[0].violation.rule == DepthRule::Crossing;
+bool crosses(const AuditReport& audit) {
+  return audit_scenes::count(audit, AuditViolationKind::Crossing) == 1 &&
+         audit_scenes::count(audit, AuditViolationKind::Depth) == 0;
 }
 
 TEST(SheetCrossing, RejectsASheetThatPassesThroughASheet) {
   for (const TriangleMesh& moving : {sheet(1, 1), inside_out(sheet(1, 1))}) {
-    const DepthAudit through = audit_pair(sheet(3, 0), moving, along(kDown, steps(0.5, 6)));
+    const AuditReport through = audit_pair(sheet(3, 0), moving, along(kDown, steps(0.5, 6)));
     EXPECT_TRUE(crosses(through)) << messages(through);
-    EXPECT_EQ(through.pairs[0].violation.frame, 2u);
+    EXPECT_EQ(through.violations[0].frame, 2u);
     EXPECT_TRUE(audit_pair(sheet(3, 0), moving, along(kDown, {0, 1.009})).holds());
     EXPECT_FALSE(audit_pair(sheet(3, 0), moving, along(kDown, {0, 1.012})).holds());
     EXPECT_TRUE(crosses(audit_pair(sheet(3, 0), moving, along(kDown, {0, 300}))));
@@ -52,7 +53,7 @@ TEST(SheetCrossing, AcceptsSheetsThatSlideAlongEachOtherAndPartAgain) {
   std::vector<Pose> poses = along(kDown, {0, 0.998});
   for (int k = 1; k <= 40; ++k) poses.push_back({{0.05 * k, 0.02 * k, -0.998}, quat_about({0, 0, 1}, 0.02 * k)});
   poses.push_back({{2, 0.8, 0}, quat_about({0, 0, 1}, 0.8)});
-  const DepthAudit audit = audit_pair(sheet(3, 0), sheet(1, 1), poses);
+  const AuditReport audit = audit_pair(sheet(3, 0), sheet(1, 1), poses);
   EXPECT_TRUE(audit.holds()) << messages(audit);
   poses.back().position.z = -2;
   EXPECT_TRUE(crosses(audit_pair(sheet(3, 0), sheet(1, 1), poses)));
@@ -76,11 +77,11 @@ TEST(SheetCrossing, RemembersSidesFromMoveToMove) {
   Path path = audit_scenes::path_of(a, 0.01);
   for (const auto& way : {std::pair{0.0, 0.995}, std::pair{0.995, 1.004}, std::pair{1.004, 1.008}})
     path.moves.push_back(audit_scenes::move_through({"moving"}, along(kDown, {way.first, way.second})));
-  EXPECT_TRUE(audit_depth(a, path).holds());
+  EXPECT_TRUE(audit_path(a, path).holds());
   path.moves.push_back(audit_scenes::move_through({"moving"}, along(kDown, {1.008, 1.02})));
-  const DepthAudit audit = audit_depth(a, path);
+  const AuditReport audit = audit_path(a, path);
   ASSERT_TRUE(crosses(audit)) << messages(audit);
-  EXPECT_EQ(audit.pairs[0].violation.move, 3u);
+  EXPECT_EQ(audit.violations[0].move, 3u);
 }
 
 TEST(GhostPoint, SlidesAlongFacesAndIntoCornersAndNeverCrosses) {

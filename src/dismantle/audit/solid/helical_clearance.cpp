@@ -14,6 +14,12 @@ namespace {
 
 /// An advance along the axis by less than this part of the limit counts as none.
 constexpr double kFlatPart = 1e-3;
+/// A bound in the plane of r and u is the tighter the smaller a triangle: parts of faces are quartered so many times.
+constexpr int kMaxQuarterings = 3;
+/// Largest number of parts that are compared.
+constexpr std::size_t kMaxParts = 400000;
+/// Normals that differ by less than this count once [cosine].
+constexpr double kSameDirection = 0.99;
 /// Bound of the rounding of angles [rad].
 constexpr double kAngleRounding = 1e-9;
 
@@ -108,6 +114,50 @@ class ProfileMeeting {
   std::vector<bool> met_, done_;  // triangles that meet, and nodes all of which meet
 };
 
+/// A part of a face.
+struct FacePart {
+  std::uint32_t face = 0;  // of its body
+  Triangle corners;        // at the begin of the run, in the frame of a
+};
+
+void add_quarters(const FacePart& part, std::vector<FacePart>& to) {
+  const Triangle& t = part.corners;
+  const Vec3 m[3] = {(t[0] + t[1]) / 2.0, (t[1] + t[2]) / 2.0, (t[2] + t[0]) / 2.0};
+  to.push_back({part.face, {{t[0], m[0], m[2]}}});
+  to.push_back({part.face, {{m[0], t[1], m[1]}}});
+  to.push_back({part.face, {{m[2], m[1], t[2]}}});
+  to.push_back({part.face, {{m[0], m[1], m[2]}}});
+}
+
+std::vector<Triangle> corners_of(const std::vector<FacePart>& parts) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(parts.size());
+  for (const FacePart& part : parts) triangles.push_back(part.corners);
+  return triangles;
+}
+
+/// How a part is shifted: into its own component along its normal or the mean normal at the nearest corner, or out.
+enum class Retraction { Back, BackAtCorner, Forth };
+
+/// The sum of the different outward normals of the faces at each vertex, of unit length.
+std::vector<Vec3> normals_at_corners(const SolidBody& solid) {
+  const AuditBody& surface = solid.surface();
+  std::vector<std::vector<Vec3>> normals(surface.vertex_count());
+  for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
+    const Vec3 normal = solid.orientation() * unit_normal(surface.triangle(f));
+    for (const std::uint32_t v : surface.face(f).v) {
+      const auto same = [&](Vec3 other) { return dot(normal, other) > kSameDirection; };
+      if (std::none_of(normals[v].begin(), normals[v].end(), same)) normals[v].push_back(normal);
+    }
+  }
+  std::vector<Vec3> sums(normals.size());
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    for (const Vec3& normal : normals[v]) sums[v] += normal;
+    sums[v] = normalized(sums[v]);
+  }
+  return sums;
+}
+
 /// The search for clear faces of a pair.
 class HelicalClearance {
  public:
@@ -116,56 +166,100 @@ class HelicalClearance {
         motion_(motion),
         frame_(profile_frame(pair.motion, motion)),
         start_(pair.motion.motions[motion.run.first].start),
-        most_(limit - 2 * pair.motion.rounding) {
+        most_(std::max(limit - 2 * pair.motion.rounding, 0.0)) {
     // A copy is by `most_` further from the centre than its body.
     margin_ = motion.deviation * (1 + most_ / pair.b->surface().node(0).reach) + 2 * pair.motion.rounding;
+    for (const bool of_b : {false, true}) near_[of_b] = all_faces(of_b);
+    int level = 0;
+    while (separate(level < kMaxQuarterings)) ++level;
   }
 
+  /// The faces of which all parts, or shifted copies of them, are apart from the other component, and outside.
   std::vector<bool> clear_faces(bool of_b) const {
-    const SolidBody& points = of_b ? *pair_.b : *pair_.a;
-    const SolidBody& solid = of_b ? *pair_.a : *pair_.b;
-    const ProfileTree other(triangles(!of_b), motion_, frame_);
-    std::vector<bool> clear(points.surface().face_count(), false);
-    for (const double part : {0.0, -1.0, 1.0}) {
-      std::vector<std::uint32_t> faces;
-      for (std::uint32_t f = 0; f < clear.size(); ++f)
-        if (!clear[f]) faces.push_back(f);
-      if (faces.empty() || (part != 0 && !(most_ > 0))) break;
-      std::vector<Vec3> shifts(clear.size());
-      for (const std::uint32_t f : faces)
-        shifts[f] = part * most_ * points.orientation() * unit_normal(points.surface().triangle(f));
-      const std::vector<Triangle> copies = triangles(of_b, shifts, faces);
-      const ProfileTree tree(copies, motion_, frame_);
-      const std::vector<bool> met = ProfileMeeting(tree, other, motion_, frame_, of_b, margin_).run(copies.size());
-      const RigidTransform solid_from_a = of_b ? RigidTransform{} : inverse(start_);
-      for (std::size_t i = 0; i < faces.size(); ++i) {
-        const Vec3 center = (copies[i][0] + copies[i][1] + copies[i][2]) / 3.0;
-        clear[faces[i]] = !met[i] && !solid.inside(solid_from_a * center);
-      }
+    std::vector<FacePart> open;  // parts that are not known to be clear
+    for (const FacePart& part : cover_[of_b])
+      if (inside(of_b, part.corners)) open.push_back(part);
+    open.insert(open.end(), near_[of_b].begin(), near_[of_b].end());
+    if (most_ > 0 && !open.empty()) {
+      std::vector<FacePart> others = cover_[!of_b];
+      others.insert(others.end(), near_[!of_b].begin(), near_[!of_b].end());
+      const ProfileTree other(corners_of(others), motion_, frame_);
+      const std::vector<Vec3> corner_normals = normals_at_corners(of_b ? *pair_.b : *pair_.a);
+      for (const Retraction way : {Retraction::Back, Retraction::BackAtCorner, Retraction::Forth})
+        open = still_open(of_b, std::move(open), other, way, corner_normals);
     }
+    std::vector<bool> clear(body(of_b).face_count(), true);
+    for (const FacePart& part : open) clear[part.face] = false;
     return clear;
   }
 
  private:
-  /// The faces at the begin of the run, shifted, in the frame of a.
-  std::vector<Triangle> triangles(bool of_b, const std::vector<Vec3>& shifts,
-                                  const std::vector<std::uint32_t>& faces) const {
-    const AuditBody& body = of_b ? pair_.b->surface() : pair_.a->surface();
-    std::vector<Triangle> made;
-    for (const std::uint32_t f : faces) {
-      Triangle t = body.triangle(f);
-      for (int k = 0; k < 3; ++k) t[k] = of_b ? start_ * (t[k] + shifts[f]) : t[k] + shifts[f];
-      made.push_back(t);
+  const AuditBody& body(bool of_b) const { return (of_b ? pair_.b : pair_.a)->surface(); }
+
+  std::vector<FacePart> all_faces(bool of_b) const {
+    std::vector<FacePart> parts;
+    for (std::uint32_t f = 0; f < body(of_b).face_count(); ++f) {
+      const Triangle t = body(of_b).triangle(f);
+      parts.push_back({f, of_b ? transformed(start_, t) : t});
     }
-    return made;
+    return parts;
   }
 
-  /// All faces, not shifted.
-  std::vector<Triangle> triangles(bool of_b) const {
-    const std::uint32_t count = (of_b ? pair_.b : pair_.a)->surface().face_count();
-    std::vector<std::uint32_t> faces(count);
-    for (std::uint32_t f = 0; f < count; ++f) faces[f] = f;
-    return triangles(of_b, std::vector<Vec3>(count), faces);
+  /// Sorts out the parts that are apart from those of the other component, and quarters the others where that is
+  /// wanted and they are not too many. @return false where it did not
+  bool separate(bool quarter) {
+    if (near_[0].empty() || near_[1].empty()) return false;
+    const ProfileTree trees[2] = {{corners_of(near_[0]), motion_, frame_}, {corners_of(near_[1]), motion_, frame_}};
+    std::vector<FacePart> met[2];
+    for (const bool of_b : {false, true}) {
+      const std::vector<bool> meets =
+          ProfileMeeting(trees[of_b], trees[!of_b], motion_, frame_, of_b, margin_).run(near_[of_b].size());
+      for (std::size_t i = 0; i < meets.size(); ++i) (meets[i] ? met : cover_)[of_b].push_back(near_[of_b][i]);
+    }
+    quarter = quarter && met[0].size() + met[1].size() <= kMaxParts / 4;
+    for (const bool of_b : {false, true}) {
+      near_[of_b].clear();
+      if (!quarter) near_[of_b] = std::move(met[of_b]);
+      for (const FacePart& part : met[of_b]) add_quarters(part, near_[of_b]);
+    }
+    return quarter;
+  }
+
+  /// True if the middle of a triangle, in the frame of a at the begin, is inside the other component.
+  bool inside(bool of_b, const Triangle& t) const {
+    const Vec3 center = (t[0] + t[1] + t[2]) / 3.0;
+    return of_b ? pair_.a->inside(center) : pair_.b->inside(inverse(start_) * center);
+  }
+
+  /// The unit vector along which a part is shifted, in the frame of its body.
+  Vec3 direction(bool of_b, const FacePart& part, Retraction way, const std::vector<Vec3>& corner_normals) const {
+    const SolidBody& points = of_b ? *pair_.b : *pair_.a;
+    const Triangle face = points.surface().triangle(part.face);
+    if (way != Retraction::BackAtCorner)
+      return (way == Retraction::Forth ? 1 : -1) * points.orientation() * unit_normal(face);
+    const Vec3 center = (part.corners[0] + part.corners[1] + part.corners[2]) / 3.0;
+    const Vec3 at = of_b ? inverse(start_) * center : center;
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k)
+      if (length_squared(face[k] - at) < length_squared(face[nearest] - at)) nearest = k;
+    return -corner_normals[points.surface().face(part.face).v[nearest]];
+  }
+
+  /// The parts of which no shifted copy is apart from the other component and outside.
+  std::vector<FacePart> still_open(bool of_b, std::vector<FacePart> parts, const ProfileTree& other, Retraction way,
+                                   const std::vector<Vec3>& corner_normals) const {
+    if (parts.empty()) return parts;
+    std::vector<Triangle> copies = corners_of(parts);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Vec3 shift = most_ * direction(of_b, parts[i], way, corner_normals);
+      for (int k = 0; k < 3; ++k) copies[i][k] += of_b ? start_.rotation * shift : shift;
+    }
+    const ProfileTree tree(copies, motion_, frame_);
+    const std::vector<bool> meets = ProfileMeeting(tree, other, motion_, frame_, of_b, margin_).run(copies.size());
+    std::vector<FacePart> open;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (meets[i] || inside(of_b, copies[i])) open.push_back(parts[i]);
+    return open;
   }
 
   const DepthPair& pair_;
@@ -174,6 +268,8 @@ class HelicalClearance {
   RigidTransform start_;
   double most_;
   double margin_ = 0;
+  std::vector<FacePart> near_[2];   // of a, of b: those that may come within the margin of each other
+  std::vector<FacePart> cover_[2];  // the others
 };
 
 }  // namespace

@@ -79,9 +79,10 @@ bool part_move_pairs(DepthContext& context, MovePairs& move, double progress_fro
     for (std::uint32_t k = 0; k < count && pair.parted == count; ++k)
       if (apart(pair.pair, pair.pair.motion.motions[k].start, context.slack)) pair.parted = k;
   });
+  if (!completed) return false;
   for (const MovePair& pair : move.pairs)
     if (pair.parted < count) context.ledger.at(pair.key()).pair.parted = true;
-  return completed;
+  return true;
 }
 
 LedgerEntry& enter_violation(DepthContext& context, const MovePairs& move, const MovePair& pair,

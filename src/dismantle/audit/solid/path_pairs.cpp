@@ -44,7 +44,7 @@ class PathPairs {
       entry.allowed = std::numeric_limits<double>::infinity();
       return;
     }
-    const double allowed = std::isfinite(pair.allowed_depth) ? pair.allowed_depth : 0;
+    const double allowed = std::isfinite(pair.allowed_depth) ? std::max(pair.allowed_depth, 0.0) : 0;
     if (pair.state == PathPairState::Overlapping) compare(pair, key, entry);
     if (entry.initial_depth > allowed + margin(entry.initial_depth))
       report(key, "overlap by " + mm(entry.initial_depth) + " at the start, and the path allows " + mm(allowed));
@@ -72,8 +72,8 @@ class PathPairs {
   bool overlaps_by(const Key& key, double depth) {
     if (!(depth <= 2 * tolerance_ + context_.slack)) return false;
     DepthGoal goal;
-    goal.floor = std::max(depth - margin(depth), 0.0);
-    goal.slack = context_.slack;
+    goal.slack = context_.slack / 4;
+    goal.floor = std::max(depth - margin(depth) - goal.slack, 0.0);  // what is deeper by the slack is found
     goal.first_only = true;
     for (const bool of_b : {false, true}) {
       const DepthFindings found = search_assembled(context_, key, of_b, goal);
