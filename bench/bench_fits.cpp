@@ -43,9 +43,9 @@ bool run(const Fit& fit, std::uint64_t seed) {
   for (int k = 1; k <= 2 * fit.straight_steps; ++k) targets.push_back(hand.trembling(fit.steady(k)));
   const Drag made = drag(fit.scene, fit.tolerance, targets);
   const int out = steps_until_out(fit.scene, made);
-  double max_depth = 0, allowed_depth = 0;
-  for (const AuditPairDepth& d : made.audit.depths)
-    if (d.deepest > max_depth) max_depth = d.deepest, allowed_depth = d.allowed;
+  double initial_depth = 0, allowed_depth = fit.tolerance;
+  for (const AuditPair& pair : made.audit.pairs)
+    if (pair.allowed > allowed_depth) initial_depth = pair.initial_depth, allowed_depth = pair.allowed;
   std::vector<double> us;
   for (const PlayedStep& s : made.played.steps)
     if (out == 0 || static_cast<int>(us.size()) < out) us.push_back(1e3 * s.result.cost.ms);
@@ -54,7 +54,7 @@ bool run(const Fit& fit, std::uint64_t seed) {
   const bool good = made.audit.holds() && (in_time || !required);
   std::printf("%s\t%s\t%g\t%g\t%llu\t%d\t%d\t%.3f\t%.5f\t%.5f\t%s\t%.0f\t%.0f\t%.0f\t%s\n", fit.name.c_str(),
               fit.detail.c_str(), 1e3 * fit.clearance, 1e3 * fit.tolerance, static_cast<unsigned long long>(seed),
-              fit.straight_steps, out, distance_moved(fit.scene, made.played.steps.back().result.pose), max_depth,
+              fit.straight_steps, out, distance_moved(fit.scene, made.played.steps.back().result.pose), initial_depth,
               allowed_depth, made.audit.holds() ? "holds" : "BROKEN", bench::quantile(us, 0.5),
               bench::quantile(us, 0.99), bench::quantile(us, 1), good ? "yes" : "NO");
   std::fflush(stdout);
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   Settings settings;
   if (!parse(argc, argv, settings)) return bench::kExitUsage;
   std::printf(
-      "fit\tdetail\tclearance_um\ttolerance_um\tseed\tstraight_steps\tout_steps\ttravel_mm\tmax_depth_mm\tallowed_"
+      "fit\tdetail\tclearance_um\ttolerance_um\tseed\tstraight_steps\tout_steps\ttravel_mm\tinitial_depth_mm\tallowed_"
       "depth_mm\t"
       "audit\tmedian_us\tp99_us\tmax_us\tgood\n");
   bool good = true;

@@ -79,22 +79,25 @@ Assembly frozen(const Assembly& assembly, Span<const Pose> poses) {
   return now;
 }
 
+double diagonal_of(const Assembly& assembly) {
+  return diagonal(assembled_bounds(assembly));
+}
+
 /// True if an audit accepts a straight motion of the component from its pose, with a part of every allowance.
-bool straight_is_free(const Assembly& now, const PairStates& states, const std::vector<ComponentPair>& embedded,
+bool straight_is_free(const Assembly& now, const PairStates& states, const std::vector<ComponentPair>& joined,
                       ComponentId moving, Vec3 displacement) {
   Path path;
   for (const Component& c : now.components) path.components.push_back(c.name);
   path.tolerance = kStuckAllowance * states.tolerance;
-  for (const ComponentPair& pair : states.pairs) {
-    if (pair.state != PairState::Overlapping) continue;
-    path.pairs.push_back({now[pair.a].name, now[pair.b].name, pair.state, kStuckAllowance * pair.allowed_depth});
-  }
-  for (const ComponentPair& pair : embedded)
-    path.pairs.push_back({now[pair.a].name, now[pair.b].name, PairState::Free, pair.allowed_depth});
+  for (const ComponentPair& pair : joined)
+    path.pairs.push_back({now[pair.a].name, now[pair.b].name, PathPairState::Declared, 0,
+                          kStuckAllowance * std::min(pair.allowed_depth, states.tolerance + diagonal_of(now))});
   path.moves.push_back({"straight", {now[moving].name}, {{0, {}}, {1, {displacement, {}}}}});
   const AuditReport report = audit_path(now, path);
   return std::none_of(report.violations.begin(), report.violations.end(),
-                      [&](const AuditViolation& v) { return v.a == moving || v.b == moving; });
+                      [&](const AuditViolation& v) {
+                        return v.kind != AuditViolationKind::PathInconsistent && (v.a == moving || v.b == moving);
+                      });
 }
 
 /// Tests whether the component that was moved last is stuck, by short straight motions.

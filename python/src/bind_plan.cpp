@@ -77,12 +77,26 @@ ExplanationView why(const CheckedHolder& states, const py::object& component, in
   return {states, without_gil([&] { return why_blocked(*states->assembly, states->pairs, id, options); })};
 }
 
-AuditReport audit(const Assembly& assembly, const Path& path, int threads, const py::object& progress) {
+/// A report with the names of components.
+struct AuditView {
+  AuditReport report;
+  std::vector<std::string> names;  // of all components
+
+  std::vector<std::pair<std::string, std::string>> pairs(PathPairState state) const {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const AuditPair& pair : report.pairs)
+      if (pair.state == state) list.emplace_back(names[pair.a.value], names[pair.b.value]);
+    return list;
+  }
+};
+
+AuditView audit(const Assembly& assembly, const Path& path, int threads, const py::object& progress) {
   PythonProgress watched(progress);
   const AuditOptions options{executor_of(threads), watched.callback()};
-  AuditReport report = without_gil([&] { return audit_path(assembly, path, options); });
+  AuditView view{without_gil([&] { return audit_path(assembly, path, options); }), {}};
   watched.finish();
-  return report;
+  for (const Component& c : assembly.components) view.names.push_back(c.name);
+  return view;
 }
 
 void export_file(const Assembly& assembly, const Path& path, const std::filesystem::path& file, bool reverse,
@@ -180,22 +194,35 @@ void bind_plan_classes(py::module_& module) {
           "The path of the plan, with a move for each step.");
 }
 
+void bind_audit(py::module_& module) {
+  py::class_<AuditView>(module, "AuditReport", "Result of audit().")
+      .def_property_readonly(
+          "holds", [](const AuditView& v) { return v.report.holds(); },
+          "True if the path satisfies the guarantee, apart from the unchecked pairs.")
+      .def_property_readonly(
+          "violations",
+          [](const AuditView& view) {
+            std::vector<std::string> sentences;
+            for (const AuditViolation& v : view.report.violations) sentences.push_back(v.message);
+            return sentences;
+          },
+          "The violations, a sentence each.")
+      .def_property_readonly(
+          "unchecked", [](const AuditView& v) { return v.pairs(PathPairState::Free); },
+          "Names of the pairs that are not checked until they have been apart: those that the path calls free.")
+      .def_property_readonly(
+          "declared", [](const AuditView& v) { return v.pairs(PathPairState::Declared); },
+          "Names of the pairs that the user allowed to get deeper.")
+      .def_property_readonly(
+          "seconds", [](const AuditView& v) { return v.report.seconds; }, "Duration of the audit [s].");
+}
+
 }  // namespace
 
 void bind_plan(py::module_& module) {
   bind_explanation(module);
   bind_plan_classes(module);
-  py::class_<AuditReport>(module, "AuditReport", "Result of audit().")
-      .def_property_readonly("holds", &AuditReport::holds, "True if the path satisfies the guarantee.")
-      .def_property_readonly(
-          "violations",
-          [](const AuditReport& r) {
-            std::vector<std::string> sentences;
-            for (const AuditViolation& v : r.violations) sentences.push_back(v.message);
-            return sentences;
-          },
-          "The violations, a sentence each.")
-      .def_readonly("seconds", &AuditReport::seconds, "Duration of the audit [s].");
+  bind_audit(module);
   module.def(
       "plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(), py::arg("fixed") = py::none(),
       py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("threads") = 0,
@@ -207,7 +234,8 @@ void bind_plan(py::module_& module) {
              "Finds the blockers of the straight removal of a component.");
   module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
              py::arg("progress") = py::none(),
-             "Checks a path against the guarantee, independently of engine and planner.");
+             "Checks that nothing in a path gets deeper than allowed and nothing passes through, independently of engine "
+             "and planner.");
   module.def("export", &export_file, py::arg("assembly"), py::arg("path"), py::arg("file"), py::kw_only(),
              py::arg("reverse") = false, py::arg("progress") = py::none(),
              "Writes a file whose name gives the format: .glb, .html, .csv, bom.csv, bom.json or .path.json. "

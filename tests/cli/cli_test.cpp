@@ -139,6 +139,80 @@ TEST_F(Cli, FailsTheAuditOfATamperedPath) {
   EXPECT_NE((o.out + o.err).find("wall"), std::string::npos);
 }
 
+/// Two blocks that are 1 mm deep in each other, and a motion that takes one away.
+constexpr const char* kAway = R"({"format": "dismantle-motion", "version": 1, "response": "touch", "moves": [
+    {"components": ["upper"], "targets": [{"t": 0.1, "position": [0, 0, 0.5], "rotation": [1, 0, 0, 0]},
+                                          {"t": 0.2, "position": [0, 0, 5], "rotation": [1, 0, 0, 0]}]}]})";
+
+class CliOverlap : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    std::filesystem::create_directories(in("overlap"));
+    write("overlap/lower.obj", box_text(0, 10));
+    write("overlap/upper.obj", box_text(9, 19));
+    write("away.motion.json", kAway);
+  }
+
+  static std::string box_text(double z0, double z1) {
+    std::string text;
+    for (const double z : {z0, z1})
+      for (const char* xy : {"0 0", "10 0", "10 10", "0 10"})
+        text += std::string("v ") + xy + " " + std::to_string(z) + "\n";
+    return text +
+           "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+  }
+
+  Json read_json(const char* file) { return Json::parse(read_all(in(file))); }
+};
+
+TEST_F(CliOverlap, WritesThePairsOfAPathAndAuditsThem) {
+  ASSERT_EQ(run("move overlap away.motion.json -o away.path.json --tolerance 0.01").exit_code, 0);
+  Json path = read_json("away.path.json");
+  EXPECT_EQ(path["version"], 2);
+  ASSERT_EQ(path["pairs"].size(), 1u);
+  EXPECT_EQ(path["pairs"][0]["state"], "overlapping");
+  EXPECT_NEAR(path["pairs"][0]["initial_depth_mm"].get<double>(), 1, 0.01);
+  EXPECT_NEAR(path["pairs"][0]["allowed_depth_mm"].get<double>(), 1.01, 0.01);
+  const Outcome good = run("audit overlap away.path.json");
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  EXPECT_NE(good.out.find("the guarantee holds\n"), std::string::npos) << good.out;
+
+  path["pairs"][0]["allowed_depth_mm"] = 3;
+  write("licence.path.json", path.dump());
+  const Outcome licence = run("audit overlap licence.path.json");
+  EXPECT_EQ(licence.exit_code, 1);
+  EXPECT_NE(licence.out.find("are allowed 3 mm, more than their depth at the start"), std::string::npos) << licence.out;
+  path["pairs"][0]["state"] = "declared";
+  write("declared.path.json", path.dump());
+  const Outcome declared = run("audit overlap declared.path.json");
+  EXPECT_EQ(declared.exit_code, 0) << declared.out;
+  EXPECT_NE(declared.out.find("1 pair declared by the user to get deeper:"), std::string::npos) << declared.out;
+  path["pairs"].clear();
+  write("unlisted.path.json", path.dump());
+  EXPECT_EQ(run("audit overlap unlisted.path.json").exit_code, 1);
+  expect_error("audit overlap away.path.json --solids", 2, "--solids");
+}
+
+TEST_F(CliOverlap, SaysThatFreePairsAreUnchecked) {
+  for (const char* options : {"--pairs paper", "--method streams"}) {
+    ASSERT_EQ(run(std::string("move overlap away.motion.json -o free.path.json --tolerance 0.01 ") + options).exit_code, 0);
+    const Json pair = read_json("free.path.json")["pairs"][0];
+    EXPECT_EQ(pair["state"], "free") << options;
+    EXPECT_TRUE(pair["allowed_depth_mm"].is_null()) << options;
+    const Outcome text = run("audit overlap free.path.json");
+    EXPECT_EQ(text.exit_code, 0) << text.out;
+    EXPECT_NE(text.out.find("1 pair unchecked until they have been apart:"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("the guarantee holds, except for the unchecked pairs"), std::string::npos) << text.out;
+    const Json json = Json::parse(run("audit overlap free.path.json --json").out);
+    EXPECT_EQ(json["version"], 2);
+    EXPECT_EQ(json["holds"], true);
+    EXPECT_EQ(json["unchecked_pairs"], 1);
+    EXPECT_EQ(json["pairs"][0]["checked"], "once apart");
+    EXPECT_EQ(json["pairs"][0]["parted"], true);
+  }
+}
+
 TEST_F(Cli, StopsOneStepBeforeTheWall) {
   for (const char* ccd : {"certified", "elementary"}) {
     const Outcome o =

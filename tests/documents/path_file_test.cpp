@@ -18,11 +18,12 @@ namespace {
 
 // The example of docs/formats.md.
 constexpr const char* kExample = R"({
-  "format": "dismantle-path", "version": 1,
+  "format": "dismantle-path", "version": 2,
   "assembly": {"file": "vice.step", "sha256": "00ff", "components": ["base", "jaw", "screw"]},
   "tolerance_mm": 0.01,
-  "pairs": [{"a": "jaw", "b": "screw", "state": "fit", "allowed_penetration_mm": 0.031},
-            {"a": "jaw", "b": "base", "state": "embedded", "allowed_penetration_mm": null}],
+  "pairs": [{"a": "jaw", "b": "screw", "state": "overlapping", "initial_depth_mm": 0.021, "allowed_depth_mm": 0.031},
+            {"a": "jaw", "b": "base", "state": "free", "initial_depth_mm": 1.5, "allowed_depth_mm": null},
+            {"a": "screw", "b": "base", "state": "declared", "initial_depth_mm": 0, "allowed_depth_mm": 2}],
   "moves": [
     {"label": "remove screw", "components": ["screw"],
      "frames": [{"t": 0.0, "position": [0,0,0], "rotation": [1,0,0,0]},
@@ -30,6 +31,8 @@ constexpr const char* kExample = R"({
   ],
   "removed": ["screw"]
 })";
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The example with the value at a JSON pointer replaced by other JSON text.
 std::string with(const std::string& pointer, const std::string& value) {
@@ -56,9 +59,11 @@ TEST(PathFile, ReadsTheExampleOfTheFormat) {
   EXPECT_EQ(path->assembly_file, "vice.step");
   EXPECT_EQ(path->components, (std::vector<std::string>{"base", "jaw", "screw"}));
   EXPECT_EQ(path->tolerance, 0.01);
-  ASSERT_EQ(path->pairs.size(), 2u);
-  EXPECT_EQ(path->pairs[0], (PathPair{"jaw", "screw", PairState::Fit, 0.031}));
-  EXPECT_EQ(path->pairs[1], (PathPair{"jaw", "base", PairState::Embedded, std::numeric_limits<double>::infinity()}));
+  EXPECT_EQ(path->version, 2);
+  ASSERT_EQ(path->pairs.size(), 3u);
+  EXPECT_EQ(path->pairs[0], (PathPair{"jaw", "screw", PathPairState::Overlapping, 0.021, 0.031}));
+  EXPECT_EQ(path->pairs[1], (PathPair{"jaw", "base", PathPairState::Free, 1.5, kInfinity}));
+  EXPECT_EQ(path->pairs[2], (PathPair{"screw", "base", PathPairState::Declared, 0, 2}));
   ASSERT_EQ(path->moves.size(), 1u);
   EXPECT_EQ(path->moves[0].label, "remove screw");
   EXPECT_EQ(path->moves[0].frames[1], (Frame{0.1, {{0, 0, 5}, {}}}));
@@ -75,8 +80,9 @@ TEST(PathFile, WritesWhatItReadsBitForBit) {
   path.assembly_sha256 = std::string(64, 'a');
   path.components = {"sch\xc3\xb6n", "b\n\t", "c\\"};
   path.tolerance = 0.1 + 0.2;
-  path.pairs = {{"b\n\t", "c\\", PairState::Fit, 1.0 / 3},
-                {"c\\", "b\n\t", PairState::Embedded, std::numeric_limits<double>::infinity()}};
+  path.pairs = {{"b\n\t", "c\\", PathPairState::Overlapping, 0.1 + 0.2, 1.0 / 3},
+                {"c\\", "b\n\t", PathPairState::Declared, 0, 1e-300},
+                {"c\\", "b\n\t", PathPairState::Free, 0.7, kInfinity}};
   Move move{"pull", {"c\\"}, {}};
   double time = 0;
   while (move.frames.size() < 3000) {
@@ -102,12 +108,40 @@ TEST(PathFile, WritesWhatItReadsBitForBit) {
   EXPECT_EQ(path_text(*again), path_text(path));
 }
 
+/// A file of version 1, which measured depth between triangles.
+constexpr const char* kVersion1 = R"({
+  "format": "dismantle-path", "version": 1,
+  "assembly": {"file": "vice.step", "sha256": "00ff", "components": ["base", "jaw", "screw"]},
+  "tolerance_mm": 0.01,
+  "pairs": [{"a": "jaw", "b": "screw", "state": "fit", "allowed_penetration_mm": 0.031},
+            {"a": "jaw", "b": "base", "state": "embedded", "allowed_penetration_mm": null}],
+  "moves": []
+})";
+
+TEST(PathFile, ReadsVersionOneWithoutItsPairs) {
+  const auto path = parse(kVersion1);
+  ASSERT_TRUE(path.ok()) << message_of(path);
+  EXPECT_EQ(path->version, 1);
+  EXPECT_EQ(path->tolerance, 0.01);
+  EXPECT_TRUE(path->pairs.empty());
+  const auto again = parse(path_text(*path));
+  ASSERT_TRUE(again.ok()) << message_of(again);
+  EXPECT_EQ(*again, *path);
+
+  const auto replaced = [](const std::string& from, const std::string& to) {
+    std::string text = kVersion1;
+    return parse(text.replace(text.find(from), from.size(), to));
+  };
+  expect_unreadable(replaced("\"fit\"", "\"overlapping\""), "is neither \"fit\" nor \"embedded\")");
+  expect_unreadable(replaced("\"jaw\", \"b\"", "\"lever\", \"b\""), "\"lever\" is not in assembly.components");
+}
+
 TEST(PathFile, KeepsTheOrderOfTheFormat) {
   const std::string text = path_text(*parse(kExample));
   std::size_t at = 0;
   for (const char* key :
        {"\"format\"",       "\"version\"", "\"assembly\"",   "\"file\"",   "\"sha256\"", "\"components\"",
-        "\"tolerance_mm\"", "\"pairs\"",   "\"a\"",          "\"b\"",      "\"state\"",  "\"allowed_penetration_mm\"",
+        "\"tolerance_mm\"", "\"pairs\"",   "\"a\"",          "\"b\"",      "\"state\"",  "\"initial_depth_mm\"", "\"allowed_depth_mm\"",
         "\"moves\"",        "\"label\"",   "\"components\"", "\"frames\"", "\"t\"",      "\"position\"",
         "\"rotation\"",     "\"removed\""}) {
     at = text.find(key, at);
@@ -132,8 +166,9 @@ TEST(PathFile, AllowsOptionalMembersToBeAbsent) {
 TEST(PathFile, SaysWhatIsWrongAndWhere) {
   const std::pair<const char*, std::pair<const char*, const char*>> kCases[] = {
       {"/format", {"\"dismantle-motion\"", "(format: not \"dismantle-path\")"}},
-      {"/version", {"2", "(version: not 1"}},
-      {"/version", {"\"1\"", "(version: not 1"}},
+      {"/version", {"3", "(version: not 1 to 2"}},
+      {"/version", {"0", "(version: not 1 to 2"}},
+      {"/version", {"\"2\"", "(version: not 1 to 2"}},
       {"/assembly", {"[]", "(assembly: not an object)"}},
       {"/assembly/components", {"[]", "(assembly.components: no component)"}},
       {"/assembly/components", {"[\"a\", \"a\"]", "(assembly.components[1]: \"a\" is there twice)"}},
@@ -144,9 +179,15 @@ TEST(PathFile, SaysWhatIsWrongAndWhere) {
       {"/pairs", {"{}", "(pairs: not an array)"}},
       {"/pairs/0/a", {"\"lever\"", "(pairs[0].a: \"lever\" is not in assembly.components)"}},
       {"/pairs/0/b", {"\"jaw\"", "(pairs[0].b: the same component as a)"}},
-      {"/pairs/0/state", {"\"clear\"", "(pairs[0].state: \"clear\" is neither"}},
-      {"/pairs/0/allowed_penetration_mm", {"null", "(pairs[0].allowed_penetration_mm: not a number)"}},
-      {"/pairs/1/allowed_penetration_mm", {"1", "(pairs[1].allowed_penetration_mm: not null"}},
+      {"/pairs/0/state", {"\"clear\"", "(pairs[0].state: \"clear\" is none of \"overlapping\", \"declared\" and \"free\")"}},
+      {"/pairs/0/state", {"\"fit\"", "(pairs[0].state: \"fit\" is none of"}},
+      {"/pairs/0/state", {"7", "(pairs[0].state: not a text)"}},
+      {"/pairs/0/initial_depth_mm", {"-0.1", "(pairs[0].initial_depth_mm: negative)"}},
+      {"/pairs/0/initial_depth_mm", {"null", "(pairs[0].initial_depth_mm: not a number)"}},
+      {"/pairs/0/allowed_depth_mm", {"null", "(pairs[0].allowed_depth_mm: not a number)"}},
+      {"/pairs/0/allowed_depth_mm", {"-1", "(pairs[0].allowed_depth_mm: negative)"}},
+      {"/pairs/1/allowed_depth_mm", {"1", "(pairs[1].allowed_depth_mm: not null, though the pair is free)"}},
+      {"/pairs/2/allowed_depth_mm", {"\"2\"", "(pairs[2].allowed_depth_mm: not a number)"}},
       {"/moves", {"7", "(moves: not an array)"}},
       {"/moves/0", {"7", "(moves[0]: not an object)"}},
       {"/moves/0/label", {"7", "(moves[0].label: not a text)"}},
@@ -164,6 +205,9 @@ TEST(PathFile, SaysWhatIsWrongAndWhere) {
   };
   for (const auto& [pointer, wrong] : kCases) expect_unreadable(parse(with(pointer, wrong.first)), wrong.second);
   expect_unreadable(parse(without("", "moves")), "(moves: missing)");
+  expect_unreadable(parse(without("/pairs/0", "state")), "(pairs[0].state: missing)");
+  expect_unreadable(parse(without("/pairs/0", "initial_depth_mm")), "(pairs[0].initial_depth_mm: missing)");
+  expect_unreadable(parse(without("/pairs/0", "allowed_depth_mm")), "(pairs[0].allowed_depth_mm: missing)");
   expect_unreadable(parse(without("/moves/0/frames/1", "t")), "(moves[0].frames[1].t: missing)");
   expect_unreadable(parse("[]"), "(the document: not an object)");
 }

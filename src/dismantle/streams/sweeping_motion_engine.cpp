@@ -5,6 +5,7 @@
 #include "dismantle/streams/streams_motion_engine.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dismantle {
 
@@ -62,6 +63,15 @@ class SweepingMotionEngine final : public MotionEngine {
 std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
                                                           std::unique_ptr<SweepEngine> engine) {
   return std::make_unique<SweepingMotionEngine>(assembly, tolerance, std::move(engine));
+}
+
+PairStates states_for_streams(PairStates states) {
+  for (ComponentPair& pair : states.pairs) {
+    if (pair.state != PairState::Overlapping) continue;
+    pair.state = PairState::Free;
+    pair.allowed_depth = std::numeric_limits<double>::infinity();
+  }
+  return states;
 }
 
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
