@@ -94,10 +94,9 @@ bool straight_is_free(const Assembly& now, const PairStates& states, const std::
                           kStuckAllowance * std::min(pair.allowed_depth, states.tolerance + diagonal_of(now))});
   path.moves.push_back({"straight", {now[moving].name}, {{0, {}}, {1, {displacement, {}}}}});
   const AuditReport report = audit_path(now, path);
-  return std::none_of(report.violations.begin(), report.violations.end(),
-                      [&](const AuditViolation& v) {
-                        return v.kind != AuditViolationKind::PathInconsistent && (v.a == moving || v.b == moving);
-                      });
+  return std::none_of(report.violations.begin(), report.violations.end(), [&](const AuditViolation& v) {
+    return v.kind != AuditViolationKind::PathInconsistent && (v.a == moving || v.b == moving);
+  });
 }
 
 /// Tests whether the component that was moved last is stuck, by short straight motions.

@@ -30,13 +30,11 @@ std::size_t frame_count(const Path& path) {
 
 Json to_json(const AuditViolation& v, const Assembly& a) {
   const auto name = [&a](ComponentId id) { return id.valid() ? Json(a[id].name) : Json(nullptr); };
-  Json json = {{"kind", name_of(v.kind)},
-               {"move", v.move == AuditViolation::kAssembledState ? Json(nullptr) : Json(v.move)},
-               {"frame", v.frame},
-               {"t", v.time},
-               {"a", name(v.a)},
-               {"b", name(v.b)},
-               {"message", v.message}};
+  Json json = {
+      {"kind", name_of(v.kind)}, {"move", v.move == AuditViolation::kAssembledState ? Json(nullptr) : Json(v.move)},
+      {"frame", v.frame},        {"t", v.time},
+      {"a", name(v.a)},          {"b", name(v.b)},
+      {"message", v.message}};
   if (v.kind == AuditViolationKind::PathInconsistent) return json;
   json["of"] = name(v.point_of_a ? v.a : v.b);
   json["point"] = {v.point.x, v.point.y, v.point.z};
@@ -92,8 +90,7 @@ void print_pairs(const AuditReport& report, const Assembly& a, PathPairState sta
   for (const AuditPair& pair : report.pairs) {
     if (pair.state != state || printed == list) continue;
     ++printed;
-    const std::string allowed =
-        state == PathPairState::Free ? "" : fmt::format(", {:.4g} mm allowed", pair.allowed);
+    const std::string allowed = state == PathPairState::Free ? "" : fmt::format(", {:.4g} mm allowed", pair.allowed);
     fmt::print("  \"{}\" and \"{}\"{}{}\n", a[pair.a].name, a[pair.b].name, allowed,
                pair.parted ? ", apart since" : "");
   }

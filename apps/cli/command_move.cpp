@@ -48,11 +48,12 @@ std::string timing_csv(const Motion& motion, const PlayedMotion& played) {
   for (std::size_t i = 0; i < played.steps.size(); ++i) {
     const PlayedStep& s = played.steps[i];
     const StepResult& r = s.result;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:.4f},{},{},{},{},{},{}\n", i, s.move, s.target, s.time,
-                       motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.blocking_pairs.size(), r.sweeps,
-                       stage_text(r.cost, kVerticesStage), stage_text(r.cost, kRefitStage),
-                       stage_text(r.cost, kFrontStage), stage_text(r.cost, kIntersectionStage), r.cost.ms, r.cost.pairs,
-                       r.cost.triangle_pairs, r.cost.overlapping_pairs, r.cost.tests, r.cost.device_tests, r.cost.replays);
+    csv +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:.4f},{},{},{},{},{},{}\n", i, s.move, s.target, s.time,
+                    motion.moves[s.move].components.size(), r.reached ? 1 : 0, r.blocking_pairs.size(), r.sweeps,
+                    stage_text(r.cost, kVerticesStage), stage_text(r.cost, kRefitStage),
+                    stage_text(r.cost, kFrontStage), stage_text(r.cost, kIntersectionStage), r.cost.ms, r.cost.pairs,
+                    r.cost.triangle_pairs, r.cost.overlapping_pairs, r.cost.tests, r.cost.device_tests, r.cost.replays);
   }
   return csv;
 }

@@ -232,10 +232,11 @@ void bind_plan(py::module_& module) {
       "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0,
              "Finds the blockers of the straight removal of a component.");
-  module.def("audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
-             py::arg("progress") = py::none(),
-             "Checks that nothing in a path gets deeper than allowed and nothing passes through, independently of engine "
-             "and planner.");
+  module.def(
+      "audit", &audit, py::arg("assembly"), py::arg("path"), py::kw_only(), py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "Checks that nothing in a path gets deeper than allowed and nothing passes through, independently of engine "
+      "and planner.");
   module.def("export", &export_file, py::arg("assembly"), py::arg("path"), py::arg("file"), py::kw_only(),
              py::arg("reverse") = false, py::arg("progress") = py::none(),
              "Writes a file whose name gives the format: .glb, .html, .csv, bom.csv, bom.json or .path.json. "

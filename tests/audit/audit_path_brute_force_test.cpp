@@ -121,7 +121,7 @@ std::vector<Pose> random_poses(std::mt19937_64& random, Vec3 way, double angle) 
 }
 
 AuditReport audit(const TriangleMesh& fixed, const TriangleMesh& moving, const std::vector<Pose>& poses,
-                 const Executor& executor = {}) {
+                  const Executor& executor = {}) {
   const Assembly a = scenes::assembly({scenes::component("fixed", fixed), scenes::component("moving", moving)});
   Path path = audit_scenes::path_of(a, kTolerance);
   path.moves = {audit_scenes::move_through({"moving"}, poses)};

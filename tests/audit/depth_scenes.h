@@ -167,7 +167,7 @@ inline TriangleMesh block() {
 
 /// Audits one move of the second of two components.
 inline AuditReport audit_pair(const TriangleMesh& fixed, const TriangleMesh& moving, const std::vector<Pose>& poses,
-                             double tolerance = 0.01) {
+                              double tolerance = 0.01) {
   const Assembly a = scenes::assembly({scenes::component("fixed", fixed), scenes::component("moving", moving)});
   Path path = audit_scenes::path_of(a, tolerance);
   path.moves = {audit_scenes::move_through({"moving"}, poses)};

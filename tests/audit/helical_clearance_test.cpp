@@ -31,7 +31,8 @@ TriangleMesh scattered(std::mt19937_64& random, int count, double radius, double
     for (int k = 0; k < 4; ++k) mesh.vertices.push_back(center + reach * vector());
     Vec3* v = &mesh.vertices[first];
     if (dot(v[3] - v[0], cross(v[1] - v[0], v[2] - v[0])) > 0) std::swap(v[0], v[1]);
-    for (const auto& f : {std::array{0u, 1u, 2u}, std::array{0u, 3u, 1u}, std::array{1u, 3u, 2u}, std::array{2u, 3u, 0u}})
+    for (const auto& f :
+         {std::array{0u, 1u, 2u}, std::array{0u, 3u, 1u}, std::array{1u, 3u, 2u}, std::array{2u, 3u, 0u}})
       mesh.faces.push_back({{first + f[0], first + f[1], first + f[2]}});
   }
   return mesh;
@@ -104,8 +105,8 @@ TEST(HelicalMotion, DeviationBoundsEveryPointAtEveryInstant) {
     const auto segments = motion_segments(frames);
     scene.pair.motion.motions.clear();
     for (const MotionSegment& segment : segments)
-      scene.pair.motion.motions.push_back(relative_motion(scene.a.surface().world_from_body(Pose{}),
-                                                          scene.b.surface().world_from_body(segment.start), segment.screw));
+      scene.pair.motion.motions.push_back(relative_motion(
+          scene.a.surface().world_from_body(Pose{}), scene.b.surface().world_from_body(segment.start), segment.screw));
     const auto motion = helical_motion(scene.pair.motion, {0, 20}, 1e-6);
     ASSERT_TRUE(motion.has_value());
     EXPECT_LT(motion->deviation, 0.2);
@@ -232,8 +233,8 @@ TEST(HelicalClearance, NamesNoFaceThatIsDeeperThanTheLimit) {
   for (int i = 0; i < 300; ++i) {
     const double pitch = i % 5 == 0 ? 0 : 2 * uniform(random) - 1;
     const double limit = 0.3 * uniform(random);
-    const HelicalScene scene(scattered(random, 1 + i % 8, 5, 1), scattered(random, 1 + i % 8, 5, 1), random_axis(random),
-                             pitch, 2.5 + 6 * uniform(random), 4 + i % 20);
+    const HelicalScene scene(scattered(random, 1 + i % 8, 5, 1), scattered(random, 1 + i % 8, 5, 1),
+                             random_axis(random), pitch, 2.5 + 6 * uniform(random), 4 + i % 20);
     const auto last = static_cast<std::uint32_t>(scene.segments.size()) - 1;
     const auto clear = clear_in_helical_motion(scene.pair, {0, last}, limit);
     ASSERT_TRUE(clear.has_value());

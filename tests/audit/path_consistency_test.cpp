@@ -91,7 +91,8 @@ TEST(PathConsistency, FindsInvalidPairs) {
   EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PathPairState::Declared, -0.1, 0.1}}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) { p.pairs = {{"left", "right", PathPairState::Declared, 0, -0.1}}; }), 1u);
   EXPECT_EQ(faults_after([](Path& p) {
-              p.pairs = {{"left", "right", PathPairState::Declared, 0, 0.1}, {"right", "left", PathPairState::Declared, 0, 0.2}};
+              p.pairs = {{"left", "right", PathPairState::Declared, 0, 0.1},
+                         {"right", "left", PathPairState::Declared, 0, 0.2}};
             }),
             1u);
 }

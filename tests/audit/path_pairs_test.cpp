@@ -71,7 +71,8 @@ TEST(PathPairs, HonourAnAllowanceThatIsLessThanTheOverlapJustifies) {
 TEST(PathPairs, CannotLicenseThemselves) {
   PinInBlock scene(0.5);
   const double margin = 0.01 * 0.5;
-  EXPECT_TRUE(PinInBlock(scene).list(PathPairState::Overlapping, 0.5 + 0.9 * margin, 0.51 + 0.9 * margin).audit().holds());
+  EXPECT_TRUE(
+      PinInBlock(scene).list(PathPairState::Overlapping, 0.5 + 0.9 * margin, 0.51 + 0.9 * margin).audit().holds());
   for (const auto& [initial, allowed] : {std::pair{0.5, 0.6}, {0.6, 0.51}, {2.0, 2.01}, {0.52, 0.53}}) {
     const AuditReport report = PinInBlock(scene).list(PathPairState::Overlapping, initial, allowed).audit();
     EXPECT_TRUE(inconsistent(report)) << initial << " " << allowed << "\n" << messages(report);
@@ -142,8 +143,11 @@ TEST(PathPairs, HaveTheToleranceOnceTheyHaveBeenApart) {
     EXPECT_EQ(deep.violations[0].allowed, kTolerance);
     EXPECT_NE(deep.violations[0].message.find("as they have been apart"), std::string::npos);
     // Not before.
-    EXPECT_TRUE(PinInBlock(0.5).list(state, 0.5, state == PathPairState::Free ? kInfinity : 0.51)
-                    .move(kUp, {0, 0.4, 0.5005, 0.2}).audit().holds());
+    EXPECT_TRUE(PinInBlock(0.5)
+                    .list(state, 0.5, state == PathPairState::Free ? kInfinity : 0.51)
+                    .move(kUp, {0, 0.4, 0.5005, 0.2})
+                    .audit()
+                    .holds());
   }
 }
 

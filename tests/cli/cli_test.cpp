@@ -141,8 +141,8 @@ TEST_F(Cli, FailsTheAuditOfATamperedPath) {
 
 /// Two blocks that are 1 mm deep in each other, and a motion that takes one away.
 constexpr const char* kAway = R"({"format": "dismantle-motion", "version": 1, "response": "touch", "moves": [
-    {"components": ["upper"], "targets": [{"t": 0.1, "position": [0, 0, 0.5], "rotation": [1, 0, 0, 0]},
-                                          {"t": 0.2, "position": [0, 0, 5], "rotation": [1, 0, 0, 0]}]}]})";
+    {"components": ["upper"], "targets": [{"t": 0.0, "position": [0, 0, 0.5], "rotation": [1, 0, 0, 0]},
+                                          {"t": 0.1, "position": [0, 0, 5], "rotation": [1, 0, 0, 0]}]}]})";
 
 class CliOverlap : public Cli {
  protected:
@@ -160,7 +160,8 @@ class CliOverlap : public Cli {
       for (const char* xy : {"0 0", "10 0", "10 10", "0 10"})
         text += std::string("v ") + xy + " " + std::to_string(z) + "\n";
     return text +
-           "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+           "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 "
+           "8\n";
   }
 
   Json read_json(const char* file) { return Json::parse(read_all(in(file))); }
@@ -196,7 +197,9 @@ TEST_F(CliOverlap, WritesThePairsOfAPathAndAuditsThem) {
 
 TEST_F(CliOverlap, SaysThatFreePairsAreUnchecked) {
   for (const char* options : {"--pairs paper", "--method streams"}) {
-    ASSERT_EQ(run(std::string("move overlap away.motion.json -o free.path.json --tolerance 0.01 ") + options).exit_code, 0);
+    const Outcome move =
+        run(std::string("move overlap away.motion.json -o free.path.json --tolerance 0.01 ") + options);
+    ASSERT_EQ(move.exit_code, 0) << move.err;
     const Json pair = read_json("free.path.json")["pairs"][0];
     EXPECT_EQ(pair["state"], "free") << options;
     EXPECT_TRUE(pair["allowed_depth_mm"].is_null()) << options;

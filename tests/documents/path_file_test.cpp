@@ -140,10 +140,10 @@ TEST(PathFile, KeepsTheOrderOfTheFormat) {
   const std::string text = path_text(*parse(kExample));
   std::size_t at = 0;
   for (const char* key :
-       {"\"format\"",       "\"version\"", "\"assembly\"",   "\"file\"",   "\"sha256\"", "\"components\"",
-        "\"tolerance_mm\"", "\"pairs\"",   "\"a\"",          "\"b\"",      "\"state\"",  "\"initial_depth_mm\"", "\"allowed_depth_mm\"",
-        "\"moves\"",        "\"label\"",   "\"components\"", "\"frames\"", "\"t\"",      "\"position\"",
-        "\"rotation\"",     "\"removed\""}) {
+       {"\"format\"",           "\"version\"",  "\"assembly\"", "\"file\"",       "\"sha256\"", "\"components\"",
+        "\"tolerance_mm\"",     "\"pairs\"",    "\"a\"",        "\"b\"",          "\"state\"",  "\"initial_depth_mm\"",
+        "\"allowed_depth_mm\"", "\"moves\"",    "\"label\"",    "\"components\"", "\"frames\"", "\"t\"",
+        "\"position\"",         "\"rotation\"", "\"removed\""}) {
     at = text.find(key, at);
     ASSERT_NE(at, std::string::npos) << key << " in " << text;
   }
@@ -179,7 +179,8 @@ TEST(PathFile, SaysWhatIsWrongAndWhere) {
       {"/pairs", {"{}", "(pairs: not an array)"}},
       {"/pairs/0/a", {"\"lever\"", "(pairs[0].a: \"lever\" is not in assembly.components)"}},
       {"/pairs/0/b", {"\"jaw\"", "(pairs[0].b: the same component as a)"}},
-      {"/pairs/0/state", {"\"clear\"", "(pairs[0].state: \"clear\" is none of \"overlapping\", \"declared\" and \"free\")"}},
+      {"/pairs/0/state",
+       {"\"clear\"", "(pairs[0].state: \"clear\" is none of \"overlapping\", \"declared\" and \"free\")"}},
       {"/pairs/0/state", {"\"fit\"", "(pairs[0].state: \"fit\" is none of"}},
       {"/pairs/0/state", {"7", "(pairs[0].state: not a text)"}},
       {"/pairs/0/initial_depth_mm", {"-0.1", "(pairs[0].initial_depth_mm: negative)"}},

@@ -50,8 +50,8 @@ inline constexpr int kPathVersion = 2;
 
 /// The moves that a session recorded or a planner found: docs/formats.md, `*.path.json`.
 struct Path {
-  /// Version of the file. In version 1, which measured depth between triangles, `pairs` is empty: it does not tell which
-  /// components overlap.
+  /// Version of the file. In version 1, which measured depth between triangles, `pairs` is empty: it does not tell
+  /// which components overlap.
   int version = kPathVersion;
   std::string assembly_file;            ///< Assembly::source_file.
   std::string assembly_sha256;          ///< Assembly::source_sha256.

@@ -23,7 +23,7 @@ struct AuditOptions {
 };
 
 /// Checks by the definition that nothing in a path gets deeper than allowed (docs/guarantee.md,
-/// docs/design/0011-audit-of-solids.md). The depth of a point of a surface inside another component is its distance
+/// docs/design/0011-audit.md). The depth of a point of a surface inside another component is its distance
 /// from that component's surface; inside is where the winding number is more than 1/2 in magnitude. The allowance of a
 /// pair is the tolerance; for a pair that is deeper than that in the assembled state, that depth plus the tolerance,
 /// or what the path allows if that is less, until it has been apart at a frame. The audit computes the depths in the

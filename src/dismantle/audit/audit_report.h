@@ -14,10 +14,10 @@ namespace dismantle {
 
 /// The part of the guarantee (docs/guarantee.md) that a path violates.
 enum class AuditViolationKind {
-  PathInconsistent,  ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, an allowance
-                     ///< above the depth at the start, ...
-  Depth,             ///< A point of one surface is deeper inside the other component than allowed.
-  Crossing,          ///< A point of one surface went through the other by more than allowed; one is a sheet, or thin.
+  PathInconsistent,  ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, an
+                     ///< allowance above the depth at the start, ...
+  Depth,     ///< A point of one surface is deeper inside the other component than allowed.
+  Crossing,  ///< A point of one surface went through the other by more than allowed; one is a sheet, or thin.
 };
 
 /// The name of a kind in `dismantle audit --json`: "path-inconsistent", "depth" or "crossing".
@@ -62,11 +62,11 @@ struct AuditReport {
   std::vector<AuditViolation> violations;  ///< Of the file, then one of each pair that violates a rule, by (a, b).
   std::vector<AuditPair> pairs;            ///< By (a, b).
   double tolerance = 0;                    ///< Of the path [mm].
-  double slack = 0;        ///< A path that holds is nowhere deeper than allowed by more than this [mm].
-  std::size_t sheets = 0;  ///< Number of components that bound no volume.
-  std::size_t pieces = 0;  ///< Number of pieces of surface and time that were examined.
-  double seconds = 0;      ///< Wall time.
-  bool complete = false;   ///< False where the audit was cancelled.
+  double slack = 0;                        ///< A path that holds is nowhere deeper than allowed by more than this [mm].
+  std::size_t sheets = 0;                  ///< Number of components that bound no volume.
+  std::size_t pieces = 0;                  ///< Number of pieces of surface and time that were examined.
+  double seconds = 0;                      ///< Wall time.
+  bool complete = false;                   ///< False where the audit was cancelled.
 
   /// True if the guarantee holds: the audit is complete and found no violation. Free pairs are not part of that until
   /// they have been apart.

@@ -62,7 +62,8 @@ std::vector<std::string> wrong_pair(const Assembly& assembly, const PathPair& pa
     if (!assembly.find(name))
       messages.push_back(where + " names " + quoted(name) + ", which the assembly does not have");
   if (pair.a == pair.b) messages.push_back(where + " is one component with itself");
-  const bool known = pair.state == PathPairState::Free || (pair.allowed_depth >= 0 && std::isfinite(pair.allowed_depth));
+  const bool known =
+      pair.state == PathPairState::Free || (pair.allowed_depth >= 0 && std::isfinite(pair.allowed_depth));
   if (!known) messages.push_back(where + " has no finite allowed depth, though it is not free");
   if (!(pair.initial_depth >= 0 && std::isfinite(pair.initial_depth)))
     messages.push_back(where + " has no finite depth at the start");

@@ -159,8 +159,8 @@ std::string path_text(const Path& path) {
   for (const PathPair& pair : path.pairs) pairs.push_back(json_line(pair_json(pair)));
   for (const Move& move : path.moves) moves.push_back(move_text(move));
   return "{\n  \"format\": \"dismantle-path\", \"version\": " + std::to_string(path.version) +
-         ",\n  \"assembly\": {\"file\": " + json_line(path.assembly_file) + ", \"sha256\": " + json_line(path.assembly_sha256) +
-         ",\n    \"components\": " + json_line(path.components) +
+         ",\n  \"assembly\": {\"file\": " + json_line(path.assembly_file) +
+         ", \"sha256\": " + json_line(path.assembly_sha256) + ",\n    \"components\": " + json_line(path.components) +
          "},\n  \"tolerance_mm\": " + json_line(path.tolerance) + ",\n  \"pairs\": [" + json_lines(pairs, 4) +
          "],\n  \"moves\": [" + json_lines(moves, 4) + "],\n  \"removed\": " + json_line(path.removed) + "\n}\n";
 }

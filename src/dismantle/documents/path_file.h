@@ -16,8 +16,8 @@ constexpr std::size_t kLargestJsonFile = std::size_t{512} << 20;
 
 /// Reads `*.path.json` (docs/formats.md). Checks everything that does not need the assembly: format and version,
 /// numbers finite and sane, times from 0 and never decreasing, quaternions of unit length (within 1e-6; scaled to 1),
-/// components of pairs and moves listed in the file. A `free` pair's allowance becomes infinite. Of a file of version 1 the
-/// pairs are checked and left out. `pairs`, `removed` and a move's `label` may be absent; members not described in
+/// components of pairs and moves listed in the file. A `free` pair's allowance becomes infinite. Of a file of version 1
+/// the pairs are checked and left out. `pairs`, `removed` and a move's `label` may be absent; members not described in
 /// docs/formats.md are ignored. Errors: Unreadable, with the position ("moves[2].frames[5].rotation").
 Result<Path> read_path(const std::filesystem::path& file);
 

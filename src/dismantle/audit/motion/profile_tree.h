@@ -69,7 +69,8 @@ struct ProfileNode {
 /// that a flank of a thread is one node, then by position along and about the axis.
 class ProfileTree {
  public:
-  /// @param triangles at the begin of the motion, in its frame (of a); a leaf's `face` is an index in them. @pre not empty
+  /// @param triangles at the begin of the motion, in its frame (of a); a leaf's `face` is an index in them. @pre not
+  /// empty
   ProfileTree(const std::vector<Triangle>& triangles, const HelicalMotion& motion, const ProfileFrame& frame);
   /// A node; 0 is the root.
   const ProfileNode& node(std::uint32_t i) const { return nodes_[i]; }

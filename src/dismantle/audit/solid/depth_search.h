@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/audit/motion/motion_span.h"
-#include "dismantle/audit/solid/solid_body.h"
 #include "dismantle/audit/pair_motion.h"
+#include "dismantle/audit/solid/solid_body.h"
 
 #include <cstdint>
 #include <vector>
@@ -52,7 +52,7 @@ struct DepthFindings {
 /// larger of that and growth * deepest + slack / 2.
 /// @param spans of motion_spans() @param of_b true for the points of b inside a, false for those of a inside b
 /// @param done faces that are known to be no deeper than the floor and the slack and are left out, by index; or empty
-DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b, const DepthGoal& goal,
-                           const std::vector<bool>& done = {});
+DepthFindings search_depth(const DepthPair& pair, const std::vector<MotionSpan>& spans, bool of_b,
+                           const DepthGoal& goal, const std::vector<bool>& done = {});
 
 }  // namespace dismantle::audit

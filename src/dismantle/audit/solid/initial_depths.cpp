@@ -56,7 +56,7 @@ DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, 
     position = std::max(position, max_abs(segment.start.position));
   }
   pair.motion.rounding = kRoundingUnits * std::numeric_limits<double>::epsilon() *
-                        (pair.motion.a->coordinate_bound() + pair.motion.b->coordinate_bound() + 2 * position);
+                         (pair.motion.a->coordinate_bound() + pair.motion.b->coordinate_bound() + 2 * position);
   return pair;
 }
 

@@ -54,15 +54,14 @@ class PathPairs {
     if (entry.allowed <= 0) entry.allowed = std::numeric_limits<double>::min();
   }
 
-  double lawful(const AuditPair& entry) const {
-    return entry.initial_depth + tolerance_ + margin(entry.initial_depth);
-  }
+  double lawful(const AuditPair& entry) const { return entry.initial_depth + tolerance_ + margin(entry.initial_depth); }
 
   void compare(const PathPair& pair, const Key& key, AuditPair& entry) {
     if (entry.initial_depth == 0 && overlaps_by(key, pair.initial_depth)) entry.initial_depth = pair.initial_depth;
     const double depth = entry.initial_depth;
     if (pair.initial_depth > depth + margin(depth))
-      report(key, "do not overlap by " + mm(pair.initial_depth) + " at the start, as the path says, but by " + mm(depth));
+      report(key,
+             "do not overlap by " + mm(pair.initial_depth) + " at the start, as the path says, but by " + mm(depth));
     else if (pair.allowed_depth > lawful(entry))
       report(key, "are allowed " + mm(pair.allowed_depth) + ", more than their depth at the start (" + mm(depth) +
                       ") and the tolerance");
@@ -99,8 +98,8 @@ class PathPairs {
     AuditViolation violation;
     violation.a = ComponentId(key.first);
     violation.b = ComponentId(key.second);
-    violation.message = "\"" + context_.assembly[violation.a].name + "\" and \"" + context_.assembly[violation.b].name +
-                        "\" " + what;
+    violation.message =
+        "\"" + context_.assembly[violation.a].name + "\" and \"" + context_.assembly[violation.b].name + "\" " + what;
     found_.push_back(violation);
   }
 
