@@ -119,5 +119,24 @@ TEST(OpenBoundary, CancelsAtTJunctionsAndKeepsOpenings) {
   EXPECT_NEAR(around, 4 + std::sqrt(8.0), 1e-12);
 }
 
+TEST(OpenBoundary, SumsStripAnglesOverAnyNumberOfTurns) {
+  std::mt19937_64 random(21);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3{normal(random), normal(random), normal(random)}; };
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<audit::OpenEdge> edges;
+    Vec3 at = vector();
+    for (int k = 0; k < 40; ++k) {
+      const Vec3 next = i % 2 == 0 ? vector() : at + 0.1 * vector();
+      edges.push_back({at, next, 1.0 + k % 3});
+      at = next;
+    }
+    const Vec3 direction = normalized(vector()), point = 0.3 * vector();
+    double sum = 0;
+    for (const audit::OpenEdge& edge : edges) sum += audit::strip_angle(edge, direction, point);
+    ASSERT_NEAR(audit::strip_angles(edges, direction, point), sum, 1e-9) << "case " << i;
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -2,6 +2,7 @@
 #include "dismantle/audit/solid/open_boundary.h"
 
 #include "dismantle/geometry/half_edges.h"
+#include "dismantle/math/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,29 @@ std::vector<ChainEdge> unbalanced_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
+/// An angle in (-pi, pi] by a vector of any length.
+struct Phasor {
+  double cosine = 1, sine = 0;
+};
+
+/// Adds an angle to a sum. @return the number of full turns by which the sum is less than that, -1 to 1
+double add(Phasor& sum, const Phasor& angle) {
+  const Phasor p{sum.cosine * angle.cosine - sum.sine * angle.sine, sum.cosine * angle.sine + sum.sine * angle.cosine};
+  const bool both_behind = sum.cosine < 0 && angle.cosine < 0;
+  double turns = 0;
+  if (sum.sine >= 0 && angle.sine >= 0 && (p.sine < 0 || (p.sine == 0 && both_behind))) turns = 1;
+  if (sum.sine < 0 && angle.sine < 0 && p.sine >= 0) turns = -1;
+  const double size = std::fabs(p.cosine) + std::fabs(p.sine);
+  sum = {p.cosine / size, p.sine / size};
+  return turns;
+}
+
+/// Half the solid angle of one strip of an edge.
+Phasor half_strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point) {
+  const Vec3 a = normalized(edge.to - point), b = normalized(edge.from - point);
+  return {1 + dot(a, b) + dot(a, direction) + dot(b, direction), dot(direction, cross(a, b))};
+}
+
 }  // namespace
 
 std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh) {
@@ -103,9 +127,19 @@ std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh) {
 }
 
 double strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point) {
-  const Vec3 a = normalized(edge.to - point), b = normalized(edge.from - point);
-  const double volume = dot(direction, cross(a, b));
-  return 2 * edge.count * std::atan2(volume, 1 + dot(a, b) + dot(a, direction) + dot(b, direction));
+  const Phasor half = half_strip_angle(edge, direction, point);
+  return 2 * edge.count * std::atan2(half.sine, half.cosine);
+}
+
+double strip_angles(const std::vector<OpenEdge>& edges, Vec3 direction, Vec3 point) {
+  Phasor sum;
+  double turns = 0;
+  for (const OpenEdge& edge : edges) {
+    const Phasor half = half_strip_angle(edge, direction, point);
+    if (half.sine == 0 && half.cosine == 0) continue;
+    for (int k = 0; k < static_cast<int>(edge.count); ++k) turns += add(sum, half);
+  }
+  return 2 * (kTurn * turns + std::atan2(sum.sine, sum.cosine));
 }
 
 }  // namespace dismantle::audit

@@ -27,4 +27,7 @@ std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh);
 /// where the triangle (from, to, infinity) is clockwise seen from the point.
 double strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point);
 
+/// The sum of the solid angles of the strips of several edges [sr], with one arctangent.
+double strip_angles(const std::vector<OpenEdge>& edges, Vec3 direction, Vec3 point);
+
 }  // namespace dismantle::audit

@@ -14,6 +14,8 @@ constexpr std::uint32_t kSolidityFaces = 256;
 /// Distance from a face at which its two sides are examined, relative to the body's size.
 constexpr double kSideDistance = 1e-6;
 
+/// Winding numbers that differ by less are the same.
+constexpr double kSameWinding = 1e-9;
 constexpr double kSphere = 4 * std::numbers::pi;
 
 bool in_box(const BoxNode& box, Vec3 point) {
@@ -41,8 +43,9 @@ SolidBody::SolidBody(const Component& component) : surface_(component) {
 double SolidBody::winding(Vec3 point) const {
   if (surface_.closed()) return surface_.ray_crossings(point).number;
   // A ray may pass through a crack: that of most rays is taken.
-  double found[3];
-  for (int k = 0; k < 3; ++k) found[k] = winding_by_ray(point, k);
+  double found[3] = {winding_by_ray(point, 0), winding_by_ray(point, 1), 0};
+  if (std::fabs(found[0] - found[1]) < kSameWinding) return found[0];
+  found[2] = winding_by_ray(point, 2);
   std::sort(found, found + 3);
   return found[1];
 }
@@ -50,9 +53,7 @@ double SolidBody::winding(Vec3 point) const {
 double SolidBody::winding_by_ray(Vec3 point, int direction) const {
   // Strips from all open edges to infinity against the ray close the surface, and the ray does not meet them.
   const RayCrossings crossings = surface_.ray_crossings(point, direction);
-  double angle = 0;
-  for (const OpenEdge& edge : open_edges_) angle += strip_angle(edge, -crossings.direction, point);
-  return crossings.number - angle / kSphere;
+  return crossings.number - strip_angles(open_edges_, -crossings.direction, point) / kSphere;
 }
 
 bool SolidBody::inside(Vec3 point) const {
