@@ -12,6 +12,7 @@ struct BvhRefitInput {
   Span<const Vec3> vertices_t1;  ///< Positions at its end, S_v(n+1) [mm]; the same span if nothing moves.
   Span<const Face> faces;        ///< Vertex indices of each leaf's triangle, in leaf order.
   double margin = 0;             ///< By how much leaves are grown on every side [mm, >= 0].
+  Span<const float> margins{};   ///< By how much each leaf is grown in addition, shape [leaf_count]; empty for none.
 };
 
 /// The cut of a hierarchy into blocks for CPU threads.

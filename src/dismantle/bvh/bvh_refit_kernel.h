@@ -15,6 +15,7 @@ struct BvhRefitLeafKernel {
   Span<const Face> faces;        ///< In leaf order.
   Span<Kdop16> bounds;           ///< Of all nodes.
   float margin = 0;              ///< Growth of the bounds on every side [mm].
+  Span<const float> margins{};   ///< Growth of each leaf in addition; empty for none.
 
   /// Bounds one leaf.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t leaf) const {
@@ -23,7 +24,7 @@ struct BvhRefitLeafKernel {
     for (int k = 0; k < 3; ++k) points.extend(vertices_t0[face.v[k]]);
     if (vertices_t1.data() != vertices_t0.data())
       for (int k = 0; k < 3; ++k) points.extend(vertices_t1[face.v[k]]);
-    bounds[leaf] = points.rounded_outward(margin);
+    bounds[leaf] = points.rounded_outward(margins.empty() ? margin : margin + margins[leaf]);
   }
 };
 

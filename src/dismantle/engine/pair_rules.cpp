@@ -7,38 +7,41 @@ namespace dismantle {
 
 namespace {
 
-PairRule rule_of(const ComponentPair& pair) {
-  switch (pair.state) {
+PairTest test_of(PairState state) {
+  switch (state) {
     case PairState::Clear:
     case PairState::Near:
-      return {PairTest::Ordinary, pair.allowed_depth};
+      return PairTest::Ordinary;
     case PairState::Contact:
-      return {PairTest::Certified, pair.allowed_depth};
     case PairState::Overlapping:
+      return PairTest::Certified;
     case PairState::Free:
-      return {PairTest::Discrete, 0};
+      return PairTest::Discrete;
   }
   return {};
 }
 
 }  // namespace
 
-PairRules::PairRules(const PairStates& states)
-    : table_(std::bit_ceil(2 * states.pairs.size() + 2)), tolerance_(states.tolerance) {
+PairRules::PairRules(const PairStates& states) : table_(std::bit_ceil(2 * states.pairs.size() + 2)) {
   for (const ComponentPair& pair : states.pairs) {
     DISMANTLE_EXPECT(pair.a < pair.b);
-    std::size_t i = PairRulesView::hash(pair.a.value, pair.b.value) & (table_.size() - 1);
-    while (table_[i].a != PairRuleEntry::kFree) i = (i + 1) & (table_.size() - 1);
-    table_[i] = {pair.a.value, pair.b.value, rule_of(pair)};
+    slot(pair.a, pair.b) = {pair.a.value, pair.b.value, {test_of(pair.state)}};
   }
 }
 
-void PairRules::part(ComponentId a, ComponentId b) {
-  for (PairRuleEntry& entry : table_) {
-    if (entry.a != a.value || entry.b != b.value) continue;
-    DISMANTLE_EXPECT(entry.rule.test == PairTest::Discrete);
-    entry.rule = {PairTest::Certified, tolerance_};
-  }
+void PairRules::set(ComponentId a, ComponentId b, const PairRule& rule) {
+  PairRuleEntry& entry = slot(a, b);
+  DISMANTLE_EXPECT(entry.a != PairRuleEntry::kFree);
+  entry.rule = rule;
+}
+
+/// The slot of a pair, or the empty one in which it belongs.
+PairRuleEntry& PairRules::slot(ComponentId a, ComponentId b) {
+  std::size_t i = PairRulesView::hash(a.value, b.value);
+  const auto at = [&](std::size_t k) -> PairRuleEntry& { return table_[k & (table_.size() - 1)]; };
+  while (at(i).a != PairRuleEntry::kFree && (at(i).a != a.value || at(i).b != b.value)) ++i;
+  return at(i);
 }
 
 }  // namespace dismantle

@@ -12,14 +12,18 @@ namespace dismantle {
 /// The test for the triangle pairs of a component pair.
 enum class PairTest : std::uint8_t {
   Ordinary,   ///< Apart in the assembled state: the continuous test of the options.
-  Certified,  ///< Contact, fit, or no longer embedded: the certified continuous test with an allowance.
-  Discrete,   ///< Embedded, in S_i: the intersection test at the end of the step.
+  Certified,  ///< Contact, overlapping, or no longer free: the certified continuous test with ghost surfaces.
+  Discrete,   ///< Free, in S_i: the intersection test at the end of the step.
+  None,       ///< Its triangles are not tested.
 };
 
 /// The rule of a component pair.
 struct PairRule {
   PairTest test = PairTest::Ordinary;  ///< Test for its triangle pairs.
-  double allowed_penetration = 0;      ///< [mm]; meaningless for Discrete
+  ///@{ Added to the index of a vertex of `a` or `b`: the slot of its displaced position in GhostTriangles::displaced.
+  std::uint32_t ghost_a = 0, ghost_b = 0;
+  ///@}
+  friend bool operator==(const PairRule&, const PairRule&) = default;
 };
 
 /// A slot of the hash table of rules.
@@ -33,7 +37,6 @@ struct PairRuleEntry {
 /// View of the rules for kernels: a hash table with open addressing. Pairs that are not in it are Ordinary.
 struct PairRulesView {
   Span<const PairRuleEntry> table;  ///< Its size is a power of two; at most half of it is used.
-  double tolerance = 0;             ///< Allowed penetration of pairs that are not in the table [mm].
 
   /// The hash of a pair: its first slot, modulo the size of the table. @pre a < b
   DISMANTLE_HOST_DEVICE static std::size_t hash(std::uint32_t a, std::uint32_t b) {
@@ -46,7 +49,7 @@ struct PairRulesView {
     for (std::size_t i = hash(a, b);; ++i) {
       const PairRuleEntry& entry = table[i & (table.size() - 1)];
       if (entry.a == a && entry.b == b) return entry.rule;
-      if (entry.a == PairRuleEntry::kFree) return {PairTest::Ordinary, tolerance};
+      if (entry.a == PairRuleEntry::kFree) return {};
     }
   }
 };
@@ -54,20 +57,19 @@ struct PairRulesView {
 /// The rules of all component pairs of an assembly.
 class PairRules {
  public:
-  /// Makes the rules from the states of the pairs in the assembled state.
+  /// Makes the rules from the states of the pairs in the assembled state; all ghosts are those at the vertices' own
+  /// slots.
   explicit PairRules(const PairStates& states);
 
   /// A view that is valid as long as this is.
-  PairRulesView view() const { return {table_, tolerance_}; }
-  /// Allowed penetration of pairs that are apart [mm].
-  double tolerance() const { return tolerance_; }
-  /// Ends the embedded state of a pair: its triangles may be no deeper than the tolerance from now on. The test is
-  /// Certified, as they may still overlap by less than that. @pre a < b; the pair was embedded
-  void part(ComponentId a, ComponentId b);
+  PairRulesView view() const { return {table_}; }
+  /// Changes the rule of a pair. @pre a < b; the pair was in the states
+  void set(ComponentId a, ComponentId b, const PairRule& rule);
 
  private:
+  PairRuleEntry& slot(ComponentId a, ComponentId b);
+
   std::vector<PairRuleEntry> table_;
-  double tolerance_;
 };
 
 }  // namespace dismantle

@@ -19,6 +19,12 @@ double max_displacement(const Aabb& box, const RigidTransform& start, const Rigi
   return longest * (1 + 1e-9);
 }
 
+/// The interval of the times at which a pair is tried as parted.
+double interval_of(const EmbeddedMotion& motion) {
+  constexpr double kMaxTimes = 4096;
+  return std::max(1 / kMaxTimes, kPartingShare * motion.tolerance / std::max(motion.displacement, motion.tolerance));
+}
+
 /// True if the two have no relative motion.
 bool move_as_one(Span<const RigidTransform> start, Span<const RigidTransform> end, ComponentId a, ComponentId b) {
   const bool both_still = start[a.value] == end[a.value] && start[b.value] == end[b.value];
@@ -33,7 +39,7 @@ EmbeddedPairs::EmbeddedPairs(const Assembly& assembly, const PairStates& states)
     boxes_.push_back(assembled_bounds(c));
   }
   for (const ComponentPair& pair : states.pairs)
-    if (pair.state == PairState::Overlapping || pair.state == PairState::Free) pairs_.push_back(pair);
+    if (pair.state == PairState::Free) pairs_.push_back(pair);
 }
 
 bool EmbeddedPairs::any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const {
@@ -70,7 +76,8 @@ std::vector<PartingPair> EmbeddedPairs::parting(const EmbeddedStep& step, Span<c
     if (pierced_throughout(moving)) continue;
     std::vector<std::uint64_t> own = triangle_pairs_of(triangle_pairs, component_of, pair.a, pair.b);
     moving.triangle_pairs = own;
-    if (const std::optional<double> from = parted_from(moving)) found.push_back({pair, *from, std::move(own)});
+    if (const std::optional<double> from = parted_from(moving))
+      found.push_back({pair, *from, interval_of(moving), std::move(own)});
   }
   return found;
 }

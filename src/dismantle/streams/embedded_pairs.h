@@ -20,10 +20,11 @@ struct EmbeddedStep {
   double path_deviation = 0;                   ///< Maximum distance of a vertex's true path from the linear one [mm].
 };
 
-/// An embedded pair that parts within a step.
+/// A free pair that may part within a step.
 struct PartingPair {
   ComponentPair pair;                         ///< As in the assembled state.
-  double from = 0;                            ///< Time of the step from which on it is tested like any other pair.
+  double from = 0;                            ///< Earliest time of the step from which on it is tested like any other.
+  double interval = 1;                        ///< Between that and later times of which the same may be true.
   std::vector<std::uint64_t> triangle_pairs;  ///< Those of S_t that belong to it.
 };
 
@@ -31,16 +32,16 @@ struct PartingPair {
 /// part.
 class EmbeddedPairs {
  public:
-  /// All embedded pairs of `states`, with all components in the assembled state.
+  /// All free pairs of `states`, with all components in the assembled state.
   EmbeddedPairs(const Assembly& assembly, const PairStates& states);
 
-  /// The pairs that are still embedded.
+  /// The pairs that are still free.
   const std::vector<ComponentPair>& pairs() const { return pairs_; }
   /// True if some pair has a relative motion between two states, one transform a component.
   bool any_moves(Span<const RigidTransform> start, Span<const RigidTransform> end) const;
   /// The pairs that part within the step. They stay in the stream, as the step may not be committed.
   /// @param triangle_pairs S_t, ascending
-  /// @param intersecting those of its embedded pairs that intersect at the end of the step (TID)
+  /// @param intersecting those of its free pairs that intersect at the end of the step (TID)
   std::vector<PartingPair> parting(const EmbeddedStep& step, Span<const std::uint64_t> triangle_pairs,
                                    Span<const std::uint64_t> intersecting) const;
   /// The pairs that are apart at the start of the step.

@@ -17,8 +17,12 @@ class HostStreamsBackend final : public StreamsBackend {
         front_(options.initial_capacity),
         narrow_phase_(options.initial_capacity) {}
 
+  void set_ghosts(const GhostVertices& ghosts) override {
+    ghosts_ = &ghosts;
+    streams_.set_margins(ghosts.margins, executor_);
+  }
   void set_rules(PairRulesView rules) override { rules_ = rules; }
-  StreamsStep step(Span<const RigidTransform> next, double path_deviation) override;
+  StreamsStep step(Span<const RigidTransform> next) override;
   void commit() override { streams_.commit(); }
   void jump(Span<const RigidTransform> state) override { streams_.jump(state, executor_); }
   Span<const RigidTransform> state() const override { return streams_.state(); }
@@ -33,9 +37,10 @@ class HostStreamsBackend final : public StreamsBackend {
   Front front_;
   NarrowPhase narrow_phase_;
   PairRulesView rules_;
+  const GhostVertices* ghosts_ = nullptr;
 };
 
-StreamsStep HostStreamsBackend::step(Span<const RigidTransform> next, double path_deviation) {
+StreamsStep HostStreamsBackend::step(Span<const RigidTransform> next) {
   StageClock clock;
   StreamsStep step;
   streams_.set_next(next, executor_);
@@ -45,7 +50,7 @@ StreamsStep HostStreamsBackend::step(Span<const RigidTransform> next, double pat
   const FrontUpdate update =
       front_.update({BvhView(streams_.fixed().bvh), streams_.bounds(), streams_.motion_class()}, executor_);
   step.timings.front = clock.lap();
-  narrow_phase_.run({front_.triangle_pairs(), &streams_, rules_, test_, path_deviation}, executor_);
+  narrow_phase_.run({front_.triangle_pairs(), &streams_, rules_, test_, ghosts_}, executor_);
   step.contacts = narrow_phase_.first_contacts();
   step.intersecting.assign(narrow_phase_.intersecting().begin(), narrow_phase_.intersecting().end());
   step.timings.intersection = clock.lap();

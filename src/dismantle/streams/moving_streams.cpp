@@ -4,6 +4,7 @@
 #include "dismantle/streams/vertex_kernel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle {
 
@@ -42,6 +43,11 @@ void MovingStreams::transform(std::vector<Vec3>& vertices, Span<const RigidTrans
   });
 }
 
+void MovingStreams::set_margins(std::vector<float> margins, const Executor& executor) {
+  margins_ = std::move(margins);
+  bounds_ = bvh_fit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t0_, fixed_.faces, 0, margins_}, executor);
+}
+
 void MovingStreams::set_next(Span<const RigidTransform> next, const Executor& executor) {
   const std::vector<ComponentId> changed = matrices_.set_next(next);
   transform(vertices_t1_, matrices_.end(), changed, executor);
@@ -59,10 +65,10 @@ void MovingStreams::refit(const Executor& executor) {
   for (const ComponentId c : matrices_.take_outdated_bounds())
     (motion_class()[c.value] == 0 ? stationary : moving).push_back(c);
   if (!stationary.empty())
-    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t0_, fixed_.faces, 0}, stationary, bounds_,
+    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t0_, fixed_.faces, 0, margins_}, stationary, bounds_,
               executor);
   if (!moving.empty())
-    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t1_, fixed_.faces, 0}, moving, bounds_, executor);
+    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t1_, fixed_.faces, 0, margins_}, moving, bounds_, executor);
 }
 
 void MovingStreams::commit() {

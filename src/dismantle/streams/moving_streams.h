@@ -14,6 +14,8 @@ class MovingStreams {
   /// All components in the assembled state.
   MovingStreams(const Assembly& assembly, const Executor& executor);
 
+  /// Grows the bounds of each leaf by a margin [mm], shape [leaf_count]. @pre all components are in the assembled state
+  void set_margins(std::vector<float> margins, const Executor& executor);
   /// Sets the candidate: S_tm -> S_v(n+1), and the motion classes. @param next shape [component_count]
   void set_next(Span<const RigidTransform> next, const Executor& executor);
   /// Sets the current state and the candidate. @param state, next shape [component_count]
@@ -29,11 +31,13 @@ class MovingStreams {
   const AssemblyTriangles& fixed() const { return fixed_; }
   /// The current state, shape [component_count].
   Span<const RigidTransform> state() const { return matrices_.start(); }
+  /// The candidate, shape [component_count].
+  Span<const RigidTransform> next() const { return matrices_.end(); }
   /// S_v(n) [mm, world].
   Span<const Vec3> vertices_t0() const { return vertices_t0_; }
   /// S_v(n+1) [mm, world].
   Span<const Vec3> vertices_t1() const { return vertices_t1_; }
-  /// S_bv and S_bvh: bounds of the step, shape [node_count] [mm, world].
+  /// S_bv and S_bvh: bounds of the step with their margins, shape [node_count] [mm, world].
   Span<const Kdop16> bounds() const { return bounds_; }
   /// See MatrixStream::motion_class().
   Span<const std::uint32_t> motion_class() const { return matrices_.motion_class(); }
@@ -45,6 +49,7 @@ class MovingStreams {
   AssemblyTriangles fixed_;
   MatrixStream matrices_;
   std::vector<Vec3> vertices_t0_, vertices_t1_;
+  std::vector<float> margins_;
   std::vector<Kdop16> bounds_;
 };
 

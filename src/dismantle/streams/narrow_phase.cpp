@@ -33,6 +33,18 @@ class StagedSink {
   std::size_t count_ = 0;
 };
 
+NarrowPhaseKernel kernel_of(const NarrowPhaseInput& input) {
+  const MovingStreams& streams = *input.streams;
+  return {input.triangle_pairs,
+          step_triangles(streams),
+          {input.ghosts->displaced, input.ghosts->margins, streams.state(), streams.next()},
+          streams.bounds(),
+          streams.fixed().bvh.component_of,
+          streams.fixed().features,
+          input.rules,
+          input.test};
+}
+
 /// The time of the step after which contacts do not matter, if these are known.
 double horizon(Span<const TrianglePairContact> contacts) {
   double first = 1;
@@ -43,16 +55,7 @@ double horizon(Span<const TrianglePairContact> contacts) {
 }  // namespace
 
 void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
-  const MovingStreams& streams = *input.streams;
-  NarrowPhaseKernel kernel{{},
-                           step_triangles(streams),
-                           streams.bounds(),
-                           streams.fixed().bvh.component_of,
-                           streams.fixed().features,
-                           streams.motion_class(),
-                           input.rules,
-                           input.test,
-                           input.path_deviation};
+  NarrowPhaseKernel kernel = kernel_of(input);
   found_.clear();
   intersecting_.clear();
   tests_ = replays_ = 0;
@@ -86,23 +89,27 @@ void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& exe
   intersecting_.insert(intersecting_.end(), intersections_.values().begin(), intersections_.values().end());
 }
 
-std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
-                                                 double from, const Executor& executor) {
-  if (pairs.empty()) return {};
-  const MovingStreams& streams = *input.streams;
-  const NodePair first = pair_of_key(pairs[0]);
-  const std::vector<std::uint32_t>& component_of = streams.fixed().bvh.component_of;
-  const int moving =
-      (streams.motion_class()[component_of[first.a]] != 0) + (streams.motion_class()[component_of[first.b]] != 0);
-  const double allowed = allowed_on_chords(input.rules.tolerance, input.path_deviation, moving);
-  const PartedPairKernel kernel{pairs, step_triangles(streams), from, allowed};
+std::optional<std::vector<TrianglePairContact>> contacts_after(const PartingPair& parting,
+                                                               const NarrowPhaseInput& input,
+                                                               const Executor& executor) {
+  const std::vector<std::uint64_t>& pairs = parting.triangle_pairs;
+  if (pairs.empty()) return std::vector<TrianglePairContact>();
+  const NarrowPhaseKernel kernel = kernel_of(input);
   AppendBuffer<TrianglePairContact> contacts(pairs.size());  // at most one a pair
-  const AppendView<TrianglePairContact> view = contacts.start();
-  executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (const std::optional<TrianglePairContact> found = kernel(i)) view.append(*found);
-  });
-  return {contacts.values().begin(), contacts.values().end()};
+  for (double from = parting.from; from < 1; from += parting.interval) {
+    const AppendView<TrianglePairContact> view = contacts.start();
+    std::atomic<bool> meets{false};  // at `from` itself
+    executor.for_each_range(pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !meets.load(std::memory_order_relaxed); ++i) {
+        const CcdResult ccd = kernel.certified(pair_of_key(pairs[i]), {}, from, 1);
+        if (ccd.status == CcdStatus::Free) continue;
+        if (ccd.toi == 0) meets = true;
+        view.append({pairs[i], from + (1 - from) * ccd.toi});
+      }
+    });
+    if (!meets) return std::vector<TrianglePairContact>(contacts.values().begin(), contacts.values().end());
+  }
+  return std::nullopt;
 }
 
 StepTriangles step_triangles(const MovingStreams& streams) {
@@ -124,12 +131,19 @@ std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams, Span<
     result.push_back({ComponentId(streams.bvh.component_of[p.a]), ComponentId(streams.bvh.component_of[p.b]),
                       streams.face_of[p.a], streams.face_of[p.b], found.toi});
   }
-  std::sort(result.begin(), result.end(), [](const BlockingPair& x, const BlockingPair& y) {
+  return result;
+}
+
+std::vector<BlockingPair> first_of(std::vector<BlockingPair> pairs) {
+  double first = 1;
+  for (const BlockingPair& pair : pairs) first = std::min(first, pair.toi);
+  std::erase_if(pairs, [&](const BlockingPair& pair) { return pair.toi > horizon_after(first); });
+  std::sort(pairs.begin(), pairs.end(), [](const BlockingPair& x, const BlockingPair& y) {
     if (x.a != y.a) return x.a < y.a;
     if (x.b != y.b) return x.b < y.b;
     return x.face_a != y.face_a ? x.face_a < y.face_a : x.face_b < y.face_b;
   });
-  return result;
+  return pairs;
 }
 
 }  // namespace dismantle

@@ -2,8 +2,13 @@
 #pragma once
 
 #include "dismantle/exec/append_buffer.h"
+#include "dismantle/streams/embedded_pairs.h"
+#include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/moving_streams.h"
 #include "dismantle/streams/narrow_phase_kernel.h"
+
+#include <optional>
+#include <vector>
 
 namespace dismantle {
 
@@ -13,7 +18,7 @@ struct NarrowPhaseInput {
   const MovingStreams* streams = nullptr;           ///< The step.
   PairRulesView rules;                              ///< The rules of the component pairs.
   ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs with PairTest::Ordinary.
-  double path_deviation = 0;                        ///< Maximum distance of true paths from linear ones [mm].
+  const GhostVertices* ghosts = nullptr;            ///< Of all components; never null.
 };
 
 /// The contacts that are within kContactWindow of the first one.
@@ -50,15 +55,18 @@ class NarrowPhase {
   std::size_t replays_ = 0;
 };
 
-/// The contacts of the triangle pairs of one component pair that parts at time `from`, over the rest of the step, by
-/// the certified test with the tolerance as allowance. In no particular order.
-std::vector<TrianglePairContact> parted_contacts(const NarrowPhaseInput& input, Span<const std::uint64_t> pairs,
-                                                 double from, const Executor& executor);
+/// The contacts of a component pair that parts within the step, by the certified test over the rest of it: from the
+/// first of its times at which the ghost surfaces are apart. In no particular order; nothing if there is no such time.
+std::optional<std::vector<TrianglePairContact>> contacts_after(const PartingPair& parting,
+                                                               const NarrowPhaseInput& input,
+                                                               const Executor& executor);
 
 /// The triangles of a step at its start and end.
 StepTriangles step_triangles(const MovingStreams& streams);
 
-/// Contacts as blocking pairs, ordered by components and faces.
+/// Contacts as blocking pairs, in the same order.
 std::vector<BlockingPair> blocking_pairs(const AssemblyTriangles& streams, Span<const TrianglePairContact> contacts);
+/// Those that are within kContactWindow of the first one, ordered by components and faces.
+std::vector<BlockingPair> first_of(std::vector<BlockingPair> pairs);
 
 }  // namespace dismantle

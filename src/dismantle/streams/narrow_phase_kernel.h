@@ -11,8 +11,6 @@
 #include "dismantle/streams/sweep_engine.h"
 #include "dismantle/surface/moving_surface.h"
 
-#include <optional>
-
 namespace dismantle {
 
 /// A triangle pair of S_t that blocks the motion, as kernels report it.
@@ -32,29 +30,61 @@ DISMANTLE_HOST_DEVICE inline TriangleMotion part_of(const TriangleMotion& motion
   return part;
 }
 
-/// Shortens an allowance by a relative 1e-6 before it is compared in float32: more than the rounding of a difference
-/// of bounds.
-inline constexpr double kAllowanceRounding = 1 - 1e-6;
+/// The ghost surfaces of a step (docs/design/0012-ghost-surfaces.md): they move with their components.
+struct GhostTriangles {
+  Span<const Vec3> displaced;         ///< GhostVertices::displaced [mm, assembled].
+  Span<const float> margins;          ///< GhostVertices::margins, shape [leaf_count] [mm].
+  Span<const RigidTransform> start;   ///< World from assembled at the start of the step, shape [component_count].
+  Span<const RigidTransform> end;     ///< At its end.
 
-/// True if an axis shows that two objects with these bounds are never deeper in each other than `allowed` [mm].
-DISMANTLE_HOST_DEVICE inline bool within_allowance(const Kdop16& a, const Kdop16& b, double allowed) {
-  // A depth along a diagonal axis is sqrt(2) times as long in the axis's own measure; 1.4 is less.
-  const float straight = static_cast<float>(allowed * kAllowanceRounding);
+  /// The ghost of a triangle during the step.
+  /// @param face its vertices
+  /// @param slot PairRule::ghost_a or ghost_b
+  DISMANTLE_HOST_DEVICE TriangleMotion motion(const Face& face, std::uint32_t component, std::uint32_t slot) const {
+    TriangleMotion m;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = displaced[face.v[k] + slot];
+      m.t0[k] = start[component] * p;
+      m.t1[k] = end[component] * p;
+    }
+    return m;
+  }
+  /// By how much the bounds of two leaves may overlap while their ghosts are certainly apart from the triangles [mm].
+  DISMANTLE_HOST_DEVICE double play(NodePair p) const {
+    return margins[p.a] < margins[p.b] ? margins[p.a] : margins[p.b];
+  }
+};
+
+/// A triangle and its ghost, both moving.
+struct GhostMotion {
+  TriangleMotion triangle;  ///< The triangle.
+  TriangleMotion ghost;     ///< Its ghost.
+};
+
+/// The certified test of two triangles: the ghost of neither may meet the other one, touching included.
+/// Free is certain; the time of contact is early rather than late.
+DISMANTLE_HOST_DEVICE inline CcdResult ccd_with_ghosts(const GhostMotion& a, const GhostMotion& b) {
+  const CcdResult first = ccd_triangle_triangle(a.ghost, b.triangle, 0);
+  const CcdResult second = ccd_triangle_triangle(a.triangle, b.ghost, 0);
+  if (first.status == CcdStatus::Contact && (second.status == CcdStatus::Free || first.toi < second.toi)) return first;
+  return second;
+}
+
+/// Shortens a length by a relative 1e-6 before it is compared in float32: more than the rounding of a difference of
+/// bounds.
+inline constexpr double kPlayRounding = 1 - 1e-6;
+
+/// True if an axis shows that two bounds certainly overlap by less than `length` [mm].
+DISMANTLE_HOST_DEVICE inline bool overlap_by_less(const Kdop16& a, const Kdop16& b, double length) {
+  // A length along a diagonal axis is sqrt(2) times as long in the axis's own measure; 1.4 is less.
+  const float straight = static_cast<float>(length * kPlayRounding);
   const float diagonal = 1.4f * straight;
   int apart = 0;
   for (int k = 0; k < Kdop16::kAxisCount; ++k) {
-    const float depth = k < 3 ? straight : diagonal;
-    apart |= (a.upper[k] - b.lower[k] < depth) | (b.upper[k] - a.lower[k] < depth);
+    const float overlap = k < 3 ? straight : diagonal;
+    apart |= (a.upper[k] - b.lower[k] < overlap) | (b.upper[k] - a.lower[k] < overlap);
   }
   return apart != 0;
-}
-
-/// The allowance on linear paths that keeps `allowed` on the true ones: reduced by the deviation of each moving
-/// component [mm].
-/// @param moving_components of the pair: 0, 1 or 2
-DISMANTLE_HOST_DEVICE inline double allowed_on_chords(double allowed, double deviation, int moving_components) {
-  const double left = allowed - moving_components * deviation;
-  return left > 0 ? left : 0;
 }
 
 /// The end of the round of the narrow phase that begins at triangle pair `begin`. S_t is tested in rounds, so that
@@ -85,42 +115,41 @@ enum class PairCull : std::uint8_t {
 struct NarrowPhaseKernel {
   Span<const std::uint64_t> pairs;                  ///< S_t
   StepTriangles triangles;                          ///< At the start and the end of the step.
+  GhostTriangles ghosts;                            ///< Of the same triangles.
   Span<const Kdop16> bounds;                        ///< Of the whole step, shape [node_count] [mm, world].
   Span<const std::uint32_t> component_of;           ///< Shape [leaf_count].
   Span<const std::uint8_t> features;                ///< Features that each leaf represents, shape [leaf_count].
-  Span<const std::uint32_t> motion_class;           ///< 0 for stationary components, shape [component_count].
   PairRulesView rules;                              ///< The rules of the component pairs.
   ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs with PairTest::Ordinary.
-  double path_deviation = 0;                        ///< Maximum distance of true paths from linear ones [mm].
   double horizon = 1;                               ///< Time of the step at which certified tests end.
   PairCull cull = PairCull::SeparatingAxis;         ///< Cull before elementary tests.
 
   /// Tests triangle pair i.
-
   template <class Sink>
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
     const NodePair p = pair_of_key(pairs[i]);
-    const std::uint32_t a = component_of[p.a], b = component_of[p.b];
-    const PairRule rule = rules.find(a, b);
+    const PairRule rule = rules.find(component_of[p.a], component_of[p.b]);
+    if (rule.test == PairTest::None) return;
     if (rule.test == PairTest::Discrete) {
       if (intersect_triangle_triangle(triangles.end(p.a), triangles.end(p.b))) sink.intersection(pairs[i]);
     } else if (rule.test == PairTest::Ordinary && test == ElementaryTest::Elementary) {
       elementary(i, p, sink);
-    } else {
-      const int moving = (motion_class[a] != 0) + (motion_class[b] != 0);
-      const double allowed = allowed_on_chords(rule.allowed_penetration, path_deviation, moving);
-      certified(i, p, allowed, sink);
+    } else if (!overlap_by_less(bounds[p.a], bounds[p.b], ghosts.play(p))) {
+      sink.tested(1);
+      const CcdResult ccd = certified(p, rule, 0, horizon);
+      if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], horizon * ccd.toi});
     }
   }
 
+  /// The certified test of two leaves on a part of the step, whatever their rule's test. Times are shares of the part.
+  DISMANTLE_HOST_DEVICE CcdResult certified(NodePair p, const PairRule& rule, double begin, double end) const {
+    return ccd_with_ghosts(part_of_motion(p.a, rule.ghost_a, begin, end), part_of_motion(p.b, rule.ghost_b, begin, end));
+  }
+
  private:
-  template <class Sink>
-  DISMANTLE_HOST_DEVICE void certified(std::size_t i, NodePair p, double allowed, Sink& sink) const {
-    if (within_allowance(bounds[p.a], bounds[p.b], allowed)) return;
-    sink.tested(1);
-    const CcdResult ccd = ccd_triangle_triangle(part_of(triangles.motion(p.a), 0, horizon),
-                                                part_of(triangles.motion(p.b), 0, horizon), allowed);
-    if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], horizon * ccd.toi});
+  DISMANTLE_HOST_DEVICE GhostMotion part_of_motion(NodeIndex leaf, std::uint32_t slot, double begin, double end) const {
+    return {part_of(triangles.motion(leaf), begin, end),
+            part_of(ghosts.motion(triangles.faces[leaf], component_of[leaf], slot), begin, end)};
   }
 
   template <class Sink>
@@ -130,25 +159,6 @@ struct NarrowPhaseKernel {
     const ElementaryPairResult found = elementary_triangle_triangle({a, features[p.a]}, {b, features[p.b]});
     sink.tested(static_cast<std::size_t>(found.elementary_tests));
     if (found.ccd.status == CcdStatus::Contact) sink.contact({pairs[i], found.ccd.toi});
-  }
-};
-
-/// Certified test of the triangle pairs of components that part within the step, over the rest of it. Item: a triangle
-/// pair.
-struct PartedPairKernel {
-  Span<const std::uint64_t> pairs;  ///< Keys of leaf pairs.
-  StepTriangles triangles;          ///< At the start and the end of the step.
-  double from = 0;                  ///< Time of the step at which the components part.
-  double allowed = 0;               ///< Allowed penetration on linear paths [mm].
-
-  /// The contact of triangle pair i, if there is one.
-
-  DISMANTLE_HOST_DEVICE std::optional<TrianglePairContact> operator()(std::size_t i) const {
-    const NodePair p = pair_of_key(pairs[i]);
-    const CcdResult ccd = ccd_triangle_triangle(part_of(triangles.motion(p.a), from, 1),
-                                                part_of(triangles.motion(p.b), from, 1), allowed);
-    if (ccd.status == CcdStatus::Free) return {};
-    return TrianglePairContact{pairs[i], from + (1 - from) * ccd.toi};
   }
 };
 

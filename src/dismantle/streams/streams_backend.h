@@ -26,12 +26,13 @@ class StreamsBackend {
  public:
   virtual ~StreamsBackend() = default;
 
+  /// Sets the ghost surfaces, which must outlive this. To be called once, before the first step.
+  virtual void set_ghosts(const GhostVertices& ghosts) = 0;
   /// Sets the rules by which pairs are tested. To be called before the first step; the table of `rules` must not change
   /// before the next call.
   virtual void set_rules(PairRulesView rules) = 0;
   /// Sweeps the motion from the current state to `next`, one transform a component; the state does not change.
-  /// @param path_deviation as in SweepEngine::sweep [mm]
-  virtual StreamsStep step(Span<const RigidTransform> next, double path_deviation) = 0;
+  virtual StreamsStep step(Span<const RigidTransform> next) = 0;
   /// Makes the `next` of the last step the current state.
   virtual void commit() = 0;
   /// Sets the current state without a test, one transform a component.

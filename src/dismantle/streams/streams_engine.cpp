@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/streams/embedded_pairs.h"
+#include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/stage_clock.h"
 #include "dismantle/streams/streams_backend.h"
 
@@ -16,26 +17,29 @@ class StreamsEngine final : public SweepEngine {
                 std::unique_ptr<StreamsBackend> backend)
       : options_(options),
         backend_(std::move(backend)),
-        rules_(pairs),
+        tolerance_(pairs.tolerance),
+        guards_(assembly, pairs, backend_->fixed(), options),
         embedded_(assembly, pairs),
         next_(state().begin(), state().end()) {
-    backend_->set_rules(rules_.view());
+    backend_->set_ghosts(guards_.ghosts());
+    backend_->set_rules(guards_.rules());
   }
 
   SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override;
   void commit() override;
   void jump(Span<const RigidTransform> state) override;
   Span<const RigidTransform> state() const override { return backend_->state(); }
-  std::vector<ComponentPair> overlapping_pairs() const override { return embedded_.pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override;
 
  private:
   EmbeddedStep embedded_step(const MovingStreams& streams, double path_deviation) const;
   void test_embedded_pairs(StreamsStep& step, double path_deviation);
-  void part(const std::vector<ComponentPair>& parted);
+  void end_free(const std::vector<ComponentPair>& parted);
 
   CollisionOptions options_;
   std::unique_ptr<StreamsBackend> backend_;
-  PairRules rules_;
+  double tolerance_;
+  GuardedPairs guards_;
   EmbeddedPairs embedded_;  // S_i
   std::vector<RigidTransform> next_;
   std::vector<ComponentPair> parting_;  // pairs that leave S_i if the last sweep is committed
@@ -43,17 +47,20 @@ class StreamsEngine final : public SweepEngine {
 };
 
 SweepResult StreamsEngine::sweep(Span<const RigidTransform> next, double path_deviation) {
-  DISMANTLE_EXPECT(2 * path_deviation <= rules_.tolerance());
+  DISMANTLE_EXPECT(2 * path_deviation <= tolerance_);
   StageClock clock;
   parting_.clear();
   next_.assign(next.begin(), next.end());
 
-  StreamsStep step = backend_->step(next, path_deviation);
-  StageClock embedded_clock;
+  StreamsStep step = backend_->step(next);
+  StageClock pairs_clock;
   test_embedded_pairs(step, path_deviation);
+  std::vector<BlockingPair> blocking = blocking_pairs(backend_->fixed(), step.contacts);
+  const std::vector<BlockingPair> deep = guards_.too_deep(state(), next_);
+  blocking.insert(blocking.end(), deep.begin(), deep.end());
   SweepResult result;
-  result.blocking_pairs = blocking_pairs(backend_->fixed(), first_of(step.contacts));
-  step.timings.intersection += embedded_clock.total();
+  result.blocking_pairs = first_of(std::move(blocking));
+  step.timings.intersection += pairs_clock.total();
 
   for (const BlockingPair& contact : result.blocking_pairs) result.toi = std::min(result.toi, contact.toi);
   result.free = result.blocking_pairs.empty();
@@ -72,30 +79,33 @@ EmbeddedStep StreamsEngine::embedded_step(const MovingStreams& streams, double p
 void StreamsEngine::test_embedded_pairs(StreamsStep& step, double path_deviation) {
   if (!embedded_.any_moves(state(), next_)) return;
   const MovingStreams& streams = backend_->on_host();
-  const NarrowPhaseInput input{backend_->triangle_pairs(), &streams, rules_.view(), options_.test, path_deviation};
+  const NarrowPhaseInput input{backend_->triangle_pairs(), &streams, guards_.rules(), options_.test,
+                               &guards_.ghosts()};
   for (const PartingPair& found :
        embedded_.parting(embedded_step(streams, path_deviation), input.triangle_pairs, step.intersecting)) {
+    const auto contacts = contacts_after(found, input, options_.executor);
+    if (!contacts) continue;
     parting_.push_back(found.pair);
-    const std::vector<TrianglePairContact> contacts =
-        parted_contacts(input, found.triangle_pairs, found.from, options_.executor);
-    step.contacts.insert(step.contacts.end(), contacts.begin(), contacts.end());
+    step.contacts.insert(step.contacts.end(), contacts->begin(), contacts->end());
     step.sizes.elementary_tests += found.triangle_pairs.size();
   }
 }
 
 void StreamsEngine::commit() {
   DISMANTLE_EXPECT(may_commit_);
+  const std::vector<RigidTransform> start(state().begin(), state().end());
   backend_->commit();
-  part(parting_);
+  end_free(parting_);
   parting_.clear();
+  if (guards_.part(start, state())) backend_->set_rules(guards_.rules());
   may_commit_ = false;
 }
 
-void StreamsEngine::part(const std::vector<ComponentPair>& parted) {
+void StreamsEngine::end_free(const std::vector<ComponentPair>& parted) {
   if (parted.empty()) return;
-  for (const ComponentPair& pair : parted) rules_.part(pair.a, pair.b);
+  for (const ComponentPair& pair : parted) guards_.end_free(pair.a, pair.b);
   embedded_.part(parted);
-  backend_->set_rules(rules_.view());
+  backend_->set_rules(guards_.rules());
 }
 
 void StreamsEngine::jump(Span<const RigidTransform> state) {
@@ -103,7 +113,17 @@ void StreamsEngine::jump(Span<const RigidTransform> state) {
   next_.assign(state.begin(), state.end());
   may_commit_ = false;
   parting_.clear();
-  if (!embedded_.pairs().empty()) part(embedded_.apart(embedded_step(backend_->on_host(), 0)));
+  if (!embedded_.pairs().empty()) end_free(embedded_.apart(embedded_step(backend_->on_host(), 0)));
+  if (guards_.jump(state)) backend_->set_rules(guards_.rules());
+}
+
+std::vector<ComponentPair> StreamsEngine::overlapping_pairs() const {
+  std::vector<ComponentPair> pairs = guards_.overlapping();
+  pairs.insert(pairs.end(), embedded_.pairs().begin(), embedded_.pairs().end());
+  std::sort(pairs.begin(), pairs.end(), [](const ComponentPair& x, const ComponentPair& y) {
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return pairs;
 }
 
 }  // namespace

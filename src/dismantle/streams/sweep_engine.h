@@ -16,9 +16,9 @@ namespace dismantle {
 
 /// The continuous test for triangle pairs of components that are apart in the assembled state.
 enum class ElementaryTest {
-  Certified,   ///< ccd_triangle_triangle: no miss, with the pair's allowed penetration.
-  Elementary,  ///< The paper's 6 VF + 9 EE cubic tests, no penetration allowed. Pairs in contact or fit need an
-               ///< allowance and are tested with Certified all the same.
+  Certified,   ///< ccd_triangle_triangle with ghost surfaces: no miss (docs/guarantee.md).
+  Elementary,  ///< The paper's 6 VF + 9 EE cubic tests, no penetration allowed. Pairs that touch or overlap in the
+               ///< assembled state need an allowance and are tested with Certified all the same.
 };
 
 /// Wall times of the stages of a sweep, as in Table 1 of Du et al. 2015 [ms].
@@ -65,18 +65,20 @@ class SweepEngine {
 
   /// Tests the motion from the current state to `next`; the state does not change.
   /// @param next one transform a component: x_next = next[c] * x_assembled
-  /// @param path_deviation maximum distance of a vertex's true path from the linear one [mm]; it is subtracted from
-  ///        every allowed penetration, so that a free sweep holds for the true path. @pre at most half the tolerance
+  /// @param path_deviation maximum distance of a vertex's true path from the linear one [mm]. Displacements of ghost
+  ///        surfaces leave kArcShare of the tolerance for it: a free sweep holds for the true path where only one of
+  ///        two components moves. @pre at most half the tolerance
   virtual SweepResult sweep(Span<const RigidTransform> next, double path_deviation) = 0;
   /// Makes the `next` of the last sweep the current state. @pre that sweep was free
   virtual void commit() = 0;
   /// Sets the current state without a test (undo, or a recorded state known to be free), one transform a component.
-  /// Embedded pairs that are apart there leave the intersection stream.
+  /// Free pairs that are apart there leave the intersection stream for good; other overlapping pairs have the tolerance
+  /// for their allowance if they are apart there, and else their own.
   virtual void jump(Span<const RigidTransform> state) = 0;
 
   /// The current state, one transform a component.
   virtual Span<const RigidTransform> state() const = 0;
-  /// The pairs that are still embedded: in the intersection stream S_i.
+  /// The pairs with an allowance of their own that have not been apart yet, the free ones (S_i) included.
   virtual std::vector<ComponentPair> overlapping_pairs() const = 0;
 };
 

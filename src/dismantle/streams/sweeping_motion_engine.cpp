@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/streams/guarded_engine.h"
 #include "dismantle/streams/step_towards.h"
 #include "dismantle/streams/streams_backend.h"
 #include "dismantle/streams/streams_motion_engine.h"
@@ -78,9 +77,7 @@ std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembl
                                                          const CollisionOptions& options,
                                                          std::unique_ptr<StreamsBackend> backend) {
   return make_sweeping_motion_engine(
-      assembly, pairs.tolerance,
-      make_guarded_engine(make_streams_engine(assembly, pairs, options, std::move(backend)), assembly, pairs,
-                          options.executor));
+      assembly, pairs.tolerance, make_streams_engine(assembly, pairs, options, std::move(backend)));
 }
 
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,

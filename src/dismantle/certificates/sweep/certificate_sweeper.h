@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/certificates/ghosts/find_pair_ghosts.h"
+#include "dismantle/certificates/ghosts/find_guards.h"
 #include "dismantle/certificates/sweep/certificate_sweep.h"
 #include "dismantle/certificates/sweep/front_store.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
@@ -15,21 +15,6 @@
 #include <vector>
 
 namespace dismantle {
-
-/// The way in which two components are kept from getting deeper into each other.
-enum class PairGuard : std::uint8_t {
-  Ghosts,  ///< Ghost surfaces that never cross the other component.
-  Depth,   ///< None were found for the overlap: the depth of the two solids is bounded.
-  None,    ///< Not at all, until they have been apart.
-};
-
-/// Two components that have been given an allowance of their own.
-struct GuardedPair {
-  PairGuard guard = PairGuard::Ghosts;  ///< Until they have been apart.
-  double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
-  double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
-  bool parted = false;                  ///< They have been apart: they are treated like any other pair.
-};
 
 /// Sweeps of the moving set along screws, by the fronts between its components and all others
 /// (docs/design/0006-certificates.md). Each component is tested against the ghost surface of the other one. Keeps the

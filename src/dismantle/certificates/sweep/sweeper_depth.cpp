@@ -2,7 +2,6 @@
 // Pairs of components without ghost surfaces, whose depth is bounded; and pairs that part.
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 #include "dismantle/certificates/sweep/sweep_tasks.h"
-#include "dismantle/surface/solid_distance.h"
 #include "dismantle/surface/swept_depth.h"
 
 #include <algorithm>
@@ -64,17 +63,10 @@ void CertificateSweeper::part_others() {
 }
 
 bool CertificateSweeper::apart(ComponentId a, ComponentId b) {
-  const RigidTransform at_a = transform_from_pose(poses_[a.value]), at_b = transform_from_pose(poses_[b.value]);
-  const PlacedSolid first{&solid(a), at_a}, second{&solid(b), at_b};
-  if (first.solid->tree.empty() || second.solid->tree.empty() || bounds_distance(first, second) > tolerance_)
-    return true;
-  if (solid_distance(first, second, 2 * tolerance_).distance <= tolerance_) return false;
-  const auto inside = [&](ComponentId inner, ComponentId outer, const RigidTransform& outer_from_inner) {
-    const WindingNumber& winding = shape(outer).winding();
-    const std::vector<Vec3>& points = solid(inner).vertices;
-    return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return winding.inside(outer_from_inner * p); });
+  const auto placed = [&](ComponentId c) {
+    return ComponentAt{&solid(c), transform_from_pose(poses_[c.value]), [this, c] { return &shape(c); }};
   };
-  return !inside(a, b, inverse(at_b) * at_a) && !inside(b, a, inverse(at_a) * at_b);
+  return further_apart(placed(a), placed(b), tolerance_);
 }
 
 void CertificateSweeper::find_parted() {

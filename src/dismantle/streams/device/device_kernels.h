@@ -12,16 +12,14 @@
 /// that a step is enqueued without knowing them.
 namespace dismantle::device_code {
 
-/// Input of a step for one component: a line of S_tm.
+/// What a step has to compute of one component.
 struct ComponentStep {
-  RigidTransform next;              ///< World from assembled, at the end of the step.
   std::uint32_t make_vertices = 0;  ///< Not 0: S_v(n+1) is outdated.
   std::uint32_t fit_bounds = 0;     ///< Not 0: S_bv and S_bvh are outdated.
 };
 
 /// Input of a step for all components.
 struct StepInput {
-  double path_deviation = 0;        ///< Maximum distance of true paths from linear ones [mm].
   std::uint32_t restart_front = 0;  ///< Not 0: the front is restarted from the root.
 };
 
@@ -89,14 +87,15 @@ struct BeginStep {
 /// S_v0, S_tm -> S_v(n+1). Item: a vertex.
 struct MoveVertices {
   Span<const ComponentStep> components;    ///< Shape [component_count].
+  Span<const RigidTransform> next;         ///< S_tm: world from assembled, shape [component_count].
   Span<const std::uint32_t> component_of;  ///< Shape [vertex_count].
   Span<const Vec3> assembled;              ///< S_v0 [mm, assembled].
   Span<Vec3> moved;                        ///< Output: S_v(n+1) [mm, world].
 
   /// Vertex v.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t v) const {
-    const ComponentStep& component = components[component_of[v]];
-    if (component.make_vertices != 0) VertexUpdateKernel{component.next, assembled, moved}(v);
+    const std::uint32_t component = component_of[v];
+    if (components[component].make_vertices != 0) VertexUpdateKernel{next[component], assembled, moved}(v);
   }
 };
 
@@ -297,7 +296,6 @@ struct NarrowSink {
 struct TestTrianglePairs {
   NarrowPhaseKernel kernel;  ///< Its pairs are all slots of S_t.
   NarrowSink sink;           ///< Output.
-  const StepInput* input;    ///< The step.
   std::size_t begin;         ///< First triangle pair of the round.
 
   /// Triangle pair `begin` + i.
@@ -305,7 +303,6 @@ struct TestTrianglePairs {
     const StepCounters& counters = *sink.counters;
     if (counters.complete == 0 || begin + i >= counters.triangle_pairs) return;
     NarrowPhaseKernel own = kernel;
-    own.path_deviation = input->path_deviation;
     own.horizon = horizon_of(counters, sink.round);
     own(begin + i, sink);
   }

@@ -24,9 +24,12 @@ class DeviceStreams {
   DeviceStreams(Queue queue, const AssemblyTriangles& fixed, Span<const Kdop16> bounds,
                 const CollisionOptions& options);
 
+  /// Sets the ghost surfaces. To be called once, before the first step.
+  /// @param bounds of all nodes in the assembled state, with the ghosts' margins
+  void set_ghosts(const GhostVertices& ghosts, Span<const Kdop16> bounds);
   ///@{ See StreamsBackend.
   void set_rules(PairRulesView rules);
-  StreamsStep step(Span<const RigidTransform> next, double path_deviation);
+  StreamsStep step(Span<const RigidTransform> next);
   void commit();
   void jump(Span<const RigidTransform> state);
   Span<const RigidTransform> state() const { return matrices_.start(); }
@@ -44,7 +47,7 @@ class DeviceStreams {
   device_code::FrontSink front_sink(int round);
 
   void set_vertices_input(Span<const RigidTransform> next);
-  void set_step_input(Span<const RigidTransform> next, double path_deviation);
+  void set_step_input(Span<const RigidTransform> next);
   void enqueue_vertices();
   void enqueue_bounds();
   void enqueue_rounds();
@@ -63,8 +66,10 @@ class DeviceStreams {
   DeviceArray<Vec3> vertices_[2];  // S_v(n) is at start_
   DeviceArray<Kdop16> bounds_;     // S_bv, S_bvh
   DeviceArray<std::uint32_t> arrivals_;
+  DeviceArray<Vec3> displaced_;  // of the ghosts
+  DeviceArray<float> margins_;   // of the leaves
   DeviceArray<PairRuleEntry> rules_;
-  double tolerance_ = 0;  // of the rules
+  MirroredArray<RigidTransform> transforms_[2];  // S_tm at the start and the end of the step
   MirroredArray<device_code::ComponentStep> components_;
   MirroredArray<std::uint32_t> motion_class_;
   MirroredArray<device_code::StepInput> input_;
@@ -91,6 +96,8 @@ DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed,
                 DeviceArray<Vec3>(queue_, Span<const Vec3>(fixed.vertices))},
       bounds_(queue_, bounds),
       arrivals_(queue_, Span<const std::uint32_t>(std::vector<std::uint32_t>(fixed.bvh.children.size(), 0))),
+      transforms_{MirroredArray<RigidTransform>(queue_, fixed.component_count()),
+                  MirroredArray<RigidTransform>(queue_, fixed.component_count())},
       components_(queue_, fixed.component_count()),
       motion_class_(queue_, fixed.component_count()),
       input_(queue_, 1),
@@ -102,9 +109,16 @@ DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed,
 }
 
 template <class Queue>
+void DeviceStreams<Queue>::set_ghosts(const GhostVertices& ghosts, Span<const Kdop16> bounds) {
+  displaced_ = DeviceArray<Vec3>(queue_, Span<const Vec3>(ghosts.displaced));
+  margins_ = DeviceArray<float>(queue_, Span<const float>(ghosts.margins));
+  bounds_ = DeviceArray<Kdop16>(queue_, bounds);
+  forget_recordings();
+}
+
+template <class Queue>
 void DeviceStreams<Queue>::set_rules(PairRulesView rules) {
   rules_ = DeviceArray<PairRuleEntry>(queue_, rules.table);
-  tolerance_ = rules.tolerance;
   forget_recordings();
 }
 
@@ -130,8 +144,8 @@ void DeviceStreams<Queue>::jump(Span<const RigidTransform> state) {
 }
 
 template <class Queue>
-StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next, double path_deviation) {
-  set_step_input(next, path_deviation);
+StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next) {
+  set_step_input(next);
   run_step();
   watch_front_size();
   return result();
@@ -140,14 +154,16 @@ StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next, double p
 template <class Queue>
 void DeviceStreams<Queue>::set_vertices_input(Span<const RigidTransform> next) {
   const Span<device_code::ComponentStep> components = components_.on_host();
-  for (std::size_t c = 0; c < components.size(); ++c) components[c] = {next[c], 0, 0};
+  std::fill(components.begin(), components.end(), device_code::ComponentStep{});
+  std::copy(state().begin(), state().end(), transforms_[0].on_host().begin());
+  std::copy(next.begin(), next.end(), transforms_[1].on_host().begin());
   for (const ComponentId c : matrices_.set_next(next)) components[c.value].make_vertices = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
   std::copy(classes.begin(), classes.end(), motion_class_.on_host().begin());
 }
 
 template <class Queue>
-void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next, double path_deviation) {
+void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next) {
   set_vertices_input(next);
   for (const ComponentId c : matrices_.take_outdated_bounds()) components_.on_host()[c.value].fit_bounds = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
@@ -157,7 +173,7 @@ void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next, doubl
     front_classes_.assign(classes.begin(), classes.end());
     restart_front_ = true;
   }
-  input_.on_host()[0] = {path_deviation, restart_front_ ? 1u : 0u};
+  input_.on_host()[0] = {restart_front_ ? 1u : 0u};
 }
 
 template <class Queue>
@@ -208,20 +224,22 @@ bool DeviceStreams<Queue>::finish_front() {
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_vertices() {
+  for (MirroredArray<RigidTransform>& transforms : transforms_) transforms.copy_up(queue_);
   components_.copy_up(queue_);
   motion_class_.copy_up(queue_);
   input_.copy_up(queue_);
   queue_.launch(1, device_code::BeginStep{shared_counters(), input_.on_device().data(), buffers_.front.view(),
                                           geometry_.first_front_node});
   queue_.launch(geometry_.assembled.size(),
-                device_code::MoveVertices{components_.on_device(), geometry_.component_of_vertex.view(),
-                                          geometry_.assembled.view(), vertices_[1 - start_].view()});
+                device_code::MoveVertices{components_.on_device(), transforms_[1].on_device(),
+                                          geometry_.component_of_vertex.view(), geometry_.assembled.view(),
+                                          vertices_[1 - start_].view()});
 }
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_bounds() {
   const BvhRefitLeafKernel leaf_kernel{vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view(),
-                                       bounds_.view(), 0};
+                                       bounds_.view(), 0, margins_.view()};
   queue_.launch(geometry_.leaf_count, device_code::FitBounds{leaf_kernel,
                                                              {geometry_.tree(), bounds_.view()},
                                                              components_.on_device(),
@@ -275,11 +293,11 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
   const std::size_t max_pairs = buffers_.sorted_pairs.size();
   NarrowPhaseKernel kernel{buffers_.sorted_pairs.view(),
                            {vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view()},
+                           {displaced_.view(), margins_.view(), transforms_[0].on_device(), transforms_[1].on_device()},
                            bounds_.view(),
                            geometry_.component_of_node.view(),
                            geometry_.features.view(),
-                           motion_class_.on_device(),
-                           {rules_.view(), tolerance_},
+                           {rules_.view()},
                            test_};
   device_code::NarrowSink sink{{buffers_.contacts.view(), &counters->contacts},
                                {buffers_.intersections.view(), &counters->intersections},
@@ -288,7 +306,7 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
   queue_.launch(1, device_code::BeginNarrowPhase{counters});
   for (std::size_t begin = 0; begin < max_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
     queue_.launch(std::min(narrow_phase_round_end(begin), max_pairs) - begin,
-                  device_code::TestTrianglePairs{kernel, sink, input_.on_device().data(), begin});
+                  device_code::TestTrianglePairs{kernel, sink, begin});
   queue_.launch(buffers_.contacts.size(),
                 device_code::ReportFirstContacts{
                     counters,

@@ -19,10 +19,14 @@ class DeviceStreamsBackend final : public StreamsBackend {
         device_(std::move(queue), host_.fixed(), host_.bounds(), options),
         next_(state().begin(), state().end()) {}
 
+  void set_ghosts(const GhostVertices& ghosts) override {
+    host_.set_margins(ghosts.margins, executor_);
+    device_.set_ghosts(ghosts, host_.bounds());
+  }
   void set_rules(PairRulesView rules) override { device_.set_rules(rules); }
-  StreamsStep step(Span<const RigidTransform> next, double path_deviation) override {
+  StreamsStep step(Span<const RigidTransform> next) override {
     next_.assign(next.begin(), next.end());
-    return device_.step(next, path_deviation);
+    return device_.step(next);
   }
   void commit() override { device_.commit(); }
   void jump(Span<const RigidTransform> state) override {

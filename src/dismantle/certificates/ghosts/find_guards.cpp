@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/certificates/ghosts/find_guards.h"
+
+#include "dismantle/surface/solid_distance.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// The shapes of the components that overlap others, each built once.
+class Shapes {
+ public:
+  explicit Shapes(const Assembly& assembly) : assembly_(assembly), shapes_(assembly.components.size()) {}
+
+  const SolidShape& of(ComponentId c) {
+    Built& built = shapes_[c.value];
+    std::call_once(built.once, [&] { built.shape = SolidShape(assembly_[c]); });
+    return built.shape;
+  }
+
+ private:
+  struct Built {
+    std::once_flag once;
+    SolidShape shape;
+  };
+  const Assembly& assembly_;
+  std::vector<Built> shapes_;
+};
+
+/// The guard of a pair for which ghosts were searched; nothing where it needs none.
+std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
+  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, kGhostLength * tolerance}, {}};
+  GuardedPair& guard = result.guard;
+  if (!found) {
+    guard = {PairGuard::Depth, std::max(guard.allowed, pair.depth + tolerance)};
+  } else if (found->max_length > 0) {
+    guard.displaced = found->max_length;
+    guard.allowed = std::max(guard.allowed, found->max_length + (1 - kGhostLength) * tolerance);
+    result.ghosts = std::move(found->vertices);
+  } else if (pair.allowed_depth <= tolerance) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<FoundGuard> find_guards(const GuardSearch& search) {
+  const double tolerance = search.pairs->tolerance;
+  const auto trees = [&](ComponentId c) -> const ComponentTrees& { return search.trees[c.value]; };
+  std::vector<ComponentPair> pairs;
+  for (const ComponentPair& pair : search.pairs->pairs) {
+    if (pair.state == PairState::Clear || pair.state == PairState::Near) continue;
+    const bool faces = !search.assembly->components[pair.a.value].mesh->faces.empty() &&
+                       !search.assembly->components[pair.b.value].mesh->faces.empty();
+    if (faces) pairs.push_back(pair);
+  }
+  Shapes shapes(*search.assembly);
+  std::vector<std::optional<FoundGuard>> guards(pairs.size());
+  search.executor.for_each_heavy(pairs.size(), [&](std::size_t i) {
+    const ComponentPair& pair = pairs[i];
+    if (pair.state == PairState::Free) {
+      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited}, {}};
+      return;
+    }
+    const auto side = [&](ComponentId c) {
+      return OverlapSide{trees(c).solid, pair.depth > 0 ? &shapes.of(c) : nullptr};
+    };
+    guards[i] = guard_of(pair,
+                         find_pair_ghosts({side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost,
+                                           pair.depth, tolerance, search.kernels}),
+                         tolerance);
+  });
+  std::vector<FoundGuard> found;
+  for (std::optional<FoundGuard>& guard : guards)
+    if (guard) found.push_back(std::move(*guard));
+  return found;
+}
+
+bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance) {
+  const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
+  if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > distance) return true;
+  if (solid_distance(first, second, 2 * distance).distance <= distance) return false;
+  const auto inside = [](const ComponentAt& inner, const ComponentAt& outer) {
+    const RigidTransform outer_from_inner = inverse(outer.world_from_assembled) * inner.world_from_assembled;
+    const WindingNumber& winding = outer.make_shape()->winding();
+    const std::vector<Vec3>& points = inner.solid->vertices;
+    return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return winding.inside(outer_from_inner * p); });
+  };
+  return !inside(a, b) && !inside(b, a);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/pair_state.h"
+#include "dismantle/certificates/ghosts/find_pair_ghosts.h"
+#include "dismantle/exec/executor.h"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace dismantle {
+
+/// The way in which two components are kept from getting deeper into each other.
+enum class PairGuard : std::uint8_t {
+  Ghosts,  ///< Ghost surfaces that never cross the other component.
+  Depth,   ///< None were found for the overlap: the depth of the two solids is bounded.
+  None,    ///< Not at all, until they have been apart.
+};
+
+/// Two components that have been given an allowance of their own.
+struct GuardedPair {
+  PairGuard guard = PairGuard::Ghosts;  ///< Until they have been apart.
+  double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
+  double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
+  bool parted = false;                  ///< They have been apart: they are treated like any other pair.
+};
+
+/// The trees of a component in the assembled state.
+struct ComponentTrees {
+  const SolidTree* solid = nullptr;  ///< Null for components that touch or overlap no other one.
+  const SolidTree* ghost = nullptr;  ///< The ghost surface that it has against all others; null as `solid` is.
+};
+
+/// The guard of two components a < b.
+struct FoundGuard {
+  ComponentId a;      ///< The component with the smaller id.
+  ComponentId b;      ///< The other one.
+  GuardedPair guard;  ///< Not parted.
+  /// Displaced vertices of `a` and `b` where they have ghosts of their own [mm, assembled]; else both are empty.
+  std::array<std::vector<Vec3>, 2> ghosts;
+};
+
+/// The components whose guards are wanted.
+struct GuardSearch {
+  const Assembly* assembly = nullptr;  ///< Never null.
+  const PairStates* pairs = nullptr;   ///< Of the assembled state; never null.
+  Span<const ComponentTrees> trees;    ///< Shape [component_count].
+  Executor executor;                   ///< Runs the pairs; the result does not depend on it.
+  FrontKernels kernels;                ///< Any.
+};
+
+/// The guards of the pairs that touch or overlap in the assembled state, ordered by (a, b), except for those that are
+/// apart by the ghosts that components have against all others, and have no allowance of their own.
+std::vector<FoundGuard> find_guards(const GuardSearch& search);
+
+/// A component at a pose.
+struct ComponentAt {
+  const SolidTree* solid = nullptr;               ///< Never null.
+  RigidTransform world_from_assembled;            ///< The pose.
+  std::function<const SolidShape*()> make_shape;  ///< Its shape; called if the surfaces are apart.
+};
+
+/// True if two components are further apart than `distance` [mm], and no vertex of one is inside the other.
+bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance);
+
+}  // namespace dismantle

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/streams/guarded_pairs.h"
+
+#include "dismantle/certificates/front/certificate_kernels.h"
+#include "dismantle/engine/chords.h"
+#include "dismantle/surface/ghost_surface.h"
+#include "dismantle/surface/solid_distance.h"
+#include "dismantle/surface/swept_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+
+namespace {
+
+/// Contacts of depths are found to within a motion of this share of the tolerance.
+constexpr double kResolution = 0.25;
+/// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
+constexpr double kTouching = 1e-6;
+
+/// True if the two have no relative motion.
+bool move_as_one(Span<const RigidTransform> start, Span<const RigidTransform> end, ComponentId a, ComponentId b) {
+  const bool both_still = start[a.value] == end[a.value] && start[b.value] == end[b.value];
+  return both_still || (start[a.value] == start[b.value] && end[a.value] == end[b.value]);
+}
+
+/// The displaced vertices that a component has against all others [mm, assembled].
+std::vector<Vec3> usual_ghost(const Component& component, double max_length) {
+  std::vector<Vec3> vertices = assembled_vertices(component);
+  const MeshFaults& faults = component.faults;
+  // Sheets have no inside to retreat to.
+  if (faults.open_edges > 0) return vertices;
+  return ghost_vertices(vertices, outward_faces(component.mesh->faces, faults.inside_out), max_length);
+}
+
+/// The margin of a leaf whose corners are displaced by up to `length`: more than the rounding of positions.
+float margin_of(double length, double tolerance) {
+  if (length == 0) return 0;
+  return std::nextafter(static_cast<float>(length * (1 + 1e-6) + 1e-7 * tolerance),
+                        std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+GuardedPairs::GuardedPairs(const Assembly& assembly, const PairStates& states, const AssemblyTriangles& triangles,
+                           const CollisionOptions& options)
+    : assembly_(assembly),
+      tolerance_(states.tolerance),
+      rules_(states),
+      ghosts_{triangles.vertices, std::vector<float>(triangles.faces.size(), 0)} {
+  make_usual_ghosts(states, triangles, options);
+  find_own_ghosts(states, triangles, options.executor);
+}
+
+void GuardedPairs::make_usual_ghosts(const PairStates& states, const AssemblyTriangles& triangles,
+                                     const CollisionOptions& options) {
+  const std::size_t count = assembly_.components.size();
+  // With the elementary test, ghosts are needed only for the pairs that are not apart in the assembled state.
+  std::vector<std::uint8_t> has_ghost(count, options.test == ElementaryTest::Certified), touches(count, 0);
+  for (const ComponentPair& pair : states.pairs) {
+    if (pair.state == PairState::Clear || pair.state == PairState::Near) continue;
+    has_ghost[pair.a.value] = has_ghost[pair.b.value] = 1;
+    if (pair.state != PairState::Free) touches[pair.a.value] = touches[pair.b.value] = 1;
+  }
+  for (std::uint32_t c = 0; c < count; ++c)
+    if (touches[c] != 0) solids_[ComponentId(c)];
+  options.executor.for_each_heavy(count, [&](std::size_t i) {
+    const ComponentId c(static_cast<std::uint32_t>(i));
+    if (has_ghost[i] == 0) return;
+    std::vector<Vec3> ghost = usual_ghost(assembly_[c], kGhostLength * tolerance_);
+    displace(c, ghost, 0, triangles);
+    if (touches[i] == 0) return;
+    Solid& solid = solids_.at(c);
+    solid.tree = make_solid_tree(assembly_[c], {});
+    solid.ghost = make_displaced_tree(solid.tree, std::move(ghost), {});
+  });
+}
+
+void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTriangles& triangles,
+                                   const Executor& executor) {
+  std::vector<ComponentTrees> trees(assembly_.components.size());
+  for (const auto& [c, solid] : solids_) trees[c.value] = {&solid.tree, &solid.ghost};
+  for (const FoundGuard& found : find_guards({&assembly_, &states, trees, executor, front_kernels(widest_lanes())})) {
+    if (found.guard.guard == PairGuard::None) continue;  // EmbeddedPairs knows it
+    Pair pair{found.a, found.b, found.guard, {PairTest::Certified}};
+    if (found.guard.guard == PairGuard::Depth) {
+      pair.rule.test = PairTest::None;
+      shape(found.a);
+      shape(found.b);
+    } else if (!found.ghosts[0].empty()) {
+      const auto offset = [&](ComponentId c) {
+        return static_cast<std::uint32_t>(ghosts_.displaced.size() - triangles.vertex_begin[c.value]);
+      };
+      pair.rule.ghost_a = offset(found.a);
+      add_own_ghost(found.a, found.ghosts[0], triangles);
+      pair.rule.ghost_b = offset(found.b);
+      add_own_ghost(found.b, found.ghosts[1], triangles);
+    }
+    rules_.set(pair.a, pair.b, pair.rule);
+    pairs_.push_back(std::move(pair));
+  }
+}
+
+/// Appends displaced vertices of a component [mm, in the order of its mesh].
+void GuardedPairs::add_own_ghost(ComponentId c, const std::vector<Vec3>& displaced,
+                                 const AssemblyTriangles& triangles) {
+  const std::size_t begin = ghosts_.displaced.size();
+  const Span<const Vec3> own = triangles.vertices_of(c);
+  ghosts_.displaced.insert(ghosts_.displaced.end(), own.begin(), own.end());
+  displace(c, displaced, begin - triangles.vertex_begin[c.value], triangles);
+}
+
+/// Sets the positions of a component's displaced vertices, from those in the order of its mesh, and the margins.
+/// @param offset of the slots from those of the vertices
+void GuardedPairs::displace(ComponentId c, Span<const Vec3> displaced, std::size_t offset,
+                            const AssemblyTriangles& triangles) {
+  const BvhComponent& range = triangles.bvh.components[c.value];
+  const std::vector<Face>& mesh_faces = assembly_[c].mesh->faces;
+  for (NodeIndex leaf = range.leaf_begin; leaf < range.leaf_end; ++leaf) {
+    const Face& face = triangles.faces[leaf];
+    const Face& in_mesh = mesh_faces[triangles.face_of[leaf].value];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 moved = displaced[in_mesh.v[k]];
+      ghosts_.displaced[offset + face.v[k]] = moved;
+      const double way = length(moved - triangles.vertices[face.v[k]]);
+      ghosts_.margins[leaf] = std::max(ghosts_.margins[leaf], margin_of(way, tolerance_));
+    }
+  }
+}
+
+std::vector<ComponentPair> GuardedPairs::overlapping() const {
+  std::vector<ComponentPair> list;
+  for (const Pair& pair : pairs_)
+    if (!pair.guard.parted) list.push_back({pair.a, pair.b, PairState::Overlapping, 0, 0, pair.guard.allowed});
+  return list;
+}
+
+std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> start,
+                                                 Span<const RigidTransform> end) const {
+  std::vector<BlockingPair> found;
+  for (const Pair& pair : pairs_) {
+    if (pair.guard.guard != PairGuard::Depth || pair.guard.parted || move_as_one(start, end, pair.a, pair.b)) continue;
+    // In the frame of the component at rest, points move as the vertices of the streams do.
+    const bool a_moves = !(start[pair.a.value] == end[pair.a.value]);
+    const ComponentId moving = a_moves ? pair.a : pair.b, fixed = a_moves ? pair.b : pair.a;
+    const auto seen = [&](Span<const RigidTransform> at) { return inverse(at[fixed.value]) * at[moving.value]; };
+    const SweptPair swept{&solids_.at(moving).shape, &solids_.at(fixed).shape, seen(start), seen(end)};
+    const double way = std::max(length(swept.end.translation - swept.start.translation), tolerance_);
+    const double limit = pair.guard.allowed - kArcShare * tolerance_;
+    const auto deep = first_deeper(swept, limit, kResolution * tolerance_ / way);
+    if (!deep) continue;
+    const FaceId of_moving(deep->face_a), of_fixed(deep->face_b);
+    found.push_back({pair.a, pair.b, a_moves ? of_moving : of_fixed, a_moves ? of_fixed : of_moving, deep->free_until});
+  }
+  return found;
+}
+
+bool GuardedPairs::part(Span<const RigidTransform> start, Span<const RigidTransform> end) {
+  bool changed = false;
+  for (Pair& pair : pairs_)
+    if (!pair.guard.parted && !move_as_one(start, end, pair.a, pair.b) && apart(pair, end))
+      changed = set_parted(pair, true) || changed;
+  return changed;
+}
+
+bool GuardedPairs::jump(Span<const RigidTransform> state) {
+  bool changed = false;
+  for (Pair& pair : pairs_) {
+    const bool moved = !(state[pair.a.value] == state[pair.b.value]);
+    // A pair that has parted remains so where the ghost surfaces that all have do not meet.
+    const bool parted = moved && ((pair.guard.parted && usual_ghosts_apart(pair, state)) || apart(pair, state));
+    changed = set_parted(pair, parted) || changed;
+  }
+  return changed;
+}
+
+/// @return true if that has changed
+bool GuardedPairs::set_parted(Pair& pair, bool parted) {
+  if (pair.guard.parted == parted) return false;
+  pair.guard.parted = parted;
+  rules_.set(pair.a, pair.b, parted ? PairRule{PairTest::Certified} : pair.rule);
+  return true;
+}
+
+const SolidShape& GuardedPairs::shape(ComponentId c) {
+  SolidShape& known = solids_.at(c).shape;
+  if (known.empty()) known = SolidShape(assembly_[c]);
+  return known;
+}
+
+bool GuardedPairs::apart(const Pair& pair, Span<const RigidTransform> state) {
+  const auto placed = [&](ComponentId c) {
+    return ComponentAt{&solids_.at(c).tree, state[c.value], [this, c] { return &shape(c); }};
+  };
+  return further_apart(placed(pair.a), placed(pair.b), tolerance_);
+}
+
+bool GuardedPairs::usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state) const {
+  const Solid &a = solids_.at(pair.a), &b = solids_.at(pair.b);
+  const RigidTransform &at_a = state[pair.a.value], &at_b = state[pair.b.value];
+  const double touching = kTouching * tolerance_;
+  return solid_distance({&a.ghost, at_a}, {&b.tree, at_b}, tolerance_).distance > touching &&
+         solid_distance({&a.tree, at_a}, {&b.ghost, at_b}, tolerance_).distance > touching;
+}
+
+}  // namespace dismantle
