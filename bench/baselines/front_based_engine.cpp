@@ -3,6 +3,7 @@
 
 #include "bench/baselines/front_parts.h"
 #include "dismantle/streams/embedded_pairs.h"
+#include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/narrow_phase.h"
 #include "dismantle/streams/stage_clock.h"
 #include "dismantle/streams/vertex_kernel.h"
@@ -43,28 +44,31 @@ class FrontBasedEngine final : public SweepEngine {
         fitted_start_(start_),
         fitted_end_(start_),
         motion_class_(fixed_.component_count(), 0),
-        bounds_(bounds_at(fixed_, fixed_.vertices, 0, options.executor)),
         front_(options.executor.thread_count()),
-        rules_(pairs),
-        embedded_(assembly, pairs) {}
+        guards_(assembly, pairs, fixed_, options),
+        embedded_(assembly, pairs),
+        bounds_(bvh_fit(fixed_.bvh, fixed_.refit_plan, refit_input(), options.executor)) {}
 
   SweepResult sweep(Span<const RigidTransform> next, double path_deviation) override;
   void commit() override;
   void jump(Span<const RigidTransform> state) override;
   Span<const RigidTransform> state() const override { return start_; }
-  std::vector<ComponentPair> overlapping_pairs() const override { return embedded_.pairs(); }
+  std::vector<ComponentPair> overlapping_pairs() const override;
 
  private:
   void set_end(Span<const RigidTransform> next);
   void classify_motion();
   void refit();
+  BvhRefitInput refit_input() const {
+    return {start_vertices_, end_vertices_, fixed_.faces, 0, guards_.ghosts().margins};
+  }
+  NarrowPhaseKernel kernel() const;
   StepTriangles triangles() const { return {start_vertices_, end_vertices_, fixed_.faces}; }
   EmbeddedStep embedded_step(double path_deviation) const {
     return {&fixed_, triangles(), bounds_, start_, end_, path_deviation};
   }
   bool moves_against(std::uint64_t key) const;
-  bool moves(ComponentId c) const { return motion_class_[c.value] != 0; }
-  PairTestResults test_triangle_pairs(double path_deviation);
+  PairTestResults test_triangle_pairs();
   void test_embedded_pairs(PairTestResults& results, double path_deviation);
   void part(const std::vector<ComponentPair>& parted);
 
@@ -75,10 +79,10 @@ class FrontBasedEngine final : public SweepEngine {
   std::vector<RigidTransform> start_, end_;
   std::vector<RigidTransform> fitted_start_, fitted_end_;  // that each component's bounds are of
   std::vector<std::uint32_t> motion_class_;  // of each component: 0 if stationary; equal if they move together
-  std::vector<Kdop16> bounds_;
   FrontParts front_;
-  PairRules rules_;
+  GuardedPairs guards_;
   EmbeddedPairs embedded_;
+  std::vector<Kdop16> bounds_;
   std::vector<ComponentPair> parting_;  // embedded pairs that part if the last sweep is committed
   bool may_commit_ = false;
 };
@@ -96,9 +100,11 @@ SweepResult FrontBasedEngine::sweep(Span<const RigidTransform> next, double path
       work_ == FrontBasedWork::MovingComponents ? motion_class_ : Span<const std::uint32_t>();
   front_.update({BvhView(fixed_.bvh), bounds_, may_rest}, options_.executor);
   result.timings.front = clock.lap();
-  PairTestResults results = test_triangle_pairs(path_deviation);
+  PairTestResults results = test_triangle_pairs();
   test_embedded_pairs(results, path_deviation);
-  result.blocking_pairs = blocking_pairs(fixed_, first_of(results.contacts));
+  std::vector<BlockingPair> blocking = blocking_pairs(fixed_, results.contacts);
+  append(blocking, guards_.too_deep(start_, end_));
+  result.blocking_pairs = first_of(std::move(blocking));
   result.timings.intersection = clock.lap();
 
   for (const BlockingPair& contact : result.blocking_pairs) result.toi = std::min(result.toi, contact.toi);
@@ -147,8 +153,7 @@ void FrontBasedEngine::refit() {
       changed.push_back(ComponentId(c));
   fitted_start_ = start_;
   fitted_end_ = end_;
-  bvh_refit(fixed_.bvh, fixed_.refit_plan, {start_vertices_, end_vertices_, fixed_.faces, 0}, changed, bounds_,
-            options_.executor);
+  bvh_refit(fixed_.bvh, fixed_.refit_plan, refit_input(), changed, bounds_, options_.executor);
 }
 
 /// True if the components of the pair move relative to each other; others cannot collide.
@@ -157,11 +162,18 @@ bool FrontBasedEngine::moves_against(std::uint64_t key) const {
   return motion_class_[fixed_.bvh.component_of[p.a]] != motion_class_[fixed_.bvh.component_of[p.b]];
 }
 
-PairTestResults FrontBasedEngine::test_triangle_pairs(double path_deviation) {
-  const Span<const std::uint64_t> pairs = front_.triangle_pairs();
-  NarrowPhaseKernel kernel{pairs,         triangles(),   bounds_,       fixed_.bvh.component_of, fixed_.features,
-                           motion_class_, rules_.view(), options_.test, path_deviation};
+NarrowPhaseKernel FrontBasedEngine::kernel() const {
+  const GhostVertices& ghosts = guards_.ghosts();
+  NarrowPhaseKernel kernel{front_.triangle_pairs(), triangles(),     {ghosts.displaced, ghosts.margins, start_, end_},
+                           bounds_,                 fixed_.bvh.component_of, fixed_.features,
+                           guards_.rules(),         options_.test};
   kernel.cull = PairCull::None;
+  return kernel;
+}
+
+PairTestResults FrontBasedEngine::test_triangle_pairs() {
+  const Span<const std::uint64_t> pairs = front_.triangle_pairs();
+  const NarrowPhaseKernel kernel = this->kernel();
   std::vector<PairTestResults> parts(static_cast<std::size_t>(options_.executor.thread_count()));
   options_.executor.for_each_heavy(parts.size(), [&](std::size_t p) {
     PairTestResults results;
@@ -183,14 +195,21 @@ void FrontBasedEngine::test_embedded_pairs(PairTestResults& results, double path
   std::vector<std::uint64_t> sorted(front_.triangle_pairs().begin(), front_.triangle_pairs().end());
   options_.executor.sort(sorted);
   for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, results.intersections)) {
+    const auto contacts = contacts_after(found, kernel(), options_.executor);
+    if (!contacts) continue;
     parting_.push_back(found.pair);
-    const double allowed =
-        allowed_on_chords(rules_.tolerance(), path_deviation, moves(found.pair.a) + moves(found.pair.b));
-    const PartedPairKernel kernel{found.triangle_pairs, triangles(), found.from, allowed};
-    for (std::size_t i = 0; i < found.triangle_pairs.size(); ++i)
-      if (const std::optional<TrianglePairContact> contact = kernel(i)) results.contact(*contact);
+    append(results.contacts, *contacts);
     results.tested(found.triangle_pairs.size());
   }
+}
+
+std::vector<ComponentPair> FrontBasedEngine::overlapping_pairs() const {
+  std::vector<ComponentPair> pairs = guards_.overlapping();
+  append(pairs, embedded_.pairs());
+  std::sort(pairs.begin(), pairs.end(), [](const ComponentPair& x, const ComponentPair& y) {
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return pairs;
 }
 
 void FrontBasedEngine::commit() {
@@ -198,12 +217,13 @@ void FrontBasedEngine::commit() {
   std::swap(start_vertices_, end_vertices_);
   std::swap(start_, end_);
   part(parting_);
+  guards_.part(end_, start_);
   parting_.clear();
   may_commit_ = false;
 }
 
 void FrontBasedEngine::part(const std::vector<ComponentPair>& parted) {
-  for (const ComponentPair& pair : parted) rules_.part(pair.a, pair.b);
+  for (const ComponentPair& pair : parted) guards_.end_free(pair.a, pair.b);
   embedded_.part(parted);
 }
 
@@ -215,6 +235,7 @@ void FrontBasedEngine::jump(Span<const RigidTransform> state) {
   may_commit_ = false;
   parting_.clear();
   part(embedded_.apart(embedded_step(0)));
+  guards_.jump(state);
 }
 
 }  // namespace

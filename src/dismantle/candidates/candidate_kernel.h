@@ -14,9 +14,9 @@ struct CandidateScene {
   Span<const Face> faces;                  ///< In leaf order.
   Span<const NodeIndex> moving_roots;      ///< Roots of the components of the moving set.
   Span<const std::uint32_t> motion_class;  ///< Not 0 for the moving set, shape [component_count].
+  GhostTriangles ghosts;                   ///< At the start, twice.
   PairRulesView rules;                     ///< The rules of the component pairs.
   RigidTransform start;                    ///< Of the moving set: world from assembled.
-  double path_deviation = 0;               ///< Maximum distance of true paths from linear ones [mm].
 };
 
 /// The first contact of a candidate; free if `key` is kFree.
@@ -29,7 +29,7 @@ struct CandidateContact {
 };
 
 /// The time interval in which two objects overlap along all axes, while one of them translates, and the time from which
-/// on they may be deeper in each other than allowed.
+/// on they may overlap by more than allowed.
 struct OverlapTimes {
   double begin = 0;  ///< Start of the overlap.
   double end = 1;    ///< End of the overlap.
@@ -79,7 +79,7 @@ struct KdopProjections {
 
 /// Lower bound of an allowed depth [mm] in the units of an axis: the diagonal ones are sqrt(2) long, and 1.4 is less.
 DISMANTLE_HOST_DEVICE inline double allowed_along(int axis, double allowed) {
-  return (axis < 3 ? 1 : 1.4) * kAllowanceRounding * allowed;
+  return (axis < 3 ? 1 : 1.4) * kPlayRounding * allowed;
 }
 
 /// A translation of the moving set from the start.
@@ -90,7 +90,7 @@ class StraightPiece {
       : displacement_(displacement), along_(displacement) {}
 
   /// Overlap of the bounds of a pair of nodes, the first of the moving set.
-  /// @param allowed depth of two triangles in these nodes [mm]
+  /// @param allowed overlap of these bounds [mm]
   DISMANTLE_HOST_DEVICE OverlapTimes times(const CandidateScene& scene, NodePair p, double allowed) const {
     const Kdop16& a = scene.bounds[p.a];
     const Kdop16& b = scene.bounds[p.b];
@@ -104,6 +104,15 @@ class StraightPiece {
     TriangleMotion m;
     for (int k = 0; k < 3; ++k) {
       m.t0[k] = scene.vertices[scene.faces[leaf].v[k]];
+      m.t1[k] = m.t0[k] + displacement_;
+    }
+    return m;
+  }
+  /// The motion of its ghost. @param slot PairRule::ghost_a or ghost_b
+  DISMANTLE_HOST_DEVICE TriangleMotion ghost(const CandidateScene& scene, NodeIndex leaf, std::uint32_t slot) const {
+    TriangleMotion m;
+    for (int k = 0; k < 3; ++k) {
+      m.t0[k] = scene.start * scene.ghosts.displaced[scene.faces[leaf].v[k] + slot];
       m.t1[k] = m.t0[k] + displacement_;
     }
     return m;
@@ -137,16 +146,24 @@ class TurningPiece {
   }
   /// As StraightPiece::motion().
   DISMANTLE_HOST_DEVICE TriangleMotion motion(const CandidateScene& scene, NodeIndex leaf) const {
+    return moved(scene.assembled, scene.faces[leaf], 0);
+  }
+  /// As StraightPiece::ghost().
+  DISMANTLE_HOST_DEVICE TriangleMotion ghost(const CandidateScene& scene, NodeIndex leaf, std::uint32_t slot) const {
+    return moved(scene.ghosts.displaced, scene.faces[leaf], slot);
+  }
+
+ private:
+  DISMANTLE_HOST_DEVICE TriangleMotion moved(Span<const Vec3> assembled, const Face& face, std::uint32_t slot) const {
     TriangleMotion m;
     for (int k = 0; k < 3; ++k) {
-      const Vec3 p = scene.assembled[scene.faces[leaf].v[k]];
+      const Vec3 p = assembled[face.v[k] + slot];
       m.t0[k] = start_ * p;
       m.t1[k] = end_ * p;
     }
     return m;
   }
 
- private:
   /// A rotated box: its center, and its half edges as vectors.
   struct RotatedBox {
     KdopProjections center, edge_x, edge_y, edge_z;
@@ -229,9 +246,10 @@ class CandidateSearch {
     if (scene_.tree.is_top(p.b)) return piece_.times(scene_, p, 0).contact();
     const std::uint32_t fixed = scene_.tree.component_of[p.b];
     if (scene_.motion_class[fixed] != 0) return OverlapTimes::kNever;
-    const PairRule rule = rule_of(p);
-    if (rule.test == PairTest::Discrete) return OverlapTimes::kNever;
-    return piece_.times(scene_, p, allowed_of(rule)).contact();
+    const PairTest test = rule_of(p).test;
+    if (test == PairTest::Discrete || test == PairTest::None) return OverlapTimes::kNever;
+    const bool leaves = scene_.tree.is_leaf(p.a) && scene_.tree.is_leaf(p.b);
+    return piece_.times(scene_, p, leaves ? scene_.ghosts.play(p) : 0).contact();
   }
 
   /// @pre b is no top node
@@ -239,16 +257,19 @@ class CandidateSearch {
     const std::uint32_t a = scene_.tree.component_of[p.a], b = scene_.tree.component_of[p.b];
     return a < b ? scene_.rules.find(a, b) : scene_.rules.find(b, a);
   }
-  DISMANTLE_HOST_DEVICE double allowed_of(const PairRule& rule) const {
-    return allowed_on_chords(rule.allowed_penetration, scene_.path_deviation, 1);
-  }
 
   DISMANTLE_HOST_DEVICE void test(NodePair p) {
-    TriangleMotion stationary;
-    for (int k = 0; k < 3; ++k) stationary.t0[k] = stationary.t1[k] = scene_.vertices[scene_.faces[p.b].v[k]];
+    const std::uint32_t a = scene_.tree.component_of[p.a], b = scene_.tree.component_of[p.b];
+    const PairRule rule = rule_of(p);
+    const std::uint32_t moving_slot = a < b ? rule.ghost_a : rule.ghost_b;
+    const std::uint32_t fixed_slot = a < b ? rule.ghost_b : rule.ghost_a;
+    const Face& face = scene_.faces[p.b];
+    GhostMotion fixed{{}, scene_.ghosts.motion(face, b, fixed_slot)};
+    for (int k = 0; k < 3; ++k) fixed.triangle.t0[k] = fixed.triangle.t1[k] = scene_.vertices[face.v[k]];
     const double horizon = found_.toi;
-    const CcdResult ccd =
-        ccd_triangle_triangle(part_of(piece_.motion(scene_, p.a), 0, horizon), stationary, allowed_of(rule_of(p)));
+    const GhostMotion moving{part_of(piece_.motion(scene_, p.a), 0, horizon),
+                             part_of(piece_.ghost(scene_, p.a, moving_slot), 0, horizon)};
+    const CcdResult ccd = ccd_with_ghosts(moving, fixed);
     if (ccd.status == CcdStatus::Contact) found_ = {horizon * ccd.toi, pair_key(p.a, p.b)};
   }
 

@@ -6,6 +6,7 @@
 #include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/device/device_buffers.h"
+#include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/moving_streams.h"
 #include "dismantle/streams/step_towards.h"
 
@@ -24,17 +25,22 @@ class DeviceBatch final : public MotionBatch {
       : queue_(std::move(queue)),
         executor_(executor),
         assembly_(assembly),
-        rules_(pairs),
+        tolerance_(pairs.tolerance),
         host_(assembly, executor),
+        guards_(assembly, pairs, host_.fixed(), {ElementaryTest::Certified, executor}),
         geometry_(queue_, host_.fixed()),
-        rule_table_(queue_, rules_.view().table) {}
+        displaced_(queue_, Span<const Vec3>(guards_.ghosts().displaced)),
+        margins_(queue_, Span<const float>(guards_.ghosts().margins)),
+        rule_table_(queue_, guards_.rules().table) {
+    host_.set_margins(guards_.ghosts().margins, executor);
+  }
 
   void set_state(Span<const Pose> poses, Span<const ComponentId> moving) override;
   std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) override;
   std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override;
 
  private:
-  double path_deviation() const { return kArcShare * rules_.tolerance(); }
+  double path_deviation() const { return kArcShare * tolerance_; }
   CandidateScene scene() const;
   std::vector<Pose> stations_to(const Pose& target) const;
   std::vector<FirstContact> brought_down_contacts(const DeviceArray<CandidateContact>& found);
@@ -43,10 +49,14 @@ class DeviceBatch final : public MotionBatch {
   Queue queue_;
   Executor executor_;
   const Assembly& assembly_;
-  PairRules rules_;
+  double tolerance_;
   MovingStreams host_;
+  GuardedPairs guards_;
   device_code::Geometry geometry_;
+  DeviceArray<Vec3> displaced_;  // of the ghosts
+  DeviceArray<float> margins_;   // of the leaves
   DeviceArray<PairRuleEntry> rule_table_;
+  DeviceArray<RigidTransform> state_;
   DeviceArray<Vec3> vertices_;
   DeviceArray<Kdop16> bounds_;
   DeviceArray<NodeIndex> moving_roots_;
@@ -62,6 +72,7 @@ void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentI
   std::vector<RigidTransform> state;
   for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
   host_.jump(state, executor_);
+  if (guards_.jump(state)) rule_table_ = {queue_, guards_.rules().table};
   start_ = poses[moving[0].value];
   set_ = make_rigid_set(assembly_, {moving.begin(), moving.end()});
   moving_.assign(poses.size(), 0);
@@ -72,6 +83,7 @@ void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentI
     const NodeIndex root = host_.fixed().bvh.components[c.value].root;
     if (root != kNoNode) roots.push_back(root);
   }
+  state_ = {queue_, Span<const RigidTransform>(state)};
   vertices_ = {queue_, host_.vertices_t0()};
   bounds_ = {queue_, host_.bounds()};
   moving_roots_ = {queue_, Span<const NodeIndex>(roots)};
@@ -87,9 +99,9 @@ CandidateScene DeviceBatch<Queue>::scene() const {
           geometry_.faces.view(),
           moving_roots_.view(),
           motion_class_.view(),
-          {rule_table_.view(), rules_.tolerance()},
-          transform_from_pose(start_),
-          path_deviation()};
+          {displaced_.view(), margins_.view(), state_.view(), state_.view()},
+          {rule_table_.view()},
+          transform_from_pose(start_)};
 }
 
 template <class Queue>

@@ -33,7 +33,16 @@ class StagedSink {
   std::size_t count_ = 0;
 };
 
-NarrowPhaseKernel kernel_of(const NarrowPhaseInput& input) {
+/// The time of the step after which contacts do not matter, if these are known.
+double horizon(Span<const TrianglePairContact> contacts) {
+  double first = 1;
+  for (const TrianglePairContact& contact : contacts) first = std::min(first, contact.toi);
+  return horizon_after(first);
+}
+
+}  // namespace
+
+NarrowPhaseKernel narrow_phase_kernel(const NarrowPhaseInput& input) {
   const MovingStreams& streams = *input.streams;
   return {input.triangle_pairs,
           step_triangles(streams),
@@ -45,17 +54,8 @@ NarrowPhaseKernel kernel_of(const NarrowPhaseInput& input) {
           input.test};
 }
 
-/// The time of the step after which contacts do not matter, if these are known.
-double horizon(Span<const TrianglePairContact> contacts) {
-  double first = 1;
-  for (const TrianglePairContact& contact : contacts) first = std::min(first, contact.toi);
-  return horizon_after(first);
-}
-
-}  // namespace
-
 void NarrowPhase::run(const NarrowPhaseInput& input, const Executor& executor) {
-  NarrowPhaseKernel kernel = kernel_of(input);
+  NarrowPhaseKernel kernel = narrow_phase_kernel(input);
   found_.clear();
   intersecting_.clear();
   tests_ = replays_ = 0;
@@ -90,11 +90,10 @@ void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& exe
 }
 
 std::optional<std::vector<TrianglePairContact>> contacts_after(const PartingPair& parting,
-                                                               const NarrowPhaseInput& input,
+                                                               const NarrowPhaseKernel& kernel,
                                                                const Executor& executor) {
   const std::vector<std::uint64_t>& pairs = parting.triangle_pairs;
   if (pairs.empty()) return std::vector<TrianglePairContact>();
-  const NarrowPhaseKernel kernel = kernel_of(input);
   AppendBuffer<TrianglePairContact> contacts(pairs.size());  // at most one a pair
   for (double from = parting.from; from < 1; from += parting.interval) {
     const AppendView<TrianglePairContact> view = contacts.start();

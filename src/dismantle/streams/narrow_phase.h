@@ -55,10 +55,13 @@ class NarrowPhase {
   std::size_t replays_ = 0;
 };
 
+/// The kernel of the narrow phase for the whole step.
+NarrowPhaseKernel narrow_phase_kernel(const NarrowPhaseInput& input);
+
 /// The contacts of a component pair that parts within the step, by the certified test over the rest of it: from the
 /// first of its times at which the ghost surfaces are apart. In no particular order; nothing if there is no such time.
 std::optional<std::vector<TrianglePairContact>> contacts_after(const PartingPair& parting,
-                                                               const NarrowPhaseInput& input,
+                                                               const NarrowPhaseKernel& kernel,
                                                                const Executor& executor);
 
 /// The triangles of a step at its start and end.

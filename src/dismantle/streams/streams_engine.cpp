@@ -81,9 +81,10 @@ void StreamsEngine::test_embedded_pairs(StreamsStep& step, double path_deviation
   const MovingStreams& streams = backend_->on_host();
   const NarrowPhaseInput input{backend_->triangle_pairs(), &streams, guards_.rules(), options_.test,
                                &guards_.ghosts()};
+  const NarrowPhaseKernel kernel = narrow_phase_kernel(input);
   for (const PartingPair& found :
        embedded_.parting(embedded_step(streams, path_deviation), input.triangle_pairs, step.intersecting)) {
-    const auto contacts = contacts_after(found, input, options_.executor);
+    const auto contacts = contacts_after(found, kernel, options_.executor);
     if (!contacts) continue;
     parting_.push_back(found.pair);
     step.contacts.insert(step.contacts.end(), contacts->begin(), contacts->end());
