@@ -95,7 +95,10 @@ NarrowFinds tested_pairs(const NarrowPhaseKernel& kernel, std::size_t capacity) 
       vertices_t1(queue, kernel.triangles.vertices_t1);
   const DeviceArray<Face> faces(queue, kernel.triangles.faces);
   const DeviceArray<Kdop16> bounds(queue, kernel.bounds);
-  const DeviceArray<std::uint32_t> component_of(queue, kernel.component_of), motion_class(queue, kernel.motion_class);
+  const DeviceArray<std::uint32_t> component_of(queue, kernel.component_of);
+  const DeviceArray<Vec3> displaced(queue, kernel.ghosts.displaced);
+  const DeviceArray<float> margins(queue, kernel.ghosts.margins);
+  const DeviceArray<RigidTransform> start(queue, kernel.ghosts.start), end(queue, kernel.ghosts.end);
   const DeviceArray<std::uint8_t> features(queue, kernel.features);
   const DeviceArray<PairRuleEntry> rules(queue, kernel.rules.table);
   DeviceAppendBuffer<TrianglePairContact> contacts(queue, capacity);
@@ -108,7 +111,7 @@ NarrowFinds tested_pairs(const NarrowPhaseKernel& kernel, std::size_t capacity) 
   body.kernel.bounds = bounds.view();
   body.kernel.component_of = component_of.view();
   body.kernel.features = features.view();
-  body.kernel.motion_class = motion_class.view();
+  body.kernel.ghosts = {displaced.view(), margins.view(), start.view(), end.view()};
   body.kernel.rules.table = rules.view();
 
   NarrowFinds finds;

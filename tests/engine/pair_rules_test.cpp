@@ -25,26 +25,13 @@ TEST(PairRules, GiveEveryStateItsTest) {
   PairStates states;
   states.tolerance = 0.01;
   states.pairs = {pair(0, 1, PairState::Near, 0.01), pair(0, 2, PairState::Contact, 0.01),
-                  pair(1, 2, PairState::Contact, 0.3),
                   pair(1, 5, PairState::Overlapping, 2), pair(2, 5, PairState::Free, kUnlimited)};
   const PairRules rules(states);
   EXPECT_EQ(rules.view().find(0, 1).test, PairTest::Ordinary);
   EXPECT_EQ(rules.view().find(0, 2).test, PairTest::Certified);
-  EXPECT_EQ(rules.view().find(1, 2).allowed_penetration, 0.3);
-  EXPECT_EQ(rules.view().find(1, 5).test, PairTest::Discrete);
+  EXPECT_EQ(rules.view().find(1, 5).test, PairTest::Certified);
   EXPECT_EQ(rules.view().find(2, 5).test, PairTest::Discrete);
-  EXPECT_EQ(rules.view().find(3, 4).test, PairTest::Ordinary);
-  EXPECT_EQ(rules.view().find(3, 4).allowed_penetration, 0.01);
-}
-
-TEST(PairRules, AllowASeparatedPairTheToleranceForGood) {
-  PairStates states;
-  states.tolerance = 0.02;
-  states.pairs = {pair(3, 9, PairState::Free, kUnlimited)};
-  PairRules rules(states);
-  rules.part(ComponentId(3), ComponentId(9));
-  EXPECT_EQ(rules.view().find(3, 9).test, PairTest::Certified);
-  EXPECT_EQ(rules.view().find(3, 9).allowed_penetration, 0.02);
+  EXPECT_EQ(rules.view().find(3, 4), PairRule{});
 }
 
 TEST(PairRules, FindEveryPairOfManyAndNoOther) {
@@ -56,12 +43,13 @@ TEST(PairRules, FindEveryPairOfManyAndNoOther) {
   }
   PairStates states;
   states.tolerance = 1;
-  for (const auto& [a, b] : listed) states.pairs.push_back(pair(a, b, PairState::Contact, 2 + a + 1000.0 * b));
-  const PairRules rules(states);
+  for (const auto& [a, b] : listed) states.pairs.push_back(pair(a, b, PairState::Contact, 1));
+  PairRules rules(states);
+  for (const auto& [a, b] : listed) rules.set(ComponentId(a), ComponentId(b), {PairTest::None, 2 + a, 3 + b});
   for (std::uint32_t a = 0; a < 500; ++a) {
     for (std::uint32_t b = a + 1; b < 500; ++b) {
-      const double expected = listed.count({a, b}) > 0 ? 2 + a + 1000.0 * b : 1;
-      ASSERT_EQ(rules.view().find(a, b).allowed_penetration, expected);
+      const PairRule expected = listed.count({a, b}) > 0 ? PairRule{PairTest::None, 2 + a, 3 + b} : PairRule{};
+      ASSERT_EQ(rules.view().find(a, b), expected);
     }
   }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/streams/sweep_engine.h"
 
-#include "dismantle/narrowphase/ccd_triangle_triangle.h"
+#include "dismantle/certificates/ghosts/find_pair_ghosts.h"
+#include "dismantle/streams/narrow_phase_kernel.h"
+#include "dismantle/surface/ghost_surface.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/executors.h"
 #include "tests/support/random_scenes.h"
@@ -161,32 +163,36 @@ TEST(StreamsEngine, LetsComponentsThatMoveTogetherTouchAndTestsThoseThatDoNot) {
   EXPECT_NEAR(head_on.toi, 0.5, 0.02);
 }
 
-/// The contacts found by testing every triangle pair of components that move relative to each other.
+/// The contacts found by testing every triangle of components that move relative to each other with the ghosts of all
+/// of the other.
 std::vector<BlockingPair> brute_force_contacts(const EngineScene& scene, const std::vector<RigidTransform>& next) {
   std::vector<BlockingPair> contacts;
   const Span<const RigidTransform> state = scene.engine().state();
   const auto moves = [&](std::size_t c) { return !(state[c] == next[c]); };
-  const auto motion_of = [&](std::size_t c, std::size_t f) {
-    TriangleMotion m;
-    const Triangle t = assembled_mesh(scene.assembly().components[c]).triangle(f);
-    for (int k = 0; k < 3; ++k) {
-      m.t0[k] = state[c] * t[k];
-      m.t1[k] = next[c] * t[k];
-    }
-    return m;
+  const auto motions_of = [&](std::size_t c, const TriangleMesh& mesh) {
+    std::vector<TriangleMotion> motions(mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        motions[f].t0[k] = state[c] * mesh.triangle(f)[k];
+        motions[f].t1[k] = next[c] * mesh.triangle(f)[k];
+      }
+    return motions;
   };
   const std::size_t count = next.size();
-  std::vector<std::vector<TriangleMotion>> motions(count);
-  for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t f = 0; f < scene.assembly().components[c].mesh->faces.size(); ++f)
-      motions[c].push_back(motion_of(c, f));
+  std::vector<std::vector<TriangleMotion>> motions(count), ghosts(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    TriangleMesh mesh = assembled_mesh(scene.assembly().components[c]);
+    motions[c] = motions_of(c, mesh);
+    mesh.vertices = ghost_vertices(mesh.vertices, mesh.faces, kGhostLength * kTolerance);
+    ghosts[c] = motions_of(c, mesh);
+  }
   for (std::uint32_t a = 0; a < count; ++a) {
     for (std::uint32_t b = a + 1; b < count; ++b) {
       if (state[a] == state[b] && next[a] == next[b]) continue;
       if (!moves(a) && !moves(b)) continue;
       for (std::uint32_t f = 0; f < motions[a].size(); ++f) {
         for (std::uint32_t g = 0; g < motions[b].size(); ++g) {
-          const CcdResult ccd = ccd_triangle_triangle(motions[a][f], motions[b][g], kTolerance);
+          const CcdResult ccd = ccd_with_ghosts({motions[a][f], ghosts[a][f]}, {motions[b][g], ghosts[b][g]});
           if (ccd.status == CcdStatus::Contact)
             contacts.push_back({ComponentId(a), ComponentId(b), FaceId(f), FaceId(g), ccd.toi});
         }
