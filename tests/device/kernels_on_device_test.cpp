@@ -4,8 +4,8 @@
 #include "tests/device/kernels_on_device.h"
 
 #include "bench/baselines/device_appender.h"
-#include "dismantle/engine/pair_rules.h"
 #include "dismantle/exec/cuda_device.h"
+#include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/moving_streams.h"
 #include "tests/support/engine_scene.h"
 #include "tests/support/random_scenes.h"

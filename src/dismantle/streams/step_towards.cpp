@@ -8,8 +8,10 @@ namespace dismantle {
 
 namespace {
 
-/// Times that a motion up to the contact is halved if its own sweep is not free.
-constexpr int kMaxTouchRetries = 4;
+/// Times that a motion up to the contact is shortened if its own sweep is not free: first up to the contact of that
+/// sweep, then to half of it.
+constexpr int kMaxTouchRetries = 6;
+constexpr int kHalvedRetries = 3;
 
 /// The sweeps of one step; adds up their cost.
 class Stepper {
@@ -95,11 +97,12 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
     double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
     for (int retry = 0; retry < kMaxTouchRetries && share > backoff; ++retry) {
       const Pose touching = pose_between(start, target, (k + share) / cuts);
-      if (stepper.sweep(touching, deviation).free) {
+      const SweepResult shorter = stepper.sweep(touching, deviation);
+      if (shorter.free) {
         stepper.commit(touching);
         break;
       }
-      share /= 2;
+      share *= retry < kMaxTouchRetries - kHalvedRetries ? shorter.toi * (1 - kBackoffShare) : 0.5;
     }
     return result;
   }
