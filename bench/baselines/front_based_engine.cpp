@@ -164,9 +164,14 @@ bool FrontBasedEngine::moves_against(std::uint64_t key) const {
 
 NarrowPhaseKernel FrontBasedEngine::kernel() const {
   const GhostVertices& ghosts = guards_.ghosts();
-  NarrowPhaseKernel kernel{front_.triangle_pairs(), triangles(),     {ghosts.displaced, ghosts.margins, start_, end_},
-                           bounds_,                 fixed_.bvh.component_of, fixed_.features,
-                           guards_.rules(),         options_.test};
+  NarrowPhaseKernel kernel{front_.triangle_pairs(),
+                           triangles(),
+                           {ghosts.displaced, ghosts.margins, start_, end_},
+                           bounds_,
+                           fixed_.bvh.component_of,
+                           fixed_.features,
+                           guards_.rules(),
+                           options_.test};
   kernel.cull = PairCull::None;
   return kernel;
 }
@@ -206,9 +211,8 @@ void FrontBasedEngine::test_embedded_pairs(PairTestResults& results, double path
 std::vector<ComponentPair> FrontBasedEngine::overlapping_pairs() const {
   std::vector<ComponentPair> pairs = guards_.overlapping();
   append(pairs, embedded_.pairs());
-  std::sort(pairs.begin(), pairs.end(), [](const ComponentPair& x, const ComponentPair& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const ComponentPair& x, const ComponentPair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
   return pairs;
 }
 

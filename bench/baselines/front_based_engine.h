@@ -21,11 +21,12 @@ enum class FrontBasedWork {
 /// (representative triangles, which leave no orphans within components), behind the non-penetration filter. The
 /// hierarchy (16-DOPs, built by the surface area heuristic) is that of `streams`.
 ///
-/// Pairs that the published method does not know are decided as `streams` does, so that results can be equal: pairs that touch or
-/// overlap by the certified test, in one pass; free pairs by the discrete test and the time at which they part.
+/// Pairs that the published method does not know are decided as `streams` does, so that results can be equal: pairs
+/// that touch or overlap by the certified test, in one pass; free pairs by the discrete test and the time at which they
+/// part.
 ///
-/// Guarantee: free or not, and the remaining overlapping pairs, are those of `streams` with the same options; where every
-/// pair is ordinary and the test is elementary, so are contacts and times, bit for bit.
+/// Guarantee: free or not, and the remaining overlapping pairs, are those of `streams` with the same options; where
+/// every pair is ordinary and the test is elementary, so are contacts and times, bit for bit.
 std::unique_ptr<SweepEngine> make_front_based_engine(const Assembly& assembly, const PairStates& pairs,
                                                      const CollisionOptions& options,
                                                      FrontBasedWork work = FrontBasedWork::AllComponents);

@@ -117,15 +117,15 @@ TEST_F(KernelsOnDevice, TestTrianglePairsToTheSameBitsWithBothTestsFromCapacityO
   states.pairs.resize(states.pairs.size() / 2);  // the other overlapping pairs are contacts
   const GuardedPairs guards(assembly_, states, fixed, {});
   for (const ElementaryTest test : {ElementaryTest::Certified, ElementaryTest::Elementary}) {
-    const NarrowPhaseKernel kernel{front.values(FrontAppender::TrianglePairs),
-                                   {streams_->vertices_t0(), streams_->vertices_t1(), fixed.faces},
-                                   {guards.ghosts().displaced, guards.ghosts().margins, streams_->state(),
-                                    streams_->next()},
-                                   streams_->bounds(),
-                                   fixed.bvh.component_of,
-                                   fixed.features,
-                                   guards.rules(),
-                                   test};
+    const NarrowPhaseKernel kernel{
+        front.values(FrontAppender::TrianglePairs),
+        {streams_->vertices_t0(), streams_->vertices_t1(), fixed.faces},
+        {guards.ghosts().displaced, guards.ghosts().margins, streams_->state(), streams_->next()},
+        streams_->bounds(),
+        fixed.bvh.component_of,
+        fixed.features,
+        guards.rules(),
+        test};
     FindsOnHost expected;
     for (std::size_t i = 0; i < kernel.pairs.size(); ++i) kernel(i, expected);
     device::NarrowFinds finds = device::tested_pairs(kernel, 1);

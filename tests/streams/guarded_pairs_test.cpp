@@ -62,10 +62,9 @@ struct Held {
 /// A pyramid on its tip.
 TriangleMesh needle(double tip) {
   const double b = 0.4;
-  return scenes::moved(
-      {{{0, 0, tip}, {b, b, tip + 2}, {-b, b, tip + 2}, {-b, -b, tip + 2}, {b, -b, tip + 2}},
-       {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 4, 3}}, {{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}}},
-      {{}, quat_about({0, 0, 1}, 3.14159265358979 / 4)});
+  return scenes::moved({{{0, 0, tip}, {b, b, tip + 2}, {-b, b, tip + 2}, {-b, -b, tip + 2}, {b, -b, tip + 2}},
+                        {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 4, 3}}, {{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}}},
+                       {{}, quat_about({0, 0, 1}, 3.14159265358979 / 4)});
 }
 
 TEST(GuardedPairs, StopANeedleOnAnEdgeOfAFace) {
@@ -163,7 +162,7 @@ TriangleMesh random_shape(std::mt19937_64& random) {
 TEST(GuardedPairs, AllowWhatTheMethodCertificatesAllows) {
   std::mt19937_64 random(20261124);
   int blocked = 0, overlapping = 0, with_ghosts = 0;
-  for (int member = 0; member < 40; ++member) {
+  for (int member = 0; member < 24; ++member) {
     SCOPED_TRACE(member);
     // Every second pair overlaps in the assembled state.
     const double height = member % 2 == 0 ? 4 : 0.9;
@@ -172,7 +171,7 @@ TEST(GuardedPairs, AllowWhatTheMethodCertificatesAllows) {
     CertificateEngine expected(held.assembly, held.states);
     const GuardedPairs pairs(held.assembly, held.states, make_assembly_triangles(held.assembly, {}), {});
     const bool has_ghosts = pairs.rules().find(0, 1).test != PairTest::None;
-    for (int k = 0; k < 15; ++k) {
+    for (int k = 0; k < 10; ++k) {
       const Pose target{scenes::random_vector(random, 0.6) - Vec3{0, 0, height},
                         quat_about(normalized(scenes::random_vector(random, 1)), k % 2 == 0 ? 0 : 0.3)};
       expected.jump(held.engine->poses());
@@ -188,9 +187,9 @@ TEST(GuardedPairs, AllowWhatTheMethodCertificatesAllows) {
       ++with_ghosts;
     }
   }
-  EXPECT_GT(blocked, 200);
+  EXPECT_GT(blocked, 100);
   EXPECT_GT(overlapping, 50);
-  EXPECT_GT(with_ghosts, 200);
+  EXPECT_GT(with_ghosts, 100);
 }
 
 }  // namespace

@@ -138,8 +138,7 @@ TEST(StreamsEngine, DropsFreePairsThatAJumpParts) {
   EngineScene scene({{"plate", scenes::box({-10, -10, -3}, {10, 10, 0})},
                      {"peg", scenes::box({-1, -1, -2}, {1, 1, 2})},
                      {"core", scenes::box({5, 5, -2}, {6, 6, -1})}},
-                    {pair_of(0, 1, PairState::Free, 0), pair_of(0, 2, PairState::Free, 0)}, kTolerance,
-                    options());
+                    {pair_of(0, 1, PairState::Free, 0), pair_of(0, 2, PairState::Free, 0)}, kTolerance, options());
   scene.jump({{1, shift(2, 0, 1)}, {2, shift(0, 1, 0)}});
   EXPECT_EQ(scene.engine().overlapping_pairs().size(), 2u);
   scene.jump({{1, shift(2, 0, 10)}});

@@ -54,8 +54,8 @@ void bvh_refit(const Bvh& bvh, const BvhRefitPlan& plan, const BvhRefitInput& in
   DISMANTLE_EXPECT(input.margin >= 0);
   // Rounded up, as all bounds.
   const float margin = static_cast<float>(input.margin * (1 + 1e-6));
-  const BvhRefitLeafKernel leaf_kernel{input.vertices_t0, input.vertices_t1, input.faces,
-                                       bounds,            margin,            input.margins};
+  const BvhRefitLeafKernel leaf_kernel{input.vertices_t0, input.vertices_t1, input.faces, bounds, margin,
+                                       input.margins};
   const BvhRefitNodeKernel node_kernel{BvhView(bvh), bounds};
   const NodeIndex leaf_count = bvh.leaf_count();
 

@@ -92,16 +92,11 @@ void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentI
 
 template <class Queue>
 CandidateScene DeviceBatch<Queue>::scene() const {
-  return {geometry_.tree(),
-          bounds_.view(),
-          geometry_.assembled.view(),
-          vertices_.view(),
-          geometry_.faces.view(),
-          moving_roots_.view(),
-          motion_class_.view(),
-          {displaced_.view(), margins_.view(), state_.view(), state_.view()},
-          {rule_table_.view()},
-          transform_from_pose(start_)};
+  return {geometry_.tree(),           bounds_.view(),
+          geometry_.assembled.view(), vertices_.view(),
+          geometry_.faces.view(),     moving_roots_.view(),
+          motion_class_.view(),       {displaced_.view(), margins_.view(), state_.view(), state_.view()},
+          {rule_table_.view()},       transform_from_pose(start_)};
 }
 
 template <class Queue>

@@ -65,10 +65,11 @@ void MovingStreams::refit(const Executor& executor) {
   for (const ComponentId c : matrices_.take_outdated_bounds())
     (motion_class()[c.value] == 0 ? stationary : moving).push_back(c);
   if (!stationary.empty())
-    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t0_, fixed_.faces, 0, margins_}, stationary, bounds_,
-              executor);
+    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t0_, fixed_.faces, 0, margins_}, stationary,
+              bounds_, executor);
   if (!moving.empty())
-    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t1_, fixed_.faces, 0, margins_}, moving, bounds_, executor);
+    bvh_refit(fixed_.bvh, fixed_.refit_plan, {vertices_t0_, vertices_t1_, fixed_.faces, 0, margins_}, moving, bounds_,
+              executor);
 }
 
 void MovingStreams::commit() {

@@ -32,10 +32,10 @@ DISMANTLE_HOST_DEVICE inline TriangleMotion part_of(const TriangleMotion& motion
 
 /// The ghost surfaces of a step (docs/design/0012-ghost-surfaces.md): they move with their components.
 struct GhostTriangles {
-  Span<const Vec3> displaced;         ///< GhostVertices::displaced [mm, assembled].
-  Span<const float> margins;          ///< GhostVertices::margins, shape [leaf_count] [mm].
-  Span<const RigidTransform> start;   ///< World from assembled at the start of the step, shape [component_count].
-  Span<const RigidTransform> end;     ///< At its end.
+  Span<const Vec3> displaced;        ///< GhostVertices::displaced [mm, assembled].
+  Span<const float> margins;         ///< GhostVertices::margins, shape [leaf_count] [mm].
+  Span<const RigidTransform> start;  ///< World from assembled at the start of the step, shape [component_count].
+  Span<const RigidTransform> end;    ///< At its end.
 
   /// The ghost of a triangle during the step.
   /// @param face its vertices
@@ -143,7 +143,8 @@ struct NarrowPhaseKernel {
 
   /// The certified test of two leaves on a part of the step, whatever their rule's test. Times are shares of the part.
   DISMANTLE_HOST_DEVICE CcdResult certified(NodePair p, const PairRule& rule, double begin, double end) const {
-    return ccd_with_ghosts(part_of_motion(p.a, rule.ghost_a, begin, end), part_of_motion(p.b, rule.ghost_b, begin, end));
+    return ccd_with_ghosts(part_of_motion(p.a, rule.ghost_a, begin, end),
+                           part_of_motion(p.b, rule.ghost_b, begin, end));
   }
 
  private:

@@ -79,8 +79,7 @@ EmbeddedStep StreamsEngine::embedded_step(const MovingStreams& streams, double p
 void StreamsEngine::test_embedded_pairs(StreamsStep& step, double path_deviation) {
   if (!embedded_.any_moves(state(), next_)) return;
   const MovingStreams& streams = backend_->on_host();
-  const NarrowPhaseInput input{backend_->triangle_pairs(), &streams, guards_.rules(), options_.test,
-                               &guards_.ghosts()};
+  const NarrowPhaseInput input{backend_->triangle_pairs(), &streams, guards_.rules(), options_.test, &guards_.ghosts()};
   const NarrowPhaseKernel kernel = narrow_phase_kernel(input);
   for (const PartingPair& found :
        embedded_.parting(embedded_step(streams, path_deviation), input.triangle_pairs, step.intersecting)) {
@@ -121,9 +120,8 @@ void StreamsEngine::jump(Span<const RigidTransform> state) {
 std::vector<ComponentPair> StreamsEngine::overlapping_pairs() const {
   std::vector<ComponentPair> pairs = guards_.overlapping();
   pairs.insert(pairs.end(), embedded_.pairs().begin(), embedded_.pairs().end());
-  std::sort(pairs.begin(), pairs.end(), [](const ComponentPair& x, const ComponentPair& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const ComponentPair& x, const ComponentPair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
   return pairs;
 }
 

@@ -76,8 +76,8 @@ PairStates states_for_streams(PairStates states) {
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options,
                                                          std::unique_ptr<StreamsBackend> backend) {
-  return make_sweeping_motion_engine(
-      assembly, pairs.tolerance, make_streams_engine(assembly, pairs, options, std::move(backend)));
+  return make_sweeping_motion_engine(assembly, pairs.tolerance,
+                                     make_streams_engine(assembly, pairs, options, std::move(backend)));
 }
 
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/pair_state.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/certificates/ghosts/find_guards.h"
 #include "dismantle/certificates/sweep/certificate_sweep.h"
 #include "dismantle/certificates/sweep/front_store.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
-#include "dismantle/assembly/pair_state.h"
 #include "dismantle/math/screw.h"
 
 #include <map>

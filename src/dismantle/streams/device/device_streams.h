@@ -238,8 +238,9 @@ void DeviceStreams<Queue>::enqueue_vertices() {
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_bounds() {
-  const BvhRefitLeafKernel leaf_kernel{vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view(),
-                                       bounds_.view(), 0, margins_.view()};
+  const BvhRefitLeafKernel leaf_kernel{
+      vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view(), bounds_.view(), 0,
+      margins_.view()};
   queue_.launch(geometry_.leaf_count, device_code::FitBounds{leaf_kernel,
                                                              {geometry_.tree(), bounds_.view()},
                                                              components_.on_device(),
