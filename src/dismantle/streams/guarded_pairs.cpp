@@ -3,6 +3,7 @@
 
 #include "dismantle/certificates/front/certificate_kernels.h"
 #include "dismantle/engine/chords.h"
+#include "dismantle/geometry/aabb_corners.h"
 #include "dismantle/surface/ghost_surface.h"
 #include "dismantle/surface/solid_distance.h"
 #include "dismantle/surface/swept_depth.h"
@@ -33,6 +34,14 @@ std::vector<Vec3> usual_ghost(const Component& component, double max_length) {
   // Sheets have no inside to retreat to.
   if (faults.open_edges > 0) return vertices;
   return ghost_vertices(vertices, outward_faces(component.mesh->faces, faults.inside_out), max_length);
+}
+
+/// The displacement of a point of the moving shape [mm]: that of a corner of its box is the largest.
+double max_displacement(const SweptPair& pair) {
+  double longest = 0;
+  for (const Vec3& corner : corners_of(pair.a->surface().bounds()))
+    longest = std::max(longest, length(pair.end * corner - pair.start * corner));
+  return longest;
 }
 
 /// The margin of a leaf whose corners are displaced by up to `length`: more than the rounding of positions.
@@ -147,7 +156,7 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
     const ComponentId moving = a_moves ? pair.a : pair.b, fixed = a_moves ? pair.b : pair.a;
     const auto seen = [&](Span<const RigidTransform> at) { return inverse(at[fixed.value]) * at[moving.value]; };
     const SweptPair swept{&solids_.at(moving).shape, &solids_.at(fixed).shape, seen(start), seen(end)};
-    const double way = std::max(length(swept.end.translation - swept.start.translation), tolerance_);
+    const double way = std::max(max_displacement(swept), tolerance_);
     const double limit = pair.guard.allowed - kArcShare * tolerance_;
     const auto deep = first_deeper(swept, limit, kResolution * tolerance_ / way);
     if (!deep) continue;

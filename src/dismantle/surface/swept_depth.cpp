@@ -15,6 +15,10 @@ namespace {
 /// Sampled faces of each surface.
 constexpr std::size_t kSamples = 4000;
 
+/// The first part of a motion that is searched, in resolutions of time, and by how much each part ends later than the
+/// one before: what lies behind a contact costs most.
+constexpr double kFirstPart = 16, kPartGrowth = 8;
+
 /// A triangle, or a part of one, during an interval of time: corners at its begin and its end.
 struct MovingPart {
   Triangle begin, end;
@@ -215,8 +219,12 @@ std::optional<DeepPoint> first_deeper(const SweptPair& pair, double limit, doubl
     }
     return false;
   };
-  if (!too_deep(0, 1)) return std::nullopt;
   double free_until = 0;
+  for (double to = std::min(1.0, kFirstPart * resolution); !too_deep(free_until, to);
+       to = std::min(1.0, kPartGrowth * to)) {
+    if (to == 1) return std::nullopt;
+    free_until = to;
+  }
   while (first->time - free_until > resolution) {
     const double middle = (free_until + first->time) / 2;
     if (!too_deep(free_until, middle)) free_until = middle;
