@@ -20,9 +20,9 @@ namespace dismantle {
 /// computes one candidate, on the CPU or on a CUDA device, with the same bits for every device, number of threads and
 /// order of the candidates.
 ///
-/// Guarantee: at no instant before the `toi` of a candidate are two triangles deeper in each other than their pair is
-/// allowed (docs/guarantee.md, first rule); this holds for the true screw. Embedded pairs are free all the way. The
-/// rule for vertices is left to MotionEngine::step().
+/// Guarantee: at no instant before the `toi` of a candidate does a ghost surface of a pair cross the other component
+/// (docs/guarantee.md); this holds for the true screw. Free pairs are free all the way, and so are those for which no
+/// ghosts were found: their depth is bounded by MotionEngine::step() only.
 class MotionBatch {
  public:
   virtual ~MotionBatch() = default;
