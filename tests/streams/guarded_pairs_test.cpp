@@ -162,16 +162,16 @@ TriangleMesh random_shape(std::mt19937_64& random) {
 TEST(GuardedPairs, AllowWhatTheMethodCertificatesAllows) {
   std::mt19937_64 random(20261124);
   int blocked = 0, overlapping = 0, with_ghosts = 0;
-  for (int member = 0; member < 24; ++member) {
+  for (int member = 0; member < 16; ++member) {
     SCOPED_TRACE(member);
-    // Every second pair overlaps in the assembled state.
-    const double height = member % 2 == 0 ? 4 : 0.9;
+    // Some pairs overlap in the assembled state.
+    const double height = member % 4 != 1 ? 4 : 0.9;
     Held held(scenes::moved(random_shape(random), {{0, 0, height}, {}}),
               scenes::moved(random_shape(random), scenes::random_pose(random, 0.1, 3)));
     CertificateEngine expected(held.assembly, held.states);
     const GuardedPairs pairs(held.assembly, held.states, make_assembly_triangles(held.assembly, {}), {});
     const bool has_ghosts = pairs.rules().find(0, 1).test != PairTest::None;
-    for (int k = 0; k < 10; ++k) {
+    for (int k = 0; k < (member % 4 != 1 ? 12 : 4); ++k) {
       const Pose target{scenes::random_vector(random, 0.6) - Vec3{0, 0, height},
                         quat_about(normalized(scenes::random_vector(random, 1)), k % 2 == 0 ? 0 : 0.3)};
       expected.jump(held.engine->poses());
@@ -187,9 +187,9 @@ TEST(GuardedPairs, AllowWhatTheMethodCertificatesAllows) {
       ++with_ghosts;
     }
   }
-  EXPECT_GT(blocked, 100);
-  EXPECT_GT(overlapping, 50);
-  EXPECT_GT(with_ghosts, 100);
+  EXPECT_GT(blocked, 80);
+  EXPECT_GT(overlapping, 5);
+  EXPECT_GT(with_ghosts, 80);
 }
 
 }  // namespace
