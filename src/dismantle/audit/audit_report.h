@@ -14,10 +14,9 @@ namespace dismantle {
 
 /// The part of the guarantee (docs/guarantee.md) that a path violates.
 enum class AuditViolationKind {
-  PathInconsistent,  ///< The file contradicts itself or the assembly: a wrong first frame, an unknown name, an
-                     ///< allowance above the depth at the start, ...
-  Depth,     ///< A point of one surface is deeper inside the other component than allowed.
-  Crossing,  ///< A point of one surface went through the other by more than allowed; one is a sheet, or thin.
+  PathInconsistent,  ///< The file contradicts itself or the assembly: a wrong first frame, too high an allowance, ...
+  Depth,             ///< A point of one surface is deeper inside the other component than allowed.
+  Crossing,          ///< A point of one surface went through the other by more than allowed; one is a sheet, or thin.
 };
 
 /// The name of a kind in `dismantle audit --json`: "path-inconsistent", "depth" or "crossing".
