@@ -10,10 +10,17 @@ namespace dismantle::families {
 
 namespace {
 
+/// Depths are found to within this share.
+constexpr double kRelativeGap = 0.01;
+/// Surfaces that are not found apart with so many pieces are not.
+constexpr std::size_t kMaxPieces = 5000;
+
 struct Piece {
   double bound = 0;
   Triangle corners;  // in the frame of the other surface
   bool of_first = true;
+  bool inside = false;  // as a whole
+  std::uint32_t face = 0;  // of the other surface, near
   friend bool operator<(const Piece& a, const Piece& b) { return a.bound < b.bound; }
 };
 
@@ -38,18 +45,20 @@ void halve(const Triangle& t, Triangle& first, Triangle& second) {
 
 class Search {
  public:
-  Search(const OracleMesh& first, const OracleMesh& second, const RigidTransform& second_from_first, double gap)
-      : own_{&first, &second}, to_other_{second_from_first, inverse(second_from_first)}, gap_(gap) {}
+  Search(const OracleMesh& first, const OracleMesh& second, const RigidTransform& second_from_first,
+         const DepthEffort& effort)
+      : own_{&first, &second}, to_other_{second_from_first, inverse(second_from_first)}, effort_(effort) {}
 
-  FoundDepth run(std::size_t pieces) {
+  FoundDepth run() {
+    std::size_t pieces = effort_.pieces;
     for (const bool of_first : {true, false})
       if (other(of_first).solid())
         for (std::size_t f = 0; f < own(of_first).mesh().faces.size(); ++f) {
           Triangle t = own(of_first).mesh().triangle(f);
           for (Vec3& p : t.corner) p = to_other_[of_first ? 0 : 1] * p;
-          add({1e300, t, of_first});
+          add({1e300, t, of_first, false, 0});
         }
-    for (; !open_.empty() && open_.top().bound > found_.attained + gap_; --pieces) {
+    for (; !open_.empty() && open_.top().bound > goal(); --pieces) {
       if (pieces == 0) {
         found_.cut = true;
         break;
@@ -60,12 +69,15 @@ class Search {
       halve(piece.corners, half[0].corners, half[1].corners);
       for (const Piece& h : half) add(h);
     }
-    found_.bound = open_.empty() ? std::max(found_.attained, dropped_)
-                                 : std::max({found_.attained, dropped_, open_.top().bound});
+    found_.bound = std::max(found_.attained, dropped_);
+    if (!open_.empty()) found_.bound = std::max(found_.bound, open_.top().bound);
     return found_;
   }
 
  private:
+  double goal() const {
+    return std::max(effort_.floor, found_.attained + std::max(effort_.gap, kRelativeGap * found_.attained));
+  }
   const OracleMesh& own(bool of_first) const { return *own_[of_first ? 0 : 1]; }
   const OracleMesh& other(bool of_first) const { return *own_[of_first ? 1 : 0]; }
 
@@ -76,31 +88,38 @@ class Search {
     if (!overlaps(box, surface.bounds())) return;
     const Vec3 middle = middle_of(piece.corners);
     const double radius = radius_of(piece.corners, middle);
-    const NearestFace near = surface.nearest(middle);
+    const NearestFace near = surface.nearest(middle, surface.distance_to(piece.face, middle) * (1 + 1e-6) + 1e-12);
+    piece.face = near.face;
     double by_face = 0;
     for (const Vec3& p : piece.corners.corner) by_face = std::max(by_face, surface.distance_to(near.face, p));
     piece.bound = std::min({piece.bound, near.distance + radius, by_face});
-    if (piece.bound <= found_.attained + gap_) {
+    if (piece.bound <= goal()) {
       dropped_ = std::max(dropped_, piece.bound);
       return;
     }
-    const bool whole = near.distance > radius;
-    if (whole && !surface.inside(middle)) return;
-    attain(piece, middle, near.distance, whole);
-    for (const Vec3& p : piece.corners.corner) attain(piece, p, surface.nearest(p).distance, whole);
+    if (!piece.inside && near.distance > radius) {
+      if (!surface.inside(middle, near)) return;
+      piece.inside = true;
+    }
+    attain(piece, middle, near);
+    for (const Vec3& p : piece.corners.corner) {
+      const double most = surface.distance_to(near.face, p);
+      if (most > std::max(found_.attained, effort_.floor)) attain(piece, p, surface.nearest(p, most * (1 + 1e-6)));
+    }
     open_.push(piece);
   }
 
-  void attain(const Piece& piece, Vec3 point, double distance, bool certain) {
-    if (distance <= found_.attained || !(certain || other(piece.of_first).inside(point))) return;
-    found_.attained = distance;
+  void attain(const Piece& piece, Vec3 point, const NearestFace& near) {
+    if (near.distance <= std::max(found_.attained, effort_.floor)) return;
+    if (!piece.inside && !other(piece.of_first).inside(point, near)) return;
+    found_.attained = near.distance;
     found_.at = to_other_[piece.of_first ? 1 : 0] * point;
     found_.of_first = piece.of_first;
   }
 
   const OracleMesh* own_[2];
   RigidTransform to_other_[2];
-  double gap_;
+  DepthEffort effort_;
   double dropped_ = 0;
   std::priority_queue<Piece> open_;
   FoundDepth found_;
@@ -109,8 +128,8 @@ class Search {
 }  // namespace
 
 FoundDepth search_depth(const OracleMesh& first, const OracleMesh& second, const RigidTransform& second_from_first,
-                        double gap, std::size_t pieces) {
-  return Search(first, second, second_from_first, gap).run(pieces);
+                        const DepthEffort& effort) {
+  return Search(first, second, second_from_first, effort).run();
 }
 
 bool apart(const OracleMesh& first, const OracleMesh& second, const RigidTransform& second_from_first, double gap) {
@@ -120,7 +139,8 @@ bool apart(const OracleMesh& first, const OracleMesh& second, const RigidTransfo
     for (Vec3& p : t.corner) p = second_from_first * p;
     open.push_back(t);
   }
-  while (!open.empty()) {
+  for (std::size_t pieces = 0; !open.empty(); ++pieces) {
+    if (pieces == kMaxPieces + first.mesh().faces.size()) return false;
     const Triangle t = open.back();
     open.pop_back();
     const Vec3 middle = middle_of(t);

@@ -71,11 +71,13 @@ void GhostOracle::start(State& state) const {
   const RigidTransform at = track_.at(0);
   const Vec3 here = at * state.point;
   const auto take = [&](Vec3 place) {
-    if (length(place - here) > limit || other_.nearest(place).distance < kOff * limit || other_.inside(place)) return;
+    if (length(place - here) > limit) return;
+    const NearestFace found = other_.nearest(place);
+    if (found.distance < kOff * limit || other_.inside(place, found)) return;
     state.offsets.push_back(inverse(at) * place - state.point);
   };
   const NearestFace near = other_.nearest(here);
-  state.clear = near.distance > limit && !other_.inside(here);
+  state.clear = near.distance > limit && !other_.inside(here, near);
   if (state.clear) return;
   take(here);
   const Vec3 out = near.distance > 0 ? (near.point - here) / near.distance : Vec3{};

@@ -20,8 +20,8 @@ struct PointAllowance {
 
 /// How hard ghosts are looked for.
 struct GhostEffort {
-  std::size_t few = 3;        ///< More are made where fewer are left.
-  std::size_t most = 12;      ///< So many are kept at most.
+  std::size_t few = 2;        ///< More are made where fewer are left.
+  std::size_t most = 6;      ///< So many are kept at most.
   std::size_t random = 0;     ///< Random places that are tried besides the usual ones.
   double smallest_step = 0.1; ///< Motions are halved down to this share of the allowance.
 };

@@ -63,8 +63,8 @@ class Member {
     result_.slowest_ms = drive_.slowest_ms;
     result_.engine_seconds = drive_.seconds;
     report_("oracle");
-    const JudgedPair pair{{*assembly_.components[0].mesh, scene_.parts[0].solid},
-                          {*assembly_.components[1].mesh, scene_.parts[1].solid},
+    const JudgedPair pair{{*assembly_.components[0].mesh, scene_.parts[0].solid, scene_.parts[0].simple},
+                          {*assembly_.components[1].mesh, scene_.parts[1].solid, scene_.parts[1].simple},
                           scene_.tolerance};
     judge_drive(pair);
     report_("straight");
@@ -120,7 +120,7 @@ class Member {
 
   /// The library's depth is a bound, and not far from the depth.
   void check_start(const JudgedPair& pair, double bound) {
-    const FoundDepth found = search_depth(pair.moving, pair.fixed, {}, 0.01 * scene_.tolerance, 40000);
+    const FoundDepth found = search_depth(pair.moving, pair.fixed, {}, {0.01 * scene_.tolerance});
     const ComponentPair* known = states_.find(ComponentId(0), ComponentId(1));
     const double depth = known ? known->depth : 0;
     start_depth_ = found.attained;
@@ -136,11 +136,10 @@ class Member {
     JudgeOptions options;
     options.extra = kStuckShare - 1;
     options.slack = kStuckShare;
-    options.depths = 150;
+    options.depths = 60;
     options.seed = random_();
-    std::vector<Pose> poses;
-    for (int k = 0; k <= 75; ++k) poses.push_back({k / 75.0 * way, {}});
-    const Verdict free = judge(pair, poses, options);
+    options.samples = 300;
+    const Verdict free = judge(pair, {{}, {way, {}}}, options);
     if (free.beyond || free.passed || free.doubted > 0) return;
     ++result_.straight;
     CertificateEngine engine(assembly_, states_);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLeafFaces = 4;
 /// Nodes further away than so many radii count as a dipole.
-constexpr double kFar = 3;
+constexpr double kFar = 2.2;
 
 double squared_to_box(const Aabb& box, Vec3 p) {
   double sum = 0;
@@ -38,24 +38,19 @@ bool segment_may_meet(const Aabb& box, Vec3 from, Vec3 step) {
   return enter <= leave;
 }
 
-Vec3 nearest_of_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double dd = dot(d, d);
-  return a + (dd > 0 ? std::clamp(dot(p - a, d) / dd, 0.0, 1.0) : 0.0) * d;
-}
-
+/// By the region that the point projects to (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearest_of_triangle(const Triangle& t, Vec3 p) {
-  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
-  const double nn = dot(n, n);
-  bool above = nn > 0;
-  for (int i = 0; above && i < 3; ++i) above = dot(cross(t[(i + 1) % 3] - t[i], p - t[i]), n) >= 0;
-  if (above) return p - (dot(p - t[0], n) / nn) * n;
-  Vec3 best = nearest_of_segment(p, t[0], t[1]);
-  for (int i = 1; i < 3; ++i) {
-    const Vec3 q = nearest_of_segment(p, t[i], t[(i + 1) % 3]);
-    if (dot(q - p, q - p) < dot(best - p, best - p)) best = q;
-  }
-  return best;
+  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d1 <= 0 && d2 <= 0) return t[0];
+  if (d3 >= 0 && d4 <= d3) return t[1];
+  if (d6 >= 0 && d5 <= d6) return t[2];
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return t[0] + (d1 / (d1 - d3)) * ab;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return t[0] + (d2 / (d2 - d6)) * ac;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return t[1] + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t[2] - t[1]);
+  const Vec3 n = cross(ab, ac);
+  return p - (dot(ap, n) / dot(n, n)) * n;
 }
 
 bool before(Vec3 a, Vec3 b) {
@@ -86,10 +81,11 @@ double solid_angle(const Triangle& t, Vec3 p) {
 
 }  // namespace
 
-OracleMesh::OracleMesh(TriangleMesh mesh, bool solid)
-    : mesh_(std::move(mesh)), order_(mesh_.faces.size()), solid_(solid) {
+OracleMesh::OracleMesh(TriangleMesh mesh, bool solid, bool simple)
+    : mesh_(std::move(mesh)), order_(mesh_.faces.size()), solid_(solid), simple_(simple) {
   std::iota(order_.begin(), order_.end(), 0u);
   for (const Vec3& p : mesh_.vertices) radius_ = std::max(radius_, length(p));
+  for (std::size_t f = 0; f < order_.size(); ++f) normals_.push_back(normalized(normal_unscaled(mesh_.triangle(f))));
   nodes_.reserve(2 * order_.size() + 1);
   build(0, static_cast<std::uint32_t>(order_.size()));
 }
@@ -146,7 +142,10 @@ NearestFace OracleMesh::nearest(Vec3 point, double limit) const {
     if (squared_to_box(node.box, point) >= squared) continue;
     if (node.left == 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const Vec3 q = nearest_of_triangle(mesh_.triangle(order_[i]), point);
+        const Triangle t = mesh_.triangle(order_[i]);
+        const double height = dot(normals_[order_[i]], point - t[0]);
+        if (height * height > squared * (1 + 1e-9)) continue;
+        const Vec3 q = nearest_of_triangle(t, point);
         const double d = dot(q - point, q - point);
         if (d >= squared) continue;
         squared = d;
@@ -184,6 +183,17 @@ bool OracleMesh::crossed(Vec3 from, Vec3 to) const {
       if (meets(mesh_.triangle(order_[i]), from, to)) return true;
   }
   return false;
+}
+
+bool OracleMesh::inside(Vec3 point, const NearestFace& near) const {
+  if (!solid_) return false;
+  // The side of a face tells if the nearest point is not on its edges.
+  const Triangle t = mesh_.triangle(near.face);
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  bool within = simple_ && near.distance > 1e-9 * radius_;
+  for (int i = 0; within && i < 3; ++i)
+    within = dot(cross(t[(i + 1) % 3] - t[i], near.point - t[i]), n) > 1e-5 * dot(n, n);
+  return within ? dot(point - near.point, n) < 0 : std::abs(winding(point)) > 0.5;
 }
 
 double OracleMesh::winding(Vec3 point) const {

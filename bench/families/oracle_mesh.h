@@ -21,7 +21,8 @@ struct NearestFace {
 class OracleMesh {
  public:
   /// @param solid the mesh is closed but for cracks: it has an inside
-  OracleMesh(TriangleMesh mesh, bool solid);
+  /// @param simple it does not intersect itself
+  OracleMesh(TriangleMesh mesh, bool solid, bool simple);
 
   const TriangleMesh& mesh() const { return mesh_; }
   /// True if the mesh has an inside.
@@ -38,7 +39,9 @@ class OracleMesh {
   /// The winding number, to within a few hundredths.
   double winding(Vec3 point) const;
   /// True if the mesh is solid and the point inside it.
-  bool inside(Vec3 point) const { return solid_ && std::abs(winding(point)) > 0.5; }
+  bool inside(Vec3 point) const { return solid_ && inside(point, nearest(point)); }
+  /// As above. @param near the face nearest to the point
+  bool inside(Vec3 point, const NearestFace& near) const;
 
  private:
   struct Node {
@@ -54,9 +57,10 @@ class OracleMesh {
 
   TriangleMesh mesh_;
   std::vector<std::uint32_t> order_;
+  std::vector<Vec3> normals_;  // unit
   std::vector<Node> nodes_;
   double radius_ = 0;
-  bool solid_ = false;
+  bool solid_ = false, simple_ = false;
 };
 
 }  // namespace dismantle::families

@@ -12,7 +12,7 @@ namespace {
 
 /// Two that are further apart than so many tolerances have been apart.
 constexpr double kApart = 3;
-constexpr std::size_t kPieces = 40000, kPiecesLater = 6000;
+constexpr std::size_t kPiecesLater = 2500;
 /// Samples near a point lie within so many allowances of it.
 constexpr double kNear = 4;
 constexpr std::size_t kMaxDoubts = 40;
@@ -51,7 +51,7 @@ class Judge {
   Verdict run() {
     const double tolerance = pair_.tolerance;
     const FoundDepth start =
-        search_depth(pair_.moving, pair_.fixed, track_.at(0), kTouching / 2 * tolerance, kPieces);
+        search_depth(pair_.moving, pair_.fixed, track_.at(0), {kTouching / 2 * tolerance});
     verdict_.start_depth = start.attained > 0 ? start.bound : 0;
     const bool overlaps = verdict_.start_depth > kTouching * tolerance;
     allowance_ = {options_.factor * options_.slack * tolerance, options_.factor * options_.slack * tolerance, SIZE_MAX};
@@ -78,15 +78,19 @@ class Judge {
   void search_depths(bool overlaps) {
     Dice dice{random_};
     std::vector<double> times;
-    const double end = track_.end(), stride = std::max(1.0, 2 * end / options_.depths);
-    for (double t = end; t > 0; t -= stride) times.push_back(dice.chance(0.5) ? std::ceil(t) : t - dice.uniform(0, 1));
+    const double end = track_.end();
+    for (int i = 0; i < options_.depths; ++i) {
+      const double time = end - dice.uniform(i, i + 1) * end / options_.depths;
+      times.push_back(dice.chance(0.5) ? std::ceil(time) : time);
+    }
     times.push_back(end);
     for (const double time : times) {
       const double at = std::clamp(time, 0.0, end);
       const auto frame = static_cast<std::size_t>(at);
       const double limit = allowance_.at(frame);
+      const double floor = std::max(0.3 * pair_.tolerance, frame >= allowance_.parted_at ? 0 : verdict_.start_depth);
       const FoundDepth found =
-          search_depth(pair_.moving, pair_.fixed, track_.at(at), 0.05 * pair_.tolerance, kPiecesLater);
+          search_depth(pair_.moving, pair_.fixed, track_.at(at), {0.05 * pair_.tolerance, kPiecesLater, floor});
       const bool later = !overlaps || frame >= allowance_.parted_at;
       const double allowed = later ? pair_.tolerance : verdict_.start_depth + pair_.tolerance;
       verdict_.ratio = std::max(verdict_.ratio, found.attained / allowed);

@@ -33,8 +33,8 @@ struct JudgeOptions {
   double extra = 1;       ///< Tolerances that an overlapping pair may have beyond its initial depth and the tolerance.
   double slack = 1.03;    ///< Multiple of the allowances that a point may use up.
   double factor = 1;      ///< All allowances times this.
-  int depths = 60;        ///< Times at which the depth is searched for.
-  std::size_t samples = 1500;       ///< Of each surface: vertices, and as many points of edges and faces.
+  int depths = 40;        ///< Times at which the depth is searched for.
+  std::size_t samples = 600;        ///< Of each surface: vertices, and as many points of edges and faces.
   std::vector<Vec3> near_moving;    ///< Points about which the moving surface is sampled densely [mm, assembled].
   std::vector<Vec3> near_fixed;     ///< The same for the fixed surface.
   std::uint64_t seed = 1;

@@ -114,6 +114,7 @@ Scene spikes(Dice& dice) {
     all = together(all, shifted(spike(dice.whole(3, 8), height * dice.spread(0.02, 0.5), height - by.z), by));
   }
   Scene scene = above_floor(dice, "spikes", all, floor);
+  scene.parts.front().simple = false;
   return scene;
 }
 

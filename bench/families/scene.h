@@ -16,7 +16,8 @@ namespace dismantle::families {
 struct Part {
   std::string name;
   TriangleMesh mesh;  ///< In the assembled state [mm].
-  bool solid = true;  ///< Closed but for cracks.
+  bool solid = true;   ///< Closed but for cracks.
+  bool simple = true;  ///< Does not intersect itself.
 };
 
 /// Two or three parts, and how the first of them is driven.
