@@ -13,7 +13,7 @@ namespace {
 /// Depths are found to within this share.
 constexpr double kRelativeGap = 0.01;
 /// Surfaces that are not found apart with so many pieces are not.
-constexpr std::size_t kMaxPieces = 5000;
+constexpr std::size_t kMaxPieces = 300000;
 
 struct Piece {
   double bound = 0;
@@ -139,6 +139,8 @@ bool apart(const OracleMesh& first, const OracleMesh& second, const RigidTransfo
     for (Vec3& p : t.corner) p = second_from_first * p;
     open.push_back(t);
   }
+  for (const Vec3& p : first.mesh().vertices)
+    if (second.nearest(second_from_first * p).distance <= gap) return false;
   for (std::size_t pieces = 0; !open.empty(); ++pieces) {
     if (pieces == kMaxPieces + first.mesh().faces.size()) return false;
     const Triangle t = open.back();

@@ -29,7 +29,7 @@ class Driver {
 
   /// @return false if it took too long
   StepResult step(const Pose& target) {
-    drive_.motion.moves.front().targets.push_back({0.01 * (drive_.steps + 1), target});
+    drive_.motion.moves.front().targets.push_back({0.01 * drive_.steps, target});
     const bench::Stopwatch watch;
     StepResult result = engine_.step(target, drive_.motion.response);
     drive_.slowest_ms = std::max(drive_.slowest_ms, watch.ms());

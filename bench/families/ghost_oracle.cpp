@@ -10,7 +10,7 @@ namespace {
 
 /// Chords of a point and its ghosts differ from their arcs by no more than this share of the allowance.
 constexpr double kBow = 0.02;
-/// Ghosts are made no nearer to the surface than this share of the allowance.
+/// Ghosts are made no nearer to the surface than this share of the last allowance.
 constexpr double kOff = 0.02;
 
 }  // namespace
@@ -73,7 +73,7 @@ void GhostOracle::start(State& state) const {
   const auto take = [&](Vec3 place) {
     if (length(place - here) > limit) return;
     const NearestFace found = other_.nearest(place);
-    if (found.distance < kOff * limit || other_.inside(place, found)) return;
+    if (found.distance < kOff * allowance_.limit_after_parting || other_.inside(place, found)) return;
     state.offsets.push_back(inverse(at) * place - state.point);
   };
   const NearestFace near = other_.nearest(here);
@@ -81,7 +81,7 @@ void GhostOracle::start(State& state) const {
   if (state.clear) return;
   take(here);
   const Vec3 out = near.distance > 0 ? (near.point - here) / near.distance : Vec3{};
-  for (const double beyond : {0.05, 0.3}) take(near.point + beyond * limit * out);
+  for (const double beyond : {0.1, 0.4, 0.8}) take(near.point + beyond * std::max(0.0, limit - near.distance) * out);
   for (const double share : {0.98, 0.5, 0.15})
     for (int i = 0; i < 27; ++i) {
       const Vec3 d{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
@@ -153,9 +153,10 @@ void GhostOracle::spawn(State& state, const RigidTransform& at, Vec3 motion, dou
     for (const double share : {0.98, 0.6, 0.3, 0.1}) places.push_back(here - share * limit * normalized(motion));
   const NearestFace near = other_.nearest(here);
   if (near.distance > 0)
-    for (const double by : {-0.95, -0.4, 0.0, 0.05, 0.3}) {
+    for (const double by : {-0.95, -0.4, 0.1, 0.4, 0.8}) {
       const Vec3 toward = (near.point - here) / near.distance;
-      places.push_back(by < 0 ? here + by * limit * toward : near.point + by * limit * toward);
+      const double left = std::max(0.0, limit - near.distance);
+      places.push_back(by < 0 ? here + by * limit * toward : near.point + by * left * toward);
     }
   for (const double share : {0.98, 0.5})
     for (int i = 0; i < 27; ++i)
@@ -169,7 +170,7 @@ void GhostOracle::spawn(State& state, const RigidTransform& at, Vec3 motion, dou
   for (int round = 0; round < 2; ++round)
     for (const Vec3& p : places) {
       if (known.size() >= kept + state.effort->most) break;
-      if (length(p - here) > limit || other_.nearest(p, kOff * limit).distance < kOff * limit) continue;
+      if (length(p - here) > limit || other_.nearest(p, kOff * allowance_.limit_after_parting).distance < kOff * allowance_.limit_after_parting) continue;
       const auto seen = [&](Vec3 q) { return length(q - p) < 0.05 * limit; };
       if (std::any_of(known.begin(), known.end(), seen)) continue;
       const auto reaches = [&](Vec3 q) { return !other_.crossed(q, p); };

@@ -56,6 +56,7 @@ class Member {
     std::vector<Drive> straight;
     {
       CertificateEngine engine(assembly_, states_);
+      for (const ComponentPair& p : engine.overlapping_pairs()) declared_ = p.allowed_depth;
       drive_ = drive(scene_, engine, dice, options_.max_steps, options_.engine_seconds);
     }
     if (!options_.dump.empty()) write("motion", drive_.motion);
@@ -92,6 +93,7 @@ class Member {
 
   void judge_drive(const JudgedPair& pair) {
     JudgeOptions options;
+    options.declared = declared_;
     options.near_moving = drive_.near_moving;
     options.near_fixed = drive_.near_fixed;
     options.seed = random_();
@@ -164,7 +166,7 @@ class Member {
   PairStates states_;
   fs::path folder_;
   Drive drive_;
-  double start_depth_ = 0;
+  double start_depth_ = 0, declared_ = 0;
   MemberResult result_;
 };
 

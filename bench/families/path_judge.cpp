@@ -10,6 +10,8 @@ namespace dismantle::families {
 
 namespace {
 
+/// The engine may declare up to this multiple of an allowance.
+constexpr double kDeclared = 1.25;
 /// Two that are further apart than so many tolerances have been apart.
 constexpr double kApart = 3;
 constexpr std::size_t kPiecesLater = 2500;
@@ -54,9 +56,11 @@ class Judge {
         search_depth(pair_.moving, pair_.fixed, track_.at(0), {kTouching / 2 * tolerance});
     verdict_.start_depth = start.attained > 0 ? start.bound : 0;
     const bool overlaps = verdict_.start_depth > kTouching * tolerance;
-    allowance_ = {options_.factor * options_.slack * tolerance, options_.factor * options_.slack * tolerance, SIZE_MAX};
+    allowance_ = {options_.slack * tolerance, options_.slack * tolerance, SIZE_MAX};
     if (overlaps) {
-      allowance_.limit = options_.factor * (verdict_.start_depth + (1 + options_.extra) * tolerance);
+      allowance_.limit = verdict_.start_depth + (1 + options_.extra) * tolerance;
+      allowance_.limit =
+          std::max(allowance_.limit, std::min(options_.declared, kDeclared * (verdict_.start_depth + tolerance)));
       find_parting();
     }
     if (start.attained > 0) (start.of_first ? deep_moving_ : deep_fixed_).push_back(start.at);

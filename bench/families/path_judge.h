@@ -31,8 +31,8 @@ struct Verdict {
 /// How a path is judged.
 struct JudgeOptions {
   double extra = 1;       ///< Tolerances that an overlapping pair may have beyond its initial depth and the tolerance.
-  double slack = 1.03;    ///< Multiple of the allowances that a point may use up.
-  double factor = 1;      ///< All allowances times this.
+  double declared = 0;    ///< Depth that the engine says it allows, up to 1.25 times the allowance [mm].
+  double slack = 1.03;    ///< Multiple of the tolerance that a point of other pairs may use up.
   int depths = 40;        ///< Times at which the depth is searched for.
   std::size_t samples = 600;        ///< Of each surface: vertices, and as many points of edges and faces.
   std::vector<Vec3> near_moving;    ///< Points about which the moving surface is sampled densely [mm, assembled].
