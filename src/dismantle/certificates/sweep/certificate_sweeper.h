@@ -83,7 +83,7 @@ class CertificateSweeper {
   ///@}
   /// From now on the pair is treated like any other pair. @pre they are further apart than the tolerance
   void part(ComponentId a, ComponentId b) { set_parted(a, b, true); }
-  /// Parts the pairs of the moving set that are apart at its pose and are not swept by ghosts, which sweep() parts.
+  /// Parts the pairs of the moving set that are apart at its pose.
   void part_others();
 
   /// The tree of a component.
@@ -106,6 +106,8 @@ class CertificateSweeper {
   void set_parted(ComponentId a, ComponentId b, bool parted);
   /// True if two components are further apart than the tolerance, and none is inside the other.
   bool apart(ComponentId a, ComponentId b);
+  /// True if the faces that were near when last looked for are nearer than the tolerance. Looks for others if not.
+  bool near(ComponentId a, ComponentId b, GuardedPair& pair) const;
   /// Parts pairs that were apart throughout a sweep that was free.
   void part_swept(const std::vector<PairSweep>& pairs);
   /// A motion of a component with respect to another one [assembled frame of the fixed one].

@@ -2,6 +2,8 @@
 // Pairs of components without ghost surfaces, whose depth is bounded; and pairs that part.
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 #include "dismantle/certificates/sweep/sweep_tasks.h"
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/surface/solid_distance.h"
 #include "dismantle/surface/swept_depth.h"
 
 #include <algorithm>
@@ -57,9 +59,25 @@ void CertificateSweeper::part_others() {
     if (pair.parted || is_moving_[key.first.value] == is_moving_[key.second.value]) continue;
     const RigidTransform b = transform_from_pose(poses_[key.second.value]);
     const bool far = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]) > tolerance_;
-    if (far || (pair.guard != PairGuard::Ghosts && apart(key.first, key.second)))
+    if (far || (!near(key.first, key.second, pair) && apart(key.first, key.second)))
       set_parted(key.first, key.second, true);
   }
+}
+
+bool CertificateSweeper::near(ComponentId a, ComponentId b, GuardedPair& pair) const {
+  const RigidTransform at_a = transform_from_pose(poses_[a.value]), at_b = transform_from_pose(poses_[b.value]);
+  const SolidTree &first = solid(a), &second = solid(b);
+  if (first.tree.empty() || second.tree.empty()) return false;
+  const Triangle s = first.triangle(pair.near_a.value), t = second.triangle(pair.near_b.value);
+  const double before =
+      distance_triangle_triangle({{at_a * s[0], at_a * s[1], at_a * s[2]}}, {{at_b * t[0], at_b * t[1], at_b * t[2]}})
+          .distance;
+  if (before <= tolerance_) return true;
+  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, 2 * tolerance_);
+  if (found.distance > tolerance_) return false;
+  pair.near_a = found.face_a;
+  pair.near_b = found.face_b;
+  return true;
 }
 
 bool CertificateSweeper::apart(ComponentId a, ComponentId b) {
