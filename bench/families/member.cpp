@@ -94,6 +94,7 @@ class Member {
   void judge_drive(const JudgedPair& pair) {
     JudgeOptions options;
     options.declared = declared_;
+    options.sagittas = scene_.sagittas;
     options.near_moving = drive_.near_moving;
     options.near_fixed = drive_.near_fixed;
     options.seed = random_();

@@ -56,15 +56,17 @@ class Judge {
         search_depth(pair_.moving, pair_.fixed, track_.at(0), {kTouching / 2 * tolerance});
     verdict_.start_depth = start.attained > 0 ? start.bound : 0;
     const bool overlaps = verdict_.start_depth > kTouching * tolerance;
+    initial_ = verdict_.start_depth + tolerance;
     allowance_ = {options_.slack * tolerance, options_.slack * tolerance, SIZE_MAX};
-    if (overlaps) {
-      allowance_.limit = verdict_.start_depth + (1 + options_.extra) * tolerance;
+    if (overlaps) allowance_.limit = initial_ + options_.extra * tolerance;
+    if (overlaps || options_.declared > tolerance) {
+      initial_ = std::max(initial_, std::min(options_.declared, initial_ + options_.sagittas));
       allowance_.limit =
-          std::max(allowance_.limit, std::min(options_.declared, kDeclared * (verdict_.start_depth + tolerance)));
+          std::max(allowance_.limit, std::min(options_.declared, kDeclared * initial_) + kTouching * tolerance);
       find_parting();
     }
     if (start.attained > 0) (start.of_first ? deep_moving_ : deep_fixed_).push_back(start.at);
-    search_depths(overlaps);
+    search_depths();
     follow_points();
     return verdict_;
   }
@@ -79,7 +81,7 @@ class Judge {
     }
   }
 
-  void search_depths(bool overlaps) {
+  void search_depths() {
     Dice dice{random_};
     std::vector<double> times;
     const double end = track_.end();
@@ -95,8 +97,7 @@ class Judge {
       const double floor = std::max(0.3 * pair_.tolerance, frame >= allowance_.parted_at ? 0 : verdict_.start_depth);
       const FoundDepth found =
           search_depth(pair_.moving, pair_.fixed, track_.at(at), {0.05 * pair_.tolerance, kPiecesLater, floor});
-      const bool later = !overlaps || frame >= allowance_.parted_at;
-      const double allowed = later ? pair_.tolerance : verdict_.start_depth + pair_.tolerance;
+      const double allowed = frame >= allowance_.parted_at ? pair_.tolerance : initial_;
       verdict_.ratio = std::max(verdict_.ratio, found.attained / allowed);
       if (found.attained > 0.5 * limit) (found.of_first ? deep_moving_ : deep_fixed_).push_back(found.at);
       if (found.attained <= limit || verdict_.beyond) continue;
@@ -147,6 +148,7 @@ class Judge {
   ScrewTrack track_;
   std::mt19937_64 random_;
   PointAllowance allowance_;
+  double initial_ = 0;  // the allowance until the two have been apart
   Verdict verdict_;
   std::vector<Vec3> deep_moving_, deep_fixed_;
 };

@@ -32,6 +32,7 @@ struct Verdict {
 struct JudgeOptions {
   double extra = 1;       ///< Tolerances that an overlapping pair may have beyond its initial depth and the tolerance.
   double declared = 0;    ///< Depth that the engine says it allows, up to 1.25 times the allowance [mm].
+  double sagittas = 0;    ///< Sum of those of coaxial cylinders, by which the allowance is larger [mm].
   double slack = 1.03;    ///< Multiple of the tolerance that a point of other pairs may use up.
   int depths = 40;        ///< Times at which the depth is searched for.
   std::size_t samples = 600;        ///< Of each surface: vertices, and as many points of edges and faces.

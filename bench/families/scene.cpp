@@ -209,6 +209,10 @@ Scene foils(Dice& dice) {
   return scene;
 }
 
+double sagitta(double radius, std::size_t sides) {
+  return radius * (1 - std::cos(kPi / static_cast<double>(sides)));
+}
+
 Scene blind_holes(Dice& dice) {
   Scene scene;
   scene.tolerance = some_tolerance(dice);
@@ -220,6 +224,7 @@ Scene blind_holes(Dice& dice) {
   TriangleMesh peg = scenes::tube(r + fit, 0, from, from + 10, peg_sides, static_cast<std::uint32_t>(dice.whole(1, 2)));
   if (dice.chance(0.4)) peg = tilted(std::move(peg), kUp, kPi / sides * dice.uniform(0, 1));
   scene.parts = {{"peg", std::move(peg), true}, {"hole", blind_hole(sides, r, r + 3, bottom, height), true}};
+  scene.sagittas = sagitta(r, static_cast<std::size_t>(sides)) + sagitta(r, peg_sides);
   scene.toward = kDown;
   scene.gap = from - bottom;
   scene.exits = {kUp};
@@ -264,6 +269,7 @@ Scene shells(Dice& dice) {
   const TriangleMesh hollow = shell_core(again, kind, size);
   TriangleMesh core = shell_core(dice, kind, size);
   for (Vec3& p : core.vertices) p = (1 - fit / size) * p;
+  if (kind == 2) scene.sagittas = 2 * sagitta(size, hollow.faces.size() / 4);
   TriangleMesh outer = hollow;
   for (Vec3& p : outer.vertices) p = (1 + wall / size) * p;
   scene.parts = {{"core", std::move(core), true}, {"shell", together(std::move(outer), turned_round(hollow)), true}};

@@ -28,6 +28,7 @@ struct Scene {
   double gap = 0;            ///< About how far away they are in that direction [mm]; below 0 where they overlap.
   double size = 1;           ///< Of the moving part [mm].
   std::vector<Vec3> exits;   ///< Unit directions in which it may come off.
+  double sagittas = 0;       ///< The sum of those of two coaxial cylinders, one in the other [mm].
 };
 
 /// The families, in the order of make_scene().

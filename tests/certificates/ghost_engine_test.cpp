@@ -157,6 +157,36 @@ TriangleMesh random_shape(std::mt19937_64& random) {
   }
 }
 
+TEST(GhostEngine, LetsASheetSlideAlongWhatItTouchesSomewhereElse) {
+  // At first one cell of the sheet touches the block, then the others.
+  const Assembly assembly = scenes::assembly({component("sheet", turned(scenes::sheet(8, 0), 0.1, {7, 0, 0})),
+                                              component("block", scenes::box({-3, -3, -3}, {0, 3, 0}))});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : kResponses) {
+    Grabbed sheet(assembly, states, 0);
+    for (int k = 1; k <= 10; ++k) EXPECT_TRUE(sheet.engine.step({{-1.0 * k, 0.1 * k, 0}, {}}, response).reached);
+    sheet.engine.step({{-10, 1, -5}, {}}, response);
+    EXPECT_GE(sheet.engine.poses()[0].position.z, -kTolerance);
+  }
+}
+
+TEST(GhostEngine, PassesNoPlateThroughAFoilThatItRestsOn) {
+  for (const double thick : {0.1, 0.5, 1.5})
+    for (const double thin : {0.1, 0.5, 1.5}) {
+      const Assembly assembly =
+          scenes::assembly({component("plate", scenes::box({-3, -3, 0}, {3, 3, thick * kTolerance})),
+                            component("foil", scenes::box({-9, -9, -thin * kTolerance}, {9, 9, 0}))});
+      for (const ResponseKind response : kResponses) {
+        SCOPED_TRACE(testing::Message() << thick << " on " << thin << ", " << static_cast<int>(response));
+        EXPECT_GE(pressed(assembly, response, 5), -kTolerance);
+        Grabbed plate(assembly, states_of(assembly), 0);
+        EXPECT_TRUE(plate.engine.step({{4, 2, 0}, {}}, response).reached);
+        plate.engine.step({{4, 2, -1}, {}}, response);
+        EXPECT_GE(plate.engine.poses()[0].position.z, -kTolerance);
+      }
+    }
+}
+
 TEST(GhostEngine, NeverGetsDeeperThanTheTolerance) {
   std::mt19937_64 random(20261123);
   int contacts = 0;
