@@ -12,6 +12,8 @@ namespace {
 
 /// Depths are found to within this share.
 constexpr double kRelativeGap = 0.01;
+/// Distances that are known are looked for up to this much further, because of rounding [mm].
+constexpr double kPlacement = 1e-11;
 /// Surfaces that are not found apart with so many pieces are not.
 constexpr std::size_t kMaxPieces = 300000;
 
@@ -88,7 +90,7 @@ class Search {
     if (!overlaps(box, surface.bounds())) return;
     const Vec3 middle = middle_of(piece.corners);
     const double radius = radius_of(piece.corners, middle);
-    const NearestFace near = surface.nearest(middle, surface.distance_to(piece.face, middle) * (1 + 1e-6) + 1e-12);
+    const NearestFace near = surface.nearest(middle, surface.distance_to(piece.face, middle) * (1 + 1e-6) + kPlacement);
     piece.face = near.face;
     double by_face = 0;
     for (const Vec3& p : piece.corners.corner) by_face = std::max(by_face, surface.distance_to(near.face, p));
@@ -104,7 +106,7 @@ class Search {
     attain(piece, middle, near);
     for (const Vec3& p : piece.corners.corner) {
       const double most = surface.distance_to(near.face, p);
-      if (most > std::max(found_.attained, effort_.floor)) attain(piece, p, surface.nearest(p, most * (1 + 1e-6)));
+      if (most > std::max(found_.attained, effort_.floor)) attain(piece, p, surface.nearest(p, most * (1 + 1e-6) + kPlacement));
     }
     open_.push(piece);
   }
