@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random scenes in families, driven at random with the method `certificates`, every path checked by an oracle of its own.
+// Random scenes in families, driven at random with the method `certificates`, every path checked by an oracle of its
+// own.
 //   soak_families [--family NAME] [--members N] [--first N] [--seed S] [--threads N] [--steps N] [--dump DIR]
 // Families are named in bench/families/scene.h. Each member runs in a process of its own, which is ended after a
 // minute. One row a family, tab-separated; exit code 1 where a member failed:
 //   beyond    deeper in each other than allowed           passed  a point of a surface has no ghost left
 //   stuck     not moved out along a straight free way     errors  exceptions, crashes, hangs, depths at the start
-// With --dump, each member is written as DIR/FAMILY-SEED-NUMBER: parts, tolerance and motions for the program `dismantle`.
+// With --dump, each member is written as DIR/FAMILY-SEED-NUMBER: parts, tolerance and motions for the program
+// `dismantle`.
 #include "bench/command_line.h"
 #include "bench/families/member.h"
 #include "bench/families/scene.h"
@@ -99,7 +101,9 @@ MemberResult end(Child& child, bool late) {
   }
   r.errors = 1;
   r.seconds = child.watch.seconds();
-  r.note = (late ? "not done in time" : WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "no result") +
+  r.note = (late                  ? "not done in time"
+            : WIFSIGNALED(status) ? strsignal(WTERMSIG(status))
+                                  : "no result") +
            std::string(" after: ") + child.text;
   return r;
 }
@@ -180,16 +184,18 @@ bool parse(int argc, char** argv, Settings& settings) {
 
 /// @return the exit code
 int run_all(const Settings& settings) {
-  std::printf("family\tmembers\tsteps\tbeyond\tdepth/allowance\tpassed\tpassed_by\tstraight\tstuck\terrors\tdoubted\tslowest_ms\tengine_s\twall_s\n");
+  std::printf(
+      "family\tmembers\tsteps\tbeyond\tdepth/"
+      "allowance\tpassed\tpassed_by\tstraight\tstuck\terrors\tdoubted\tslowest_ms\tengine_s\twall_s\n");
   bool good = true, any = false;
   for (std::size_t f = 0; f < kFamilyCount; ++f) {
     if (!settings.family.empty() && settings.family != kFamilies[f]) continue;
     any = true;
     const Row r = run(f, settings);
     good = good && r.beyond + r.passed + r.stuck + r.errors == 0;
-    std::printf("%s\t%zu\t%zu\t%zu\t%.3f\t%zu\t%.3g\t%zu\t%zu\t%zu\t%zu\t%.0f\t%.1f\t%.1f\n", std::string(kFamilies[f]).c_str(),
-                r.members, r.steps, r.beyond, r.depth_ratio, r.passed, r.passed_by, r.straight, r.stuck, r.errors,
-                r.doubted, r.slowest_ms, r.engine_seconds, r.seconds);
+    std::printf("%s\t%zu\t%zu\t%zu\t%.3f\t%zu\t%.3g\t%zu\t%zu\t%zu\t%zu\t%.0f\t%.1f\t%.1f\n",
+                std::string(kFamilies[f]).c_str(), r.members, r.steps, r.beyond, r.depth_ratio, r.passed, r.passed_by,
+                r.straight, r.stuck, r.errors, r.doubted, r.slowest_ms, r.engine_seconds, r.seconds);
     std::fflush(stdout);
   }
   if (!any) std::fprintf(stderr, "soak_families: no family '%s'\n", settings.family.c_str());

@@ -21,7 +21,7 @@ struct Piece {
   double bound = 0;
   Triangle corners;  // in the frame of the other surface
   bool of_first = true;
-  bool inside = false;  // as a whole
+  bool inside = false;     // as a whole
   std::uint32_t face = 0;  // of the other surface, near
   friend bool operator<(const Piece& a, const Piece& b) { return a.bound < b.bound; }
 };
@@ -106,7 +106,8 @@ class Search {
     attain(piece, middle, near);
     for (const Vec3& p : piece.corners.corner) {
       const double most = surface.distance_to(near.face, p);
-      if (most > std::max(found_.attained, effort_.floor)) attain(piece, p, surface.nearest(p, most * (1 + 1e-6) + kPlacement));
+      if (most > std::max(found_.attained, effort_.floor))
+        attain(piece, p, surface.nearest(p, most * (1 + 1e-6) + kPlacement));
     }
     open_.push(piece);
   }

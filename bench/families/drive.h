@@ -9,9 +9,9 @@ namespace dismantle::families {
 
 /// A random motion, and what the engine made of it.
 struct Drive {
-  Motion motion;                  ///< The targets, to be replayed.
-  std::vector<Pose> poses;        ///< The poses, from the assembled one on; each follows by one screw.
-  std::vector<std::size_t> step_of;  ///< The target of each pose but the first.
+  Motion motion;                              ///< The targets, to be replayed.
+  std::vector<Pose> poses;                    ///< The poses, from the assembled one on; each follows by one screw.
+  std::vector<std::size_t> step_of;           ///< The target of each pose but the first.
   std::vector<Vec3> near_moving, near_fixed;  ///< Contacts [mm, assembled], for the oracle.
   int steps = 0;
   double slowest_ms = 0, seconds = 0;

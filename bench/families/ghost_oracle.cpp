@@ -89,8 +89,7 @@ void GhostOracle::start(State& state) const {
     }
   std::uniform_real_distribution<double> u(-1, 1);
   const std::size_t tries = state.effort->random + (state.offsets.empty() ? 300 : 0);
-  for (std::size_t i = 0; i < tries; ++i)
-    take(here + limit * Vec3{u(state.random), u(state.random), u(state.random)});
+  for (std::size_t i = 0; i < tries; ++i) take(here + limit * Vec3{u(state.random), u(state.random), u(state.random)});
 }
 
 /// The end of the next motion that is short enough to be taken as straight.
@@ -100,10 +99,14 @@ double GhostOracle::next_time(const State& state, double limit) const {
   const Vec3 here = track_.at(state.time) * state.point;
   const double turn = track_.angle(k) * (next - state.time);
   const double chord = length(track_.at(next) * state.point - here);
+  const double most = state.effort->largest_step * limit;
+  const double share = chord > most ? std::max(most / chord, 1e-4) : 1;
   if (turn > 0) {
     const double bow = turn < 2 ? chord * turn / 4 : 10 * limit + other_.radius();
-    if (bow > kBow * limit) return state.time + (next - state.time) * std::clamp(std::sqrt(kBow * limit / bow), 1e-4, 0.5);
+    if (bow > kBow * limit)
+      return state.time + (next - state.time) * std::clamp(std::sqrt(kBow * limit / bow), 1e-4, std::min(0.5, share));
   }
+  if (share < 1) return state.time + (next - state.time) * share;
   // Motions of no length are taken together.
   double time = next;
   while (time < track_.end() && allowance_.at(static_cast<std::size_t>(time)) == allowance_.at(k) &&
@@ -170,7 +173,9 @@ void GhostOracle::spawn(State& state, const RigidTransform& at, Vec3 motion, dou
   for (int round = 0; round < 2; ++round)
     for (const Vec3& p : places) {
       if (known.size() >= kept + state.effort->most) break;
-      if (length(p - here) > limit || other_.nearest(p, kOff * allowance_.limit_after_parting).distance < kOff * allowance_.limit_after_parting) continue;
+      if (length(p - here) > limit ||
+          other_.nearest(p, kOff * allowance_.limit_after_parting).distance < kOff * allowance_.limit_after_parting)
+        continue;
       const auto seen = [&](Vec3 q) { return length(q - p) < 0.05 * limit; };
       if (std::any_of(known.begin(), known.end(), seen)) continue;
       const auto reaches = [&](Vec3 q) { return !other_.crossed(q, p); };

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The allowance with which the oracle must find a straight motion free, in tolerances.
-constexpr double kStuckShare = 0.3;
+constexpr double kStuckShare = 0.05;
 /// The library's depth may be this much above that of the oracle, in tolerances and as a share.
 constexpr double kDepthGap = 0.2, kDepthShare = 0.02;
 
@@ -34,7 +34,9 @@ std::string text(const char* format, auto... values) {
 class Member {
  public:
   Member(const MemberKey& key, const MemberOptions& options, const std::function<void(const std::string&)>& report)
-      : options_(options), report_(report), random_(key.seed * 1'000'003 + key.number * 101 + key.family),
+      : options_(options),
+        report_(report),
+        random_(key.seed * 1'000'003 + key.number * 101 + key.family),
         scene_(make_scene(key.family, random_)) {
     std::vector<Component> components;
     for (const Part& part : scene_.parts) components.push_back(scenes::component(part.name, part.mesh));
@@ -82,13 +84,15 @@ class Member {
     for (const Part& part : scene_.parts) {
       std::ofstream file(folder_ / "parts" / (part.name + ".obj"));
       for (const Vec3& p : part.mesh.vertices) file << text("v %.17g %.17g %.17g\n", p.x, p.y, p.z);
-      for (const Face& f : part.mesh.faces) file << "f " << f.v[0] + 1 << ' ' << f.v[1] + 1 << ' ' << f.v[2] + 1 << '\n';
+      for (const Face& f : part.mesh.faces)
+        file << "f " << f.v[0] + 1 << ' ' << f.v[1] + 1 << ' ' << f.v[2] + 1 << '\n';
     }
     std::ofstream(folder_ / "tolerance") << text("%.17g\n", scene_.tolerance);
   }
 
   void write(const std::string& name, const Motion& motion) const {
-    if (!write_motion(folder_ / (name + ".motion.json"), motion)) std::fprintf(stderr, "%s: not written\n", name.c_str());
+    if (!write_motion(folder_ / (name + ".motion.json"), motion))
+      std::fprintf(stderr, "%s: not written\n", name.c_str());
   }
 
   void judge_drive(const JudgedPair& pair) {
@@ -109,13 +113,15 @@ class Member {
                                    std::string(name_of(drive_.motion.response)).c_str());
     if (v.beyond) {
       result_.beyond = 1;
-      note(text("too deep, %.3g of the allowance, step %zu, pose %.3f; ", v.ratio, step(v.beyond_at), v.beyond_at) + about);
+      note(text("too deep, %.3g of the allowance, step %zu, pose %.3f; ", v.ratio, step(v.beyond_at), v.beyond_at) +
+           about);
     }
     if (v.passed) {
       result_.passed = 1;
       result_.passed_by = v.passed_by;
-      note(text("passed, by %.3g, step %zu, pose %.3f, %s point (%.6g %.6g %.6g); ", v.passed_by, step(v.passed_at), v.passed_at,
-                v.passed_moving ? "moving" : "fixed", v.passed_point.x, v.passed_point.y, v.passed_point.z) +
+      note(text("passed, by %.3g, step %zu, pose %.3f, %s point (%.6g %.6g %.6g); ", v.passed_by, step(v.passed_at),
+                v.passed_at, v.passed_moving ? "moving" : "fixed", v.passed_point.x, v.passed_point.y,
+                v.passed_point.z) +
            about);
     }
     check_start(pair, v.start_depth);
@@ -154,7 +160,8 @@ class Member {
     if (engine.poses()[0].position == way) return;
     ++result_.stuck;
     note(text("stuck after %.6f of straight%d (%.3g %.3g %.3g), %s, tolerance %.4g, start depth %.4g", made,
-              result_.straight, way.x, way.y, way.z, std::string(name_of(pulled.motion.response)).c_str(), scene_.tolerance, start_depth_));
+              result_.straight, way.x, way.y, way.z, std::string(name_of(pulled.motion.response)).c_str(),
+              scene_.tolerance, start_depth_));
   }
 
   void note(const std::string& what) { result_.note += (result_.note.empty() ? "" : "\n      ") + what; }

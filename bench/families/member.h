@@ -16,17 +16,17 @@ struct MemberKey {
 
 /// How members are driven.
 struct MemberOptions {
-  int max_steps = 1000;       ///< Of its random motion.
-  double engine_seconds = 20; ///< The motion ends after so long.
-  std::string dump;           ///< A folder in which the member is written; empty: it is not.
+  int max_steps = 1000;        ///< Of its random motion.
+  double engine_seconds = 20;  ///< The motion ends after so long.
+  std::string dump;            ///< A folder in which the member is written; empty: it is not.
 };
 
 /// What became of a member.
 struct MemberResult {
   int steps = 0;
-  double slowest_ms = 0;    ///< Of a step.
-  double depth_ratio = 0;   ///< Worst depth over the allowance.
-  double passed_by = 0;     ///< 0, or what a ghost would need over the allowance.
+  double slowest_ms = 0;   ///< Of a step.
+  double depth_ratio = 0;  ///< Worst depth over the allowance.
+  double passed_by = 0;    ///< 0, or what a ghost would need over the allowance.
   int beyond = 0, passed = 0, stuck = 0, straight = 0, errors = 0;
   std::size_t doubted = 0;
   double engine_seconds = 0, seconds = 0;

@@ -41,7 +41,8 @@ bool segment_may_meet(const Aabb& box, Vec3 from, Vec3 step) {
 /// By the region that the point projects to (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearest_of_triangle(const Triangle& t, Vec3 p) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+               d6 = dot(ac, cp);
   if (d1 <= 0 && d2 <= 0) return t[0];
   if (d3 >= 0 && d4 <= d3) return t[1];
   if (d6 >= 0 && d5 <= d6) return t[2];

@@ -52,8 +52,7 @@ class Judge {
 
   Verdict run() {
     const double tolerance = pair_.tolerance;
-    const FoundDepth start =
-        search_depth(pair_.moving, pair_.fixed, track_.at(0), {kTouching / 2 * tolerance});
+    const FoundDepth start = search_depth(pair_.moving, pair_.fixed, track_.at(0), {kTouching / 2 * tolerance});
     verdict_.start_depth = start.attained > 0 ? start.bound : 0;
     const bool overlaps = verdict_.start_depth > kTouching * tolerance;
     initial_ = verdict_.start_depth + tolerance;
@@ -113,8 +112,8 @@ class Judge {
       std::vector<Vec3> near = moving ? options_.near_moving : options_.near_fixed;
       const std::vector<Vec3>& deep = moving ? deep_moving_ : deep_fixed_;
       near.insert(near.end(), deep.begin(), deep.end());
-      const std::vector<Vec3> points = sample(moving ? pair_.moving : pair_.fixed, near,
-                                              pair_.tolerance, options_.samples, dice);
+      const std::vector<Vec3> points =
+          sample(moving ? pair_.moving : pair_.fixed, near, pair_.tolerance, options_.samples, dice);
       for (const Vec3& p : points) {
         if (verdict_.passed || verdict_.doubted > kMaxDoubts) return;
         follow(moving ? pair_.fixed : pair_.moving, moving ? track_ : back, p, moving);
@@ -124,7 +123,7 @@ class Judge {
 
   void follow(const OracleMesh& other, const ScrewTrack& track, Vec3 point, bool moving) {
     if (!GhostOracle(other, track, allowance_).follow(point, {})) return;
-    const GhostEffort closer{60, 120, 150, 0.02};
+    const GhostEffort closer{60, 120, 60, 0.02, 0.3};
     const auto lost = GhostOracle(other, track, allowance_).follow(point, closer);
     if (!lost) {
       ++verdict_.doubted;
@@ -139,7 +138,7 @@ class Judge {
       PointAllowance more = allowance_;
       more.limit *= factor;
       more.limit_after_parting *= factor;
-      if (!GhostOracle(other, track, more).follow(point, {})) break;
+      if (!GhostOracle(other, track, more).follow(point, closer)) break;
     }
   }
 

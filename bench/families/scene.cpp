@@ -69,7 +69,8 @@ Scene above_floor(Dice& dice, std::string name, TriangleMesh mesh, TriangleMesh 
   scene.toward = kDown;
   scene.exits = {kUp};
   scene.size = diagonal(bounds(mesh));
-  if (dice.chance(0.3)) mesh = tilted(std::move(mesh), normalized(Vec3{dice.direction().x, 1, 0}), dice.uniform(-0.5, 0.5));
+  if (dice.chance(0.3))
+    mesh = tilted(std::move(mesh), normalized(Vec3{dice.direction().x, 1, 0}), dice.uniform(-0.5, 0.5));
   Vec3 place = some_place(dice, floor) + some_offset(dice);
   place.z = scene.gap - lowest(mesh);
   scene.parts = {{std::move(name), shifted(std::move(mesh), place), true}, {"floor", std::move(floor), true}};
@@ -142,7 +143,8 @@ Scene rods(Dice& dice) {
 }
 
 TriangleMesh some_sheet(Dice& dice, double half) {
-  TriangleMesh sheet = waved_sheet(half, dice.whole(1, 8), dice.chance(0.6) ? 0 : dice.spread(0.01, 1), dice.uniform(0, 6));
+  TriangleMesh sheet =
+      waved_sheet(half, dice.whole(1, 8), dice.chance(0.6) ? 0 : dice.spread(0.01, 1), dice.uniform(0, 6));
   if (dice.chance(0.5)) sheet = turned_round(std::move(sheet));
   const int kind = dice.whole(0, 3);
   if (kind == 1) sheet = tilted(std::move(sheet), {1, 0, 0}, kPi / 2);
@@ -239,7 +241,8 @@ Scene cracks(Dice& dice) {
   if (kind == 0) scene = blind_holes(dice);
   if (kind == 1) scene = rods(dice);
   if (kind == 2) scene = needles(dice);
-  if (kind == 3) scene = above_floor(dice, "box", turned(scenes::box({-1, -1, 0}, {1, 1, 2}), dice), some_floor(dice, 6));
+  if (kind == 3)
+    scene = above_floor(dice, "box", turned(scenes::box({-1, -1, 0}, {1, 1, 2}), dice), some_floor(dice, 6));
   const double gap = dice.chance(0.5) ? 0 : dice.spread(1e-9, 0.3 * scene.tolerance);
   for (Part& part : scene.parts)
     if (dice.chance(0.8)) part.mesh = cracked(std::move(part.mesh), dice.whole(1, 6), gap, dice);
@@ -263,7 +266,9 @@ Scene shells(Dice& dice) {
   scene.tolerance = some_tolerance(dice);
   const int kind = dice.whole(0, 2);
   const double size = dice.uniform(1, 4), wall = dice.spread(0.3 * scene.tolerance, 1);
-  const double fit = dice.chance(0.3) ? 0 : dice.chance(0.5) ? dice.spread(1e-3, 1) : dice.uniform(-3, 3) * scene.tolerance;
+  const double fit = dice.chance(0.3)   ? 0
+                     : dice.chance(0.5) ? dice.spread(1e-3, 1)
+                                        : dice.uniform(-3, 3) * scene.tolerance;
   std::mt19937_64 same = dice.random;
   Dice again{same};
   const TriangleMesh hollow = shell_core(again, kind, size);

@@ -15,26 +15,25 @@ namespace dismantle::families {
 /// A part of a scene.
 struct Part {
   std::string name;
-  TriangleMesh mesh;  ///< In the assembled state [mm].
+  TriangleMesh mesh;   ///< In the assembled state [mm].
   bool solid = true;   ///< Closed but for cracks.
   bool simple = true;  ///< Does not intersect itself.
 };
 
 /// Two or three parts, and how the first of them is driven.
 struct Scene {
-  std::vector<Part> parts;   ///< The first one moves.
-  double tolerance = 0.01;   ///< [mm]
-  Vec3 toward;               ///< Unit direction in which it meets the others.
-  double gap = 0;            ///< About how far away they are in that direction [mm]; below 0 where they overlap.
-  double size = 1;           ///< Of the moving part [mm].
-  std::vector<Vec3> exits;   ///< Unit directions in which it may come off.
-  double sagittas = 0;       ///< The sum of those of two coaxial cylinders, one in the other [mm].
+  std::vector<Part> parts;  ///< The first one moves.
+  double tolerance = 0.01;  ///< [mm]
+  Vec3 toward;              ///< Unit direction in which it meets the others.
+  double gap = 0;           ///< About how far away they are in that direction [mm]; below 0 where they overlap.
+  double size = 1;          ///< Of the moving part [mm].
+  std::vector<Vec3> exits;  ///< Unit directions in which it may come off.
+  double sagittas = 0;      ///< The sum of those of two coaxial cylinders, one in the other [mm].
 };
 
 /// The families, in the order of make_scene().
-inline constexpr std::string_view kFamilies[] = {"needles", "cones",   "knives", "spikes",  "rods",
-                                                 "sheets",  "foils",   "cracks", "shells",  "blind_holes",
-                                                 "tumbling"};
+inline constexpr std::string_view kFamilies[] = {"needles", "cones",  "knives", "spikes",      "rods",    "sheets",
+                                                 "foils",   "cracks", "shells", "blind_holes", "tumbling"};
 inline constexpr std::size_t kFamilyCount = std::size(kFamilies);
 
 /// A random member of a family; the same for the same state of `random`.
