@@ -170,6 +170,21 @@ TEST(GhostEngine, LetsASheetSlideAlongWhatItTouchesSomewhereElse) {
   }
 }
 
+TEST(GhostEngine, LetsASheetGoThatATipPokesThroughWithinTheTolerance) {
+  const TriangleMesh tip{{{0, 0, 0}, {2, 2, -2}, {-2, 2, -2}, {-2, -2, -2}, {2, -2, -2}},
+                         {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}, {{1, 3, 2}}, {{1, 4, 3}}}};
+  const Assembly assembly = scenes::assembly(
+      {component("sheet", turned(scenes::sheet(3, -0.5 * kTolerance), 0.3, {0.7, 0.4, 0})), component("tip", tip)});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : kResponses) {
+    Grabbed aside(assembly, states, 0), up(assembly, states, 0), down(assembly, states, 0);
+    EXPECT_TRUE(aside.engine.step({{-2, 1, 0}, {}}, response).reached);
+    EXPECT_TRUE(up.engine.step({{0, 0, 2}, {}}, response).reached);
+    down.engine.step({{0, 0, -1}, {}}, response);
+    EXPECT_GE(down.engine.poses()[0].position.z, -2 * kTolerance);
+  }
+}
+
 TEST(GhostEngine, PassesNoPlateThroughAFoilThatItRestsOn) {
   for (const double thick : {0.1, 0.5, 1.5})
     for (const double thin : {0.1, 0.5, 1.5}) {
