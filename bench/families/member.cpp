@@ -135,7 +135,8 @@ class Member {
     start_depth_ = found.attained;
     const bool good = found.attained <= depth + 1e-3 * scene_.tolerance &&
                       depth <= bound * (1 + kDepthShare) + kDepthGap * scene_.tolerance + 1e-3;
-    if (good || found.cut) return;
+    // Curved sheets enclose something, too, by the library's measure.
+    if (good || found.cut || !pair.moving.solid() || !pair.fixed.solid()) return;
     ++result_.errors;
     note(text("depth at the start: %.6g in the library, %.6g to %.6g by the oracle", depth, found.attained, bound));
   }

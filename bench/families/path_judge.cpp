@@ -3,8 +3,10 @@
 
 #include "bench/families/depth_search.h"
 #include "bench/families/scene.h"
+#include "bench/timing.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle::families {
 
@@ -18,6 +20,8 @@ constexpr std::size_t kPiecesLater = 2500;
 /// Samples near a point lie within so many allowances of it.
 constexpr double kNear = 4;
 constexpr std::size_t kMaxDoubts = 40;
+/// No more points are followed, and no more depths searched for, after so long [s of this thread].
+constexpr double kSeconds = 6;
 
 /// Points of a surface: vertices, points of edges and faces, and points near given ones.
 std::vector<Vec3> sample(const OracleMesh& surface, const std::vector<Vec3>& near, double reach, std::size_t count,
@@ -89,7 +93,9 @@ class Judge {
       times.push_back(dice.chance(0.5) ? std::ceil(time) : time);
     }
     times.push_back(end);
+    const bench::Stopwatch watch(bench::thread_ns);
     for (const double time : times) {
+      if (watch.seconds() > kSeconds) return;
       const double at = std::clamp(time, 0.0, end);
       const auto frame = static_cast<std::size_t>(at);
       const double limit = allowance_.at(frame);
@@ -107,17 +113,20 @@ class Judge {
 
   void follow_points() {
     Dice dice{random_};
+    const bench::Stopwatch watch(bench::thread_ns);
     const ScrewTrack back = track_.seen_from_body();
+    std::vector<std::pair<Vec3, bool>> points;
     for (const bool moving : {true, false}) {
       std::vector<Vec3> near = moving ? options_.near_moving : options_.near_fixed;
       const std::vector<Vec3>& deep = moving ? deep_moving_ : deep_fixed_;
       near.insert(near.end(), deep.begin(), deep.end());
-      const std::vector<Vec3> points =
-          sample(moving ? pair_.moving : pair_.fixed, near, pair_.tolerance, options_.samples, dice);
-      for (const Vec3& p : points) {
-        if (verdict_.passed || verdict_.doubted > kMaxDoubts) return;
-        follow(moving ? pair_.fixed : pair_.moving, moving ? track_ : back, p, moving);
-      }
+      for (const Vec3& p : sample(moving ? pair_.moving : pair_.fixed, near, pair_.tolerance, options_.samples, dice))
+        points.emplace_back(p, moving);
+    }
+    std::shuffle(points.begin(), points.end(), random_);
+    for (const auto& [p, moving] : points) {
+      if (verdict_.passed || verdict_.doubted > kMaxDoubts || watch.seconds() > kSeconds) return;
+      follow(moving ? pair_.fixed : pair_.moving, moving ? track_ : back, p, moving);
     }
   }
 
