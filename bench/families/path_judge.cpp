@@ -17,6 +17,8 @@ constexpr double kDeclared = 1.25;
 /// Two that are further apart than so many tolerances have been apart.
 constexpr double kApart = 3;
 constexpr std::size_t kPiecesLater = 2500;
+/// Of an overlap, the only places that are left for a ghost may be at its full allowance, and small.
+constexpr double kGhostSlack = 1.1;
 /// Samples near a point lie within so many allowances of it.
 constexpr double kNear = 4;
 constexpr std::size_t kMaxDoubts = 40;
@@ -131,9 +133,11 @@ class Judge {
   }
 
   void follow(const OracleMesh& other, const ScrewTrack& track, Vec3 point, bool moving) {
-    if (!GhostOracle(other, track, allowance_).follow(point, {})) return;
+    PointAllowance allowance = allowance_;
+    if (initial_ > pair_.tolerance) allowance.limit *= kGhostSlack;
+    if (!GhostOracle(other, track, allowance).follow(point, {})) return;
     const GhostEffort closer{60, 120, 60, 0.02, 0.3};
-    const auto lost = GhostOracle(other, track, allowance_).follow(point, closer);
+    const auto lost = GhostOracle(other, track, allowance).follow(point, closer);
     if (!lost) {
       ++verdict_.doubted;
       return;
@@ -144,7 +148,7 @@ class Judge {
     verdict_.passed_point = point;
     for (const double factor : {1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0}) {
       verdict_.passed_by = factor;
-      PointAllowance more = allowance_;
+      PointAllowance more = allowance;
       more.limit *= factor;
       more.limit_after_parting *= factor;
       if (!GhostOracle(other, track, more).follow(point, closer)) break;
