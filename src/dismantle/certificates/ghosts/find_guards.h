@@ -25,6 +25,7 @@ struct GuardedPair {
   double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
   double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
   bool parted = false;                  ///< They have been apart: they are treated like any other pair.
+  bool turns = false;                   ///< Facets may meet again and again as one turns in the other.
   FaceId near_a{0}, near_b{0};          ///< Two faces that were near when last looked for; any before.
 };
 

@@ -6,6 +6,7 @@
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
 #include "dismantle/math/angle.h"
 #include "dismantle/narrowphase/closest_points.h"
+#include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/surface/ghost_surface.h"
 
 #include <algorithm>
@@ -30,6 +31,11 @@ constexpr double kPlay = 0.3;
 constexpr double kOverlap = 0.1;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
+/// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
+constexpr double kShiftBegins[] = {0.02, 0.9};
+/// So many directions are tried for that, of those that lead to the right side by at least this cosine.
+constexpr std::size_t kMaxDirections = 12;
+constexpr double kSameSide = 0.05;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
 
@@ -66,20 +72,67 @@ class GhostSide {
         starts.push_back(retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
                                             {needed(margin), usual, usual, max_length}));
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
-    if (starts.empty()) starts.push_back(own.vertices);
     const FacePairs near = near_faces(own, 2 * max_length);
     for (std::vector<Vec3>& start : starts)
       if (apart(displaced(start), near)) return std::move(start);
+    starts.push_back(own.vertices);
     if (near.size() > kMaxNear) return std::nullopt;
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
         auto moved = separating_ghost({&own, other_.tree, start, near, max_length, share * tolerance, is_a_});
-        if (moved && apart(displaced(*moved), near)) return moved;
+        if (!moved || !apart(displaced(*moved), near)) continue;
+        auto shifted = &start == &starts.back() ? find_shifted(near, *moved, max_length) : std::nullopt;
+        return shifted ? std::move(shifted) : std::move(moved);
+      }
+    return find_shifted(near, {}, max_length);
+  }
+
+ private:
+  /// The whole surface shifted away from the other one, if nothing is in the way: thin parts and sheets can then slide
+  /// along what they touch, and their other side stays clear of it.
+  /// @param off vertices that are displaced to the right side; none: either side, where it is free
+  std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off, double max_length) const {
+    const std::vector<Vec3>& vertices = own_.tree->vertices;
+    const double way = std::min(max_length, kGaps[0] * request_.tolerance + request_.depth);
+    const std::vector<Vec3> directions = directions_off(near, off);
+    for (const double begin : kShiftBegins)
+      for (const Vec3& direction : directions) {
+        const Vec3 shift = way * direction;
+        if (!free(*own_.tree, near, begin * shift, shift)) continue;
+        std::vector<Vec3> shifted = vertices;
+        for (Vec3& p : shifted) p += shift;
+        if (!contained(displaced(shifted))) return shifted;
       }
     return std::nullopt;
   }
 
- private:
+  /// Directions in which this surface may come off the other one: normals of faces that touch or intersect, and the
+  /// mean of displacements to the right side.
+  std::vector<Vec3> directions_off(const FacePairs& near, Span<const Vec3> off) const {
+    Vec3 sum;
+    for (std::size_t i = 0; i < off.size(); ++i) sum += off[i] - own_.tree->vertices[i];
+    if (length(sum) == 0 && !off.empty()) return {};
+    std::vector<Vec3> directions;
+    const auto add_one = [&](Vec3 d) {
+      const auto same = [&](Vec3 known) { return dot(known, d) > 1 - 1e-6; };
+      if (directions.size() < kMaxDirections && std::none_of(directions.begin(), directions.end(), same))
+        directions.push_back(d);
+    };
+    const auto add = [&](Vec3 d) {
+      const double along = dot(d, sum), enough = kSameSide * length(sum);
+      if (along >= enough) add_one(d);
+      if (along <= -enough) add_one(-d);
+    };
+    for (const auto& [face_own, face_other] : near) {
+      const Triangle own = own_.tree->triangle(face_own), other = other_.tree->triangle(face_other);
+      if (distance_triangle_triangle(own, other).distance > kShiftBegins[0] * request_.tolerance) continue;
+      add(normalized(normal_unscaled(own)));
+      add(normalized(normal_unscaled(other)));
+    }
+    if (length(sum) > 0) add(normalized(sum));
+    return directions;
+  }
+
   /// How far the faces are retracted [mm].
   std::vector<double> needed(double margin) const {
     std::vector<double> needed = retraction_.needed;
@@ -131,9 +184,15 @@ class GhostSide {
   /// True if a surface and the other component do not meet.
   /// @param near all pairs of their faces that may
   bool apart(const SolidTree& surface, const FacePairs& near) const {
-    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
-    const auto meet = [&](const auto& faces) { return !still.test(faces.first, faces.second, {}).free; };
-    return std::none_of(near.begin(), near.end(), meet) && !contained(surface);
+    return free(surface, near, {}, {}) && !contained(surface);
+  }
+
+  /// True if a surface does not meet the other component while it is shifted.
+  /// @param near all pairs of their faces that may
+  bool free(const SolidTree& surface, const FacePairs& near, Vec3 from, Vec3 to) const {
+    const TrianglePairSweep sweep(surface, *other_.tree, {from, {}}, {to, {}}, 0, {0, request_.tolerance, {}});
+    const auto meet = [&](const auto& faces) { return !sweep.test(faces.first, faces.second, {}).free; };
+    return std::none_of(near.begin(), near.end(), meet);
   }
 
   /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more.
@@ -165,14 +224,14 @@ class GhostSide {
 std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   const GhostSide a(request, true), b(request, false);
   const double turning = std::max(a.retraction().turning, b.retraction().turning);
-  const bool turns = turning <= kPlay * request.tolerance;
-  if (request.depth <= request.tolerance && turns && a.usual_is_apart() && b.usual_is_apart()) return PairGhosts{};
+  const bool can_turn = turning <= kPlay * request.tolerance;
+  if (request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart()) return PairGhosts{};
   for (const double factor : kFactors) {
     const double length = factor * (std::max(request.depth, turning) + kGhostLength * request.tolerance);
     auto of_a = a.find(length);
     if (!of_a) continue;
     auto of_b = b.find(length);
-    if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length};
+    if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length, !can_turn};
   }
   return std::nullopt;
 }

@@ -59,7 +59,7 @@ void CertificateSweeper::part_others() {
     if (pair.parted || is_moving_[key.first.value] == is_moving_[key.second.value]) continue;
     const RigidTransform b = transform_from_pose(poses_[key.second.value]);
     const bool far = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]) > tolerance_;
-    if (far || (!near(key.first, key.second, pair) && apart(key.first, key.second)))
+    if (far || (!pair.turns && !near(key.first, key.second, pair) && apart(key.first, key.second)))
       set_parted(key.first, key.second, true);
   }
 }
