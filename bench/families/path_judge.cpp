@@ -80,7 +80,9 @@ class Judge {
   void find_parting() {
     for (std::size_t k = 0; k < track_.count(); ++k) {
       if (k > 0 && track_.pose(k) == track_.pose(k - 1)) continue;
-      if (!apart(pair_.moving, pair_.fixed, track_.at(static_cast<double>(k)), kApart * pair_.tolerance)) continue;
+      if (!apart(pair_.moving, pair_.fixed, track_.at(static_cast<double>(k)),
+                 options_.sagittas + kApart * pair_.tolerance))
+        continue;
       allowance_.parted_at = k;
       return;
     }

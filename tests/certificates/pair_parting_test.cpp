@@ -38,5 +38,15 @@ TEST(PairParting, KeepsAnAllowanceAsLongAsTwoOverlap) {
   EXPECT_TRUE(block.engine.step({}, ResponseKind::Slide).reached);
 }
 
+TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
+  // In phase there are 0.05 mm between the facets, which meet after half a facet.
+  const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.95, 0, -2, 12, 16)),
+                                              scenes::component("eye", scenes::tube(8, 5, 0, 10, 16))});
+  const PairStates states = states_of(assembly);
+  Grabbed pin(assembly, states, 0);
+  for (int k = 1; k <= 40; ++k)
+    EXPECT_TRUE(pin.engine.step({{}, quat_about({0, 0, 1}, 0.05 * k)}, ResponseKind::Slide).reached) << k;
+}
+
 }  // namespace
 }  // namespace dismantle
