@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/pair_state.h"
 #include "tests/support/meshes.h"
 #include "tests/support/timeline_of_path.h"
 

@@ -91,7 +91,7 @@ TEST(PlayMotion, PullsAPressedPinOutAlongItsAxisAndNotSideways) {
   EXPECT_EQ(out.path.moves[0].frames.back().pose.position, (Vec3{0, 0, 60}));
   EXPECT_EQ(out.path.removed, std::vector<std::string>{"pin"});
   ASSERT_EQ(out.path.pairs.size(), 1u);
-  EXPECT_EQ(out.path.pairs[0].state, PairState::Overlapping);
+  EXPECT_EQ(out.path.pairs[0].state, PathPairState::Overlapping);
   const PlayedMotion sideways = played(assembly, {ResponseKind::Touch, {straight("pin", {60, 0, 0}, 30)}});
   EXPECT_LT(sideways.path.moves[0].frames.back().pose.position.x, 0.1);
 }
@@ -103,7 +103,7 @@ TEST(PlayMotion, LetsAnOverlappingPairPartOnceAndThenKeepsItApart) {
   for (int k = 1; k <= 20; ++k) motion.moves[0].targets.push_back({0.2 + 0.01 * k, {{-20.0 + k, 0, 0}, {}}});
   const PlayedMotion result = played(assembly, motion);
   const std::vector<Frame>& frames = result.path.moves[0].frames;
-  EXPECT_EQ(result.path.pairs.at(0).state, PairState::Overlapping);
+  EXPECT_EQ(result.path.pairs.at(0).state, PathPairState::Overlapping);
   EXPECT_EQ(frames[20].pose.position.x, -20);
   EXPECT_NEAR(frames.back().pose.position.x, -5, kTolerance);
 }
