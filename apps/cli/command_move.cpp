@@ -204,9 +204,8 @@ Result<ExitCode> run(const MoveOptions& o) {
 
   const Result<Assembly> assembly = load(o.common);
   if (!assembly) return assembly.error();
-  Result<PairStates> states = classify(*assembly, o.common);
+  const Result<PairStates> states = classify(*assembly, o.common);
   if (!states) return states.error();
-  if (o.method == "streams") *states = states_for_streams(std::move(*states));
 
   const MoveEngine moving = make_engine(o, *assembly, *states);
   const Result<PlayedMotion> played =

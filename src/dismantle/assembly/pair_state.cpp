@@ -30,4 +30,12 @@ const ComponentPair* PairStates::find(ComponentId a, ComponentId b) const {
   return found != pairs.end() && found->a == a && found->b == b ? &*found : nullptr;
 }
 
+void PairStates::raise_allowances(const std::vector<ComponentPair>& with) {
+  for (const ComponentPair& pair : with)
+    if (const ComponentPair* known = find(pair.a, pair.b)) {
+      ComponentPair& own = pairs[static_cast<std::size_t>(known - pairs.data())];
+      own.allowed_depth = std::max(own.allowed_depth, pair.allowed_depth);
+    }
+}
+
 }  // namespace dismantle

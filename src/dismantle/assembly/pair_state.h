@@ -40,6 +40,9 @@ struct PairStates {
   std::vector<ComponentPair> pairs;  ///< Every pair that is not Clear, ordered by (a, b).
   /// The pair of two components in either order; null where it is Clear.
   const ComponentPair* find(ComponentId a, ComponentId b) const;
+  /// Gives pairs that are listed the allowances of `pairs` where these are larger: an engine allows cylinders that turn
+  /// in each other more than classify_pairs() (MotionEngine::overlapping_pairs()).
+  void raise_allowances(const std::vector<ComponentPair>& pairs);
 };
 
 }  // namespace dismantle

@@ -57,7 +57,8 @@ struct Plan {
   std::vector<PlanStep> steps;       ///< In order. A body that a step removes is taken apart by later steps.
   std::vector<Explanation> staying;  ///< For each component that should be removed and cannot.
   bool out_of_time = false;          ///< The time limit or the user ended the search early.
-  double seconds = 0;                ///< Duration of the search.
+  std::vector<ComponentPair> allowances;  ///< Of pairs that may be deeper than the tolerance, by the engine.
+  double seconds = 0;                     ///< Duration of the search.
 
   /// True if everything that was asked for can be removed.
   bool complete() const { return staying.empty() && !out_of_time; }

@@ -59,7 +59,9 @@ class Planner {
         choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
         sliding_{options.slide_effort, 0, {}},
-        sampling_{options.sample_effort, 0, {}} {}
+        sampling_{options.sample_effort, 0, {}} {
+    plan_.allowances = validator_.engine().overlapping_pairs();
+  }
 
   Plan run() {
     const ComponentSet all = ComponentSet::all(count_);

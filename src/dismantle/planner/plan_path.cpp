@@ -24,7 +24,9 @@ double time_between(const Pose& a, const Pose& b, double size) {
 }  // namespace
 
 Path plan_path(const Assembly& assembly, const PairStates& pairs, const Plan& plan) {
-  Path path = empty_path(assembly, pairs);
+  PairStates allowed = pairs;
+  allowed.raise_allowances(plan.allowances);
+  Path path = empty_path(assembly, allowed);
   const std::vector<double> distances = put_aside(assembly, plan);
   const double size = diagonal(assembled_bounds(assembly));
   std::vector<Pose> ends;  // of the steps

@@ -43,7 +43,9 @@ void append_frames(Move& move, double time, const StepResult& step) {
 Result<PlayedMotion> play_motion(const Assembly& assembly, const PairStates& states, const Motion& motion,
                                  MotionEngine& engine, const ProgressCallback& progress) {
   PlayedMotion played;
-  played.path = empty_path(assembly, states);
+  PairStates allowed = states;
+  allowed.raise_allowances(engine.overlapping_pairs());
+  played.path = empty_path(assembly, allowed);
   std::size_t target_count = 0;
   for (const MotionMove& move : motion.moves) target_count += move.targets.size();
 

@@ -44,7 +44,9 @@ Session::Session(const Assembly& assembly, PairStates pairs, const CertificateOp
       options_(options),
       engine_(std::make_unique<CertificateEngine>(assembly, pairs_, options)),
       removed_(assembly.components.size(), false),
-      visibility_(assembly.components.size()) {}
+      visibility_(assembly.components.size()) {
+  pairs_.raise_allowances(engine_->overlapping_pairs());
+}
 
 Result<Done> Session::check_no_playback() const {
   if (activity_ != SessionActivity::Playback) return Done{};

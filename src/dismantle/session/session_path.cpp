@@ -10,7 +10,7 @@ Path empty_path(const Assembly& assembly, const PairStates& states) {
   for (const Component& c : assembly.components) path.components.push_back(c.name);
   path.tolerance = states.tolerance;
   for (const ComponentPair& p : states.pairs) {
-    if (p.state != PairState::Overlapping && p.state != PairState::Free) continue;
+    if (p.allowed_depth <= states.tolerance) continue;
     const PathPairState state = p.state == PairState::Free ? PathPairState::Free : PathPairState::Overlapping;
     path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, state, p.depth, p.allowed_depth});
   }

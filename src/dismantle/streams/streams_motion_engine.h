@@ -23,9 +23,6 @@ inline constexpr std::string_view kIntersectionStage = "intersection_test";
 std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assembly, double tolerance,
                                                           std::unique_ptr<SweepEngine> engine);
 
-/// The states as method `streams` treats them: overlapping pairs are Free, not checked until they have been apart.
-PairStates states_for_streams(PairStates states);
-
 /// Makes the method `streams` (docs/design/0004-streams.md) with responses Stop and Touch, on the threads of the
 /// options' executor, with all components in the assembled state. @param assembly must outlive the engine
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,

@@ -64,15 +64,6 @@ std::unique_ptr<MotionEngine> make_sweeping_motion_engine(const Assembly& assemb
   return std::make_unique<SweepingMotionEngine>(assembly, tolerance, std::move(engine));
 }
 
-PairStates states_for_streams(PairStates states) {
-  for (ComponentPair& pair : states.pairs) {
-    if (pair.state != PairState::Overlapping) continue;
-    pair.state = PairState::Free;
-    pair.allowed_depth = std::numeric_limits<double>::infinity();
-  }
-  return states;
-}
-
 std::unique_ptr<MotionEngine> make_streams_motion_engine(const Assembly& assembly, const PairStates& pairs,
                                                          const CollisionOptions& options,
                                                          std::unique_ptr<StreamsBackend> backend) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/audit/solid/facet_sagitta.h"
 #include "dismantle/audit/solid/move_depths.h"
 
 #include <algorithm>
@@ -50,11 +51,30 @@ class PathPairs {
       report(key, "overlap by " + mm(entry.initial_depth) + " at the start, and the path allows " + mm(allowed));
     // Else the violation would be repeated in every move.
     entry.allowed = std::max({allowed, tolerance_, entry.initial_depth});
-    if (pair.state == PathPairState::Overlapping) entry.allowed = std::min(entry.allowed, lawful(entry));
+    if (pair.state == PathPairState::Overlapping) entry.allowed = std::min(entry.allowed, lawful(key, entry, allowed));
     if (entry.allowed <= 0) entry.allowed = std::numeric_limits<double>::min();
   }
 
-  double lawful(const AuditPair& entry) const { return entry.initial_depth + tolerance_ + margin(entry.initial_depth); }
+  /// The most that the pair may be allowed: its depth at the start and the tolerance; and both surfaces' sagittas where
+  /// they are wanted, as cylinders that turn in each other need them.
+  double lawful(const Key& key, const AuditPair& entry, double wanted) const {
+    const double least = entry.initial_depth + tolerance_ + margin(entry.initial_depth);
+    return wanted <= least ? least : least + sagittas(key);
+  }
+
+  double sagittas(const Key& key) const {
+    const AuditBody &a = context_.bodies[key.first]->surface(), &b = context_.bodies[key.second]->surface();
+    const auto box_of = [](const AuditBody& body) {
+      Aabb box;
+      for (std::uint32_t v = 0; v < body.vertex_count(); ++v) box.extend(body.vertex(v) + body.center());
+      return box;
+    };
+    const Aabb box_a = inflated(box_of(a), tolerance_), box_b = inflated(box_of(b), tolerance_);
+    const auto seen = [](const Aabb& box, const AuditBody& body) {
+      return Aabb{box.lower - body.center(), box.upper - body.center()};
+    };
+    return facet_sagitta(a, seen(box_b, a)) + facet_sagitta(b, seen(box_a, b));
+  }
 
   void compare(const PathPair& pair, const Key& key, AuditPair& entry) {
     if (entry.initial_depth == 0 && overlaps_by(key, pair.initial_depth)) entry.initial_depth = pair.initial_depth;
@@ -62,9 +82,9 @@ class PathPairs {
     if (pair.initial_depth > depth + margin(depth))
       report(key,
              "do not overlap by " + mm(pair.initial_depth) + " at the start, as the path says, but by " + mm(depth));
-    else if (pair.allowed_depth > lawful(entry))
+    else if (pair.allowed_depth > lawful(key, entry, pair.allowed_depth))
       report(key, "are allowed " + mm(pair.allowed_depth) + ", more than their depth at the start (" + mm(depth) +
-                      ") and the tolerance");
+                      "), the tolerance and the sagittas of their facets");
   }
 
   /// True if a pair that is not deeper than the tolerance has nearly this depth.

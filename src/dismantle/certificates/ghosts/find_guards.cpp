@@ -43,8 +43,8 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
     guard = {PairGuard::Depth, std::max(guard.allowed, pair.depth + tolerance)};
   } else if (found->max_length > 0) {
     guard.displaced = found->max_length;
-    guard.turns = found->turns;
-    guard.allowed = std::max(guard.allowed, found->max_length + (1 - kGhostLength) * tolerance);
+    guard.turns = found->turning > 0;
+    if (guard.turns) guard.allowed = std::max(guard.allowed, found->turning + tolerance);
     result.ghosts = std::move(found->vertices);
   } else if (pair.allowed_depth <= tolerance) {
     return std::nullopt;

@@ -231,7 +231,7 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
     auto of_a = a.find(length);
     if (!of_a) continue;
     auto of_b = b.find(length);
-    if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length, !can_turn};
+    if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length, can_turn ? 0 : turning};
   }
   return std::nullopt;
 }

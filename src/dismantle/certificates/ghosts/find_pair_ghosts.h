@@ -30,7 +30,7 @@ struct PairGhosts {
   /// Displaced vertices of `a` and `b` [mm, assembled]; empty where they need no ghosts of their own.
   std::array<std::vector<Vec3>, 2> vertices;
   double max_length = 0;  ///< Largest displacement [mm].
-  bool turns = false;     ///< They are displaced so that one cylinder can turn in the other.
+  double turning = 0;     ///< Depth that cylinders need to turn in each other [mm]; 0 where none do.
 };
 
 /// Finds ghost surfaces that are apart from the other component in the assembled state
