@@ -27,7 +27,7 @@ constexpr double kAcross = 0.1;
 constexpr double kSameAxis = 1, kSameDirection = 1e-4;
 /// The corners of a facet of a cylinder are this nearly on one circle, and its middle is no nearer to the axis than
 /// this share of the radius.
-constexpr double kOnCircle = 0.999, kSmallestFacet = 0.7;
+constexpr double kOnCircle = 0.999, kSmallestFacet = 0.965;
 
 class Retraction {
  public:
