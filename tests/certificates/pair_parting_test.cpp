@@ -39,8 +39,8 @@ TEST(PairParting, KeepsAnAllowanceAsLongAsTwoOverlap) {
 }
 
 TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
-  // In phase there are 0.05 mm between the facets, which meet after half a facet.
-  const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.95, 0, -2, 12, 16)),
+  // In phase the facets are 0.005 mm apart, and meet after half a facet.
+  const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.995, 0, -2, 12, 16)),
                                               scenes::component("eye", scenes::tube(8, 5, 0, 10, 16))});
   const PairStates states = states_of(assembly);
   Grabbed pin(assembly, states, 0);
