@@ -136,17 +136,17 @@ test("the wrist panel takes out, puts back, and sets the contact response", asyn
 
 test("the wrist panel finds a path: the selection is removed after its blockers", async () => {
   await viewer.idle();
-  await viewer.select("pinion shaft");
+  await viewer.select("pinion bush");
   await frames();
   const { moves } = await viewer.state();
   await pressOnWrist("findPath");
-  await waitForRemoved("pinion shaft");
+  await waitForRemoved("pinion bush");
   await viewer.idle();
   const after = await viewer.state();
   assert.ok(after.moves.length > moves.length + 1, `${after.moves.length}`);
-  assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion shaft")), false);
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion bush")), false);
   while ((await viewer.state()).moves.length > moves.length) await viewer.press("Control+z");
-  assert.deepEqual(await viewer.shift("pinion shaft"), [0, 0, 0]);
+  assert.deepEqual(await viewer.shift("pinion bush"), [0, 0, 0]);
 });
 
 test("the wrist panel recenters the scene", async () => {

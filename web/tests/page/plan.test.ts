@@ -111,7 +111,7 @@ test("blockers are named, highlighted, and pointed at by arrows", async () => {
 });
 
 test("an automatic motion can be stopped", async () => {
-  await viewer.select("pinion shaft");
+  await viewer.select("pinion bush");
   await viewer.page.keyboard.press("n");
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic !== null);
   while (!(await viewer.state()).components.some(({ pose }) => pose)) await viewer.page.waitForTimeout(20);
@@ -119,20 +119,20 @@ test("an automatic motion can be stopped", async () => {
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
   await viewer.idle();
   const { components } = await viewer.state();
-  assert.equal(components[await viewer.index("pinion shaft")].removed, undefined);
+  assert.equal(components[await viewer.index("pinion bush")].removed, undefined);
   assert.ok(components.some(({ pose }) => pose));
 });
 
 test("find a path removes the blockers, then the component; one undo entry each", async () => {
   await reset();
-  await viewer.select("pinion shaft");
+  await viewer.select("pinion bush");
   await viewer.press("n");
-  await waitForRemoved("pinion shaft");
+  await waitForRemoved("pinion bush");
   await viewer.idle();
   const { moves, undo } = await viewer.state();
   assert.ok(moves.length > 1, `${moves.length}`);
-  assert.equal(undo, "take out pinion shaft");
-  assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion shaft")), false);
+  assert.equal(undo, "take out pinion bush");
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.drawn("pinion bush")), false);
   await viewer.press("Control+z");
   assert.equal((await viewer.state()).moves.length, moves.length - 1);
   await reset();
