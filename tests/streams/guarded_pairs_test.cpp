@@ -115,8 +115,8 @@ TEST(GuardedPairs, HaveTheirAllowanceAgainAfterAJumpBack) {
 }
 
 TEST(GuardedPairs, BoundTheDepthOfAnOverlapForWhichNoGhostsAreFound) {
-  // A pin of five sides in a smaller bore of seven.
-  Held held(scenes::tube(4, 0, 2, 9, 5, 1), scenes::tube(12, 3, 0, 5, 7, 1));
+  // A pin of radius 4 in a bore of radius 2.5.
+  Held held(scenes::tube(4, 0, 2, 9, 9, 1), scenes::tube(12, 2.5, 0, 5, 12, 1));
   const GuardedPairs pairs(held.assembly, held.states, make_assembly_triangles(held.assembly, {}), {});
   ASSERT_EQ(pairs.rules().find(0, 1).test, PairTest::None);
   const double allowed = held.engine->overlapping_pairs().at(0).allowed_depth;
