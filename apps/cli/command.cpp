@@ -51,10 +51,19 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->group(group);
   command
       .add_option("--pairs", o.pairs,
-                  "What pairs that touch or overlap may do: auto (get no deeper) or paper (anything until they have been apart)")
+                  "What pairs that touch or overlap may do: auto (get no deeper) or paper (anything until they have "
+                  "been apart)")
       ->transform(CLI::CheckedTransformer(kRules))
       ->type_name("auto|paper")
       ->group(group);
+  // Of version 0.1, which took pairs that overlap by more for embedded: all pairs are treated alike now.
+  command
+      .add_option_function<double>(
+          "--fit",
+          [](double) {
+            std::fprintf(stderr, "dismantle: note: --fit has no effect any more; all overlaps are kept\n");
+          })
+      ->group("");
   command.add_option("--simplify", o.simplify, "Simplify to about N triangles after loading")
       ->type_name("N")
       ->check(CLI::PositiveNumber)

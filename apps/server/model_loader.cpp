@@ -35,8 +35,8 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.assembly = assembly;
 
   const ClassifyOptions& classify = options.classify;
-  Result<Clashes> clashes = find_clashes(
-      *assembly, {classify.tolerance, classify.clearance, true, options.executor, progress});
+  Result<Clashes> clashes =
+      find_clashes(*assembly, {classify.tolerance, classify.clearance, true, options.executor, progress});
   if (!clashes) return clashes.error();
   model.clashes = std::move(*clashes);
   if (!report_progress(progress, "preparing the view", -1)) return Error{ErrorKind::Failed, "cancelled"};

@@ -263,8 +263,8 @@ void bind_assembly(py::module_& module) {
              "m, um, in, ft; default: by the format). STEP: `deflection` [mm] and `angular_deflection` [rad] of the "
              "tessellation; 0: default.");
   module.def(
-      "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0,
-      py::arg("clearance") = 0.0, py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
+      "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("clearance") = 0.0,
+      py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Finds all pairs of components that touch, overlap or are near in the assembled state, and how deep each may get "
       "in motion. `tolerance` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
       "the rule, 'auto' or "

@@ -196,7 +196,7 @@ TEST_F(CliOverlap, WritesThePairsOfAPathAndAuditsThem) {
 }
 
 TEST_F(CliOverlap, SaysThatFreePairsAreUnchecked) {
-  for (const char* options : {"--pairs paper", "--method streams"}) {
+  for (const char* options : {"--pairs paper", "--pairs paper --method streams"}) {
     const Outcome move =
         run(std::string("move overlap away.motion.json -o free.path.json --tolerance 0.01 ") + options);
     ASSERT_EQ(move.exit_code, 0) << move.err;

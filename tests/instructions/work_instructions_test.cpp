@@ -77,13 +77,15 @@ TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
 TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
   PairStates pairs = scenes::bolted_lid_pairs();
   for (const std::size_t k : {1, 2})
-    pairs.pairs[k] = {ComponentId(1), ComponentId(static_cast<std::uint32_t>(k + 1)), PairState::Overlapping, 0, 0.05, 0.06};
+    pairs.pairs[k] = {
+        ComponentId(1), ComponentId(static_cast<std::uint32_t>(k + 1)), PairState::Overlapping, 0, 0.05, 0.06};
   WorkInstructionsOptions options = small();
   options.product = "vice";
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path(), options);
   EXPECT_EQ(made.title, "Disassembly of vice");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "The CAD models of 2 \u00d7 bolt and lid overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
+  EXPECT_EQ(
+      said(made.steps[0], InstructionNote::Kind::Overlap),
+      "The CAD models of 2 \u00d7 bolt and lid overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
 }
 
 TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {

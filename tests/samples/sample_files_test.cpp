@@ -107,24 +107,20 @@ TEST_P(SampleFits, OverlapAsTheReadmeSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Samples, SampleFits,
-                         testing::Values(MeantOverlaps{"microscope",
-                                                       {{"arm", "arm screw M8x28"},
-                                                        {"turret", "objective 40x"},
-                                                        {"pinion shaft", "circlip 7"}}},
-                                         MeantOverlaps{"tooling",
-                                                       {{"core plate", "frame screw M10x110"},
-                                                        {"ejector base plate", "ejector rod"},
-                                                        {"cavity plate", "hose nipple"}}},
-                                         MeantOverlaps{"lathe",
-                                                       {{"bed", "headstock screw M8x45"},
-                                                        {"spindle", "spindle nut"},
-                                                        {"idler pin", "circlip 11"}}},
-                                         MeantOverlaps{"robot",
-                                                       {{"elbow", "motor screw M3x48"},
-                                                        {"elbow trunnion", "circlip 14"},
-                                                        {"wrist pin", "circlip 9"}}}),
-                         [](const auto& test) { return std::string(test.param.sample); });
+INSTANTIATE_TEST_SUITE_P(
+    Samples, SampleFits,
+    testing::Values(
+        MeantOverlaps{"microscope",
+                      {{"arm", "arm screw M8x28"}, {"turret", "objective 40x"}, {"pinion shaft", "circlip 7"}}},
+        MeantOverlaps{"tooling",
+                      {{"core plate", "frame screw M10x110"},
+                       {"ejector base plate", "ejector rod"},
+                       {"cavity plate", "hose nipple"}}},
+        MeantOverlaps{"lathe",
+                      {{"bed", "headstock screw M8x45"}, {"spindle", "spindle nut"}, {"idler pin", "circlip 11"}}},
+        MeantOverlaps{"robot",
+                      {{"elbow", "motor screw M3x48"}, {"elbow trunnion", "circlip 14"}, {"wrist pin", "circlip 9"}}}),
+    [](const auto& test) { return std::string(test.param.sample); });
 
 }  // namespace
 }  // namespace dismantle

@@ -78,8 +78,9 @@ class CertificateEngine final : public MotionEngine {
   /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
   /// components that are equally near, the first. Infinite without a moving set.
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;
-  /// The first contact of the one screw from the pose of the moving set to `target`. Nothing moves. For many candidate motions from one state see MotionBatch. May be called by many threads at
-  /// the same time. @pre the moving set is not empty
+  /// The first contact of the one screw from the pose of the moving set to `target`. Nothing moves. For many candidate
+  /// motions from one state see MotionBatch. May be called by many threads at the same time. @pre the moving set is not
+  /// empty
   FirstContact first_contact(const Pose& target) const;
   /// The first contact of each of some translations of the moving set [mm, world] from its pose, in a fraction of the
   /// time of first_contact(). The motion is certainly free up to toi; the first contact may be a few tolerances beyond.

@@ -18,8 +18,8 @@ enum class ClassifyRule {
 
 /// Options of classify_pairs().
 struct ClassifyOptions {
-  double tolerance = 0;  ///< Depth that counts as touching [mm]; 0: default_tolerance(assembly).
-  double clearance = 0;  ///< Pairs that are apart by less than this are listed as Near [mm].
+  double tolerance = 0;                    ///< Depth that counts as touching [mm]; 0: default_tolerance(assembly).
+  double clearance = 0;                    ///< Pairs that are apart by less than this are listed as Near [mm].
   ClassifyRule rule = ClassifyRule::Auto;  ///< For pairs that touch or overlap.
   Executor executor;                       ///< Runs the pairs; the result does not depend on it.
   ProgressCallback progress;               ///< Called under a lock, from any thread; false cancels.

@@ -312,8 +312,7 @@ class Writer {
       if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
       const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
       if (!is_in(around, other)) continue;
-      const CountedOverlap one{
-          lines_[own.value], lines_[other.value], number_text(pair.depth), pair.state, {}, {}};
+      const CountedOverlap one{lines_[own.value], lines_[other.value], number_text(pair.depth), pair.state, {}, {}};
       auto like = std::find_if(found.begin(), found.end(), [&](const CountedOverlap& o) { return o.is_like(one); });
       if (like == found.end()) like = found.insert(found.end(), one);
       if (!is_in(like->own, own)) like->own.push_back(own);

@@ -54,9 +54,9 @@ struct Explanation {
 
 /// A disassembly sequence.
 struct Plan {
-  std::vector<PlanStep> steps;       ///< In order. A body that a step removes is taken apart by later steps.
-  std::vector<Explanation> staying;  ///< For each component that should be removed and cannot.
-  bool out_of_time = false;          ///< The time limit or the user ended the search early.
+  std::vector<PlanStep> steps;            ///< In order. A body that a step removes is taken apart by later steps.
+  std::vector<Explanation> staying;       ///< For each component that should be removed and cannot.
+  bool out_of_time = false;               ///< The time limit or the user ended the search early.
   std::vector<ComponentPair> allowances;  ///< Of pairs that may be deeper than the tolerance, by the engine.
   double seconds = 0;                     ///< Duration of the search.
 

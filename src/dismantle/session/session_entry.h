@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/core/id.h"
 #include "dismantle/assembly/path.h"
+#include "dismantle/core/id.h"
 
 #include <optional>
 #include <string>

@@ -42,8 +42,7 @@ void Timeline::add(TimelineMove move) {
 
 Timeline Timeline::of_entries(Span<const SessionEntry> entries) {
   Timeline timeline;
-  for (const SessionEntry& e : entries)
-    timeline.add({e.label, e.components, e.frames, 0, e.removed_after});
+  for (const SessionEntry& e : entries) timeline.add({e.label, e.components, e.frames, 0, e.removed_after});
   return timeline;
 }
 

@@ -46,7 +46,8 @@ std::vector<Inwards> inwards_at_vertices(Span<const Vec3> vertices, Span<const F
 /// The displacement of a vertex.
 Vec3 displacement(const Inwards& inwards, const FaceRetractions& r) {
   constexpr double kShares[] = {1, 0.75, 0.5, 0.35, 0.2, 0.1, 0};
-  const bool some_needed = std::any_of(inwards.begin(), inwards.end(), [](const VectorBound& b) { return b.distance > 0; });
+  const bool some_needed =
+      std::any_of(inwards.begin(), inwards.end(), [](const VectorBound& b) { return b.distance > 0; });
   Inwards bounds = inwards;
   Vec3 longest;
   for (const double share : kShares) {

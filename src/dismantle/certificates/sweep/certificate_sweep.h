@@ -38,7 +38,8 @@ struct SweepContact {
   /// them.
   Vec3 axis;
   SurfacePair surfaces = SurfacePair::Plain;  ///< The surfaces that the two triangles are of.
-  ///@{ SurfacePair::Plain: along the axis, the point of the moving component [mm, assembled] may go as far as the limit,
+  ///@{ SurfacePair::Plain: along the axis, the point of the moving component [mm, assembled] may go as far as the
+  ///limit,
   /// which is fixed to the other one [mm, assembled].
   Vec3 point{}, limit{};
   ///@}

@@ -268,7 +268,7 @@ void CertificateSweeper::merge_by_device(const std::vector<PairSweep>& pairs, co
 }
 
 CertificateSweeper::SeenMotion CertificateSweeper::motion_past(const ScrewMotion& motion, ComponentId moving,
-                                                              ComponentId fixed) const {
+                                                               ComponentId fixed) const {
   const Pose& frame = poses_[fixed.value];
   return {moving, fixed, seen_from(frame, motion.start), seen_from(frame, motion.end)};
 }
@@ -310,10 +310,10 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
       const CertificateFront* front = store_.find(moving, fixed, ghost_of(surfaces), poses_[fixed.value]);
       if (!front) front = &fresh.emplace(store_.new_front(moving, fixed, ghost_of(surfaces)));
       const TrianglePairSweep triangle_pairs = triangle_pair_sweep(tested, motion, SweepBudget::Exhaustive);
-      sweep_const(*front,
-                  {tested, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()),
-                   displaced(moving, fixed)},
-                  window, result);
+      sweep_const(
+          *front,
+          {tested, nullptr, triangle_pairs, front->prepare_sweep(triangle_pairs.motion()), displaced(moving, fixed)},
+          window, result);
     }
   });
   finish(result, window);

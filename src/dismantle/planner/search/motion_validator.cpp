@@ -79,8 +79,7 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
     StepResult made = step(target, ResponseKind::Touch);
     // A restart may go on where a sweep stopped: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * tolerance_)
-      return made;
+    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * tolerance_) return made;
   }
 }
 
