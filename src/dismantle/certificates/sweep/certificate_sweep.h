@@ -39,7 +39,7 @@ struct SweepContact {
   Vec3 axis;
   SurfacePair surfaces = SurfacePair::Plain;  ///< The surfaces that the two triangles are of.
   ///@{ SurfacePair::Plain: along the axis, the point of the moving component [mm, assembled] may go as far as the
-  ///limit,
+  /// limit,
   /// which is fixed to the other one [mm, assembled].
   Vec3 point{}, limit{};
   ///@}
