@@ -26,7 +26,8 @@ struct GuardedPair {
   double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
   bool parted = false;                  ///< They have been apart: they are treated like any other pair.
   bool turns = false;                   ///< Facets may meet again and again as one turns in the other.
-  FaceId near_a{0}, near_b{0};          ///< Two faces that were near when last looked for; any before.
+  FaceId near_a{0};                     ///< A face that was near `near_b` when last looked for; any before.
+  FaceId near_b{0};                     ///< Of the other component.
 };
 
 /// The trees of a component in the assembled state.

@@ -17,7 +17,8 @@ inline constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
 
 /// Two components that touch or overlap in the assembled state.
 struct PairGhostRequest {
-  OverlapSide a, b;                    ///< The components; shapes are needed only if they overlap.
+  OverlapSide a;                       ///< One of them; shapes are needed only if they overlap.
+  OverlapSide b;                       ///< The other one.
   const SolidTree* ghost_a = nullptr;  ///< The ghost surface that `a` has against all others; never null.
   const SolidTree* ghost_b = nullptr;  ///< That of `b`.
   double depth = 0;                    ///< Of the pair, an upper bound [mm].
