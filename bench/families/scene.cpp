@@ -304,7 +304,8 @@ Scene tumbling(Dice& dice) {
   TriangleMesh a = some_polyhedron(dice), b = scaled(some_polyhedron(dice), big);
   scene.gap = dice.chance(0.25) ? -dice.spread(1e-3, 0.6) : some_gap(dice, scene.tolerance);
   a = shifted(std::move(a), {dice.uniform(-0.5, 0.5), dice.uniform(-0.5, 0.5), 0});
-  a = shifted(std::move(a), {0, 0, bounds(b).upper.z + scene.gap - lowest(a)});
+  const double rise = bounds(b).upper.z + scene.gap - lowest(a);
+  a = shifted(std::move(a), {0, 0, rise});
   scene.parts = {{"a", std::move(a), true}, {"b", std::move(b), true}};
   scene.toward = kDown;
   scene.size = 2;

@@ -108,7 +108,7 @@ void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTrian
       add_own_ghost(found.b, found.ghosts[1], triangles);
     }
     rules_.set(pair.a, pair.b, pair.rule);
-    pairs_.push_back(std::move(pair));
+    pairs_.push_back(pair);
   }
 }
 
