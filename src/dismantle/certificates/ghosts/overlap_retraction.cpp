@@ -2,10 +2,12 @@
 #include "dismantle/certificates/ghosts/overlap_retraction.h"
 
 #include "dismantle/features/axis_frame.h"
+#include "dismantle/math/angle.h"
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/surface/ghost_surface.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,6 +30,11 @@ constexpr double kSameAxis = 1, kSameDirection = 1e-4;
 /// The corners of a facet of a cylinder are this nearly on one circle, and its middle is no nearer to the axis than
 /// this share of the radius.
 constexpr double kOnCircle = 0.999, kSmallestFacet = 0.965;
+
+/// Facets are of a cylinder if they are on at least this share of a circle, looked at in so many parts of it: the ends
+/// of a thin plate are on one, too.
+constexpr double kShareOfCircle = 0.3;
+constexpr std::size_t kParts = 72;
 
 class Retraction {
  public:
@@ -118,6 +125,19 @@ class Retraction {
     std::vector<std::uint32_t> faces;
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;  // from the axis [mm]
     double begin = nearest, end = -nearest;                                  // along the axis [mm]
+    std::bitset<kParts> seen;                                                // of the circle
+
+    bool is_round() const { return static_cast<double>(seen.count()) >= kShareOfCircle * kParts; }
+    /// Adds the part of the circle between two points of it, the short way round.
+    void see(const AxisFrame& axis, const Vec3& from, const Vec3& to) {
+      constexpr int kSteps = 8;
+      for (int i = 0; i <= kSteps; ++i) {
+        const double share = static_cast<double>(i) / kSteps;
+        const Vec3 p = (1 - share) * from + share * to;
+        const double part = (axis.angle(p) / kTurn + 0.5) * kParts;
+        seen.set(std::min(kParts - 1, static_cast<std::size_t>(std::max(0.0, part))));
+      }
+    }
   };
   /// By the radius in tolerances, negative for a bore.
   using Cylinders = std::map<double, Cylinder>;
@@ -138,6 +158,7 @@ class Retraction {
       const double radius = std::round(farthest / tolerance_);
       Cylinder& cylinder = cylinders[dot(normal, across[0]) > 0 ? radius : -radius];
       cylinder.faces.push_back(f);
+      for (int i = 0; i < 3; ++i) cylinder.see(axis, across[i], across[(i + 1) % 3]);
       cylinder.nearest = std::min(cylinder.nearest, nearest);
       cylinder.farthest = std::max(cylinder.farthest, farthest);
       for (int i = 0; i < 3; ++i) {
@@ -153,6 +174,7 @@ class Retraction {
     for (const auto& [mine_radius, f] : mine)
       for (const auto& [their_radius, g] : theirs) {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
+        if (!f.is_round() || !g.is_round()) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
         const double overlap = shaft.farthest - bore.nearest;
         const double sagittas = (shaft.farthest - shaft.nearest) + (bore.farthest - bore.nearest);
