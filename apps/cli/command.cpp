@@ -7,8 +7,10 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -80,6 +82,28 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   command.add_flag("--quiet", o.quiet, "Do not print progress")->group(group);
 }
 
+void add_allow_option(CLI::App& command, CommonOptions& o) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--allow",
+          [&o](const std::vector<std::string>& words) {
+            for (std::size_t i = 0; i + 2 < words.size(); i += 3) {
+              char* end = nullptr;
+              const double depth = std::strtod(words[i + 2].c_str(), &end);
+              if (*end != '\0' || !(depth > 0) || !std::isfinite(depth))
+                throw CLI::ValidationError("--allow", "the depth of '" + words[i] + "' and '" + words[i + 1] +
+                                                          "' is '" + words[i + 2] + "', and not a number above 0");
+              o.allowed.push_back({words[i], words[i + 1], depth});
+            }
+          },
+          "Let two components that touch or overlap get MM deep in each other until they have been apart: one of them "
+          "is flexible, or drawn wrong. May be repeated")
+      ->type_name("A B MM")
+      ->type_size(3)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {
   command.add_option("ASSEMBLY", o.assembly_file, "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes")->required();
 }
@@ -146,6 +170,7 @@ Result<PairStates> classify(const Assembly& assembly, const CommonOptions& optio
   classify.tolerance = options.tolerance;
   classify.clearance = clearance;
   classify.rule = options.pairs;
+  classify.declared = options.allowed;
   classify.executor = make_executor(options);
   classify.progress = progress_printer(options);
   return classify_pairs(assembly, classify);

@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 /// Declarations that the commands share. A command is one file, command_<name>.cpp, with one function
 /// add_<name>_command(app, exit_code) that declares its options and sets the callback; main.cpp lists them.
@@ -35,6 +36,7 @@ struct CommonOptions {
   ImportOptions import;                      ///< --units, --deflection, --angular-deflection.
   double tolerance = 0;                      ///< [mm]; 0: default.
   ClassifyRule pairs = ClassifyRule::Auto;   ///< What overlapping pairs may do.
+  std::vector<DeclaredAllowance> allowed;    ///< --allow.
   std::size_t simplify = 0;                  ///< Approximate number of triangles; 0: no simplification.
   DeviceChoice device = DeviceChoice::Auto;  ///< --device.
   bool uses_device = false;                  ///< The command can use a device; otherwise it computes on the CPU.
@@ -45,6 +47,8 @@ struct CommonOptions {
 
 /// Declares the common options on a command. `options` must outlive the parse.
 void add_common_options(CLI::App& command, CommonOptions& options);
+/// Declares --allow, for commands that move components.
+void add_allow_option(CLI::App& command, CommonOptions& options);
 /// Declares the positional ASSEMBLY argument.
 void add_assembly_argument(CLI::App& command, CommonOptions& options);
 
@@ -69,7 +73,7 @@ Executor make_executor(const CommonOptions& options);
 /// Loads the assembly; simplifies it if --simplify is given. Errors: of load_assembly and simplify_assembly.
 Result<Assembly> load(const CommonOptions& options);
 
-/// Classifies the pairs with --tolerance, --fit and --pairs. Pairs within `clearance` [mm] are near. Errors: of
+/// Classifies the pairs with --tolerance, --pairs and --allow. Pairs within `clearance` [mm] are near. Errors: of
 /// classify_pairs.
 Result<PairStates> classify(const Assembly& assembly, const CommonOptions& options, double clearance = 0);
 

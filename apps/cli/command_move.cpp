@@ -258,6 +258,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
       ->transform(CLI::CheckedTransformer(kResponses))
       ->type_name("stop|touch|slide");
   command->add_option("--timing", options->timing_file, "Write the cost of every step as CSV")->type_name("CSV");
+  add_allow_option(*command, options->common);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     options->common.uses_device = true;

@@ -147,6 +147,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "Effort of the search for paths that are not straight, as a factor (default: 1, some seconds)")
       ->type_name("TIMES")
       ->check(CLI::Range(0.0, 1e6));
+  add_allow_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: all targets can be removed; 1: not all, with the reasons.");
   command->callback([options, &exit_code] {

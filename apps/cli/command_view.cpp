@@ -95,6 +95,8 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   options.model.import = o.common.import;
   options.model.classify.tolerance = o.common.tolerance;
   options.model.classify.rule = o.common.pairs;
+  options.model.classify.declared = o.common.allowed;
+  options.model.declared_for = o.common.assembly_file;
   options.model.classify.executor = executor;
   options.model.simplify = o.common.simplify;
   options.model.executor = executor;
@@ -157,6 +159,7 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
+  add_allow_option(*command, options->common);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     if (const Result<Done> done = run(*options); !done) exit_code = report(done.error());

@@ -46,6 +46,7 @@ void add_why_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<WhyCommand>();
   add_assembly_argument(*command, options->common);
   command->add_option("COMPONENT", options->component, "Name of the component, as in 'dismantle info'")->required();
+  add_allow_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: nothing, it can be removed; 1: blocked, as printed.");
   command->callback([options, &exit_code] {

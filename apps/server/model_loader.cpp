@@ -45,7 +45,13 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
-  model.session = std::make_unique<Session>(*assembly, pair_states(model.clashes, classify.rule), engine);
+  PairStates states = pair_states(model.clashes, classify.rule);
+  std::error_code unused;
+  if (options.declared_for.empty() || std::filesystem::equivalent(file, options.declared_for, unused)) {
+    const Result<Done> declared = declare_allowances(states, *assembly, classify.declared);
+    if (!declared) return declared.error();
+  }
+  model.session = std::make_unique<Session>(*assembly, states, engine);
   return model;
 }
 

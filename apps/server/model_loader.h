@@ -11,10 +11,11 @@ namespace dismantle::server {
 
 /// Options for preparing assemblies for a session.
 struct ModelOptions {
-  ImportOptions import;      ///< Of reading the file.
-  ClassifyOptions classify;  ///< Of the pair states.
-  std::size_t simplify = 0;  ///< Approximate number of triangles to simplify to; 0: no simplification.
-  Executor executor;         ///< Of simplification and of the session's engine.
+  ImportOptions import;                ///< Of reading the file.
+  ClassifyOptions classify;            ///< Of the pair states.
+  std::filesystem::path declared_for;  ///< The file to which `classify.declared` applies; empty: every file.
+  std::size_t simplify = 0;            ///< Approximate number of triangles to simplify to; 0: no simplification.
+  Executor executor;                   ///< Of simplification and of the session's engine.
 };
 
 /// Loads an assembly and makes its model, without a number. The file is parsed in a child process with limits on memory

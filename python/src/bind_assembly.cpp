@@ -10,6 +10,9 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace dismantle::python {
 
@@ -67,7 +70,8 @@ std::shared_ptr<Assembly> from_meshes(const py::dict& meshes, const std::string&
 }
 
 CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance, double clearance,
-                    const std::string& pairs, int threads, const py::object& progress) {
+                    const std::string& pairs, const std::vector<std::tuple<std::string, std::string, double>>& allow,
+                    int threads, const py::object& progress) {
   if (!(tolerance >= 0) || !(clearance >= 0))
     raise_usage("the pairs cannot be checked (a length is negative); give 0 for the default");
   if (pairs != "auto" && pairs != "paper")
@@ -78,6 +82,12 @@ CheckedHolder check(const std::shared_ptr<Assembly>& assembly, double tolerance,
   watched.finish();
   Clashes found = value_or_raise(std::move(clashes));
   PairStates states = pair_states(found, pairs == "auto" ? ClassifyRule::Auto : ClassifyRule::Paper);
+  std::vector<DeclaredAllowance> declared;
+  for (const auto& [a, b, depth] : allow) {
+    if (!(depth > 0)) raise_usage("no overlap can be allowed (its depth is not above 0); give a depth in mm");
+    declared.push_back({a, b, depth});
+  }
+  value_or_raise(declare_allowances(states, *assembly, declared));
   return std::make_shared<CheckedAssembly>(CheckedAssembly{assembly, std::move(states), std::move(found)});
 }
 
@@ -264,11 +274,13 @@ void bind_assembly(py::module_& module) {
              "tessellation; 0: default.");
   module.def(
       "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("clearance") = 0.0,
-      py::arg("pairs") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("pairs") = "auto", py::arg("allow") = py::list(), py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
       "Finds all pairs of components that touch, overlap or are near in the assembled state, and how deep each may get "
       "in motion. `tolerance` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
-      "the rule, 'auto' or "
-      "'paper'.");
+      "the rule, 'auto' or 'paper'. `allow`: list of (name, name, depth [mm]), components that touch or overlap and "
+      "may "
+      "get that deep in each other until they have been apart.");
 }
 
 }  // namespace dismantle::python

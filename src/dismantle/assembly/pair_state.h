@@ -31,6 +31,7 @@ struct ComponentPair {
   double depth = 0;                    ///< Depth of the two solids, an upper bound [mm]; 0 where apart.
   /// Depth allowed until the two have been apart; then it is the tolerance [mm]. Infinite for Free.
   double allowed_depth = 0;
+  double declared = 0;  ///< Depth that the user allows them [mm]; 0: none.
   friend bool operator==(const ComponentPair&, const ComponentPair&) = default;
 };
 

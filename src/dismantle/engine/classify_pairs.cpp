@@ -4,6 +4,8 @@
 #include "dismantle/surface/find_clashes.h"
 
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace dismantle {
 
@@ -13,10 +15,8 @@ PairStates pair_states(const Clashes& clashes, ClassifyRule rule) {
   for (const Clash& clash : clashes.pairs) {
     ComponentPair pair{clash.a, clash.b, PairState::Near, clash.distance, clash.depth, clashes.tolerance};
     if (clash.state == ClashState::Contact) pair.state = PairState::Contact;
-    if (clash.state == ClashState::Overlapping) {
-      pair.state = PairState::Overlapping;
-      pair.allowed_depth = clash.depth + clashes.tolerance;
-    }
+    if (clash.state == ClashState::Overlapping) pair.state = PairState::Overlapping;
+    if (clash.depth > kShallow * clashes.tolerance) pair.allowed_depth = clash.depth + clashes.tolerance;
     if (rule == ClassifyRule::Paper && pair.state != PairState::Near) {
       pair.state = PairState::Free;
       pair.allowed_depth = std::numeric_limits<double>::infinity();
@@ -35,7 +35,29 @@ Result<PairStates> classify_pairs(const Assembly& assembly, const ClassifyOption
   clash.progress = options.progress;
   Result<Clashes> clashes = find_clashes(assembly, clash);
   if (!clashes) return clashes.error();
-  return pair_states(*clashes, options.rule);
+  PairStates states = pair_states(*clashes, options.rule);
+  const Result<Done> declared = declare_allowances(states, assembly, options.declared);
+  if (!declared) return declared.error();
+  return states;
+}
+
+Result<Done> declare_allowances(PairStates& states, const Assembly& assembly, Span<const DeclaredAllowance> declared) {
+  for (const DeclaredAllowance& own : declared) {
+    const std::optional<ComponentId> a = assembly.find(own.a), b = assembly.find(own.b);
+    for (const auto& [id, name] : {std::pair(a, own.a), std::pair(b, own.b)})
+      if (!id)
+        return Error{ErrorKind::Usage, "no overlap can be allowed for '" + name +
+                                           "' (the assembly has no such component); see 'dismantle info'"};
+    const ComponentPair* known = states.find(*a, *b);
+    if (!known || known->state == PairState::Near)
+      return Error{ErrorKind::Usage, "no overlap can be allowed for '" + own.a + "' and '" + own.b +
+                                         "' (they do not touch in the assembled state, and an allowance ends where two "
+                                         "components have been apart); see 'dismantle check'"};
+    ComponentPair& pair = states.pairs[static_cast<std::size_t>(known - states.pairs.data())];
+    if (pair.allowed_depth >= own.depth) continue;
+    pair.declared = pair.allowed_depth = own.depth;
+  }
+  return Done{};
 }
 
 }  // namespace dismantle

@@ -11,8 +11,10 @@ Path empty_path(const Assembly& assembly, const PairStates& states) {
   path.tolerance = states.tolerance;
   for (const ComponentPair& p : states.pairs) {
     if (p.allowed_depth <= states.tolerance) continue;
-    const PathPairState state = p.state == PairState::Free ? PathPairState::Free : PathPairState::Overlapping;
-    path.pairs.push_back({assembly[p.a].name, assembly[p.b].name, state, p.depth, p.allowed_depth});
+    PathPair pair{assembly[p.a].name, assembly[p.b].name, PathPairState::Overlapping, p.depth, p.allowed_depth};
+    if (p.declared > 0) pair.state = PathPairState::Declared;
+    if (p.state == PairState::Free) pair.state = PathPairState::Free;
+    path.pairs.push_back(pair);
   }
   return path;
 }

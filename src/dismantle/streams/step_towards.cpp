@@ -17,7 +17,11 @@ constexpr int kHalvedRetries = 3;
 class Stepper {
  public:
   Stepper(SweepEngine& engine, const RigidSet& set, StepResult& result)
-      : engine_(engine), set_(set), result_(result), next_(engine.state().begin(), engine.state().end()) {}
+      : engine_(engine),
+        set_(set),
+        result_(result),
+        start_(engine.state().begin(), engine.state().end()),
+        next_(start_) {}
 
   SweepResult sweep(const Pose& pose, double deviation) {
     const RigidTransform transform = transform_from_pose(pose);
@@ -31,6 +35,12 @@ class Stepper {
   void commit(const Pose& pose) {
     engine_.commit();
     result_.pose = pose;
+  }
+
+  /// Puts the set back where the step began.
+  void return_to(const Pose& start) {
+    engine_.jump(start_);
+    result_.pose = start;
   }
 
  private:
@@ -50,6 +60,7 @@ class Stepper {
   SweepEngine& engine_;
   const RigidSet& set_;
   StepResult& result_;
+  const std::vector<RigidTransform> start_;
   std::vector<RigidTransform> next_;
 };
 
@@ -93,8 +104,12 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
       continue;
     }
     result.blocking_pairs = std::move(swept.blocking_pairs);
+    if (response == ResponseKind::Stop) {
+      if (k > 0) stepper.return_to(start);
+      return result;
+    }
     const double backoff = kBackoffShare * tolerance / (travel / cuts);
-    double share = response == ResponseKind::Touch ? swept.toi - backoff : 0;
+    double share = swept.toi - backoff;
     for (int retry = 0; retry < kMaxTouchRetries && share > backoff; ++retry) {
       const Pose touching = pose_between(start, target, (k + share) / cuts);
       const SweepResult shorter = stepper.sweep(touching, deviation);

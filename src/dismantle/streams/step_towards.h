@@ -23,8 +23,8 @@ RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> compo
 
 /// Moves the set from `start`, its pose in the engine's state, along the one screw towards `target`, as far as
 /// `response` allows, and commits the engine to the resulting pose. Guarantee: the screw from `start` to that pose
-/// satisfies the engine's guarantee, including the deviation of the true arcs. Stop: up to the last sweep that was free
-/// as a whole. Touch: up to the first contact within the sweep that was not.
+/// satisfies the engine's guarantee, including the deviation of the true arcs. Stop: all the way or not at
+/// all. Touch: up to the first contact.
 /// @pre response is Stop or Touch; tolerance > 0 [mm]
 StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
                         ResponseKind response, double tolerance);

@@ -41,14 +41,13 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   GuardedPair& guard = result.guard;
   if (!found) {
     guard = {PairGuard::Depth, std::max(guard.allowed, pair.depth + tolerance)};
-  } else if (found->max_length > 0) {
-    guard.displaced = found->max_length;
-    guard.turns = found->turning > 0;
-    if (guard.turns) guard.allowed = std::max(guard.allowed, found->turning + tolerance);
-    result.ghosts = std::move(found->vertices);
-  } else if (pair.allowed_depth <= tolerance) {
-    return std::nullopt;
+    return result;
   }
+  if (found->max_length == 0) return std::nullopt;
+  guard.displaced = found->max_length;
+  guard.turns = found->turning > 0;
+  if (guard.turns) guard.allowed = std::max(guard.allowed, found->turning + tolerance);
+  result.ghosts = std::move(found->vertices);
   return result;
 }
 
@@ -72,12 +71,13 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
       guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited}, {}};
       return;
     }
+    const double declared = std::max(0.0, pair.declared - tolerance);
     const auto side = [&](ComponentId c) {
-      return OverlapSide{trees(c).solid, pair.depth > 0 ? &shapes.of(c) : nullptr};
+      return OverlapSide{trees(c).solid, pair.depth > 0 || declared > 0 ? &shapes.of(c) : nullptr};
     };
     guards[i] = guard_of(pair,
                          find_pair_ghosts({side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost,
-                                           pair.depth, tolerance, search.kernels}),
+                                           std::max(pair.depth, declared), declared, tolerance, search.kernels}),
                          tolerance);
   });
   std::vector<FoundGuard> found;

@@ -25,7 +25,7 @@ constexpr double kFactors[] = {1, 1.1, kMaxGhostFactor};
 constexpr double kMargins[] = {1.6, 1};
 /// Ghosts are made to be apart by these shares of the tolerance, the larger ones if they can be.
 constexpr double kGaps[] = {0.62, 0.3, 0.1};
-/// Retractions below this share of the tolerance are within the play of the ghosts that components have.
+/// Depths and retractions below this share of the tolerance are within the play of the ghosts that components have.
 constexpr double kPlay = 0.3;
 /// Shallower pairs do not overlap, as a share of the tolerance.
 constexpr double kOverlap = 0.1;
@@ -136,7 +136,7 @@ class GhostSide {
   /// How far the faces are retracted [mm].
   std::vector<double> needed(double margin) const {
     std::vector<double> needed = retraction_.needed;
-    for (double& n : needed) n = std::max(n, std::min(margin * n, request_.depth));
+    for (double& n : needed) n = std::max({n, std::min(margin * n, request_.depth), request_.everywhere});
     return needed;
   }
 
@@ -225,7 +225,8 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   const GhostSide a(request, true), b(request, false);
   const double turning = std::max(a.retraction().turning, b.retraction().turning);
   const bool can_turn = turning <= kPlay * request.tolerance;
-  if (request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart()) return PairGhosts{};
+  const bool usual = request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart();
+  if (usual && request.depth <= kPlay * request.tolerance) return PairGhosts{};
   for (const double factor : kFactors) {
     const double length = factor * (std::max(request.depth, turning) + kGhostLength * request.tolerance);
     auto of_a = a.find(length);
@@ -233,7 +234,7 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
     auto of_b = b.find(length);
     if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length, can_turn ? 0 : turning};
   }
-  return std::nullopt;
+  return usual ? std::optional(PairGhosts{}) : std::nullopt;
 }
 
 }  // namespace dismantle

@@ -21,7 +21,8 @@ struct PairGhostRequest {
   OverlapSide b;                       ///< The other one.
   const SolidTree* ghost_a = nullptr;  ///< The ghost surface that `a` has against all others; never null.
   const SolidTree* ghost_b = nullptr;  ///< That of `b`.
-  double depth = 0;                    ///< Of the pair, an upper bound [mm].
+  double depth = 0;                    ///< Of the pair, an upper bound; or what it may be less the tolerance [mm].
+  double everywhere = 0;               ///< All faces are retracted by this, wherever the two overlap [mm].
   double tolerance = 0;                ///< [mm]
   FrontKernels kernels;                ///< Any.
 };
@@ -35,7 +36,7 @@ struct PairGhosts {
 };
 
 /// Finds ghost surfaces that are apart from the other component in the assembled state
-/// (docs/design/0012-ghost-surfaces.md): the ones that the components have, if these are apart; else those whose
+/// (docs/design/0012-ghost-surfaces.md): the ones that the components have, if these are well apart; else those whose
 /// overlapping patches are retracted out of each other, and others are displaced further where that is not enough.
 /// Displacements are no longer than the depth plus most of the tolerance, or up to kMaxGhostFactor times that where
 /// none exist that are shorter. Nothing where none are found.

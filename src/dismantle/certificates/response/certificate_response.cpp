@@ -83,14 +83,21 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
   const double tolerance = sweeper_.tolerance();
   const int cuts = chord_count(whole.deviation, kArcShare * tolerance);
   for (double at = 0; at < 1;) {
-    // Stop is all or nothing; Touch, once stopped, tries short motions first: triangles behind a contact cost most.
+    // Touch, once stopped, tries short motions first: triangles behind a contact cost most.
     const double fraction = touch ? std::min(1.0 / cuts, reach_ / whole.path_length) : 1.0 / cuts;
     const double next = at + fraction > 1 - 1e-9 ? 1 : at + fraction;
     const ScrewMotion motion = sweeper_.motion_to(whole.at(next));
     const double free = free_fraction(motion, touch, result);
     advance(motion, free, result);
     reach_ = free == 1 ? reach_ * kTryGrowth : std::max(kMinTry * tolerance, 2 * free * motion.path_length);
-    if (free < 1) break;
+    if (free < 1) {
+      // Stop is all or nothing, also where the first parts of a rotation were free.
+      if (!touch && at > 0) {
+        sweeper_.return_to(whole.start);
+        result.poses.clear();
+      }
+      break;
+    }
     at = next;
   }
   // All of it is on one screw.

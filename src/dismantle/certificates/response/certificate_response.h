@@ -56,6 +56,8 @@ class CertificateResponse {
 
   ///@{ Twists of the moving set about its center.
   SlideContacts::Twist twist_of(const ScrewMotion& motion) const;
+  /// The rotation to the target, and the velocity that takes the center there on a straight line.
+  SlideContacts::Twist straight_to(const Pose& target) const;
   Pose twisted(const SlideContacts::Twist& twist) const;
   double travel_of(const SlideContacts::Twist& twist) const;
   SlideContacts::Twist shortened(SlideContacts::Twist twist, double max_travel) const;

@@ -70,7 +70,13 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
   const bool whole = travel_of(tried) >= travel_of(wanted);
   if (!std::exchange(state.axes_chosen, true))
     contacts_.choose_axes(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
-  const Twist allowed = contacts_.nearest(tried, characteristic_length), twist = bent_little(allowed);
+  Twist allowed = contacts_.nearest(tried, characteristic_length);
+  if (allowed.bounded) {
+    // The velocity of a long screw points away from its end: pressed on, the set would drift off along the contact.
+    allowed = contacts_.nearest(shortened(straight_to(state.target), reach_), characteristic_length);
+    allowed.bounded = true;
+  }
+  const Twist twist = bent_little(allowed);
   const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
   return {twist, travel_of(twist), creeping, twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
 }
@@ -166,6 +172,12 @@ Twist CertificateResponse::twist_of(const ScrewMotion& motion) const {
   const Screw& screw = motion.screw;
   const Vec3 turn = screw.angle * screw.axis;
   return {screw.velocity + cross(turn, sweeper_.center() - screw.reference), turn, false};
+}
+
+Twist CertificateResponse::straight_to(const Pose& target) const {
+  const Screw screw = sweeper_.motion_to(target).screw;
+  const Vec3 end = transform_from_pose(target) * (inverse(transform_from_pose(sweeper_.pose())) * sweeper_.center());
+  return {end - sweeper_.center(), screw.angle * screw.axis, false};
 }
 
 double CertificateResponse::travel_of(const Twist& twist) const {

@@ -79,6 +79,11 @@ void CertificateSweeper::move_to(const Pose& pose) {
   for (const ComponentId c : moving_) poses_[c.value] = pose;
 }
 
+void CertificateSweeper::return_to(const Pose& pose) {
+  move_to(pose);
+  find_parted();
+}
+
 void CertificateSweeper::jump(Span<const Pose> poses) {
   DISMANTLE_EXPECT(poses.size() == poses_.size());
   const auto moved = [&](ComponentId c) { return !(poses[c.value] == poses_[c.value]); };

@@ -60,6 +60,9 @@ class CertificateSweeper {
 
   /// Puts the moving set at `pose` without a test.
   void move_to(const Pose& pose);
+  /// Puts the moving set back at a pose at which it has been since the last jump; pairs that parted on the way from
+  /// there overlap again if they do there.
+  void return_to(const Pose& pose);
   /// Puts all components at `poses` without a test. Releases the moving set if that moves one of it.
   void jump(Span<const Pose> poses);
   /// The poses of all components.
