@@ -22,7 +22,7 @@ Plan plan_by_chance(const scenes::PlanScene& scene, std::size_t effort) {
 }
 
 TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
-  const std::vector<Component> rings = scenes::open_rings(4);
+  const std::vector<Component> rings = scenes::open_rings(5);
   for (const Component& c : rings) EXPECT_EQ(edge_faults(*c.mesh).open, 0u);
   const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(rings));
   const Plan plan = plan_by_chance(scene, 400'000);
@@ -35,7 +35,7 @@ TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
 
 TEST(SampleSearch, GivesTheSamePathForTheSameInput) {
   const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
-  const Plan first = plan_by_chance(scene, 200'000), second = plan_by_chance(scene, 200'000);
+  const Plan first = plan_by_chance(scene, 400'000), second = plan_by_chance(scene, 400'000);
   ASSERT_EQ(first.steps.size(), 1u);
   EXPECT_EQ(first.steps[0].tier, PlanTier::Sampled);
   ASSERT_EQ(second.steps.size(), 1u);

@@ -52,6 +52,7 @@ struct AuditPair {
   /// Depth in the assembled state [mm], an upper bound; 0 where it is within the tolerance, and for Free.
   double initial_depth = 0;
   double allowed = 0;   ///< The allowance until the pair has been apart [mm]; infinite for Free.
+  bool turns = false;   ///< The allowance includes sagittas: its facets come apart and meet again as it turns.
   bool parted = false;  ///< It has been apart.
   friend bool operator==(const AuditPair&, const AuditPair&) = default;
 };

@@ -18,8 +18,6 @@ namespace {
 
 /// Contacts of depths are found to within a motion of this share of the tolerance.
 constexpr double kResolution = 0.25;
-/// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
-constexpr double kTouching = 1e-6;
 
 /// True if the two have no relative motion.
 bool move_as_one(Span<const RigidTransform> start, Span<const RigidTransform> end, ComponentId a, ComponentId b) {
@@ -169,7 +167,8 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
 bool GuardedPairs::part(Span<const RigidTransform> start, Span<const RigidTransform> end) {
   bool changed = false;
   for (Pair& pair : pairs_)
-    if (!pair.guard.parted && !move_as_one(start, end, pair.a, pair.b) && apart(pair, end))
+    if (!pair.guard.parted && !move_as_one(start, end, pair.a, pair.b) && apart(pair, end) &&
+        usual_ghosts_apart(pair, end))
       changed = set_parted(pair, true) || changed;
   return changed;
 }
@@ -179,7 +178,7 @@ bool GuardedPairs::jump(Span<const RigidTransform> state) {
   for (Pair& pair : pairs_) {
     const bool moved = !(state[pair.a.value] == state[pair.b.value]);
     // A pair that has parted remains so where the ghost surfaces that all have do not meet.
-    const bool parted = moved && ((pair.guard.parted && usual_ghosts_apart(pair, state)) || apart(pair, state));
+    const bool parted = moved && (pair.guard.parted || apart(pair, state)) && usual_ghosts_apart(pair, state);
     changed = set_parted(pair, parted) || changed;
   }
   return changed;
@@ -199,19 +198,17 @@ const SolidShape& GuardedPairs::shape(ComponentId c) {
   return known;
 }
 
-bool GuardedPairs::apart(const Pair& pair, Span<const RigidTransform> state) {
-  const auto placed = [&](ComponentId c) {
-    return ComponentAt{&solids_.at(c).tree, state[c.value], [this, c] { return &shape(c); }};
-  };
-  return further_apart(placed(pair.a), placed(pair.b), tolerance_);
+ComponentAt GuardedPairs::placed(ComponentId c, Span<const RigidTransform> state) {
+  const Solid& solid = solids_.at(c);
+  return {&solid.tree, &solid.ghost, state[c.value], [this, c] { return &shape(c); }};
 }
 
-bool GuardedPairs::usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state) const {
-  const Solid &a = solids_.at(pair.a), &b = solids_.at(pair.b);
-  const RigidTransform &at_a = state[pair.a.value], &at_b = state[pair.b.value];
-  const double touching = kTouching * tolerance_;
-  return solid_distance({&a.ghost, at_a}, {&b.tree, at_b}, tolerance_).distance > touching &&
-         solid_distance({&a.tree, at_a}, {&b.ghost, at_b}, tolerance_).distance > touching;
+bool GuardedPairs::apart(const Pair& pair, Span<const RigidTransform> state) {
+  return further_apart(placed(pair.a, state), placed(pair.b, state), pair.guard.parting);
+}
+
+bool GuardedPairs::usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state) {
+  return dismantle::usual_ghosts_apart(placed(pair.a, state), placed(pair.b, state), tolerance_);
 }
 
 }  // namespace dismantle

@@ -67,7 +67,8 @@ class GuardedPairs {
   void displace(ComponentId c, Span<const Vec3> displaced, std::size_t offset, const AssemblyTriangles& triangles);
   const SolidShape& shape(ComponentId c);
   bool apart(const Pair& pair, Span<const RigidTransform> state);
-  bool usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state) const;
+  bool usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state);
+  ComponentAt placed(ComponentId c, Span<const RigidTransform> state);
   bool set_parted(Pair& pair, bool parted);
 
   const Assembly& assembly_;

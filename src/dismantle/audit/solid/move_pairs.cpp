@@ -76,8 +76,10 @@ bool part_move_pairs(DepthContext& context, MovePairs& move, double progress_fro
     MovePair& pair = move.pairs[i];
     pair.parted = count;
     if (!pair.joined) return;
+    const bool turns = context.ledger.at(pair.key()).pair.turns;
+    const double margin = turns ? pair.allowed : context.slack;
     for (std::uint32_t k = 0; k < count && pair.parted == count; ++k)
-      if (apart(pair.pair, pair.pair.motion.motions[k].start, context.slack)) pair.parted = k;
+      if (apart(pair.pair, pair.pair.motion.motions[k].start, margin)) pair.parted = k;
   });
   if (!completed) return false;
   for (const MovePair& pair : move.pairs)

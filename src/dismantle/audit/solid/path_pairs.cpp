@@ -51,15 +51,22 @@ class PathPairs {
       report(key, "overlap by " + mm(entry.initial_depth) + " at the start, and the path allows " + mm(allowed));
     // Else the violation would be repeated in every move.
     entry.allowed = std::max({allowed, tolerance_, entry.initial_depth});
-    if (pair.state == PathPairState::Overlapping) entry.allowed = std::min(entry.allowed, lawful(key, entry, allowed));
+    if (pair.state == PathPairState::Overlapping) {
+      entry.turns = allowed > within_tolerance(entry);
+      entry.allowed = std::min(entry.allowed, lawful(key, entry, allowed));
+    }
     if (entry.allowed <= 0) entry.allowed = std::numeric_limits<double>::min();
   }
 
   /// The most that the pair may be allowed: its depth at the start and the tolerance; and both surfaces' sagittas where
   /// they are wanted, as cylinders that turn in each other need them.
   double lawful(const Key& key, const AuditPair& entry, double wanted) const {
-    const double least = entry.initial_depth + tolerance_ + margin(entry.initial_depth);
+    const double least = within_tolerance(entry);
     return wanted <= least ? least : least + sagittas(key);
+  }
+
+  double within_tolerance(const AuditPair& entry) const {
+    return entry.initial_depth + tolerance_ + margin(entry.initial_depth);
   }
 
   double sagittas(const Key& key) const {

@@ -14,6 +14,8 @@ namespace dismantle {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
+constexpr double kTouching = 1e-6;
 
 /// The shapes of the components that overlap others, each built once.
 class Shapes {
@@ -39,14 +41,15 @@ class Shapes {
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
   FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, kGhostLength * tolerance}, {}};
   GuardedPair& guard = result.guard;
+  guard.parting = kApartShare * tolerance;
   if (!found) {
-    guard = {PairGuard::Depth, std::max(guard.allowed, pair.depth + tolerance)};
+    guard.guard = PairGuard::Depth;
+    guard.allowed = std::max(guard.allowed, pair.depth + tolerance);
     return result;
   }
   if (found->max_length == 0) return std::nullopt;
   guard.displaced = found->max_length;
-  guard.turns = found->turning > 0;
-  if (guard.turns) guard.allowed = std::max(guard.allowed, found->turning + tolerance);
+  if (found->turning > 0) guard.parting = guard.allowed = std::max(guard.allowed, found->turning + tolerance);
   result.ghosts = std::move(found->vertices);
   return result;
 }
@@ -68,7 +71,7 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
   search.executor.for_each_heavy(pairs.size(), [&](std::size_t i) {
     const ComponentPair& pair = pairs[i];
     if (pair.state == PairState::Free) {
-      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited}, {}};
+      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, 0, tolerance}, {}};
       return;
     }
     const double declared = std::max(0.0, pair.declared - tolerance);
@@ -84,6 +87,16 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
   for (std::optional<FoundGuard>& guard : guards)
     if (guard) found.push_back(std::move(*guard));
   return found;
+}
+
+bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double tolerance) {
+  const auto touch = [&](const SolidTree* first, const SolidTree* second) {
+    if (first->tree.empty() || second->tree.empty()) return false;
+    const SolidDistance found =
+        solid_distance({first, a.world_from_assembled}, {second, b.world_from_assembled}, tolerance);
+    return found.distance <= kTouching * tolerance;
+  };
+  return !touch(a.ghost, b.solid) && !touch(a.solid, b.ghost);
 }
 
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance) {

@@ -24,11 +24,16 @@ struct GuardedPair {
   PairGuard guard = PairGuard::Ghosts;  ///< Until they have been apart.
   double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
   double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
+  double parting = 0;                   ///< They have been apart where they are further apart than this [mm].
   bool parted = false;                  ///< They have been apart: they are treated like any other pair.
-  bool turns = false;                   ///< Facets may meet again and again as one turns in the other.
   FaceId near_a{0};                     ///< A face that was near `near_b` when last looked for; any before.
   FaceId near_b{0};                     ///< Of the other component.
 };
+
+/// Components that are further apart than this share of the tolerance have been apart: a bit less than the audit's
+/// tenth. Cylinders that turn in each other have to be further apart than their allowance, as facets that happen to be
+/// apart meet again.
+inline constexpr double kApartShare = 0.08;
 
 /// The trees of a component in the assembled state.
 struct ComponentTrees {
@@ -61,11 +66,16 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search);
 /// A component at a pose.
 struct ComponentAt {
   const SolidTree* solid = nullptr;               ///< Never null.
+  const SolidTree* ghost = nullptr;               ///< The ghost surface that it has against all others; never null.
   RigidTransform world_from_assembled;            ///< The pose.
   std::function<const SolidShape*()> make_shape;  ///< Its shape; called if the surfaces are apart.
 };
 
 /// True if two components are further apart than `distance` [mm], and no vertex of one is inside the other.
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance);
+
+/// True if the ghost surface that each of two components has against all others does not meet the other component, so
+/// that the two can be treated like any other pair. @param tolerance [mm]
+bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double tolerance);
 
 }  // namespace dismantle

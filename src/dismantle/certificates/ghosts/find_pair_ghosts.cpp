@@ -93,16 +93,20 @@ class GhostSide {
   /// @param off vertices that are displaced to the right side; none: either side, where it is free
   std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off, double max_length) const {
     const std::vector<Vec3>& vertices = own_.tree->vertices;
-    const double way = std::min(max_length, kGaps[0] * request_.tolerance + request_.depth);
+    const auto way_with = [&](double share) {
+      return std::min(max_length, request_.depth + share * request_.tolerance);
+    };
     const std::vector<Vec3> directions = directions_off(near, off);
-    for (const double begin : kShiftBegins)
-      for (const Vec3& direction : directions) {
-        const Vec3 shift = way * direction;
-        if (!free(*own_.tree, near, begin * shift, shift)) continue;
-        std::vector<Vec3> shifted = vertices;
-        for (Vec3& p : shifted) p += shift;
-        if (!contained(displaced(shifted))) return shifted;
-      }
+    // What pierces a foil has to come further back than it is deep in it.
+    for (const double way : {way_with(kGaps[0]), way_with(kGhostLength)})
+      for (const double begin : kShiftBegins)
+        for (const Vec3& direction : directions) {
+          const Vec3 shift = way * direction;
+          if (!free(*own_.tree, near, begin * shift, shift)) continue;
+          std::vector<Vec3> shifted = vertices;
+          for (Vec3& p : shifted) p += shift;
+          if (!contained(displaced(shifted))) return shifted;
+        }
     return std::nullopt;
   }
 

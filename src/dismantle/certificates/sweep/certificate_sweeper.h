@@ -107,9 +107,12 @@ class CertificateSweeper {
   /// Finds the ghost surfaces of components that touch or overlap in the assembled state.
   void prepare_ghosts(const PairStates& pairs);
   void set_parted(ComponentId a, ComponentId b, bool parted);
-  /// True if two components are further apart than the tolerance, and none is inside the other.
-  bool apart(ComponentId a, ComponentId b);
-  /// True if the faces that were near when last looked for are nearer than the tolerance. Looks for others if not.
+  ComponentAt placed(ComponentId c);
+  /// True if two components are further apart than a distance [mm], and none is inside the other.
+  bool apart(ComponentId a, ComponentId b, double distance);
+  bool usual_ghosts_apart(ComponentId a, ComponentId b);
+  /// True if the faces that were near when last looked for are too near for the pair to have parted. Looks for others
+  /// if not.
   bool near(ComponentId a, ComponentId b, GuardedPair& pair) const;
   /// Parts pairs that were apart throughout a sweep that was free.
   void part_swept(const std::vector<PairSweep>& pairs);

@@ -50,7 +50,8 @@ void CertificateSweeper::part_swept(const std::vector<PairSweep>& pairs) {
   // Both surface pairs of two components follow each other.
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
     const TestedPair& tested = pairs[i].tested;
-    if (std::min(pairs[i].apart_by, pairs[i + 1].apart_by) > tolerance_) set_parted(tested.moving, tested.fixed, true);
+    const double needed = std::max(tolerance_, guarded(tested.moving, tested.fixed).parting);
+    if (std::min(pairs[i].apart_by, pairs[i + 1].apart_by) > needed) set_parted(tested.moving, tested.fixed, true);
   }
 }
 
@@ -58,8 +59,10 @@ void CertificateSweeper::part_others() {
   for (auto& [key, pair] : guarded_) {
     if (pair.parted || is_moving_[key.first.value] == is_moving_[key.second.value]) continue;
     const RigidTransform b = transform_from_pose(poses_[key.second.value]);
-    const bool far = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]) > tolerance_;
-    if (far || (!pair.turns && !near(key.first, key.second, pair) && apart(key.first, key.second)))
+    const double gap = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]);
+    if (gap > std::max(tolerance_, pair.parting) ||
+        (!near(key.first, key.second, pair) && apart(key.first, key.second, pair.parting) &&
+         usual_ghosts_apart(key.first, key.second)))
       set_parted(key.first, key.second, true);
   }
 }
@@ -72,19 +75,24 @@ bool CertificateSweeper::near(ComponentId a, ComponentId b, GuardedPair& pair) c
   const double before =
       distance_triangle_triangle({{at_a * s[0], at_a * s[1], at_a * s[2]}}, {{at_b * t[0], at_b * t[1], at_b * t[2]}})
           .distance;
-  if (before <= tolerance_) return true;
-  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, 2 * tolerance_);
-  if (found.distance > tolerance_) return false;
+  if (before <= pair.parting) return true;
+  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, 2 * pair.parting);
+  if (found.distance > pair.parting) return false;
   pair.near_a = found.face_a;
   pair.near_b = found.face_b;
   return true;
 }
 
-bool CertificateSweeper::apart(ComponentId a, ComponentId b) {
-  const auto placed = [&](ComponentId c) {
-    return ComponentAt{&solid(c), transform_from_pose(poses_[c.value]), [this, c] { return &shape(c); }};
-  };
-  return further_apart(placed(a), placed(b), tolerance_);
+ComponentAt CertificateSweeper::placed(ComponentId c) {
+  return {&solid(c), &store_.ghost(c, c), transform_from_pose(poses_[c.value]), [this, c] { return &shape(c); }};
+}
+
+bool CertificateSweeper::apart(ComponentId a, ComponentId b, double distance) {
+  return further_apart(placed(a), placed(b), distance);
+}
+
+bool CertificateSweeper::usual_ghosts_apart(ComponentId a, ComponentId b) {
+  return dismantle::usual_ghosts_apart(placed(a), placed(b), tolerance_);
 }
 
 void CertificateSweeper::find_parted() {
@@ -93,7 +101,7 @@ void CertificateSweeper::find_parted() {
     const Pose &a = poses_[first.value], &b = poses_[second.value];
     // A pair that has parted remains so where the ghost surfaces that all have do not meet.
     const bool parted =
-        !(a == b) && ((pair.parted && sweep_linear({first, second, {}, a, b}, 0, 1).free) || apart(first, second));
+        !(a == b) && (pair.parted || apart(first, second, pair.parting)) && usual_ghosts_apart(first, second);
     if (parted != pair.parted) set_parted(first, second, parted);
   }
 }

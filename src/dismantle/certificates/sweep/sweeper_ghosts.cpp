@@ -23,7 +23,9 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
 GuardedPair CertificateSweeper::guarded(ComponentId a, ComponentId b) const {
   const auto found = guarded_.find(std::minmax(a, b));
   if (found != guarded_.end() && !found->second.parted) return found->second;
-  return {PairGuard::Ghosts, tolerance_, kGhostLength * tolerance_, found != guarded_.end()};
+  GuardedPair usual{PairGuard::Ghosts, tolerance_, kGhostLength * tolerance_};
+  usual.parted = found != guarded_.end();
+  return usual;
 }
 
 std::vector<ComponentPair> CertificateSweeper::overlapping_pairs() const {
