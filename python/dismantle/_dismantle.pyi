@@ -263,6 +263,7 @@ def check(
     tolerance: float = 0.0,
     clearance: float = 0.0,
     pairs: str = "auto",
+    allow: Sequence[Tuple[str, str, float]] = [],
     threads: int = 0,
     progress: _Progress = None,
 ) -> PairStates: ...

@@ -177,6 +177,54 @@ TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
   for (const LaneCount lanes : lane_counts()) EXPECT_EQ(play({Executor(), lanes}), first);
 }
 
+TEST(CertificateEngine, StopsARotationAltogetherIfItsEndIsBlocked) {
+  // A turn of 1.2 rad that meets the post after about 0.5 rad, in many parts.
+  const Assembly assembly = scenes::assembly(
+      {component("blade", box({0, -0.5, 0}, {30, 0.5, 1})), component("post", box({20, 11, -5}, {21, 12, 5}))});
+  const PairStates states = states_of(assembly);
+  Grabbed h(assembly, states, 0);
+  const StepResult r = h.engine.step({{}, quat_about({0, 0, 1}, 1.2)}, ResponseKind::Stop);
+  EXPECT_FALSE(r.reached);
+  EXPECT_EQ(r.pose, Pose{});
+  EXPECT_TRUE(r.poses.empty());
+  EXPECT_FALSE(r.blocking_pairs.empty());
+  EXPECT_EQ(h.engine.poses()[0], Pose{});
+  EXPECT_TRUE(h.engine.step({{}, quat_about({0, 0, 1}, 0.3)}, ResponseKind::Stop).reached);
+}
+
+TEST(CertificateEngine, StopPutsAPairThatPartedOnTheWayTogetherAgain) {
+  // The rod comes out of the block and meets the ceiling in one rotation about a far axis.
+  const Assembly assembly = scenes::assembly({component("rod", box({4, 4, 5}, {8, 8, 20})),
+                                              component("block", box({-10, -10, -10}, {10, 10, 10})),
+                                              component("ceiling", box({-40, -40, 60}, {40, 40, 61}))});
+  const PairStates states = states_of(assembly);
+  Grabbed h(assembly, states, 0);
+  const Vec3 axis_point{-200, 6, 12};
+  const Quat turn = quat_about({0, -1, 0}, 0.3);
+  const Pose target{axis_point - mat3_from_quat(turn) * axis_point, turn};
+  EXPECT_FALSE(h.engine.step(target, ResponseKind::Stop).reached);
+  EXPECT_EQ(h.engine.poses()[0], Pose{});
+  EXPECT_EQ(h.engine.overlapping_pairs().size(), 1u);
+  EXPECT_TRUE(h.engine.step({{0, 0, 10}, {}}, ResponseKind::Stop).reached);
+  EXPECT_TRUE(h.engine.overlapping_pairs().empty());
+}
+
+TEST(CertificateEngine, KeepsABodyWhereItIsPressedAlthoughItIsTilted) {
+  // The pose is tilted by a contact; a screw to a target far below would begin sideways.
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  Grabbed h(assembly, states, 0);
+  h.engine.step({{0, 0, 0.5}, quat_about({0, 1, 0}, 0.02)}, ResponseKind::Slide);
+  const Vec3 center{5, 5, 6};
+  const auto center_now = [&] { return transform_from_pose(h.engine.poses()[0]) * center; };
+  for (int k = 1; k <= 60; ++k)
+    h.engine.step(
+        {Vec3{0, 0, -0.5 * k} + center - mat3_from_quat(quat_about({0, 1, 0}, 0.4)) * center, quat_about({0, 1, 0}, 0.4)},
+        ResponseKind::Slide);
+  EXPECT_NEAR(center_now().x, 5, 0.5);
+  EXPECT_NEAR(center_now().y, 5, 0.5);
+}
+
 TEST(CertificateEngine, ReportsALowerBoundOfTheClearanceWithEachStep) {
   const Assembly assembly = block_and_floor();
   const PairStates states = states_of(assembly);

@@ -124,6 +124,34 @@ TEST(GhostEngine, PassesNothingThroughAFoilThinnerThanTheTolerance) {
     }
 }
 
+TEST(GhostEngine, LetsContactsWithDepthSlideAsTheyAre) {
+  // The tip of a needle is six tenths of the tolerance deep, nearly all the play that faces have against all others.
+  for (const double depth : {0.003, 0.006, 0.0095}) {
+    const Assembly assembly = scenes::assembly({component("needle", turned(needle(30, 4, -depth), 0.3)),
+                                                component("block", scenes::box({-6, -6, -6}, {6, 6, 0}))});
+    const PairStates states = states_of(assembly);
+    for (const ResponseKind response : kResponses) {
+      Grabbed h(assembly, states, 0);
+      for (int k = 1; k <= 8; ++k)
+        EXPECT_TRUE(h.engine.step({{-1.0 * k, 0.3 * k, 0}, {}}, response).reached) << depth << ", step " << k;
+    }
+  }
+}
+
+TEST(GhostEngine, TakesAKnifeThatPiercesAFoilOutToOneSideOnly) {
+  // The edge is 5.7 um below a foil of 2.5 um; the foil is less than 3 um deep in the knife.
+  TriangleMesh foil = scenes::box({-5, -5, -0.0025}, {5, 5, 0});
+  const Assembly assembly =
+      scenes::assembly({component("knife", wedge(36, 2, 2, -0.00825)), component("foil", std::move(foil))});
+  const PairStates states = states_of(assembly);
+  Grabbed through(assembly, states, 0), out(assembly, states, 0);
+  double lowest = 0;
+  for (int k = 1; k <= 40; ++k)
+    lowest = std::min(lowest, through.engine.step({{0, 0, -0.01 * k}, {}}, ResponseKind::Touch).pose.position.z);
+  EXPECT_GE(lowest, -2 * kTolerance);
+  for (int k = 1; k <= 10; ++k) EXPECT_TRUE(out.engine.step({{0, 0, 0.1 * k}, {}}, ResponseKind::Touch).reached);
+}
+
 TEST(GhostEngine, LetsSheetsThatTouchPartButNotPass) {
   for (const bool up : {true, false}) {
     const TriangleMesh plain = scenes::sheet(3, 0), upper = up ? plain : upside_down(plain);

@@ -195,6 +195,27 @@ TEST_F(CliOverlap, WritesThePairsOfAPathAndAuditsThem) {
   expect_error("audit overlap away.path.json --solids", 2, "--solids");
 }
 
+TEST_F(CliOverlap, LetsDeclaredPairsGetDeeperAndTellsTheAudit) {
+  write("deeper.motion.json", R"({"format": "dismantle-motion", "version": 1, "response": "touch", "moves": [
+    {"components": ["upper"], "targets": [{"t": 0.0, "position": [0, 0, -5], "rotation": [1, 0, 0, 0]}]}]})");
+  const auto depth = [&](const std::string& options) {
+    const Outcome move = run("move overlap deeper.motion.json -o deeper.path.json --tolerance 0.01 " + options);
+    EXPECT_EQ(move.exit_code, 0) << move.err;
+    const Outcome audit = run("audit overlap deeper.path.json");
+    EXPECT_EQ(audit.exit_code, 0) << audit.out;
+    return 1 - read_json("deeper.path.json")["moves"][0]["frames"].back()["position"][2].get<double>();
+  };
+  EXPECT_LE(depth(""), 1.03);
+  const double declared = depth("--allow lower upper 1.5");
+  EXPECT_GT(declared, 1.4);
+  EXPECT_LE(declared, 1.5);
+  EXPECT_EQ(read_json("deeper.path.json")["pairs"][0]["state"], "declared");
+  EXPECT_EQ(read_json("deeper.path.json")["pairs"][0]["allowed_depth_mm"], 1.5);
+  expect_error("move overlap deeper.motion.json -o no.path.json --allow lower nothing 1", 2, "no such component");
+  expect_error("move parts pull.motion.json -o no.path.json --allow block wall 1", 2, "do not touch");
+  EXPECT_EQ(run("move overlap deeper.motion.json -o no.path.json --allow lower upper deep").exit_code, 2);
+}
+
 TEST_F(CliOverlap, SaysThatFreePairsAreUnchecked) {
   for (const char* options : {"--pairs paper", "--pairs paper --method streams"}) {
     const Outcome move =

@@ -53,6 +53,38 @@ TEST(ClassifyPairs, CallsAGapWithinToleranceContactAndOneWithinClearanceNear) {
   EXPECT_TRUE(classified(assembly, 0.001).pairs.empty());
 }
 
+TEST(ClassifyPairs, AllowsContactWithDepthItsDepthAndTheTolerance) {
+  const PairStates states = classified(two(box({0, 0, 0}, {1, 1, 1}), box({0.994, 0.25, 0.25}, {2, 0.75, 0.75})));
+  ASSERT_EQ(states.pairs.size(), 1u);
+  EXPECT_EQ(states.pairs[0].state, PairState::Contact);
+  EXPECT_NEAR(states.pairs[0].allowed_depth, 0.016, 0.001);
+}
+
+TEST(DeclareAllowances, RaisesAllowancesOfPairsThatTouchOrOverlap) {
+  const Assembly assembly = two(box({0, 0, 0}, {1, 1, 1}), box({0.9, 0.25, 0.25}, {2, 0.75, 0.75}));
+  PairStates states = classified(assembly);
+  const std::vector<DeclaredAllowance> declared{{"b", "a", 0.3}};
+  ASSERT_TRUE(declare_allowances(states, assembly, declared).ok());
+  EXPECT_EQ(states.pairs[0].allowed_depth, 0.3);
+  EXPECT_EQ(states.pairs[0].declared, 0.3);
+  // Not below what the pair has anyway.
+  PairStates same = classified(assembly);
+  const std::vector<DeclaredAllowance> less{{"a", "b", 0.05}};
+  ASSERT_TRUE(declare_allowances(same, assembly, less).ok());
+  EXPECT_EQ(same.pairs, classified(assembly).pairs);
+}
+
+TEST(DeclareAllowances, RefusesUnknownComponentsAndPairsThatAreApart) {
+  const Assembly assembly = two(box({0, 0, 0}, {1, 1, 1}), box({1.5, 0, 0}, {2, 1, 1}));
+  for (const char* other : {"b", "c", "a"}) {
+    PairStates states = classified(assembly, 0.01, 1);
+    const std::vector<DeclaredAllowance> declared{{"a", other, 0.3}};
+    const Result<Done> result = declare_allowances(states, assembly, declared);
+    ASSERT_FALSE(result.ok()) << other;
+    EXPECT_EQ(result.error().kind, ErrorKind::Usage);
+  }
+}
+
 TEST(ClassifyPairs, CallsAPressedPinOverlappingAndAllowsItsDepthAndTheTolerance) {
   const PairStates states = classified(two(tube(5, 0, -2, 22, 64), tube(9, 4.95, 0, 20, 64)));
   ASSERT_EQ(states.pairs.size(), 1u);

@@ -41,7 +41,8 @@ class Shapes {
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
   FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, kGhostLength * tolerance}, {}};
   GuardedPair& guard = result.guard;
-  guard.parting = kApartShare * tolerance;
+  // What is thin or has no inside may be on the far side of the other one, within its allowance.
+  guard.parting = (found && found->retracted ? kApartShare : 1) * tolerance;
   if (!found) {
     guard.guard = PairGuard::Depth;
     guard.allowed = std::max(guard.allowed, pair.depth + tolerance);

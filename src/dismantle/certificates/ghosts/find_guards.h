@@ -30,9 +30,9 @@ struct GuardedPair {
   FaceId near_b{0};                     ///< Of the other component.
 };
 
-/// Components that are further apart than this share of the tolerance have been apart: a bit less than the audit's
-/// tenth. Cylinders that turn in each other have to be further apart than their allowance, as facets that happen to be
-/// apart meet again.
+/// Solids that are further apart than this share of the tolerance have been apart, a bit less than the audit's tenth;
+/// sheets, thin parts and pairs without ghosts where they are further apart than the tolerance. Cylinders that turn in
+/// each other have to be further apart than their allowance, as facets that happen to be apart meet again.
 inline constexpr double kApartShare = 0.08;
 
 /// The trees of a component in the assembled state.

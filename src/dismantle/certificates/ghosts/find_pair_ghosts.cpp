@@ -62,8 +62,13 @@ class GhostSide {
   const OverlapRetraction& retraction() const { return retraction_; }
   bool usual_is_apart() const { return apart(*usual_, near_faces(*usual_, 0)); }
 
+  /// Displaced vertices.
+  struct Found {
+    std::vector<Vec3> vertices;
+    bool retracted = false;  ///< Every face into its solid.
+  };
   /// Displaced vertices with displacements of at most `max_length`; nothing if none are found.
-  std::optional<std::vector<Vec3>> find(double max_length) const {
+  std::optional<Found> find(double max_length) const {
     const double tolerance = request_.tolerance, usual = kGaps[0] * tolerance;
     const SolidTree& own = *own_.tree;
     std::vector<std::vector<Vec3>> starts;
@@ -71,10 +76,11 @@ class GhostSide {
       for (const double margin : kMargins)
         starts.push_back(retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
                                             {needed(margin), usual, usual, max_length}));
+    const std::size_t retractions = own.has_outside || own.inside_out ? starts.size() : 0;
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
     const FacePairs near = near_faces(own, 2 * max_length);
-    for (std::vector<Vec3>& start : starts)
-      if (apart(displaced(start), near)) return std::move(start);
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      if (apart(displaced(starts[i]), near)) return Found{std::move(starts[i]), i < retractions};
     starts.push_back(own.vertices);
     if (near.size() > kMaxNear) return std::nullopt;
     for (const std::vector<Vec3>& start : starts)
@@ -82,9 +88,10 @@ class GhostSide {
         auto moved = separating_ghost({&own, other_.tree, start, near, max_length, share * tolerance, is_a_});
         if (!moved || !apart(displaced(*moved), near)) continue;
         auto shifted = &start == &starts.back() ? find_shifted(near, *moved, max_length) : std::nullopt;
-        return shifted ? std::move(shifted) : std::move(moved);
+        return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
-    return find_shifted(near, {}, max_length);
+    auto shifted = find_shifted(near, {}, max_length);
+    return shifted ? std::optional(Found{std::move(*shifted), false}) : std::nullopt;
   }
 
  private:
@@ -236,7 +243,11 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
     auto of_a = a.find(length);
     if (!of_a) continue;
     auto of_b = b.find(length);
-    if (of_b) return PairGhosts{{std::move(*of_a), std::move(*of_b)}, length, can_turn ? 0 : turning};
+    if (of_b)
+      return PairGhosts{{std::move(of_a->vertices), std::move(of_b->vertices)},
+                        length,
+                        can_turn ? 0 : turning,
+                        of_a->retracted && of_b->retracted};
   }
   return usual ? std::optional(PairGhosts{}) : std::nullopt;
 }

@@ -33,6 +33,9 @@ struct PairGhosts {
   std::array<std::vector<Vec3>, 2> vertices;
   double max_length = 0;  ///< Largest displacement [mm].
   double turning = 0;     ///< Depth that cylinders need to turn in each other [mm]; 0 where none do.
+  /// All faces are only retracted into their solids, so that no thin part is on the far side of what it touches while
+  /// its ghost is on the near side.
+  bool retracted = true;
 };
 
 /// Finds ghost surfaces that are apart from the other component in the assembled state
