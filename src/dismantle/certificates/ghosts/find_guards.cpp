@@ -75,14 +75,19 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
       guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, 0, tolerance}, {}};
       return;
     }
+    const bool solids = trees(pair.a).solid->has_outside && trees(pair.b).solid->has_outside;
+    if (pair.declared > 0 && solids) {  // corners of ghosts could not be displaced by as much as is declared
+      guards[i] = guard_of(pair, std::nullopt, tolerance);
+      return;
+    }
     const double declared = std::max(0.0, pair.declared - tolerance);
     const auto side = [&](ComponentId c) {
       return OverlapSide{trees(c).solid, pair.depth > 0 || declared > 0 ? &shapes.of(c) : nullptr};
     };
-    guards[i] = guard_of(pair,
-                         find_pair_ghosts({side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost,
-                                           std::max(pair.depth, declared), declared, tolerance, search.kernels}),
-                         tolerance);
+    const PairGhostRequest request{
+        side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost, std::max(pair.depth, declared),
+        declared,     tolerance,    search.kernels};
+    guards[i] = guard_of(pair, find_pair_ghosts(request), tolerance);
   });
   std::vector<FoundGuard> found;
   for (std::optional<FoundGuard>& guard : guards)
