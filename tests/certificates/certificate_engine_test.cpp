@@ -218,9 +218,9 @@ TEST(CertificateEngine, KeepsABodyWhereItIsPressedAlthoughItIsTilted) {
   const Vec3 center{5, 5, 6};
   const auto center_now = [&] { return transform_from_pose(h.engine.poses()[0]) * center; };
   for (int k = 1; k <= 60; ++k)
-    h.engine.step(
-        {Vec3{0, 0, -0.5 * k} + center - mat3_from_quat(quat_about({0, 1, 0}, 0.4)) * center, quat_about({0, 1, 0}, 0.4)},
-        ResponseKind::Slide);
+    h.engine.step({Vec3{0, 0, -0.5 * k} + center - mat3_from_quat(quat_about({0, 1, 0}, 0.4)) * center,
+                   quat_about({0, 1, 0}, 0.4)},
+                  ResponseKind::Slide);
   EXPECT_NEAR(center_now().x, 5, 0.5);
   EXPECT_NEAR(center_now().y, 5, 0.5);
 }
