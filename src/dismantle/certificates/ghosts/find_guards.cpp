@@ -41,7 +41,7 @@ class Shapes {
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
   FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, kGhostLength * tolerance}, {}};
   GuardedPair& guard = result.guard;
-  // What is thin or has no inside may be on the far side of the other one, within its allowance.
+  // Thin parts and sheets may have passed the other component by less than their allowance.
   guard.parting = (found && found->retracted ? kApartShare : 1) * tolerance;
   if (!found) {
     guard.guard = PairGuard::Depth;

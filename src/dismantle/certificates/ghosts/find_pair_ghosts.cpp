@@ -104,7 +104,7 @@ class GhostSide {
       return std::min(max_length, request_.depth + share * request_.tolerance);
     };
     const std::vector<Vec3> directions = directions_off(near, off);
-    // What pierces a foil has to come further back than it is deep in it.
+    // A part that pierces a foil must be shifted further than the depth of the overlap.
     for (const double way : {way_with(kGaps[0]), way_with(kGhostLength)})
       for (const double begin : kShiftBegins)
         for (const Vec3& direction : directions) {
