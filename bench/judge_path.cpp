@@ -119,6 +119,10 @@ int run(const std::string& assembly_file, const std::string& path_file, const Se
     std::fprintf(stderr, "judge_path: %s\n", (assembly ? path.error() : assembly.error()).message.c_str());
     return bench::kExitUnreadable;
   }
+  if (const Result<Done> known = check_names(*path, *assembly); !known) {
+    std::fprintf(stderr, "judge_path: %s\n", known.error().message.c_str());
+    return bench::kExitUnreadable;
+  }
   std::vector<Body> bodies;
   for (const Component& c : assembly->components) {
     TriangleMesh mesh = assembled_mesh(c);

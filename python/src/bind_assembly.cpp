@@ -279,8 +279,7 @@ void bind_assembly(py::module_& module) {
       "Finds all pairs of components that touch, overlap or are near in the assembled state, and how deep each may get "
       "in motion. `tolerance` [mm]; 0: default. Pairs within `clearance` [mm] are reported as near. `pairs`: "
       "the rule, 'auto' or 'paper'. `allow`: list of (name, name, depth [mm]), components that touch or overlap and "
-      "may "
-      "get that deep in each other until they have been apart.");
+      "may get that deep in each other until they have been apart.");
 }
 
 }  // namespace dismantle::python

@@ -31,8 +31,8 @@ constexpr double kSameAxis = 1, kSameDirection = 1e-4;
 /// this share of the radius.
 constexpr double kOnCircle = 0.999, kSmallestFacet = 0.965;
 
-/// Facets are of a cylinder if they are on at least this share of a circle, looked at in so many parts of it: the ends
-/// of a thin plate are on one, too.
+/// Facets count as a cylinder if they cover at least this share of a circle, which is divided into so many parts: the
+/// ends of a thin plate lie on a circle, too.
 constexpr double kShareOfCircle = 0.3;
 constexpr std::size_t kParts = 72;
 
