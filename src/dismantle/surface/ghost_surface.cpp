@@ -48,12 +48,15 @@ Vec3 displacement(const Inwards& inwards, const FaceRetractions& r) {
   constexpr double kShares[] = {1, 0.75, 0.5, 0.35, 0.2, 0.1, 0};
   const bool some_needed =
       std::any_of(inwards.begin(), inwards.end(), [](const VectorBound& b) { return b.distance > 0; });
-  Inwards bounds = inwards;
+  Inwards bounds;
+  for (const VectorBound& b : inwards)
+    if (!some_needed || b.distance >= 0) bounds.push_back(b);
+  const Inwards own = bounds;
   Vec3 longest;
   for (const double share : kShares) {
     double scale = 0;
     for (std::size_t i = 0; i < bounds.size(); ++i) {
-      bounds[i].distance = inwards[i].distance > 0 ? inwards[i].distance + share * r.extra : share * r.usual;
+      bounds[i].distance = own[i].distance > 0 ? own[i].distance + share * r.extra : share * r.usual;
       scale = std::max(scale, bounds[i].distance);
     }
     if (!(scale > 0)) return {};

@@ -16,9 +16,14 @@ namespace dismantle {
 /// @return the displaced vertices [mm]
 std::vector<Vec3> ghost_vertices(Span<const Vec3> vertices, Span<const Face> faces, double max_length);
 
+/// A face that is displaced as its neighbours need, out of the solid, too.
+inline constexpr double kFollowsOthers = -1;
+
 /// How far the faces of a mesh are to be retracted into the solid, and how long displacements may be.
 struct FaceRetractions {
-  Span<const double> needed;  ///< Of each face [mm]; 0 for faces that need none.
+  /// Of each face [mm]; 0 for faces that need none, kFollowsOthers for those that are of no account at corners where
+  /// others need some.
+  Span<const double> needed;
   double extra = 0;           ///< More than that for faces that need some [mm].
   double usual = 0;           ///< For the others [mm].
   double max_length = 0;      ///< Largest displacement of a vertex [mm].

@@ -17,7 +17,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
 constexpr double kTouching = 1e-6;
 
-/// The shapes of the components that overlap others, each built once.
+/// The shapes of components, each built when it is first wanted.
 class Shapes {
  public:
   explicit Shapes(const Assembly& assembly) : assembly_(assembly), shapes_(assembly.components.size()) {}
@@ -82,7 +82,7 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     }
     const double declared = std::max(0.0, pair.declared - tolerance);
     const auto side = [&](ComponentId c) {
-      return OverlapSide{trees(c).solid, pair.depth > 0 || declared > 0 ? &shapes.of(c) : nullptr};
+      return OverlapSide{trees(c).solid, [&shapes, c]() -> const SolidShape& { return shapes.of(c); }};
     };
     const PairGhostRequest request{
         side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost, std::max(pair.depth, declared),

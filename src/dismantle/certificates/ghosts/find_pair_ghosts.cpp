@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dismantle {
@@ -19,7 +20,10 @@ namespace {
 
 /// The largest displacements that are tried, the shorter ones first. The long ones are for corners between faces that
 /// are retracted; the faces themselves are not retracted further.
-constexpr double kFactors[] = {1, 1.1, kMaxGhostFactor};
+constexpr double kFactors[] = {1, 1.1, 1.25, 1.6, kMaxGhostFactor};
+constexpr double kRounding = 1e-9;
+/// Up to this one, corners are displaced one by one as well, and sheets, in which nothing is deep.
+constexpr double kMaxFactorForCorners = 1.25;
 /// Faces are retracted by these multiples of what the samples need, as far as the depth of the pair lets them: between
 /// the samples more may be needed, and where one patch lies on two others less may be had.
 constexpr double kMargins[] = {1.6, 1};
@@ -36,6 +40,14 @@ constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
 constexpr std::size_t kMaxDirections = 12;
 constexpr double kSameSide = 0.05;
+/// Which patches are retracted is chosen where no more than so many overlap.
+constexpr std::size_t kMaxPatches = 24;
+/// So many tests of pairs of faces are made for that.
+constexpr std::size_t kMaxTests = 2000000;
+/// Parts of displaced faces are divided down to this share of the tolerance.
+constexpr double kSmallest = 0.01;
+/// So many parts of displaced faces are looked at to find out how deep they are.
+constexpr std::size_t kMaxParts = 100000;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
 
@@ -44,6 +56,61 @@ double solid_angle(const Triangle& t, Vec3 p) {
   const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
   const double x = length(a), y = length(b), z = length(c);
   return 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+}
+
+/// A face on its straight way to its displaced place.
+struct DisplacedFace {
+  Triangle from, to;
+  double limit = 0;     // of its depth [mm]
+  double smallest = 0;  // parts of it that are smaller are not divided [mm]
+};
+
+/// True if no point of a face on its way gets deeper in its component than the limit; false where that is not certain.
+/// @param parts looked at, counted
+bool stays_shallow(const DisplacedFace& face, const SolidShape& shape, std::size_t& parts) {
+  std::vector<std::pair<Triangle, Triangle>> waiting{{face.from, face.to}};
+  const auto within = [&](const Triangle& t, std::uint32_t of) {
+    return std::all_of(std::begin(t.corner), std::end(t.corner),
+                       [&](Vec3 p) { return shape.surface().distance_to_face(p, of) <= face.limit; });
+  };
+  while (!waiting.empty()) {
+    if (++parts > kMaxParts) return false;
+    const auto [from, to] = waiting.back();
+    waiting.pop_back();
+    Vec3 center;
+    for (int i = 0; i < 3; ++i) center += (from[i] + to[i]) / 6;
+    double radius = 0;
+    for (const Triangle* t : {&from, &to})
+      for (const Vec3& p : t->corner) radius = std::max(radius, length(p - center));
+    const MeshDistance nearest = shape.surface().distance(center);
+    if (nearest.distance + radius <= face.limit) continue;
+    if (within(from, nearest.face) && within(to, nearest.face)) continue;
+    if (radius < face.smallest || (nearest.distance > face.limit && shape.winding().inside(center))) return false;
+    // Half the way, or half of the longest edge.
+    double way = 0, longest = 0;
+    int edge = 0;
+    for (int i = 0; i < 3; ++i) {
+      way = std::max(way, length(to[i] - from[i]));
+      const double size = std::max(length(from[(i + 1) % 3] - from[i]), length(to[(i + 1) % 3] - to[i]));
+      if (size <= longest) continue;
+      longest = size;
+      edge = i;
+    }
+    if (way > longest) {
+      Triangle middle;
+      for (int i = 0; i < 3; ++i) middle[i] = (from[i] + to[i]) / 2;
+      waiting.push_back({from, middle});
+      waiting.push_back({middle, to});
+      continue;
+    }
+    const int next = (edge + 1) % 3;
+    std::pair<Triangle, Triangle> first{from, to}, second{from, to};
+    first.first[next] = second.first[edge] = (from[edge] + from[next]) / 2;
+    first.second[next] = second.second[edge] = (to[edge] + to[next]) / 2;
+    waiting.push_back(first);
+    waiting.push_back(second);
+  }
+  return true;
 }
 
 using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -68,7 +135,9 @@ class GhostSide {
     bool retracted = false;  ///< Every face into its solid.
   };
   /// Displaced vertices with displacements of at most `max_length`; nothing if none are found.
-  std::optional<Found> find(double max_length) const {
+  /// @param depth_limit no point gets deeper in its solid on its way to the displaced surface [mm]
+  std::optional<Found> find(double max_length, double depth_limit, bool also_corners) {
+    depth_limit_ = depth_limit;
     const double tolerance = request_.tolerance, usual = kGaps[0] * tolerance;
     const SolidTree& own = *own_.tree;
     std::vector<std::vector<Vec3>> starts;
@@ -80,13 +149,17 @@ class GhostSide {
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
     const FacePairs near = near_faces(own, 2 * max_length);
     for (std::size_t i = 0; i < starts.size(); ++i)
-      if (apart(displaced(starts[i]), near)) return Found{std::move(starts[i]), i < retractions};
-    starts.push_back(own.vertices);
+      if (apart(displaced(starts[i]), near) && shallow(starts[i], max_length))
+        return Found{std::move(starts[i]), i < retractions};
     if (near.size() > kMaxNear) return std::nullopt;
+    if (retractions > 0)
+      if (auto chosen = retract_chosen(near, max_length)) return chosen;
+    if (!also_corners) return std::nullopt;
+    starts.push_back(own.vertices);
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
         auto moved = separating_ghost({&own, other_.tree, start, near, max_length, share * tolerance, is_a_});
-        if (!moved || !apart(displaced(*moved), near)) continue;
+        if (!moved || !apart(displaced(*moved), near) || !shallow(*moved, max_length)) continue;
         auto shifted = &start == &starts.back() ? find_shifted(near, *moved, max_length) : std::nullopt;
         return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
@@ -144,6 +217,89 @@ class GhostSide {
     return directions;
   }
 
+  /// Vertices where fewer patches are retracted than overlap: along the edge between two patches, points that are
+  /// nearest to one of them get out through the other one as well. One patch after another is left where it is, or,
+  /// where that is better, follows its neighbours, as long as fewer faces meet.
+  std::optional<Found> retract_chosen(const FacePairs& near, double max_length) const {
+    const SolidTree& own = *own_.tree;
+    const std::vector<std::uint32_t> patches = overlapping_patches();
+    std::size_t tests = 0;
+    if (patches.size() < 2 || patches.size() > kMaxPatches) return std::nullopt;
+    const std::vector<Face> outward = outward_faces(own.faces, own.inside_out);
+    const double usual = kGaps[0] * request_.tolerance;
+    std::vector<double> chosen = needed(kMargins[0]);
+    const auto vertices_with = [&](std::uint32_t patch, double retraction) {
+      std::vector<double> changed = chosen;
+      set_patch(changed, patch, retraction);
+      return retracted_vertices(own.vertices, outward, {changed, usual, usual, max_length});
+    };
+    constexpr double kOthers[] = {0, kFollowsOthers};
+    std::size_t fewest = count_meeting(displaced(vertices_with(patches[0], chosen[patches[0]])), near, near.size());
+    bool retracted = true;
+    for (std::size_t round = 0; round < patches.size(); ++round) {
+      std::optional<std::pair<std::uint32_t, double>> best;
+      for (const std::uint32_t patch : patches)
+        for (const double other : kOthers) {
+          if (fewest == 0 || chosen[patch] <= other) continue;
+          if ((tests += near.size()) > kMaxTests) return std::nullopt;
+          const std::size_t meeting = count_meeting(displaced(vertices_with(patch, other)), near, fewest);
+          if (meeting >= fewest) continue;
+          fewest = meeting;
+          best = {patch, other};
+        }
+      if (!best) return std::nullopt;
+      retracted = retracted && best->second == 0;
+      set_patch(chosen, best->first, best->second);
+      if (fewest > 0) continue;
+      std::vector<Vec3> found = retracted_vertices(own.vertices, outward, {chosen, usual, usual, max_length});
+      if (contained(displaced(found)) || !shallow(found, max_length)) return std::nullopt;
+      return Found{std::move(found), retracted};
+    }
+    return std::nullopt;
+  }
+
+  /// The patches that are to be retracted, each as one of its faces.
+  std::vector<std::uint32_t> overlapping_patches() const {
+    std::vector<std::uint32_t> patches;
+    for (std::uint32_t f = 0; f < own_.tree->faces.size(); ++f)
+      if (retraction_.patch[f] == f && retraction_.needed[f] > 0) patches.push_back(f);
+    return patches;
+  }
+
+  void set_patch(std::vector<double>& retractions, std::uint32_t patch, double retraction) const {
+    for (std::uint32_t f = 0; f < retractions.size(); ++f)
+      if (retraction_.patch[f] == patch) retractions[f] = retraction;
+  }
+
+  /// How many pairs of faces meet; at least `enough` where that is reached.
+  std::size_t count_meeting(const SolidTree& surface, const FacePairs& near, std::size_t enough) const {
+    const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
+    std::size_t meeting = 0;
+    for (const auto& [face_own, face_other] : near)
+      if (!sweep.test(face_own, face_other, {}).free && ++meeting >= enough) break;
+    return meeting;
+  }
+
+  /// True if no point on the straight way of a face to its displaced place is deeper in this component than the pair
+  /// may be: so no point that is deeper is outside the displaced surface, whatever the length of the displacements.
+  /// @param max_length of the displacements [mm]
+  bool shallow(const std::vector<Vec3>& vertices, double max_length) const {
+    const SolidTree& own = *own_.tree;
+    const bool is_sheet = !own.has_outside && !own.inside_out;
+    if (max_length <= depth_limit_ * (is_sheet ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
+    if (is_sheet) return false;
+    std::size_t parts = 0;
+    for (const Face& f : own.faces) {
+      double longest = 0;
+      for (const std::uint32_t v : f.v) longest = std::max(longest, length(vertices[v] - own.vertices[v]));
+      if (longest <= depth_limit_) continue;
+      const Triangle from{{own.vertices[f.v[0]], own.vertices[f.v[1]], own.vertices[f.v[2]]}};
+      const Triangle to{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
+      if (!stays_shallow({from, to, depth_limit_, kSmallest * request_.tolerance}, own_.shape(), parts)) return false;
+    }
+    return true;
+  }
+
   /// How far the faces are retracted [mm].
   std::vector<double> needed(double margin) const {
     std::vector<double> needed = retraction_.needed;
@@ -156,10 +312,10 @@ class GhostSide {
   /// The vertices, those inside the other component moved out of it the shortest way.
   std::vector<Vec3> moved_out(double gap, double max_length) const {
     std::vector<Vec3> moved = own_.tree->vertices;
-    const SurfaceTree& surface = other_.shape->surface();
+    const SurfaceTree& surface = other_.shape().surface();
     for (Vec3& p : moved) {
       const MeshDistance nearest = surface.distance(p);
-      if (nearest.distance > max_length || nearest.distance == 0 || !other_.shape->winding().inside(p)) continue;
+      if (nearest.distance > max_length || nearest.distance == 0 || !other_.shape().winding().inside(p)) continue;
       const Vec3 out = (closest_point_of_triangle(surface.triangle(nearest.face), p) - p) / nearest.distance;
       p += std::min(max_length, nearest.distance + gap) * out;
     }
@@ -180,7 +336,7 @@ class GhostSide {
       for (std::uint32_t f = 0; f < surface.faces.size(); ++f) angle += solid_angle(surface.triangle(f), p);
       return std::abs(angle) > kTurn;
     };
-    return some(surface.vertices, [&](Vec3 p) { return other_.shape->winding().inside(p); }) ||
+    return some(surface.vertices, [&](Vec3 p) { return other_.shape().winding().inside(p); }) ||
            some(other_.tree->vertices, inside_surface);
   }
 
@@ -228,22 +384,25 @@ class GhostSide {
   const PairGhostRequest& request_;
   bool is_a_;
   OverlapRetraction retraction_;
+  double depth_limit_ = 0;
 };
 
 }  // namespace
 
 std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
-  const GhostSide a(request, true), b(request, false);
+  GhostSide a(request, true), b(request, false);
   const double turning = std::max(a.retraction().turning, b.retraction().turning);
   const bool can_turn = turning <= kPlay * request.tolerance;
   const bool usual = request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart();
   if (usual && request.depth <= kPlay * request.tolerance) return PairGhosts{};
+  const double limit = std::max(request.depth, turning) + kGhostLength * request.tolerance;
+  std::optional<GhostSide::Found> of_a, of_b;
   for (const double factor : kFactors) {
-    const double length = factor * (std::max(request.depth, turning) + kGhostLength * request.tolerance);
-    auto of_a = a.find(length);
-    if (!of_a) continue;
-    auto of_b = b.find(length);
-    if (of_b)
+    const double length = factor * limit;
+    const bool also_corners = factor <= kMaxFactorForCorners;
+    if (!of_a) of_a = a.find(length, limit, also_corners);
+    if (of_a && !of_b) of_b = b.find(length, limit, also_corners);
+    if (of_a && of_b)
       return PairGhosts{{std::move(of_a->vertices), std::move(of_b->vertices)},
                         length,
                         can_turn ? 0 : turning,

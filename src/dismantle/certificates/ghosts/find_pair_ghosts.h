@@ -17,7 +17,7 @@ inline constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
 
 /// Two components that touch or overlap in the assembled state.
 struct PairGhostRequest {
-  OverlapSide a;                       ///< One of them; shapes are needed only if they overlap.
+  OverlapSide a;                       ///< One of them.
   OverlapSide b;                       ///< The other one.
   const SolidTree* ghost_a = nullptr;  ///< The ghost surface that `a` has against all others; never null.
   const SolidTree* ghost_b = nullptr;  ///< That of `b`.
@@ -40,12 +40,13 @@ struct PairGhosts {
 
 /// Finds ghost surfaces that are apart from the other component in the assembled state
 /// (docs/design/0012-ghost-surfaces.md): the ones that the components have, if these are well apart; else those whose
-/// overlapping patches are retracted out of each other, and others are displaced further where that is not enough.
-/// Displacements are no longer than the depth plus most of the tolerance, or up to kMaxGhostFactor times that where
-/// none exist that are shorter. Nothing where none are found.
+/// overlapping patches, or those of them that matter, are retracted out of each other, and others are displaced further
+/// where that is not enough. Displacements are no longer than the depth plus most of the tolerance; or up to
+/// kMaxGhostFactor times that, at corners, where no point gets deeper in its solid than that. Nothing where none are
+/// found.
 std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request);
 
 /// The largest displacement as a multiple of the depth plus the tolerance.
-inline constexpr double kMaxGhostFactor = 1.25;
+inline constexpr double kMaxGhostFactor = 2;
 
 }  // namespace dismantle

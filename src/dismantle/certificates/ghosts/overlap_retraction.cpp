@@ -54,13 +54,14 @@ class Retraction {
     allow_turning();
     for (std::uint32_t f = 0; f < needed_.size(); ++f) needed_[root(f)] = std::max(needed_[root(f)], needed_[f]);
     for (std::uint32_t f = 0; f < needed_.size(); ++f) needed_[f] = needed_[root(f)];
-    return {std::move(needed_), turning_};
+    for (std::uint32_t f = 0; f < patch_.size(); ++f) patch_[f] = root(f);
+    return {std::move(needed_), std::move(patch_), turning_};
   }
 
  private:
   /// Looks at the middles of the faces of a surface, and at the ends and middles of their edges in the component's box.
   void look_at_samples(const SolidTree& tree, const OverlapSide& inside, bool of_own) {
-    const Aabb& box = inside.shape->surface().bounds();
+    const Aabb& box = inside.shape().surface().bounds();
     for (std::uint32_t f = 0; f < tree.faces.size(); ++f) {
       const Triangle t = tree.triangle(f);
       look_at((t[0] + t[1] + t[2]) / 3, f, inside, of_own);
@@ -89,14 +90,15 @@ class Retraction {
   }
 
   void look_at(Vec3 point, std::uint32_t face, const OverlapSide& inside, bool of_own) {
-    const MeshDistance nearest = inside.shape->surface().distance(point);
+    const MeshDistance nearest = inside.shape().surface().distance(point);
     if (nearest.distance <= needed_[root(of_own ? face : nearest.face)]) return;
-    if (nearest.distance <= depth_ && inside.shape->winding().inside(point)) need(face, point, nearest, of_own, inside);
+    if (nearest.distance <= depth_ && inside.shape().winding().inside(point))
+      need(face, point, nearest, of_own, inside);
   }
 
   void need(std::uint32_t face, Vec3 point, const MeshDistance& nearest, bool of_own, const OverlapSide& inside) {
     if (nearest.distance < kNoticeable * tolerance_) return;
-    const Triangle& surface = inside.shape->surface().triangle(nearest.face);
+    const Triangle& surface = inside.shape().surface().triangle(nearest.face);
     const Vec3 out = (closest_point_of_triangle(surface, point) - point) / nearest.distance;
     // A point of the other component has to get out of this one through its face, which is retracted past it.
     const std::uint32_t retracted = of_own ? face : nearest.face;

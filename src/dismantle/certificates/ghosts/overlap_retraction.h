@@ -4,20 +4,24 @@
 #include "dismantle/surface/solid_shape.h"
 #include "dismantle/surface/solid_tree.h"
 
+#include <functional>
 #include <vector>
 
 namespace dismantle {
 
 /// One of two components that overlap in the assembled state.
 struct OverlapSide {
-  const SolidTree* tree = nullptr;    ///< Never null.
-  const SolidShape* shape = nullptr;  ///< The same component; never null.
+  const SolidTree* tree = nullptr;                ///< Never null.
+  std::function<const SolidShape&()> make_shape;  ///< The same component; called where it is needed, often.
+
+  const SolidShape& shape() const { return make_shape(); }
 };
 
 /// How far the faces of a component are to be retracted.
 struct OverlapRetraction {
-  std::vector<double> needed;  ///< Of each face along its normal [mm]; 0 where it does not overlap.
-  double turning = 0;          ///< The largest one that cylinders need to turn in each other [mm].
+  std::vector<double> needed;        ///< Of each face along its normal [mm]; 0 where it does not overlap.
+  std::vector<std::uint32_t> patch;  ///< The smooth patch of each face: one of its faces.
+  double turning = 0;                ///< The largest one that cylinders need to turn in each other [mm].
 };
 
 /// How far each face of a component has to be retracted so that the component and another one do not overlap in the

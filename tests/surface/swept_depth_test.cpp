@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/swept_depth.h"
+
+#include "dismantle/surface/solid_depth.h"
+
+#include "tests/support/depth_oracle.h"
+#include "tests/support/faulty_meshes.h"
+#include "tests/support/gear_meshes.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dismantle {
+namespace {
+
+struct Solid {
+  Component component;
+  SolidShape shape{component};
+  explicit Solid(TriangleMesh mesh) : component(scenes::component("solid", std::move(mesh))) {}
+};
+
+RigidTransform moved(Vec3 by) {
+  RigidTransform result;
+  result.translation = by;
+  return result;
+}
+
+/// The depth of sampled points of one mesh, whose points are a share `time` of their straight way, inside the other.
+double sampled_depth(const TriangleMesh& mesh, const TriangleMesh& other, const RigidTransform& start,
+                     const RigidTransform& end, double time, double step) {
+  double deepest = 0;
+  const auto at = [&](Vec3 p) { return (1 - time) * (start * p) + time * (end * p); };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Triangle t = mesh.triangle(f);
+    oracle::for_each_sample(at(t[0]), at(t[1]), at(t[2]), step, [&](Vec3 p) {
+      if (std::abs(oracle::winding_number(other, p)) > 0.5 + kUndecidedWinding)
+        deepest = std::max(deepest, oracle::distance(other, p));
+    });
+  }
+  return deepest;
+}
+
+double sampled_depth(const TriangleMesh& a, const TriangleMesh& b, const RigidTransform& end, double time,
+                     double step) {
+  return std::max(sampled_depth(a, b, {}, end, time, step), sampled_depth(b, a, {}, inverse(end), time, step));
+}
+
+/// Expects that nothing sampled is deeper than the limit before `free_until`, and that the point found is.
+void expect_right(const TriangleMesh& a, const TriangleMesh& b, const RigidTransform& end, double limit,
+                  double resolution, bool decided) {
+  const Solid first(a), second(b);
+  const auto found = first_deeper({&first.shape, &second.shape, {}, end}, limit, resolution);
+  const double free_until = found ? found->free_until : 1;
+  for (const double share : {0.0, 0.2, 0.5, 0.8, 1.0})
+    if (free_until > 0) {
+      EXPECT_LE(sampled_depth(a, b, end, share * free_until, 0.5), limit + 1e-9) << "at " << share * free_until;
+    }
+  if (!found) return;
+  EXPECT_LE(found->free_until, found->time);
+  if (!decided) return;
+  EXPECT_LE(found->time - found->free_until, resolution * (1 + 1e-9));
+  const TriangleMesh& outer = found->of_a ? b : a;
+  EXPECT_GT(oracle::distance(outer, found->point), limit - 1e-9);
+  EXPECT_NEAR(oracle::distance(outer, found->nearest), 0, 1e-9);
+  EXPECT_NEAR(length(found->point - found->nearest), oracle::distance(outer, found->point), 1e-9);
+  EXPECT_GT(std::abs(oracle::winding_number(outer, found->point)), 0.5 - kUndecidedWinding);
+}
+
+TEST(FirstDeeper, FindsWhenABoxGetsTooDeep) {
+  const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
+  const SweptPair down{&other.shape, &box.shape, {}, moved({0, 0, -1})};
+  const auto found = first_deeper(down, 2.25, 1e-3);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->of_a);
+  EXPECT_LE(found->free_until, 0.25 + 1e-9);
+  EXPECT_NEAR(found->free_until, 0.25, 1e-3 * (1 + 1e-9));
+  EXPECT_GT(found->time, 0.25);
+  EXPECT_FALSE(first_deeper(down, 3.01, 1e-3));
+  EXPECT_FALSE(first_deeper({&other.shape, &box.shape, {}, moved({0, 0, 30})}, 2.01, 1e-3));
+  EXPECT_TRUE(first_deeper(down, 1.9, 1e-3));  // too deep from the beginning
+  EXPECT_EQ(first_deeper(down, 1.9, 1e-3)->free_until, 0);
+}
+
+TEST(FirstDeeper, IsTheSameForBothRoles) {
+  const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
+  const auto found = first_deeper({&box.shape, &other.shape, {}, moved({0, 0, 1})}, 2.25, 1e-3);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->of_a);
+  EXPECT_NEAR(found->free_until, 0.25, 1e-3 * (1 + 1e-9));
+}
+
+TEST(FirstDeeper, ProvesLongMotionsAlongASharedAxisWithFewPieces) {
+  const Solid hole(scenes::tube(12, 3.3, 0, 20, 24)), peg(scenes::tube(4, 0, -5, 35, 31));
+  EXPECT_FALSE(first_deeper({&peg.shape, &hole.shape, {}, moved({0, 0, 60})}, 0.76, 1e-4, 20000));
+  const auto sideways = first_deeper({&peg.shape, &hole.shape, {}, moved({2, 0, 0})}, 0.76, 1e-4);
+  ASSERT_TRUE(sideways);
+  EXPECT_LT(sideways->time * 2, 0.1);
+}
+
+TEST(FirstDeeper, ProvesThatAGearComesOffAWiderOneAlongItsAxis) {
+  // The ends of the narrow gear are as deep in the wide one wherever they are.
+  scenes::Gear narrow, wide;
+  narrow.width = 20;
+  wide.width = 70;
+  const TriangleMesh first = scenes::gear_mesh(narrow);
+  TriangleMesh second = scenes::gear_mesh(wide);
+  for (Vec3& p : second.vertices) p += {2 * wide.pitch_radius() - 0.4, 0, -10};
+  const Solid a(first), b(second);
+  const double depth = solid_depth({&a.shape, {}}, {&b.shape, {}}, {1e-4, 1e-4, 1000000}).depth;
+  ASSERT_GT(depth, 1);
+  EXPECT_FALSE(first_deeper({&a.shape, &b.shape, {}, moved({0, 0, 80})}, depth + 0.01, 1e-4));
+  // Of two that are equally wide, an end gets deeper than the flanks are.
+  TriangleMesh third = first;
+  for (Vec3& p : third.vertices) p.x += 2 * narrow.pitch_radius() - 0.4;
+  const Solid c(third);
+  const double flanks = solid_depth({&a.shape, {}}, {&c.shape, {}}, {1e-4, 1e-4, 1000000}).depth;
+  const auto found = first_deeper({&a.shape, &c.shape, {}, moved({0, 0, 80})}, flanks + 1e-3, 1e-4);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->time * 80, flanks, 0.05);
+}
+
+TEST(FirstDeeper, ThatCannotBeDecidedStopsEarlierInsteadOfLater) {
+  const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
+  const auto found = first_deeper({&other.shape, &box.shape, {}, moved({0, 0, -1})}, 2.25, 1e-3, 1);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->free_until, 0.25);
+}
+
+TEST(FirstDeeper, AgreesWithSamplesOfRandomSolidsClosedCrackedAndOpen) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int i = 0; i < 30; ++i) {
+    TriangleMesh a = scenes::tube(2, i % 3 == 0 ? 1 : 0, -2, 2, 5 + i % 7),
+                 b = scenes::box({-2, -1.5, -1}, {2, 1.5, 1});
+    const RigidTransform tilt = transform_from_pose(scenes::random_pose(random, 1.5, 1));
+    for (Vec3& p : a.vertices) p = tilt * p;
+    const int fault = i % 5;
+    if (fault == 1) a = scenes::torn_apart(a, 1e-9);
+    if (fault == 2) b = scenes::without_face(b, static_cast<std::size_t>(i) % b.faces.size());
+    if (fault == 3) a = scenes::inside_out(a);
+    if (fault == 4) b = scenes::joined(b, scenes::inside_out(scenes::box({-1, -1, -0.6}, {1, 1, 0.6})));
+    const RigidTransform end = transform_from_pose(scenes::random_pose(random, 1.5, 0.4));
+    const double start = sampled_depth(a, b, end, 0, 0.2);
+    for (const double more : {0.02, 0.3}) {
+      SCOPED_TRACE(testing::Message() << "scene " << i << " limit " << start + more);
+      expect_right(a, b, end, start + more, 0.01, fault != 1 && fault != 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
