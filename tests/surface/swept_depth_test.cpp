@@ -3,6 +3,7 @@
 
 #include "dismantle/surface/solid_depth.h"
 
+#include "dismantle/surface/moving_part_search.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/gear_meshes.h"
@@ -119,6 +120,25 @@ TEST(FirstDeeper, ProvesThatAGearComesOffAWiderOneAlongItsAxis) {
   const auto found = first_deeper({&a.shape, &c.shape, {}, moved({0, 0, 80})}, flanks + 1e-3, 1e-4);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->time * 80, flanks, 0.05);
+}
+
+TEST(StaysShallow, TellsHowDeepATriangleGetsOnItsWay) {
+  const Solid box(scenes::box({0, 0, 0}, {10, 10, 10}));
+  std::size_t pieces = 0;
+  const auto stays = [&](const Triangle& from, const Triangle& to, double limit) {
+    return stays_shallow(box.shape, from, to, limit, pieces, 10000);
+  };
+  // A face of an edge whose corners move diagonally inwards gets as deep as each of the two faces is retracted.
+  const Triangle face{{{0, 0, 0}, {10, 0, 0}, {10, 0, 10}}}, moved{{{1, 1, 0}, {9, 1, 0}, {9, 1, 10}}};
+  EXPECT_TRUE(stays(face, moved, 1.001));
+  EXPECT_FALSE(stays(face, moved, 0.999));
+  // What comes out again was deeper on its way: the deepest place is where it starts, in the middle.
+  const Triangle inside{{{4, 5, 5}, {6, 5, 5}, {5, 6, 5}}}, outside{{{4, -5, 5}, {6, -5, 5}, {5, -4, 5}}};
+  EXPECT_FALSE(stays(inside, outside, 4.9));
+  EXPECT_TRUE(stays(inside, outside, 5.001));
+  EXPECT_GT(pieces, 0u);
+  pieces = 0;
+  EXPECT_FALSE(stays_shallow(box.shape, inside, outside, 5.001, pieces, 0));  // undecided
 }
 
 TEST(FirstDeeper, ThatCannotBeDecidedStopsEarlierInsteadOfLater) {

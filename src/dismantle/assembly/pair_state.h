@@ -28,7 +28,7 @@ struct ComponentPair {
   ///@}
   PairState state = PairState::Clear;  ///< Its relation.
   double distance = 0;                 ///< Distance where apart, else 0 [mm].
-  double depth = 0;                    ///< Depth of the two solids, an upper bound [mm]; 0 where apart.
+  double depth = 0;  ///< Depth of the two solids [mm]: an upper bound, or a lower one where the search ended early.
   /// Depth allowed until the two have been apart; then it is the tolerance [mm]. Infinite for Free.
   double allowed_depth = 0;
   double declared = 0;  ///< Depth that the user allows them [mm]; 0: none.

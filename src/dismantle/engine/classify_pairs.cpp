@@ -13,10 +13,12 @@ PairStates pair_states(const Clashes& clashes, ClassifyRule rule) {
   PairStates states;
   states.tolerance = clashes.tolerance;
   for (const Clash& clash : clashes.pairs) {
-    ComponentPair pair{clash.a, clash.b, PairState::Near, clash.distance, clash.depth, clashes.tolerance};
+    // Where the search ended early, only what was found is allowed: the bound may be far above it.
+    const double depth = clash.depth_loose ? clash.depth_attained : clash.depth;
+    ComponentPair pair{clash.a, clash.b, PairState::Near, clash.distance, depth, clashes.tolerance};
     if (clash.state == ClashState::Contact) pair.state = PairState::Contact;
     if (clash.state == ClashState::Overlapping) pair.state = PairState::Overlapping;
-    if (clash.depth > kShallow * clashes.tolerance) pair.allowed_depth = clash.depth + clashes.tolerance;
+    if (depth > kShallow * clashes.tolerance) pair.allowed_depth = depth + clashes.tolerance;
     if (rule == ClassifyRule::Paper && pair.state != PairState::Near) {
       pair.state = PairState::Free;
       pair.allowed_depth = std::numeric_limits<double>::infinity();

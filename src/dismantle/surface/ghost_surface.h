@@ -24,9 +24,9 @@ struct FaceRetractions {
   /// Of each face [mm]; 0 for faces that need none, kFollowsOthers for those that are of no account at corners where
   /// others need some.
   Span<const double> needed;
-  double extra = 0;           ///< More than that for faces that need some [mm].
-  double usual = 0;           ///< For the others [mm].
-  double max_length = 0;      ///< Largest displacement of a vertex [mm].
+  double extra = 0;       ///< More than that for faces that need some [mm].
+  double usual = 0;       ///< For the others [mm].
+  double max_length = 0;  ///< Largest displacement of a vertex [mm].
 };
 
 /// As ghost_vertices(), with distances for each face. Where a displacement would be too long, `extra` and `usual` are

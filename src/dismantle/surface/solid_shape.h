@@ -18,7 +18,12 @@ class SolidShape {
   /// An empty shape.
   SolidShape() = default;
   /// Builds the shape of a component: the same one on every executor.
-  explicit SolidShape(const Component& component, const Executor& executor = {});
+  explicit SolidShape(const Component& component, const Executor& executor = {}) {
+    const TriangleMesh mesh = assembled_mesh(component);
+    if (mesh.faces.empty()) return;
+    surface_ = std::make_unique<const SurfaceTree>(mesh, executor);
+    winding_ = std::make_unique<const WindingNumber>(mesh, *surface_);
+  }
 
   /// True for a component without faces; no other function may be called then.
   bool empty() const { return surface_ == nullptr; }

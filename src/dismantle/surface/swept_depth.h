@@ -30,10 +30,11 @@ struct DeepPoint {
 /// Finds out if a point of either surface gets deeper inside the other solid than `limit` [mm] during a motion; depth
 /// as in solid_depth(). Branch and bound over surfaces and time: what it does not find does not exist. A piece of a
 /// surface stays within the limit if its corners are no further from any one triangle of the other surface than that at
-/// both ends of an interval, as that distance is a convex function; if the other surface does not meet a ball around the piece
-/// for so long, and its middle is outside; or if a copy of the piece that is shifted by no more than the limit is
-/// outside a closed surface: a point that is inside is no deeper than the way to its copy is long. An interval that takes
-/// more than `max_pieces` pieces is halved; one of a `resolution` that takes as many counts as if a point had been found.
+/// both ends of an interval, as that distance is a convex function; if the other surface does not meet a ball around
+/// the piece for so long, and its middle is outside; or if a copy of the piece that is shifted by no more than the
+/// limit is outside a closed surface: a point that is inside is no deeper than the way to its copy is long. An interval
+/// that takes more than `max_pieces` pieces is halved; one of a `resolution` that takes as many counts as if a point
+/// had been found.
 /// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, double limit, double resolution,
                                       std::size_t max_pieces = 400000);

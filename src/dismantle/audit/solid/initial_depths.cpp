@@ -12,6 +12,36 @@ namespace {
 /// Error bound of depths in units of rounding of the largest coordinate in their computation.
 constexpr double kRoundingUnits = 32;
 
+/// How exactly depths at the start are found, and for how many pieces: coarser where that takes too long.
+struct Accuracy {
+  double slack = 0;  // in tolerances; the first one is that of the audit
+  double growth = 1;
+  std::size_t max_pieces = 0;
+};
+/// So many open edges make a piece cost twice as much.
+constexpr std::size_t kEdgesPerPiece = 32;
+constexpr Accuracy kAccuracies[] = {{0, 1.002, 300000}, {0.5, 1.02, 300000}, {1, 1.1, 0}};
+
+/// The depth of the points of one side at the start.
+DepthFindings initial_depth(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> pair, bool of_b) {
+  const double tolerance = context.path.tolerance;
+  DepthFindings found;
+  std::size_t pieces = 0;
+  const std::size_t open_edges = context.bodies[of_b ? pair.first : pair.second]->open_edges().size();
+  for (const Accuracy& accuracy : kAccuracies) {
+    DepthGoal goal{tolerance, context.slack, accuracy.growth};
+    if (accuracy.slack > 0) {  // what is deeper than the tolerance is found all the same
+      goal.slack = accuracy.slack * tolerance;
+      goal.floor = tolerance - goal.slack / 2;
+    }
+    goal.max_pieces = accuracy.max_pieces / (1 + open_edges / kEdgesPerPiece);
+    found = search_assembled(context, pair, of_b, goal);
+    found.samples = pieces += found.samples;
+    if (found.complete) break;
+  }
+  return found;
+}
+
 /// The pairs whose boxes overlap in the assembled state, by (a, b).
 std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_boxes(const Assembly& assembly) {
   std::vector<Aabb> boxes;
@@ -66,7 +96,7 @@ bool find_initial_depths(DepthContext& context, double progress_from, double pro
   std::erase_if(pairs, [&](const auto& pair) { return std::binary_search(free.begin(), free.end(), pair); });
   std::vector<DepthFindings> found(2 * pairs.size());
   const bool completed = context.run(found.size(), progress_from, progress_to, [&](std::size_t i) {
-    found[i] = search_assembled(context, pairs[i / 2], i % 2 == 1, {context.path.tolerance, context.slack, 1.002});
+    found[i] = initial_depth(context, pairs[i / 2], i % 2 == 1);
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const DepthFindings& of_a = found[2 * i];

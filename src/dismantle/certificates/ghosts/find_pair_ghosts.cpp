@@ -8,6 +8,7 @@
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/surface/ghost_surface.h"
+#include "dismantle/surface/moving_part_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,7 @@ constexpr double kGaps[] = {0.62, 0.3, 0.1};
 constexpr double kPlay = 0.3;
 /// Shallower pairs do not overlap, as a share of the tolerance.
 constexpr double kOverlap = 0.1;
+constexpr double kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
 /// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
@@ -44,10 +46,8 @@ constexpr double kSameSide = 0.05;
 constexpr std::size_t kMaxPatches = 24;
 /// So many tests of pairs of faces are made for that.
 constexpr std::size_t kMaxTests = 2000000;
-/// Parts of displaced faces are divided down to this share of the tolerance.
-constexpr double kSmallest = 0.01;
-/// So many parts of displaced faces are looked at to find out how deep they are.
-constexpr std::size_t kMaxParts = 100000;
+/// So many pieces of displaced faces are looked at to find out how deep they are.
+constexpr std::size_t kMaxPieces = 100000;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
 
@@ -58,59 +58,11 @@ double solid_angle(const Triangle& t, Vec3 p) {
   return 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
 }
 
-/// A face on its straight way to its displaced place.
-struct DisplacedFace {
-  Triangle from, to;
-  double limit = 0;     // of its depth [mm]
-  double smallest = 0;  // parts of it that are smaller are not divided [mm]
-};
-
-/// True if no point of a face on its way gets deeper in its component than the limit; false where that is not certain.
-/// @param parts looked at, counted
-bool stays_shallow(const DisplacedFace& face, const SolidShape& shape, std::size_t& parts) {
-  std::vector<std::pair<Triangle, Triangle>> waiting{{face.from, face.to}};
-  const auto within = [&](const Triangle& t, std::uint32_t of) {
-    return std::all_of(std::begin(t.corner), std::end(t.corner),
-                       [&](Vec3 p) { return shape.surface().distance_to_face(p, of) <= face.limit; });
-  };
-  while (!waiting.empty()) {
-    if (++parts > kMaxParts) return false;
-    const auto [from, to] = waiting.back();
-    waiting.pop_back();
-    Vec3 center;
-    for (int i = 0; i < 3; ++i) center += (from[i] + to[i]) / 6;
-    double radius = 0;
-    for (const Triangle* t : {&from, &to})
-      for (const Vec3& p : t->corner) radius = std::max(radius, length(p - center));
-    const MeshDistance nearest = shape.surface().distance(center);
-    if (nearest.distance + radius <= face.limit) continue;
-    if (within(from, nearest.face) && within(to, nearest.face)) continue;
-    if (radius < face.smallest || (nearest.distance > face.limit && shape.winding().inside(center))) return false;
-    // Half the way, or half of the longest edge.
-    double way = 0, longest = 0;
-    int edge = 0;
-    for (int i = 0; i < 3; ++i) {
-      way = std::max(way, length(to[i] - from[i]));
-      const double size = std::max(length(from[(i + 1) % 3] - from[i]), length(to[(i + 1) % 3] - to[i]));
-      if (size <= longest) continue;
-      longest = size;
-      edge = i;
-    }
-    if (way > longest) {
-      Triangle middle;
-      for (int i = 0; i < 3; ++i) middle[i] = (from[i] + to[i]) / 2;
-      waiting.push_back({from, middle});
-      waiting.push_back({middle, to});
-      continue;
-    }
-    const int next = (edge + 1) % 3;
-    std::pair<Triangle, Triangle> first{from, to}, second{from, to};
-    first.first[next] = second.first[edge] = (from[edge] + from[next]) / 2;
-    first.second[next] = second.second[edge] = (to[edge] + to[next]) / 2;
-    waiting.push_back(first);
-    waiting.push_back(second);
-  }
-  return true;
+/// Pairs of solids that are shallower than this have room within their usual ghosts. A sheet is on one side of what it
+/// touches, and has to be taken for one that is inside, however little, as no ghost of its own can be behind it [mm].
+double overlap_from(const PairGhostRequest& request) {
+  const bool solids = request.a.tree->has_outside && request.b.tree->has_outside;
+  return (solids ? kOverlap : kSheetOverlap) * request.tolerance;
 }
 
 using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -140,11 +92,11 @@ class GhostSide {
     depth_limit_ = depth_limit;
     const double tolerance = request_.tolerance, usual = kGaps[0] * tolerance;
     const SolidTree& own = *own_.tree;
+    const std::vector<Face> outward = outward_faces(own.faces, own.inside_out);
     std::vector<std::vector<Vec3>> starts;
     if (own.has_outside || own.inside_out || request_.depth > tolerance)
       for (const double margin : kMargins)
-        starts.push_back(retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
-                                            {needed(margin), usual, usual, max_length}));
+        starts.push_back(retracted_vertices(own.vertices, outward, {needed(margin), usual, usual, max_length}));
     const std::size_t retractions = own.has_outside || own.inside_out ? starts.size() : 0;
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
     const FacePairs near = near_faces(own, 2 * max_length);
@@ -152,6 +104,14 @@ class GhostSide {
       if (apart(displaced(starts[i]), near) && shallow(starts[i], max_length))
         return Found{std::move(starts[i]), i < retractions};
     if (near.size() > kMaxNear) return std::nullopt;
+    if (retractions > 0 && overlaps()) {
+      // At sharp corners with faces that overlap nothing, those follow.
+      std::vector<double> others_follow = needed(1);
+      for (double& n : others_follow)
+        if (n == 0) n = kFollowsOthers;
+      auto moved = retracted_vertices(own.vertices, outward, {others_follow, usual, usual, max_length});
+      if (apart(displaced(moved), near) && shallow(moved, max_length)) return Found{std::move(moved), false};
+    }
     if (retractions > 0)
       if (auto chosen = retract_chosen(near, max_length)) return chosen;
     if (!also_corners) return std::nullopt;
@@ -288,26 +248,27 @@ class GhostSide {
     const bool is_sheet = !own.has_outside && !own.inside_out;
     if (max_length <= depth_limit_ * (is_sheet ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
     if (is_sheet) return false;
-    std::size_t parts = 0;
+    std::size_t pieces = 0;
     for (const Face& f : own.faces) {
       double longest = 0;
       for (const std::uint32_t v : f.v) longest = std::max(longest, length(vertices[v] - own.vertices[v]));
       if (longest <= depth_limit_) continue;
       const Triangle from{{own.vertices[f.v[0]], own.vertices[f.v[1]], own.vertices[f.v[2]]}};
       const Triangle to{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
-      if (!stays_shallow({from, to, depth_limit_, kSmallest * request_.tolerance}, own_.shape(), parts)) return false;
+      if (!stays_shallow(own_.shape(), from, to, depth_limit_, pieces, kMaxPieces)) return false;
     }
     return true;
   }
 
-  /// How far the faces are retracted [mm].
+  /// How far the faces are retracted [mm]: no further than the depth, or their corners would get too deep.
   std::vector<double> needed(double margin) const {
     std::vector<double> needed = retraction_.needed;
-    for (double& n : needed) n = std::max({n, std::min(margin * n, request_.depth), request_.everywhere});
+    const double most = std::max(request_.depth, retraction_.turning);
+    for (double& n : needed) n = std::max(std::min(margin * n, most), request_.everywhere);
     return needed;
   }
 
-  bool overlaps() const { return request_.depth > kOverlap * request_.tolerance; }
+  bool overlaps() const { return request_.depth > overlap_from(request_); }
 
   /// The vertices, those inside the other component moved out of it the shortest way.
   std::vector<Vec3> moved_out(double gap, double max_length) const {
@@ -394,7 +355,8 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   const double turning = std::max(a.retraction().turning, b.retraction().turning);
   const bool can_turn = turning <= kPlay * request.tolerance;
   const bool usual = request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart();
-  if (usual && request.depth <= kPlay * request.tolerance) return PairGhosts{};
+  const double play = std::min(kPlay / kOverlap * overlap_from(request), kPlay * request.tolerance);
+  if (usual && request.depth <= play) return PairGhosts{};
   const double limit = std::max(request.depth, turning) + kGhostLength * request.tolerance;
   std::optional<GhostSide::Found> of_a, of_b;
   for (const double factor : kFactors) {

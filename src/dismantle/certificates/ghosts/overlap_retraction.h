@@ -14,6 +14,7 @@ struct OverlapSide {
   const SolidTree* tree = nullptr;                ///< Never null.
   std::function<const SolidShape&()> make_shape;  ///< The same component; called where it is needed, often.
 
+  /// The same component.
   const SolidShape& shape() const { return make_shape(); }
 };
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/moving_part_search.h"
+
+#include "dismantle/core/span.h"
+#include "dismantle/narrowphase/closest_points.h"
+#include "dismantle/surface/solid_depth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dismantle {
+
+namespace {
+
+/// A ball around something during an interval.
+struct Ball {
+  Vec3 center;
+  double radius = 0;
+};
+
+/// A shifted copy is given up where its box meets the boxes of more faces than this.
+constexpr int kMaxCopyFaces = 1000;
+/// Two directions are tried as one where the cosine between them is above this.
+constexpr double kSameDirection = 1 - 1e-9;
+
+Triangle mean(const Triangle& s, const Triangle& t) {
+  return {{(s[0] + t[0]) / 2, (s[1] + t[1]) / 2, (s[2] + t[2]) / 2}};
+}
+
+/// The hull of all places of a part and of copies of it, each shifted: tells if an axis separates it from a triangle.
+class PartHull {
+ public:
+  PartHull(const MovingPart& part, Span<const Vec3> shifts) {
+    for (const Vec3& shift : shifts)
+      for (const Triangle* t : {&part.begin, &part.end})
+        for (const Vec3& p : t->corner) {
+          corner_[count_++] = p + shift;
+          box_.extend(p + shift);
+        }
+    normal_ = normalized(normal_unscaled(part.begin));
+    lower_ = upper_ = dot(normal_, corner_[0]);
+    for (int i = 1; i < count_; ++i) {
+      lower_ = std::min(lower_, dot(normal_, corner_[i]));
+      upper_ = std::max(upper_, dot(normal_, corner_[i]));
+    }
+  }
+
+  /// True if it may meet a box that is larger by `gap`; across the part, it is thinner than its own box is.
+  bool may_meet(const Aabb& box, double gap) const {
+    if (!overlaps(box_, {box.lower - Vec3{gap, gap, gap}, box.upper + Vec3{gap, gap, gap}})) return false;
+    const Vec3 half = (box.upper - box.lower) / 2;
+    const double reach =
+        std::abs(normal_.x) * half.x + std::abs(normal_.y) * half.y + std::abs(normal_.z) * half.z + 2 * gap;
+    const double middle = dot(normal_, box.center());
+    return middle - reach <= upper_ && middle + reach >= lower_;
+  }
+
+  /// True if some axis certainly separates it by more than `gap`.
+  bool apart(const Triangle& face, double gap) const {
+    if (apart_along(normal_unscaled(face), face, gap)) return true;
+    const Triangle begin{{corner_[0], corner_[1], corner_[2]}};
+    if (apart_along(normal_unscaled(begin), face, gap)) return true;
+    const Vec3 way = corner_[3] - corner_[0];
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 edge = face[(i + 1) % 3] - face[i];
+      for (int k = 0; k < 3; ++k)
+        if (apart_along(cross(begin[(k + 1) % 3] - begin[k], edge), face, gap)) return true;
+      if (apart_along(cross(way, edge), face, gap)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool apart_along(Vec3 axis, const Triangle& face, double gap) const {
+    const double size = length(axis);
+    if (!(size > 0)) return false;
+    double lower = dot(axis, corner_[0]), upper = lower;
+    for (int i = 1; i < count_; ++i) {
+      const double along = dot(axis, corner_[i]);
+      lower = std::min(lower, along);
+      upper = std::max(upper, along);
+    }
+    const double f[3] = {dot(axis, face[0]), dot(axis, face[1]), dot(axis, face[2])};
+    return std::min({f[0], f[1], f[2]}) - upper > gap * size || lower - std::max({f[0], f[1], f[2]}) > gap * size;
+  }
+
+  std::array<Vec3, 12> corner_;
+  int count_ = 0;
+  Aabb box_;
+  Vec3 normal_;                   // of the part
+  double lower_ = 0, upper_ = 0;  // along it
+};
+
+/// True if a hull is certainly further than `gap` from a surface.
+bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
+  const Bvh& bvh = surface.bvh();
+  int seen = 0;
+  std::vector<NodeIndex> nodes{bvh.root()};
+  while (!nodes.empty()) {
+    const NodeIndex node = nodes.back();
+    nodes.pop_back();
+    if (!hull.may_meet(surface.box(node), gap)) continue;
+    if (node >= bvh.leaf_count()) {
+      const BvhChildren children = bvh.children[node - bvh.leaf_count()];
+      nodes.push_back(children.left);
+      nodes.push_back(children.right);
+      continue;
+    }
+    if (++seen > kMaxCopyFaces || !hull.apart(surface.triangle(bvh.leaf_triangle[node]), gap)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool MovingPartSearch::is_deep(Vec3 point) const {
+  return solid_.surface().distance(point).distance > limit_ && solid_.winding().inside(point);
+}
+
+/// True if no point of a ball is too deep, for one of two simple reasons.
+bool MovingPartSearch::within(Vec3 center, double radius) const {
+  const MeshDistance nearest = solid_.surface().distance(center);
+  return nearest.distance + radius <= limit_ || outside(center, radius, nearest.distance);
+}
+
+/// Some point of a part that is too deep; the pieces are counted.
+MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces,
+                                                std::size_t max_pieces) const {
+  std::vector<MovingPart> parts{whole};
+  std::uint32_t last = 0;
+  while (!parts.empty()) {
+    if (++pieces > max_pieces) return {{}, false};
+    const MovingPart part = parts.back();
+    parts.pop_back();
+    const Triangle middle = mean(part.begin, part.end);
+    Ball ball{(middle[0] + middle[1] + middle[2]) / 3, 0};
+    double way = 0;
+    for (int i = 0; i < 3; ++i) {
+      ball.radius = std::max(ball.radius, length(middle[i] - ball.center));
+      way = std::max(way, length(part.end[i] - part.begin[i]) / 2);
+    }
+    const MeshDistance nearest = solid_.surface().distance(ball.center, last);
+    last = nearest.face;
+    if (nearest.distance + ball.radius + way <= limit_) continue;
+    if (near_face(part, nearest.face)) continue;
+    if (outside(ball.center, ball.radius + way, nearest.distance)) continue;
+    if (copy_outside(part, ball.center, ball.radius + way, nearest.face)) continue;
+    const double time = (part.from + part.to) / 2;
+    if (is_deep(ball.center)) return {Found{time, part.face, (part.own[0] + part.own[1] + part.own[2]) / 3}, true};
+    for (int i = 0; i < 3; ++i)
+      if (is_deep(middle[i])) return {Found{time, part.face, part.own[i]}, true};
+    divide(part, nearest.face, way > ball.radius, parts);
+  }
+  return {};
+}
+
+bool MovingPartSearch::outside(Vec3 center, double radius, double distance) const {
+  if (distance <= radius) return false;
+  const WindingNumber& winding = solid_.winding();
+  if (winding.closed()) return !winding.inside(center);
+  if (winding.fans()->distance(center).distance > radius && holes_do_not_matter(center, radius)) return true;
+  const double change = winding.max_change(center, radius);
+  return change < 1 && std::abs(winding.at(center)) + change < 0.5 + kUndecidedWinding;
+}
+
+/// True if the mesh closed by its fans is not around the center of a ball, nor do the holes by themselves make an
+/// inside of any point of the ball.
+bool MovingPartSearch::holes_do_not_matter(Vec3 center, double radius) const {
+  return solid_.winding().bound_outside_fans(center, radius) < 0.5 + kUndecidedWinding;
+}
+
+/// True if a part stays within the limit of one face of the surface.
+bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face) const {
+  for (const Triangle* t : {&part.begin, &part.end})
+    for (int i = 0; i < 3; ++i)
+      if (solid_.surface().distance_to_face((*t)[i], face) > limit_) return false;
+  return true;
+}
+
+/// True if a copy of a part that is shifted by no more than the limit is outside: on the way there, a point that is
+/// inside passes the surface, unless it passes a fan that closes a hole.
+/// @param center, radius a ball around the part, the center half-way
+bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const {
+  const double margin = 4 * solid_.winding().placement();
+  if (limit_ <= margin) return false;
+  const bool inside = solid_.winding().inside(center);
+  if (!inside && is_outside(part, center, radius, {})) return true;
+  const Triangle& face = solid_.surface().triangle(nearest);
+  const Vec3 way = closest_point_of_triangle(face, center) - center;
+  const Vec3 out = normalized(inside ? way : -way);
+  Vec3 normal = normalized(normal_unscaled(face));
+  if (dot(normal, out) < 0) normal = -normal;
+  const Vec3 own = normalized(normal_unscaled(part.begin));
+  const Vec3 directions[] = {normal, out, -own, own};
+  for (int i = 0; i < 4; ++i) {
+    const auto same = [&](const Vec3& known) { return dot(known, directions[i]) > kSameDirection; };
+    if (std::any_of(directions, directions + i, same)) continue;
+    if (is_outside(part, center, radius, (limit_ - margin) * directions[i])) return true;
+  }
+  return false;
+}
+
+/// True if a part that is shifted is outside, and passes no fan on the way.
+bool MovingPartSearch::is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const {
+  const WindingNumber& winding = solid_.winding();
+  const Vec3 shifts[] = {shift, {}};
+  const double gap = winding.placement();
+  if (!clear_of(solid_.surface(), PartHull(part, Span<const Vec3>(shifts, 1)), gap)) return false;
+  if (winding.closed()) return !winding.inside(center + shift);
+  return clear_of(*winding.fans(), PartHull(part, Span<const Vec3>(shifts, 2)), gap) &&
+         holes_do_not_matter(center + shift, radius + length(shift));
+}
+
+/// Divides an edge where the faces nearest to its ends are as near, but no part twice in turn; else halves the time
+/// or the longest edge. What lies deepest is often a line between two faces, and each of its sides stays within the
+/// limit of one of them.
+void MovingPartSearch::divide(const MovingPart& part, std::uint32_t nearest, bool in_time,
+                              std::vector<MovingPart>& parts) const {
+  int first = 0;
+  double share = 0.5;
+  const auto size = [&](int i) { return length_squared(part.own[(i + 1) % 3] - part.own[i]); };
+  for (int i = 1; i < 3; ++i)
+    if (size(i) > size(first)) first = i;
+  const Triangle middle = mean(part.begin, part.end);
+  MovingPart one = part, other = part;
+  one.at_ridge = other.at_ridge = !part.at_ridge && find_ridge(middle, nearest, first, share);
+  if (in_time && !one.at_ridge) {
+    one.end = other.begin = middle;
+    one.to = other.from = (part.from + part.to) / 2;
+  } else {
+    const int next = (first + 1) % 3;
+    for (Triangle MovingPart::*t : {&MovingPart::own, &MovingPart::begin, &MovingPart::end})
+      (one.*t)[next] = (other.*t)[first] = (1 - share) * (part.*t)[first] + share * (part.*t)[next];
+  }
+  parts.push_back(other);
+  parts.push_back(one);
+}
+
+bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const {
+  constexpr double kEnd = 0.1;
+  constexpr int kHalvings = 12;
+  std::uint32_t faces[3];
+  for (int i = 0; i < 3; ++i) faces[i] = solid_.surface().distance(part[i], nearest).face;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (edge + k) % 3, j = (i + 1) % 3;
+    if (faces[i] == faces[j]) continue;
+    double near_first = 0, near_second = 1;
+    for (int step = 0; step < kHalvings; ++step) {
+      const double middle = (near_first + near_second) / 2;
+      const Vec3 p = (1 - middle) * part[i] + middle * part[j];
+      const bool first =
+          solid_.surface().distance_to_face(p, faces[i]) < solid_.surface().distance_to_face(p, faces[j]);
+      (first ? near_first : near_second) = middle;
+    }
+    if (near_first < kEnd || near_first > 1 - kEnd) continue;
+    edge = i;
+    share = near_first;
+    return true;
+  }
+  return false;
+}
+
+bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
+                   std::size_t max_pieces) {
+  const MovingPartSearch::Result result = MovingPartSearch(solid, limit).find({from, from, to}, pieces, max_pieces);
+  return result.complete && !result.found;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/surface/solid_shape.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+/// A triangle, or a part of one, during an interval of time: all its points move linearly.
+struct MovingPart {
+  Triangle own;            ///< Corners in its own frame [mm].
+  Triangle begin;          ///< In the frame of the solid in which it moves [mm], at the beginning.
+  Triangle end;            ///< At the end.
+  double from = 0;         ///< The time at the beginning.
+  double to = 1;           ///< The time at the end.
+  std::uint32_t face = 0;  ///< The face that it is a part of.
+  bool at_ridge = false;   ///< It was divided where two faces of the solid are as near.
+};
+
+/// Searches moving parts of triangles for points that are deeper inside a solid than a limit, by branch and bound: see
+/// first_deeper().
+class MovingPartSearch {
+ public:
+  /// @param solid must outlive this @param limit of the depth [mm]
+  MovingPartSearch(const SolidShape& solid, double limit) : solid_(solid), limit_(limit) {}
+
+  /// A point that is too deep at a time.
+  struct Found {
+    double time = 0;         ///< In the interval of the part.
+    std::uint32_t face = 0;  ///< The face that it is on.
+    Vec3 own;                ///< The point in its own frame [mm].
+  };
+  /// What a search found.
+  struct Result {
+    std::optional<Found> found;  ///< Nothing where no point is too deep, or the search is not complete.
+    bool complete = true;        ///< There were not too many pieces.
+  };
+
+  /// True if a point is too deep [mm, frame of the solid].
+  bool is_deep(Vec3 point) const;
+  /// True if no point of a ball is too deep, for one of two simple reasons; false says nothing.
+  bool within(Vec3 center, double radius) const;
+  /// Some point of a part that is too deep. @param pieces looked at, counted, up to `max_pieces`
+  Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
+
+ private:
+  bool outside(Vec3 center, double radius, double distance) const;
+  bool holes_do_not_matter(Vec3 center, double radius) const;
+  bool near_face(const MovingPart& part, std::uint32_t face) const;
+  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
+  bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
+  void divide(const MovingPart& part, std::uint32_t nearest, bool in_time, std::vector<MovingPart>& parts) const;
+  bool find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const;
+
+  const SolidShape& solid_;
+  double limit_;
+};
+
+/// True if no point of a triangle whose corners move linearly gets deeper inside a solid than `limit` [mm]; false where
+/// one does, or where more pieces would have to be looked at than `max_pieces`. @param pieces looked at, counted
+bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
+                   std::size_t max_pieces);
+
+}  // namespace dismantle

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guards of pairs that overlap in the assembled state (docs/design/0012-ghost-surfaces.md).
+#include "dismantle/certificates/ghosts/find_guards.h"
+
+#include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/certificates/sweep/front_store.h"
+#include "tests/certificates/grabbed_component.h"
+#include "tests/support/depth_oracle.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/swept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace dismantle {
+namespace {
+
+using namespace grabbed;
+
+std::vector<FoundGuard> guards_of(const Assembly& assembly, const PairStates& states) {
+  const Executor executor;
+  FrontStore store(assembly, kGhostLength * states.tolerance, executor);
+  std::vector<ComponentTrees> trees;
+  for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
+    trees.push_back({&store.solid(ComponentId(c)), &store.ghost(ComponentId(c), ComponentId(c))});
+  return find_guards({&assembly, &states, trees, executor, front_kernels(CertificateOptions{}.lanes)});
+}
+
+/// The mesh leaning along x.
+TriangleMesh leaning(TriangleMesh mesh, double by) {
+  for (Vec3& p : mesh.vertices) p.x += by * p.z;
+  return mesh;
+}
+
+/// A rod that fills an oblique hole of a disk, and is larger.
+Assembly rod_in_oblique_hole(double larger = 0.5, double lean = 1) {
+  return scenes::assembly({scenes::component("rod", leaning(scenes::tube(2.5 + larger, 0, -4, 26, 24), lean)),
+                           scenes::component("disk", leaning(scenes::tube(12, 2.5, 0, 20, 24), lean))});
+}
+
+TEST(FindGuards, FindsGhostsAroundTheMouthsOfObliqueHoles) {
+  const Assembly assembly = rod_in_oblique_hole();
+  const PairStates states = states_of(assembly);
+  const std::vector<FoundGuard> guards = guards_of(assembly, states);
+  ASSERT_EQ(guards.size(), 1u);
+  EXPECT_EQ(guards[0].guard.guard, PairGuard::Ghosts);
+  EXPECT_FALSE(guards[0].ghosts[0].empty());
+}
+
+TEST(FindGuards, LetARodOutOfAnObliqueHoleAlongItsAxisOnly) {
+  const Assembly assembly = rod_in_oblique_hole();
+  const PairStates states = states_of(assembly);
+  const double start = oracle::sampled_depth(*assembly.components[0].mesh, *assembly.components[1].mesh, 1).depth;
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    Grabbed out(assembly, states, 0), aside(assembly, states, 0);
+    for (int k = 1; k <= 16; ++k)
+      EXPECT_TRUE(out.engine.step({{-2.0 * k, 0, -2.0 * k}, {}}, response).reached) << "step " << k;
+    for (int k = 1; k <= 3; ++k) {
+      const Pose pose = aside.engine.step({{0, 0.2 * k, 0}, {}}, response).pose;
+      EXPECT_LE(pose.position.y, 2.5 * kTolerance);
+      const TriangleMesh rod = scenes::moved(*assembly.components[0].mesh, pose);
+      EXPECT_LE(oracle::sampled_depth(rod, *assembly.components[1].mesh, 2).depth, start + 1.1 * kTolerance);
+    }
+  }
+}
+
+/// The greatest depth of sampled points of a component's faces on their straight way to their displaced places.
+double deepest_on_the_way(const TriangleMesh& mesh, const std::vector<Vec3>& displaced) {
+  double deepest = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Triangle t = mesh.triangle(f);
+    for (const double share : {0.3, 0.7, 1.0}) {
+      Triangle now;
+      for (int i = 0; i < 3; ++i) now[i] = (1 - share) * t[i] + share * displaced[mesh.faces[f].v[i]];
+      oracle::for_each_sample(now[0], now[1], now[2], 2, [&](Vec3 p) {
+        if (std::abs(oracle::winding_number(mesh, p)) > 0.5) deepest = std::max(deepest, oracle::distance(mesh, p));
+      });
+    }
+  }
+  return deepest;
+}
+
+TEST(FindGuards, NoGhostIsDeeperInItsSolidThanThePairMayBe) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> u(0, 1);
+  int ghosts = 0;
+  for (int i = 0; i < 36; ++i) {
+    // A corner, an edge or a rod that is a little inside a box.
+    const Vec3 size{1 + 2 * u(random), 1 + 2 * u(random), 1 + 2 * u(random)};
+    TriangleMesh part = i % 2 == 0
+                            ? scenes::box(-1.0 * size, size)
+                            : scenes::tube(1 + u(random), 0, -2, 2, 3 + static_cast<std::uint32_t>(9 * u(random)));
+    const RigidTransform tilt = transform_from_pose(scenes::random_pose(random, 0.5, 3));
+    double lowest = 0;
+    for (Vec3& p : part.vertices) lowest = std::min(lowest, (p = tilt * p).z);
+    const double depth = i % 3 == 0 ? 0.02 + 0.1 * u(random) : 0.1 + 0.8 * u(random);
+    for (Vec3& p : part.vertices) p.z += -lowest - depth;
+    TriangleMesh block = scenes::box({-4, -4, -4}, {4, 4, 0});
+    if (i % 5 == 0) block = scenes::box({-4, -4, -4}, {0.4, 0.3, 0});  // at its corner
+    const Assembly assembly = i % 6 == 1 ? rod_in_oblique_hole(0.1 + 0.6 * u(random), 0.2 + u(random))
+                                         : scenes::assembly({scenes::component("part", std::move(part)),
+                                                             scenes::component("block", std::move(block))});
+    const PairStates states = states_of(assembly);
+    for (const FoundGuard& found : guards_of(assembly, states)) {
+      if (found.guard.guard != PairGuard::Ghosts) continue;
+      ++ghosts;
+      for (int side = 0; side < 2; ++side) {
+        const TriangleMesh& mesh = *assembly.components[static_cast<std::size_t>(side)].mesh;
+        const std::vector<Vec3>& displaced = found.ghosts[static_cast<std::size_t>(side)];
+        EXPECT_LE(deepest_on_the_way(mesh, displaced), found.guard.allowed) << "scene " << i << " side " << side;
+      }
+    }
+  }
+  EXPECT_GE(ghosts, 20);
+}
+
+}  // namespace
+}  // namespace dismantle
