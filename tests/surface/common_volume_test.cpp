@@ -3,6 +3,7 @@
 
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/shaped_solid.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +12,7 @@
 namespace dismantle {
 namespace {
 
-struct Solid {
-  Component component;
-  SolidShape shape{component};
-  explicit Solid(TriangleMesh mesh) : component(scenes::component("solid", std::move(mesh))) {}
-};
+using Solid = scenes::ShapedSolid;
 
 CommonVolume volume_of(const TriangleMesh& a, const TriangleMesh& b, const RigidTransform& b_at = {}) {
   const Solid first(a), second(b);

@@ -4,6 +4,7 @@
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/shaped_solid.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +16,7 @@ namespace {
 constexpr double kGap = 1e-3;
 const double kPi = std::acos(-1.0);
 
-struct Solid {
-  Component component;
-  SolidShape shape{component};
-  explicit Solid(TriangleMesh mesh) : component(scenes::component("solid", std::move(mesh))) {}
-};
+using Solid = scenes::ShapedSolid;
 
 SolidDepth depth_of(const TriangleMesh& a, const TriangleMesh& b) {
   const Solid first(a), second(b);

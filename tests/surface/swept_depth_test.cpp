@@ -8,6 +8,7 @@
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/gear_meshes.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/shaped_solid.h"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +17,7 @@
 namespace dismantle {
 namespace {
 
-struct Solid {
-  Component component;
-  SolidShape shape{component};
-  explicit Solid(TriangleMesh mesh) : component(scenes::component("solid", std::move(mesh))) {}
-};
+using Solid = scenes::ShapedSolid;
 
 RigidTransform moved(Vec3 by) {
   RigidTransform result;
@@ -132,7 +129,7 @@ TEST(StaysShallow, TellsHowDeepATriangleGetsOnItsWay) {
   const Triangle face{{{0, 0, 0}, {10, 0, 0}, {10, 0, 10}}}, moved{{{1, 1, 0}, {9, 1, 0}, {9, 1, 10}}};
   EXPECT_TRUE(stays(face, moved, 1.001));
   EXPECT_FALSE(stays(face, moved, 0.999));
-  // What comes out again was deeper on its way: the deepest place is where it starts, in the middle.
+  // A triangle that starts in the middle of the box, at its deepest, and leaves it.
   const Triangle inside{{{4, 5, 5}, {6, 5, 5}, {5, 6, 5}}}, outside{{{4, -5, 5}, {6, -5, 5}, {5, -4, 5}}};
   EXPECT_FALSE(stays(inside, outside, 4.9));
   EXPECT_TRUE(stays(inside, outside, 5.001));

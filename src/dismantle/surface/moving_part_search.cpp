@@ -13,12 +13,6 @@ namespace dismantle {
 
 namespace {
 
-/// A ball around something during an interval.
-struct Ball {
-  Vec3 center;
-  double radius = 0;
-};
-
 /// A shifted copy is given up where its box meets the boxes of more faces than this.
 constexpr int kMaxCopyFaces = 1000;
 /// Two directions are tried as one where the cosine between them is above this.
@@ -118,13 +112,11 @@ bool MovingPartSearch::is_deep(Vec3 point) const {
   return solid_.surface().distance(point).distance > limit_ && solid_.winding().inside(point);
 }
 
-/// True if no point of a ball is too deep, for one of two simple reasons.
 bool MovingPartSearch::within(Vec3 center, double radius) const {
   const MeshDistance nearest = solid_.surface().distance(center);
   return nearest.distance + radius <= limit_ || outside(center, radius, nearest.distance);
 }
 
-/// Some point of a part that is too deep; the pieces are counted.
 MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces,
                                                 std::size_t max_pieces) const {
   std::vector<MovingPart> parts{whole};
@@ -134,23 +126,23 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     const MovingPart part = parts.back();
     parts.pop_back();
     const Triangle middle = mean(part.begin, part.end);
-    Ball ball{(middle[0] + middle[1] + middle[2]) / 3, 0};
-    double way = 0;
+    const Vec3 center = (middle[0] + middle[1] + middle[2]) / 3;
+    double radius = 0, way = 0;
     for (int i = 0; i < 3; ++i) {
-      ball.radius = std::max(ball.radius, length(middle[i] - ball.center));
+      radius = std::max(radius, length(middle[i] - center));
       way = std::max(way, length(part.end[i] - part.begin[i]) / 2);
     }
-    const MeshDistance nearest = solid_.surface().distance(ball.center, last);
+    const MeshDistance nearest = solid_.surface().distance(center, last);
     last = nearest.face;
-    if (nearest.distance + ball.radius + way <= limit_) continue;
+    if (nearest.distance + radius + way <= limit_) continue;
     if (near_face(part, nearest.face)) continue;
-    if (outside(ball.center, ball.radius + way, nearest.distance)) continue;
-    if (copy_outside(part, ball.center, ball.radius + way, nearest.face)) continue;
+    if (outside(center, radius + way, nearest.distance)) continue;
+    if (copy_outside(part, center, radius + way, nearest.face)) continue;
     const double time = (part.from + part.to) / 2;
-    if (is_deep(ball.center)) return {Found{time, part.face, (part.own[0] + part.own[1] + part.own[2]) / 3}, true};
+    if (is_deep(center)) return {Found{time, part.face, (part.own[0] + part.own[1] + part.own[2]) / 3}, true};
     for (int i = 0; i < 3; ++i)
       if (is_deep(middle[i])) return {Found{time, part.face, part.own[i]}, true};
-    divide(part, nearest.face, way > ball.radius, parts);
+    divide(part, nearest.face, way > radius, parts);
   }
   return {};
 }

@@ -33,7 +33,7 @@ class MovingPartSearch {
     std::uint32_t face = 0;  ///< The face that it is on.
     Vec3 own;                ///< The point in its own frame [mm].
   };
-  /// What a search found.
+  /// The outcome of a search.
   struct Result {
     std::optional<Found> found;  ///< Nothing where no point is too deep, or the search is not complete.
     bool complete = true;        ///< There were not too many pieces.
@@ -43,7 +43,8 @@ class MovingPartSearch {
   bool is_deep(Vec3 point) const;
   /// True if no point of a ball is too deep, for one of two simple reasons; false says nothing.
   bool within(Vec3 center, double radius) const;
-  /// Some point of a part that is too deep. @param pieces looked at, counted, up to `max_pieces`
+  /// Searches a part for a point that is too deep. @param pieces is increased by the number of pieces examined; the
+  /// search is given up above `max_pieces`
   Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
 
  private:
@@ -60,7 +61,8 @@ class MovingPartSearch {
 };
 
 /// True if no point of a triangle whose corners move linearly gets deeper inside a solid than `limit` [mm]; false where
-/// one does, or where more pieces would have to be looked at than `max_pieces`. @param pieces looked at, counted
+/// one does, or where more than `max_pieces` pieces would have to be examined. @param pieces is increased by the number
+/// of pieces examined
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces);
 

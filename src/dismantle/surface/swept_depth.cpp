@@ -172,7 +172,7 @@ class PairSearch {
   SweptSearch searches_[2];
   double resolution_;
   std::size_t max_pieces_;
-  std::size_t pieces_ = 0;  // looked at so far
+  std::size_t pieces_ = 0;  // examined so far
   double free_until_ = 0;
   std::optional<SweptSearch::Found> known_;
   int of_ = 0;

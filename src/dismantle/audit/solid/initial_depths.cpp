@@ -18,9 +18,9 @@ struct Accuracy {
   double growth = 1;
   std::size_t max_pieces = 0;
 };
-/// So many open edges make a piece cost twice as much.
-constexpr std::size_t kEdgesPerPiece = 32;
 constexpr Accuracy kAccuracies[] = {{0, 1.002, 300000}, {0.5, 1.02, 300000}, {1, 1.1, 0}};
+/// A winding number of a mesh with this many open edges costs about as much as the rest of a piece.
+constexpr std::size_t kEdgesPerPiece = 32;
 
 /// The depth of the points of one side at the start.
 DepthFindings initial_depth(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> pair, bool of_b) {
@@ -30,7 +30,7 @@ DepthFindings initial_depth(const DepthContext& context, std::pair<std::uint32_t
   const std::size_t open_edges = context.bodies[of_b ? pair.first : pair.second]->open_edges().size();
   for (const Accuracy& accuracy : kAccuracies) {
     DepthGoal goal{tolerance, context.slack, accuracy.growth};
-    if (accuracy.slack > 0) {  // what is deeper than the tolerance is found all the same
+    if (accuracy.slack > 0) {  // a sample that is deeper than the tolerance still counts
       goal.slack = accuracy.slack * tolerance;
       goal.floor = tolerance - goal.slack / 2;
     }

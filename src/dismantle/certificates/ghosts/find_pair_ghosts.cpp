@@ -22,6 +22,7 @@ namespace {
 /// The largest displacements that are tried, the shorter ones first. The long ones are for corners between faces that
 /// are retracted; the faces themselves are not retracted further.
 constexpr double kFactors[] = {1, 1.1, 1.25, 1.6, kMaxGhostFactor};
+/// Lengths that differ by this share are equal.
 constexpr double kRounding = 1e-9;
 /// Up to this one, corners are displaced one by one as well, and sheets, in which nothing is deep.
 constexpr double kMaxFactorForCorners = 1.25;
@@ -34,6 +35,7 @@ constexpr double kGaps[] = {0.62, 0.3, 0.1};
 constexpr double kPlay = 0.3;
 /// Shallower pairs do not overlap, as a share of the tolerance.
 constexpr double kOverlap = 0.1;
+/// The same where one of the two is a sheet.
 constexpr double kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
@@ -42,11 +44,11 @@ constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
 constexpr std::size_t kMaxDirections = 12;
 constexpr double kSameSide = 0.05;
-/// Which patches are retracted is chosen where no more than so many overlap.
+/// Patches are left out of the retraction one by one only where no more than this number overlap.
 constexpr std::size_t kMaxPatches = 24;
-/// So many tests of pairs of faces are made for that.
+/// Largest number of tests of pairs of faces in that search.
 constexpr std::size_t kMaxTests = 2000000;
-/// So many pieces of displaced faces are looked at to find out how deep they are.
+/// Largest number of pieces examined to bound the depth of displaced faces.
 constexpr std::size_t kMaxPieces = 100000;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
@@ -58,8 +60,8 @@ double solid_angle(const Triangle& t, Vec3 p) {
   return 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
 }
 
-/// Pairs of solids that are shallower than this have room within their usual ghosts. A sheet is on one side of what it
-/// touches, and has to be taken for one that is inside, however little, as no ghost of its own can be behind it [mm].
+/// The depth from which a pair counts as overlapping [mm]. Solids that are shallower have room within their usual
+/// ghosts; the ghost of a sheet is the sheet itself, so a sheet that is inside at all needs one of its own.
 double overlap_from(const PairGhostRequest& request) {
   const bool solids = request.a.tree->has_outside && request.b.tree->has_outside;
   return (solids ? kOverlap : kSheetOverlap) * request.tolerance;
@@ -240,8 +242,9 @@ class GhostSide {
     return meeting;
   }
 
-  /// True if no point on the straight way of a face to its displaced place is deeper in this component than the pair
-  /// may be: so no point that is deeper is outside the displaced surface, whatever the length of the displacements.
+  /// True if no face, moving in a straight line to its displaced position, passes a point that is deeper in this
+  /// component than the pair may be. Every such point is then still inside the displaced surface, however long the
+  /// displacements are.
   /// @param max_length of the displacements [mm]
   bool shallow(const std::vector<Vec3>& vertices, double max_length) const {
     const SolidTree& own = *own_.tree;
