@@ -113,9 +113,13 @@ test("blockers are named, highlighted, and pointed at by arrows", async () => {
 test("an automatic motion can be stopped", async () => {
   await viewer.select("pinion bush");
   await viewer.page.keyboard.press("n");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic !== null);
-  while (!(await viewer.state()).components.some(({ pose }) => pose)) await viewer.page.waitForTimeout(20);
-  await viewer.page.keyboard.press("Escape");
+  // In the page, with the first picture of a moved component: a slow machine may have taken everything out before a key arrives.
+  await viewer.page.evaluate(async () => {
+    const { store } = window.dismantle!.app.session;
+    while (!store.state?.automatic || !store.state.components.some(({ pose }) => pose))
+      await new Promise((done) => requestAnimationFrame(done));
+    window.dispatchEvent(new KeyboardEvent("keydown", { key: "Escape", bubbles: true }));
+  });
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.automatic === null);
   await viewer.idle();
   const { components } = await viewer.state();
