@@ -61,6 +61,9 @@ TEST(SheetCrossing, AcceptsSheetsThatSlideAlongEachOtherAndPartAgain) {
 
 TEST(SheetCrossing, AcceptsASheetThatPassesBesideTheEdgeOfAnother) {
   EXPECT_TRUE(audit_pair(sheet(3, 0), scenes::moved(sheet(1, 1), {{4.001, 0, 0}, {}}), along(kDown, {0, 3})).holds());
+  // It goes through the edge by less than the tolerance: what follows its corners can go round the edge.
+  EXPECT_TRUE(audit_pair(sheet(3, 0), scenes::moved(sheet(1, 1), {{3.996, 0, 0}, {}}), along(kDown, {0, 3})).holds());
+  EXPECT_FALSE(audit_pair(sheet(3, 0), scenes::moved(sheet(1, 1), {{3.98, 0, 0}, {}}), along(kDown, {0, 3})).holds());
   EXPECT_FALSE(audit_pair(sheet(3, 0), scenes::moved(sheet(1, 1), {{3.9, 0, 0}, {}}), along(kDown, {0, 3})).holds());
 }
 

@@ -6,7 +6,7 @@
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/engine/classify_pairs.h"
 #include "dismantle/streams/streams_motion_engine.h"
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/solid_depth.h"
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/random_scenes.h"
 

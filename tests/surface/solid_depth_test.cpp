@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/solid_depth.h"
 
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"

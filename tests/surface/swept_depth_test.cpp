@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/swept_depth.h"
+#include "dismantle/surface/depth/swept_depth.h"
 
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/solid_depth.h"
 
-#include "dismantle/surface/moving_part_search.h"
+#include "dismantle/surface/depth/moving_part_search.h"
+#include "dismantle/surface/depth/nowhere_deeper.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
 #include "tests/support/gear_meshes.h"
@@ -13,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 namespace dismantle {
 namespace {
@@ -49,7 +52,7 @@ double sampled_depth(const TriangleMesh& a, const TriangleMesh& b, const RigidTr
 void expect_right(const TriangleMesh& a, const TriangleMesh& b, const RigidTransform& end, double limit,
                   double resolution, bool decided) {
   const Solid first(a), second(b);
-  const auto found = first_deeper({&first.shape, &second.shape, {}, end}, limit, resolution);
+  const auto found = first_deeper({&first.shape, &second.shape, {}, end}, {limit}, resolution);
   const double free_until = found ? found->free_until : 1;
   for (const double share : {0.0, 0.2, 0.5, 0.8, 1.0})
     if (free_until > 0) {
@@ -69,21 +72,21 @@ void expect_right(const TriangleMesh& a, const TriangleMesh& b, const RigidTrans
 TEST(FirstDeeper, FindsWhenABoxGetsTooDeep) {
   const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
   const SweptPair down{&other.shape, &box.shape, {}, moved({0, 0, -1})};
-  const auto found = first_deeper(down, 2.25, 1e-3);
+  const auto found = first_deeper(down, {2.25}, 1e-3);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->of_a);
   EXPECT_LE(found->free_until, 0.25 + 1e-9);
   EXPECT_NEAR(found->free_until, 0.25, 1e-3 * (1 + 1e-9));
   EXPECT_GT(found->time, 0.25);
-  EXPECT_FALSE(first_deeper(down, 3.01, 1e-3));
-  EXPECT_FALSE(first_deeper({&other.shape, &box.shape, {}, moved({0, 0, 30})}, 2.01, 1e-3));
-  EXPECT_TRUE(first_deeper(down, 1.9, 1e-3));  // too deep from the beginning
-  EXPECT_EQ(first_deeper(down, 1.9, 1e-3)->free_until, 0);
+  EXPECT_FALSE(first_deeper(down, {3.01}, 1e-3));
+  EXPECT_FALSE(first_deeper({&other.shape, &box.shape, {}, moved({0, 0, 30})}, {2.01}, 1e-3));
+  EXPECT_TRUE(first_deeper(down, {1.9}, 1e-3));  // too deep from the beginning
+  EXPECT_EQ(first_deeper(down, {1.9}, 1e-3)->free_until, 0);
 }
 
 TEST(FirstDeeper, IsTheSameForBothRoles) {
   const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
-  const auto found = first_deeper({&box.shape, &other.shape, {}, moved({0, 0, 1})}, 2.25, 1e-3);
+  const auto found = first_deeper({&box.shape, &other.shape, {}, moved({0, 0, 1})}, {2.25}, 1e-3);
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->of_a);
   EXPECT_NEAR(found->free_until, 0.25, 1e-3 * (1 + 1e-9));
@@ -91,8 +94,8 @@ TEST(FirstDeeper, IsTheSameForBothRoles) {
 
 TEST(FirstDeeper, ProvesLongMotionsAlongASharedAxisWithFewPieces) {
   const Solid hole(scenes::tube(12, 3.3, 0, 20, 24)), peg(scenes::tube(4, 0, -5, 35, 31));
-  EXPECT_FALSE(first_deeper({&peg.shape, &hole.shape, {}, moved({0, 0, 60})}, 0.76, 1e-4, 20000));
-  const auto sideways = first_deeper({&peg.shape, &hole.shape, {}, moved({2, 0, 0})}, 0.76, 1e-4);
+  EXPECT_FALSE(first_deeper({&peg.shape, &hole.shape, {}, moved({0, 0, 60})}, {0.76}, 1e-4, 20000));
+  const auto sideways = first_deeper({&peg.shape, &hole.shape, {}, moved({2, 0, 0})}, {0.76}, 1e-4);
   ASSERT_TRUE(sideways);
   EXPECT_LT(sideways->time * 2, 0.1);
 }
@@ -108,15 +111,61 @@ TEST(FirstDeeper, ProvesThatAGearComesOffAWiderOneAlongItsAxis) {
   const Solid a(first), b(second);
   const double depth = solid_depth({&a.shape, {}}, {&b.shape, {}}, {1e-4, 1e-4, 1000000}).depth;
   ASSERT_GT(depth, 1);
-  EXPECT_FALSE(first_deeper({&a.shape, &b.shape, {}, moved({0, 0, 80})}, depth + 0.01, 1e-4));
+  EXPECT_FALSE(first_deeper({&a.shape, &b.shape, {}, moved({0, 0, 80})}, {depth + 0.01}, 1e-4));
   // Of two that are equally wide, an end gets deeper than the flanks are.
   TriangleMesh third = first;
   for (Vec3& p : third.vertices) p.x += 2 * narrow.pitch_radius() - 0.4;
   const Solid c(third);
   const double flanks = solid_depth({&a.shape, {}}, {&c.shape, {}}, {1e-4, 1e-4, 1000000}).depth;
-  const auto found = first_deeper({&a.shape, &c.shape, {}, moved({0, 0, 80})}, flanks + 1e-3, 1e-4);
+  const auto found = first_deeper({&a.shape, &c.shape, {}, moved({0, 0, 80})}, {flanks + 1e-3}, 1e-4);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->time * 80, flanks, 0.05);
+}
+
+TEST(FirstDeeper, KeepsPointsThatAreFarFromAThinPartOutOfIt) {
+  // The end of a beam is half as deep in a plate as that is thick: by its depth alone, all of the beam could go
+  // through.
+  const Solid plate(scenes::box({-5, -5, 0}, {5, 5, 1})), beam(scenes::box({-0.4, -0.4, 0.5}, {0.4, 0.4, 10}));
+  const double limit = 0.51, tolerance = 0.01;
+  ASSERT_TRUE(is_nowhere_deeper(plate.shape, limit));
+  ASSERT_TRUE(is_nowhere_deeper(beam.shape, limit));
+  const auto sweep = [&](Vec3 way, const DepthLimits& limits) {
+    return first_deeper({&beam.shape, &plate.shape, {}, moved(way)}, limits, 1e-4);
+  };
+  EXPECT_FALSE(sweep({0, 0, -6}, {limit, limit, limit}));
+  const DepthLimits limits{limit, tolerance, limit};
+  EXPECT_FALSE(sweep({0, 0, 20}, limits));
+  const auto down = sweep({0, 0, -6}, limits);
+  ASSERT_TRUE(down);
+  EXPECT_TRUE(down->of_a);
+  // Points of the sides that are 0.51 above the plate get in until they are as deep as the tolerance.
+  EXPECT_NEAR(6 * down->free_until, limit + tolerance, 6e-4);
+  EXPECT_FALSE(sweep({0, 0, -0.5}, limits));
+  const auto swapped = first_deeper({&plate.shape, &beam.shape, {}, moved({0, 0, 6})}, {limit, limit, tolerance}, 1e-4);
+  ASSERT_TRUE(swapped);
+  EXPECT_FALSE(swapped->of_a);
+  EXPECT_NEAR(swapped->free_until, down->free_until, 1e-4);
+}
+
+TEST(NowhereDeeper, IsTrueFromTheRadiusOfTheLargestBallOn) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 20; ++i) {
+    const Pose at = scenes::random_pose(random, 2, 3);
+    const Solid plate(scenes::moved(scenes::box({0, 0, 0}, {6, 4, 0.5}), at));
+    EXPECT_FALSE(is_nowhere_deeper(plate.shape, 0.249));
+    EXPECT_TRUE(is_nowhere_deeper(plate.shape, 0.251));
+    const std::uint32_t sides = 8 + static_cast<std::uint32_t>(2 * i);
+    const Solid rod(scenes::moved(scenes::tube(2, 0, 0, 20, sides), at));
+    const double radius = 2 * std::cos(std::numbers::pi / sides);
+    EXPECT_FALSE(is_nowhere_deeper(rod.shape, 0.999 * radius));
+    EXPECT_TRUE(is_nowhere_deeper(rod.shape, 1.001 * radius));
+    const Solid ring(scenes::moved(scenes::tube(3, 2, 0, 0.4, 48), at));
+    EXPECT_FALSE(is_nowhere_deeper(ring.shape, 0.199));
+    EXPECT_TRUE(is_nowhere_deeper(ring.shape, 0.201));
+  }
+  TriangleMesh open = scenes::box({0, 0, 0}, {6, 4, 0.5});
+  open.faces.resize(open.faces.size() - 2);
+  EXPECT_FALSE(is_nowhere_deeper(Solid(open).shape, 100));
 }
 
 TEST(StaysShallow, TellsHowDeepATriangleGetsOnItsWay) {
@@ -140,7 +189,7 @@ TEST(StaysShallow, TellsHowDeepATriangleGetsOnItsWay) {
 
 TEST(FirstDeeper, ThatCannotBeDecidedStopsEarlierInsteadOfLater) {
   const Solid box(scenes::box({0, 0, 0}, {10, 10, 10})), other(scenes::box({3, 3, 8}, {7, 7, 20}));
-  const auto found = first_deeper({&other.shape, &box.shape, {}, moved({0, 0, -1})}, 2.25, 1e-3, 1);
+  const auto found = first_deeper({&other.shape, &box.shape, {}, moved({0, 0, -1})}, {2.25}, 1e-3, 1);
   ASSERT_TRUE(found);
   EXPECT_LT(found->free_until, 0.25);
 }

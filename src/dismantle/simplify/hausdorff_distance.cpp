@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/simplify/hausdorff_distance.h"
 
-#include "dismantle/surface/convex_polygon.h"
+#include "dismantle/surface/depth/convex_polygon.h"
 #include "dismantle/surface/surface_tree.h"
 
 #include <algorithm>

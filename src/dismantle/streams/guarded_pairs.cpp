@@ -4,9 +4,9 @@
 #include "dismantle/certificates/front/certificate_kernels.h"
 #include "dismantle/engine/chords.h"
 #include "dismantle/geometry/aabb_corners.h"
+#include "dismantle/surface/depth/swept_depth.h"
 #include "dismantle/surface/ghost_surface.h"
 #include "dismantle/surface/solid_distance.h"
-#include "dismantle/surface/swept_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,8 +155,8 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
     const auto seen = [&](Span<const RigidTransform> at) { return inverse(at[fixed.value]) * at[moving.value]; };
     const SweptPair swept{&solids_.at(moving).shape, &solids_.at(fixed).shape, seen(start), seen(end)};
     const double way = std::max(max_displacement(swept), tolerance_);
-    const double limit = pair.guard.allowed - kArcShare * tolerance_;
-    const auto deep = first_deeper(swept, limit, kResolution * tolerance_ / way);
+    const auto deep =
+        first_deeper(swept, depth_limits(pair.guard, a_moves, tolerance_), kResolution * tolerance_ / way);
     if (!deep) continue;
     const FaceId of_moving(deep->face_a), of_fixed(deep->face_b);
     found.push_back({pair.a, pair.b, a_moves ? of_moving : of_fixed, a_moves ? of_fixed : of_moving, deep->free_until});

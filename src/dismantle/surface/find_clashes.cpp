@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/find_clashes.h"
 
-#include "dismantle/surface/common_volume.h"
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/common_volume.h"
+#include "dismantle/surface/depth/solid_depth.h"
 #include "dismantle/surface/surface_queries.h"
 #include "dismantle/surface/vertex_regions.h"
 

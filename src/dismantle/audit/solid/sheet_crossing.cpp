@@ -14,6 +14,9 @@ namespace {
 constexpr double kStandoff = 0.1;
 /// A point is followed in steps of this part of the allowed distance where its ghost is held back.
 constexpr double kStep = 0.25;
+/// The lengths of offsets that are tried for ghosts, as parts of the allowed distance, and the number of directions.
+constexpr double kOffsets[] = {1, 0.7, 0.4};
+constexpr int kDirections = 128;
 /// A mesh is thin where its mean thickness is less than this many times the tolerance.
 constexpr double kThin = 4;
 
@@ -32,23 +35,27 @@ class PointFollower {
     const double bend = motion.screw.angle > 0 ? motion.acceleration(motion.velocity(now)) / 8 : 0;
     const double longest = bend > 0 ? std::sqrt(rule_.slack / (4 * bend)) : 1;
     for (double s = 0; s < 1;) {
-      const double step = std::min({longest, 1 - s, begin_step(now, allowed, speed)});
+      const double step = std::min({longest, 1 - s, begin_step(now, {segment, s}, allowed, speed)});
       const double shortest = speed > 0 ? kStep * allowed / speed : 1;
       s = advance(motion, body, {s, step, shortest}, now);
       const double beyond = ghost_ ? length(now - *ghost_) : 0;
-      if (beyond > allowed + rule_.slack) return {beyond, segment, s, now};
+      if (beyond > allowed + rule_.slack && !find_offset(body, {segment, s})) return {beyond, segment, s, now};
       if (speed == 0) break;
     }
     return {};
   }
 
  private:
+  struct Time {
+    std::uint32_t segment = 0;
+    double s = 0;
+  };
   struct Step {
     double from, length, shortest;
   };
 
   /// Starts or ends the ghost at a point. @return a time in which the point needs none
-  double begin_step(Vec3 now, double allowed, double speed) {
+  double begin_step(Vec3 now, Time time, double allowed, double speed) {
     const SurfacePoint closest = surface_.closest(now, last_face_);
     last_face_ = closest.face;
     if (closest.distance > allowed + rule_.slack) {
@@ -57,7 +64,11 @@ class PointFollower {
       const double free = closest.distance - allowed;
       return speed > 0 ? std::max(free, kStep * allowed) / speed : 1;
     }
-    if (!ghost_ && has_been_clear_) ghost_ = now;
+    if (!ghost_ && has_been_clear_) {
+      ghost_ = now;
+      begun_ = time;
+      has_begun_ = true;
+    }
     return ghost_ || speed == 0 ? 1 : kStep * allowed / speed;
   }
 
@@ -80,8 +91,52 @@ class PointFollower {
     return step.from + step.length;
   }
 
+  /// Looks for another ghost, one that keeps its offset from the point in the point's body since the first ghost began
+  /// in this move; the one that comes as near as it can may be held back behind a corner.
+  bool find_offset(Vec3 body, Time until) {
+    if (!has_begun_) return false;
+    for (std::uint32_t k = begun_.segment; k < until.segment; ++k)
+      if (rule_.allowed[k] != rule_.allowed[until.segment]) return false;
+    const double allowed = rule_.allowed[until.segment];
+    for (const double share : kOffsets)
+      for (int i = 0; i < kDirections; ++i) {
+        const Vec3 offset = share * allowed * direction(i);
+        if (!stays_clear(body, offset, until)) continue;
+        ghost_ = rule_.motions[until.segment].at(until.s) * (body + offset);
+        return true;
+      }
+    return false;
+  }
+
+  /// True if a point at an offset can be reached from the point where the ghost began, and does not meet the surface
+  /// until a time.
+  bool stays_clear(Vec3 body, Vec3 offset, Time until) const {
+    const double standoff = kStandoff * rule_.slack;
+    const RelativeMotion& first = rule_.motions[begun_.segment];
+    GhostPoint ghost(surface_, standoff, first.at(begun_.s) * body);
+    if (!ghost.shift(first.at(begun_.s) * (body + offset) - ghost.position())) return false;
+    for (std::uint32_t k = begun_.segment; k <= until.segment; ++k) {
+      const RelativeMotion& motion = rule_.motions[k];
+      const double from = k == begun_.segment ? begun_.s : 0, to = k == until.segment ? until.s : 1;
+      const double bend = motion.screw.angle > 0 ? motion.acceleration(motion.velocity(ghost.position())) / 8 : 0;
+      const double chords = std::ceil((to - from) * std::sqrt(4 * bend / rule_.slack)) + 1;
+      for (double i = 1; i <= chords; ++i)
+        if (!ghost.shift(motion.at(from + i / chords * (to - from)) * (body + offset) - ghost.position())) return false;
+    }
+    return true;
+  }
+
+  /// Directions spread over the sphere, by the golden angle.
+  static Vec3 direction(int i) {
+    constexpr double kGoldenAngle = 2.399963229728653;
+    const double z = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - z * z);
+    return {r * std::cos(kGoldenAngle * i), r * std::sin(kGoldenAngle * i), z};
+  }
+
   const AuditBody& surface_;
   const CrossingRule& rule_;
+  Time begun_;              // when the ghost did, in this move
+  bool has_begun_ = false;  // it did so in this move
   std::optional<Vec3>& ghost_;
   bool& has_been_clear_;
   std::uint32_t last_face_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/ghosts/find_guards.h"
 
+#include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ class Shapes {
 
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
-  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, kGhostLength * tolerance}, {}};
+  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, kGhostLength * tolerance}, {}};
   GuardedPair& guard = result.guard;
   // Thin parts and sheets may have passed the other component by less than their allowance.
   guard.parting = (found && found->retracted ? kApartShare : 1) * tolerance;
@@ -55,7 +56,22 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   return result;
 }
 
+/// Where a solid is nowhere as deep as the pair may get, limits the depth of points that do not overlap it.
+/// @param far_allowed their depth [mm]
+void limit_far_points(GuardedPair& guard, const SolidShape& a, const SolidShape& b, double far_allowed,
+                      double tolerance) {
+  const double limit = guard.allowed - kArcShare * tolerance;
+  guard.far_allowed = {is_nowhere_deeper(b, limit) ? far_allowed : kUnlimited,
+                       is_nowhere_deeper(a, limit) ? far_allowed : kUnlimited};
+}
+
 }  // namespace
+
+DepthLimits depth_limits(const GuardedPair& pair, bool a_first, double tolerance) {
+  const double arcs = kArcShare * tolerance;
+  const double of_first = pair.far_allowed[0] - arcs, of_second = pair.far_allowed[1] - arcs;
+  return {pair.allowed - arcs, a_first ? of_first : of_second, a_first ? of_second : of_first};
+}
 
 std::vector<FoundGuard> find_guards(const GuardSearch& search) {
   const double tolerance = search.pairs->tolerance;
@@ -72,14 +88,10 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
   search.executor.for_each_heavy(pairs.size(), [&](std::size_t i) {
     const ComponentPair& pair = pairs[i];
     if (pair.state == PairState::Free) {
-      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, 0, tolerance}, {}};
+      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, {}, 0, tolerance}, {}};
       return;
     }
     const bool solids = trees(pair.a).solid->has_outside && trees(pair.b).solid->has_outside;
-    if (pair.declared > 0 && solids) {  // corners of ghosts could not be displaced by as much as is declared
-      guards[i] = guard_of(pair, std::nullopt, tolerance);
-      return;
-    }
     const double declared = std::max(0.0, pair.declared - tolerance);
     const auto side = [&](ComponentId c) {
       return OverlapSide{trees(c).solid, [&shapes, c]() -> const SolidShape& { return shapes.of(c); }};
@@ -87,7 +99,13 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     const PairGhostRequest request{
         side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost, std::max(pair.depth, declared),
         declared,     tolerance,    search.kernels};
-    guards[i] = guard_of(pair, find_pair_ghosts(request), tolerance);
+    // Corners of ghosts could not be displaced by as much as is declared.
+    const bool by_depth = pair.declared > 0 && solids;
+    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance);
+    if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
+    FoundGuard& found = *guards[i];
+    const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;
+    limit_far_points(found.guard, shapes.of(pair.a), shapes.of(pair.b), far_allowed, tolerance);
   });
   std::vector<FoundGuard> found;
   for (std::optional<FoundGuard>& guard : guards)

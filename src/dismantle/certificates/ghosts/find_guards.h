@@ -5,6 +5,7 @@
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/certificates/ghosts/find_pair_ghosts.h"
 #include "dismantle/exec/executor.h"
+#include "dismantle/surface/depth/swept_depth.h"
 
 #include <array>
 #include <functional>
@@ -23,17 +24,23 @@ enum class PairGuard : std::uint8_t {
 struct GuardedPair {
   PairGuard guard = PairGuard::Ghosts;  ///< Until they have been apart.
   double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
-  double displaced = 0;                 ///< Largest displacement of their own ghosts [mm].
-  double parting = 0;                   ///< They have been apart where they are further apart than this [mm].
-  bool parted = false;                  ///< They have been apart: they are treated like any other pair.
-  FaceId near_a{0};                     ///< A face that was near `near_b` when last looked for; any before.
-  FaceId near_b{0};                     ///< Of the other component.
+  /// As DepthLimits::far_a and far_b, without the share of arcs; with PairGuard::Depth only [mm].
+  std::array<double, 2> far_allowed{};
+  double displaced = 0;  ///< Largest displacement of their own ghosts [mm].
+  double parting = 0;    ///< They have been apart where they are further apart than this [mm].
+  bool parted = false;   ///< They have been apart: they are treated like any other pair.
+  FaceId near_a{0};      ///< A face that was near `near_b` when last looked for; any before.
+  FaceId near_b{0};      ///< Of the other component.
 };
 
 /// Solids that are further apart than this share of the tolerance have been apart, a bit less than the audit's tenth;
 /// sheets, thin parts and pairs without ghosts where they are further apart than the tolerance. Cylinders that turn in
 /// each other have to be further apart than their allowance, as facets that happen to be apart meet again.
 inline constexpr double kApartShare = 0.08;
+
+/// The limits of a pair whose depth is bounded, less the share of the tolerance that arcs have, which is kept for
+/// translations as well: a rotation may follow. @param a_first SweptPair::a is the component with the smaller id
+DepthLimits depth_limits(const GuardedPair& pair, bool a_first, double tolerance);
 
 /// The trees of a component in the assembled state.
 struct ComponentTrees {

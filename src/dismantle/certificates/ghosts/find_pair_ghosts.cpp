@@ -7,8 +7,9 @@
 #include "dismantle/math/angle.h"
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/surface/depth/moving_part_search.h"
+#include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/ghost_surface.h"
-#include "dismantle/surface/moving_part_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,8 @@ constexpr double kOverlap = 0.1;
 constexpr double kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
+/// Where still more are, as in parts that are modelled in the place of each other, the search for ghosts ends.
+constexpr std::size_t kTooManyNear = 1000000;
 /// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
 constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
@@ -102,6 +105,10 @@ class GhostSide {
     const std::size_t retractions = own.has_outside || own.inside_out ? starts.size() : 0;
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
     const FacePairs near = near_faces(own, 2 * max_length);
+    if (near.size() > kTooManyNear) {
+      has_ended_ = true;
+      return std::nullopt;
+    }
     for (std::size_t i = 0; i < starts.size(); ++i)
       if (apart(displaced(starts[i]), near) && shallow(starts[i], max_length))
         return Found{std::move(starts[i]), i < retractions};
@@ -128,6 +135,9 @@ class GhostSide {
     auto shifted = find_shifted(near, {}, max_length);
     return shifted ? std::optional(Found{std::move(*shifted), false}) : std::nullopt;
   }
+
+  /// A find() has found so many faces near each other that no other one is of use.
+  bool has_ended() const { return has_ended_; }
 
  private:
   /// The whole surface shifted away from the other one, if nothing is in the way: thin parts and sheets can then slide
@@ -349,6 +359,7 @@ class GhostSide {
   bool is_a_;
   OverlapRetraction retraction_;
   double depth_limit_ = 0;
+  bool has_ended_ = false;
 };
 
 }  // namespace
@@ -364,9 +375,13 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   std::optional<GhostSide::Found> of_a, of_b;
   for (const double factor : kFactors) {
     const double length = factor * limit;
+    // Through a thin part, points would get by their displacement.
+    if (factor > 1 && (is_nowhere_deeper(request.a.shape(), length) || is_nowhere_deeper(request.b.shape(), length)))
+      break;
     const bool also_corners = factor <= kMaxFactorForCorners;
     if (!of_a) of_a = a.find(length, limit, also_corners);
     if (of_a && !of_b) of_b = b.find(length, limit, also_corners);
+    if (a.has_ended() || b.has_ended()) break;
     if (of_a && of_b)
       return PairGhosts{{std::move(of_a->vertices), std::move(of_b->vertices)},
                         length,

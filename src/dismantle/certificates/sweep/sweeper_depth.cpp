@@ -3,8 +3,8 @@
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 #include "dismantle/certificates/sweep/sweep_tasks.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
+#include "dismantle/surface/depth/swept_depth.h"
 #include "dismantle/surface/solid_distance.h"
-#include "dismantle/surface/swept_depth.h"
 
 #include <algorithm>
 
@@ -23,9 +23,8 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, CertificateSweep&
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
-  // The arcs' share is kept for translations as well: a rotation may follow.
-  const double limit = pair.allowed - kArcShare * tolerance_;
-  const auto deep = first_deeper(swept, limit, kResolution * tolerance_ / way);
+  const auto deep =
+      first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_), kResolution * tolerance_ / way);
   result.clearance = 0;
   if (!deep) return;
   const Screw screw = screw_between(motion.start, motion.end);

@@ -23,7 +23,7 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
 GuardedPair CertificateSweeper::guarded(ComponentId a, ComponentId b) const {
   const auto found = guarded_.find(std::minmax(a, b));
   if (found != guarded_.end() && !found->second.parted) return found->second;
-  GuardedPair usual{PairGuard::Ghosts, tolerance_, kGhostLength * tolerance_};
+  GuardedPair usual{PairGuard::Ghosts, tolerance_, {}, kGhostLength * tolerance_};
   usual.parted = found != guarded_.end();
   return usual;
 }

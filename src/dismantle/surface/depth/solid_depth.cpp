@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/solid_depth.h"
 
 #include "dismantle/narrowphase/intersect_triangle_triangle.h"
-#include "dismantle/surface/convex_polygon.h"
+#include "dismantle/surface/depth/convex_polygon.h"
 
 #include <algorithm>
 #include <cmath>

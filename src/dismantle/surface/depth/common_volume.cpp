@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/common_volume.h"
+#include "dismantle/surface/depth/common_volume.h"
 
 #include "dismantle/geometry/aabb_corners.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/moving_part_search.h"
+#include "dismantle/surface/depth/moving_part_search.h"
 
 #include "dismantle/core/span.h"
 #include "dismantle/narrowphase/closest_points.h"
-#include "dismantle/surface/solid_depth.h"
+#include "dismantle/surface/depth/solid_depth.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,8 @@ namespace {
 
 /// A shifted copy is given up where its box meets the boxes of more faces than this.
 constexpr int kMaxCopyFaces = 1000;
+/// Lengths along the surface count for this share where parts are divided.
+constexpr double kAlong = 0.05;
 /// Two directions are tried as one where the cosine between them is above this.
 constexpr double kSameDirection = 1 - 1e-9;
 
@@ -108,13 +110,29 @@ bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
 
 }  // namespace
 
-bool MovingPartSearch::is_deep(Vec3 point) const {
-  return solid_.surface().distance(point).distance > limit_ && solid_.winding().inside(point);
+bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
+  const double depth = solid_.surface().distance(point).distance;
+  if (depth <= far_limit_) return false;
+  if (depth <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
+  return solid_.winding().inside(point);
 }
 
 bool MovingPartSearch::within(Vec3 center, double radius) const {
   const MeshDistance nearest = solid_.surface().distance(center);
-  return nearest.distance + radius <= limit_ || outside(center, radius, nearest.distance);
+  return nearest.distance + radius <= far_limit_ || outside(center, radius, nearest.distance);
+}
+
+double MovingPartSearch::limit_of(const MovingPart& part) const {
+  if (far_limit_ == limit_) return limit_;
+  const Vec3 center = (part.own[0] + part.own[1] + part.own[2]) / 3;
+  double radius = 0;
+  for (int i = 0; i < 3; ++i) radius = std::max(radius, length(part.own[i] - center));
+  const MeshDistance nearest = solid_.surface().distance(center);
+  if (nearest.distance + radius <= limit_) return limit_;
+  const auto near = [&](Vec3 p) { return solid_.surface().distance_to_face(p, nearest.face) <= limit_; };
+  if (std::all_of(part.own.corner, part.own.corner + 3, near)) return limit_;
+  const bool inside = nearest.distance > radius && solid_.winding().inside(center);
+  return inside ? limit_ : far_limit_;  // inside, no point is further from the surface
 }
 
 MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces,
@@ -134,15 +152,18 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     }
     const MeshDistance nearest = solid_.surface().distance(center, last);
     last = nearest.face;
-    if (nearest.distance + radius + way <= limit_) continue;
-    if (near_face(part, nearest.face)) continue;
     if (outside(center, radius + way, nearest.distance)) continue;
-    if (copy_outside(part, center, radius + way, nearest.face)) continue;
+    const double limit = limit_of(part);
+    if (limit > far_limit_) continue;  // no point of the solid is deeper than that
+    if (nearest.distance + radius + way <= limit) continue;
+    if (near_face(part, nearest.face, limit)) continue;
+    if (copy_outside(part, center, radius + way, nearest.face, limit)) continue;
     const double time = (part.from + part.to) / 2;
-    if (is_deep(center)) return {Found{time, part.face, (part.own[0] + part.own[1] + part.own[2]) / 3}, true};
+    const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
+    if (is_deep(own, center)) return {Found{time, part.face, own}, true};
     for (int i = 0; i < 3; ++i)
-      if (is_deep(middle[i])) return {Found{time, part.face, part.own[i]}, true};
-    divide(part, nearest.face, way > radius, parts);
+      if (is_deep(part.own[i], middle[i])) return {Found{time, part.face, part.own[i]}, true};
+    divide(part, nearest.face, parts);
   }
   return {};
 }
@@ -163,19 +184,20 @@ bool MovingPartSearch::holes_do_not_matter(Vec3 center, double radius) const {
 }
 
 /// True if a part stays within the limit of one face of the surface.
-bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face) const {
+bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face, double limit) const {
   for (const Triangle* t : {&part.begin, &part.end})
     for (int i = 0; i < 3; ++i)
-      if (solid_.surface().distance_to_face((*t)[i], face) > limit_) return false;
+      if (solid_.surface().distance_to_face((*t)[i], face) > limit) return false;
   return true;
 }
 
 /// True if a copy of a part that is shifted by no more than the limit is outside: on the way there, a point that is
 /// inside passes the surface, unless it passes a fan that closes a hole.
 /// @param center, radius a ball around the part, the center half-way
-bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const {
+bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest,
+                                    double limit) const {
   const double margin = 4 * solid_.winding().placement();
-  if (limit_ <= margin) return false;
+  if (limit <= margin) return false;
   const bool inside = solid_.winding().inside(center);
   if (!inside && is_outside(part, center, radius, {})) return true;
   const Triangle& face = solid_.surface().triangle(nearest);
@@ -188,7 +210,7 @@ bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double 
   for (int i = 0; i < 4; ++i) {
     const auto same = [&](const Vec3& known) { return dot(known, directions[i]) > kSameDirection; };
     if (std::any_of(directions, directions + i, same)) continue;
-    if (is_outside(part, center, radius, (limit_ - margin) * directions[i])) return true;
+    if (is_outside(part, center, radius, (limit - margin) * directions[i])) return true;
   }
   return false;
 }
@@ -205,16 +227,24 @@ bool MovingPartSearch::is_outside(const MovingPart& part, Vec3 center, double ra
 }
 
 /// Divides an edge where the faces nearest to its ends are as near, but no part twice in turn; else halves the time
-/// or the longest edge. What lies deepest is often a line between two faces, and each of its sides stays within the
-/// limit of one of them.
-void MovingPartSearch::divide(const MovingPart& part, std::uint32_t nearest, bool in_time,
-                              std::vector<MovingPart>& parts) const {
-  int first = 0;
-  double share = 0.5;
-  const auto size = [&](int i) { return length_squared(part.own[(i + 1) % 3] - part.own[i]); };
-  for (int i = 1; i < 3; ++i)
-    if (size(i) > size(first)) first = i;
+/// or the edge along which the distance from the surface changes most. What lies deepest is often a line between two
+/// faces, and each of its sides stays within the limit of one of them.
+void MovingPartSearch::divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const {
   const Triangle middle = mean(part.begin, part.end);
+  const Vec3 center = (middle[0] + middle[1] + middle[2]) / 3;
+  const Triangle& face = solid_.surface().triangle(nearest);
+  Vec3 across = normalized(closest_point_of_triangle(face, center) - center);
+  if (!(length_squared(across) > 0)) across = normalized(normal_unscaled(face));
+  // Lengths along the surface count as well, so that parts do not become too slender.
+  const auto change = [&](Vec3 way) { return std::abs(dot(across, way)) + kAlong * length(way); };
+  const auto size = [&](int i) { return change(middle[(i + 1) % 3] - middle[i]); };
+  int first = 0;
+  double share = 0.5, way = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (size(i) > size(first)) first = i;
+    way = std::max(way, change(part.end[i] - part.begin[i]));
+  }
+  const bool in_time = way > size(first);
   MovingPart one = part, other = part;
   one.at_ridge = other.at_ridge = !part.at_ridge && find_ridge(middle, nearest, first, share);
   if (in_time && !one.at_ridge) {
@@ -237,6 +267,12 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
   for (int k = 0; k < 3; ++k) {
     const int i = (edge + k) % 3, j = (i + 1) % 3;
     if (faces[i] == faces[j]) continue;
+    if (std::abs(dot(normalized(normal_unscaled(solid_.surface().triangle(faces[i]))),
+                     normalized(normal_unscaled(solid_.surface().triangle(faces[j]))))) > 1 - 1e-6 &&
+        length(solid_.surface().triangle(faces[i])[0] - solid_.surface().triangle(faces[j])[0]) >= 0 &&
+        std::abs(dot(normalized(normal_unscaled(solid_.surface().triangle(faces[i]))),
+                     solid_.surface().triangle(faces[i])[0] - solid_.surface().triangle(faces[j])[0])) < 1e-3 * limit_)
+      continue;
     double near_first = 0, near_second = 1;
     for (int step = 0; step < kHalvings; ++step) {
       const double middle = (near_first + near_second) / 2;
@@ -255,7 +291,8 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
 
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces) {
-  const MovingPartSearch::Result result = MovingPartSearch(solid, limit).find({from, from, to}, pieces, max_pieces);
+  const MovingPartSearch::Result result =
+      MovingPartSearch(solid, limit, limit).find({from, from, to}, pieces, max_pieces);
   return result.complete && !result.found;
 }
 

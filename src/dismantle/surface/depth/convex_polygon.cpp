@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/convex_polygon.h"
+#include "dismantle/surface/depth/convex_polygon.h"
 
 #include <algorithm>
 #include <utility>

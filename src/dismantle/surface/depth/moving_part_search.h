@@ -24,8 +24,11 @@ struct MovingPart {
 /// first_deeper().
 class MovingPartSearch {
  public:
-  /// @param solid must outlive this @param limit of the depth [mm]
-  MovingPartSearch(const SolidShape& solid, double limit) : solid_(solid), limit_(limit) {}
+  /// @param solid must outlive this @param limit of the depth [mm] @param far_limit of points that are further from
+  /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
+  /// where no point of the solid is deeper than that
+  MovingPartSearch(const SolidShape& solid, double limit, double far_limit)
+      : solid_(solid), limit_(limit), far_limit_(far_limit) {}
 
   /// A point that is too deep at a time.
   struct Found {
@@ -39,8 +42,8 @@ class MovingPartSearch {
     bool complete = true;        ///< There were not too many pieces.
   };
 
-  /// True if a point is too deep [mm, frame of the solid].
-  bool is_deep(Vec3 point) const;
+  /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame
+  bool is_deep(Vec3 own, Vec3 point) const;
   /// True if no point of a ball is too deep, for one of two simple reasons; false says nothing.
   bool within(Vec3 center, double radius) const;
   /// Searches a part for a point that is too deep. @param pieces is increased by the number of pieces examined; the
@@ -48,16 +51,19 @@ class MovingPartSearch {
   Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
 
  private:
+  /// The limit of all points of a part: the far one unless none of them is far.
+  double limit_of(const MovingPart& part) const;
   bool outside(Vec3 center, double radius, double distance) const;
   bool holes_do_not_matter(Vec3 center, double radius) const;
-  bool near_face(const MovingPart& part, std::uint32_t face) const;
-  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
+  bool near_face(const MovingPart& part, std::uint32_t face, double limit) const;
+  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest, double limit) const;
   bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
-  void divide(const MovingPart& part, std::uint32_t nearest, bool in_time, std::vector<MovingPart>& parts) const;
+  void divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const;
   bool find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const;
 
   const SolidShape& solid_;
   double limit_;
+  double far_limit_;
 };
 
 /// True if no point of a triangle whose corners move linearly gets deeper inside a solid than `limit` [mm]; false where

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/surface/swept_depth.h"
+#include "dismantle/surface/depth/swept_depth.h"
 
 #include "dismantle/narrowphase/closest_points.h"
-#include "dismantle/surface/moving_part_search.h"
+#include "dismantle/surface/depth/moving_part_search.h"
 
 #include <algorithm>
 #include <vector>
@@ -29,12 +29,17 @@ class SweptSearch {
   using Result = MovingPartSearch::Result;
 
   SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start, const RigidTransform& end,
-              double limit)
-      : own_(own), other_(other), start_(start), end_(end), parts_(other, limit) {}
+              double limit, double far_limit)
+      : own_(own),
+        other_(other),
+        start_(start),
+        end_(end),
+        is_limited_(far_limit != limit),
+        parts_(other, limit, std::min(limit, far_limit)) {}
 
   Vec3 at(Vec3 own, double time) const { return (1 - time) * (start_ * own) + time * (end_ * own); }
 
-  bool is_deep(Vec3 own, double time) const { return parts_.is_deep(at(own, time)); }
+  bool is_deep(Vec3 own, double time) const { return parts_.is_deep(own, at(own, time)); }
 
   /// The point as a DeepPoint, without the time until which nothing is deep.
   DeepPoint deep_point(const Found& found, bool of_a) const {
@@ -46,6 +51,7 @@ class SweptSearch {
 
   /// A sampled point that is too deep at a time.
   std::optional<Found> sample(double time) const {
+    if (!is_limited_) return std::nullopt;
     const SurfaceTree& own = own_.surface();
     const Aabb& box = other_.surface().bounds();
     const std::size_t stride = std::max<std::size_t>(1, own.face_count() / kSamples);
@@ -53,7 +59,7 @@ class SweptSearch {
       const Triangle& t = own.triangle(static_cast<std::uint32_t>(f));
       for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]}) {
         const Vec3 now = at(p, time);
-        if (overlaps(box, {now, now}) && parts_.is_deep(now)) return Found{time, static_cast<std::uint32_t>(f), p};
+        if (overlaps(box, {now, now}) && parts_.is_deep(p, now)) return Found{time, static_cast<std::uint32_t>(f), p};
       }
     }
     return std::nullopt;
@@ -61,6 +67,7 @@ class SweptSearch {
 
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+    if (!is_limited_) return {};
     std::vector<NodeIndex> nodes{own_.surface().bvh().root()};
     while (!nodes.empty()) {
       if (++pieces > max_pieces) return {{}, false};
@@ -101,15 +108,16 @@ class SweptSearch {
   const SolidShape& own_;
   const SolidShape& other_;
   RigidTransform start_, end_;
+  bool is_limited_;
   MovingPartSearch parts_;
 };
 
 /// Both surfaces of a pair, each moving in the frame of the other.
 class PairSearch {
  public:
-  PairSearch(const SweptPair& pair, double limit, double resolution, std::size_t max_pieces)
-      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limit},
-                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limit}},
+  PairSearch(const SweptPair& pair, const DepthLimits& limits, double resolution, std::size_t max_pieces)
+      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits.limit, limits.far_a},
+                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits.limit, limits.far_b}},
         resolution_(resolution),
         max_pieces_(max_pieces) {}
 
@@ -180,9 +188,10 @@ class PairSearch {
 
 }  // namespace
 
-std::optional<DeepPoint> first_deeper(const SweptPair& pair, double limit, double resolution, std::size_t max_pieces) {
+std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
+                                      std::size_t max_pieces) {
   if (pair.a->empty() || pair.b->empty()) return std::nullopt;
-  return PairSearch(pair, limit, resolution, max_pieces).first();
+  return PairSearch(pair, limits, resolution, max_pieces).first();
 }
 
 }  // namespace dismantle

@@ -4,6 +4,7 @@
 #include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace dismantle {
@@ -27,7 +28,18 @@ struct DeepPoint {
   Vec3 nearest;              ///< The nearest point of the other surface [mm, in its frame].
 };
 
-/// Finds out if a point of either surface gets deeper inside the other solid than `limit` [mm] during a motion; depth
+/// How deep points may get [mm].
+struct DepthLimits {
+  double limit = 0;  ///< Of all points.
+  ///@{ Where a solid is nowhere deeper than `limit`, that is no limit, and points could go through it. This is the one
+  ///of
+  /// points of `a` in such a `b`, and of `b` in such an `a`, that are further from its surface than `limit` in the
+  /// assembled state; no more than `limit`, with which there is none. For all other solids it is infinite.
+  double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
+  ///@}
+};
+
+/// Finds out if a point of either surface gets deeper inside the other solid than it may during a motion; depth
 /// as in solid_depth(). Branch and bound over surfaces and time: what it does not find does not exist. A piece of a
 /// surface stays within the limit if its corners are no further from any one triangle of the other surface than that at
 /// both ends of an interval, as that distance is a convex function; if the other surface does not meet a ball around
@@ -36,7 +48,7 @@ struct DeepPoint {
 /// that takes more than `max_pieces` pieces is halved; one of a `resolution` that takes as many counts as if a point
 /// had been found.
 /// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
-std::optional<DeepPoint> first_deeper(const SweptPair& pair, double limit, double resolution,
+std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
                                       std::size_t max_pieces = 400000);
 
 }  // namespace dismantle
