@@ -31,10 +31,9 @@ struct DeepPoint {
 /// How deep points may get [mm].
 struct DepthLimits {
   double limit = 0;  ///< Of all points.
-  ///@{ Where a solid is nowhere deeper than `limit`, that is no limit, and points could go through it. This is the one
-  ///of
-  /// points of `a` in such a `b`, and of `b` in such an `a`, that are further from its surface than `limit` in the
-  /// assembled state; no more than `limit`, with which there is none. For all other solids it is infinite.
+  ///@{ Where a solid is nowhere deeper than `limit`, that is no limit, and points could go through it. For such a solid
+  /// this is the limit of points that are further from its surface than `limit` in the assembled state: of points of
+  /// `a` in `b`, and of `b` in `a`. No more than `limit`, with which they have none. Infinite for all other solids.
   double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
   ///@}
 };
