@@ -31,7 +31,8 @@ class CliBatch : public Cli {
   std::map<std::string, std::string> results(const std::string& folder) const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(in(folder)))
-      if (entry.is_regular_file() && entry.path().stem() != "timing")
+      // Each rank writes the tables. mpirun kills the others once one has ended with 1, perhaps before its rename.
+      if (entry.is_regular_file() && entry.path().stem() != "timing" && entry.path().extension() != ".tmp")
         files[entry.path().lexically_relative(in(folder)).string()] = read_all(entry.path());
     return files;
   }
