@@ -19,6 +19,9 @@ constexpr int kMaxCopyFaces = 1000;
 constexpr double kAlong = 0.05;
 /// Two directions are tried as one where the cosine between them is above this.
 constexpr double kSameDirection = 1 - 1e-9;
+/// Two faces are in one plane where the cosine between their normals is this near to 1, and they are off each other's
+/// plane by no more than this share of the limit.
+constexpr double kSamePlane = 1e-6, kSamePlaneOffset = 1e-3;
 
 Triangle mean(const Triangle& s, const Triangle& t) {
   return {{(s[0] + t[0]) / 2, (s[1] + t[1]) / 2, (s[2] + t[2]) / 2}};
@@ -122,17 +125,16 @@ bool MovingPartSearch::within(Vec3 center, double radius) const {
   return nearest.distance + radius <= far_limit_ || outside(center, radius, nearest.distance);
 }
 
-double MovingPartSearch::limit_of(const MovingPart& part) const {
-  if (far_limit_ == limit_) return limit_;
+bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
+  if (far_limit_ == limit_) return false;
   const Vec3 center = (part.own[0] + part.own[1] + part.own[2]) / 3;
   double radius = 0;
   for (int i = 0; i < 3; ++i) radius = std::max(radius, length(part.own[i] - center));
   const MeshDistance nearest = solid_.surface().distance(center);
-  if (nearest.distance + radius <= limit_) return limit_;
+  if (nearest.distance + radius <= limit_) return true;
   const auto near = [&](Vec3 p) { return solid_.surface().distance_to_face(p, nearest.face) <= limit_; };
-  if (std::all_of(part.own.corner, part.own.corner + 3, near)) return limit_;
-  const bool inside = nearest.distance > radius && solid_.winding().inside(center);
-  return inside ? limit_ : far_limit_;  // inside, no point is further from the surface
+  if (std::all_of(part.own.corner, part.own.corner + 3, near)) return true;
+  return nearest.distance > radius && solid_.winding().inside(center);  // inside, no point is further from the surface
 }
 
 MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces,
@@ -152,12 +154,10 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     }
     const MeshDistance nearest = solid_.surface().distance(center, last);
     last = nearest.face;
+    // The simple reasons first: winding numbers of open meshes are expensive.
+    if (nearest.distance + radius + way <= far_limit_ || near_face(part, nearest.face)) continue;
     if (outside(center, radius + way, nearest.distance)) continue;
-    const double limit = limit_of(part);
-    if (limit > far_limit_) continue;  // no point of the solid is deeper than that
-    if (nearest.distance + radius + way <= limit) continue;
-    if (near_face(part, nearest.face, limit)) continue;
-    if (copy_outside(part, center, radius + way, nearest.face, limit)) continue;
+    if (is_unlimited(part) || copy_outside(part, center, radius + way, nearest.face)) continue;
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
     if (is_deep(own, center)) return {Found{time, part.face, own}, true};
@@ -184,20 +184,19 @@ bool MovingPartSearch::holes_do_not_matter(Vec3 center, double radius) const {
 }
 
 /// True if a part stays within the limit of one face of the surface.
-bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face, double limit) const {
+bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face) const {
   for (const Triangle* t : {&part.begin, &part.end})
     for (int i = 0; i < 3; ++i)
-      if (solid_.surface().distance_to_face((*t)[i], face) > limit) return false;
+      if (solid_.surface().distance_to_face((*t)[i], face) > far_limit_) return false;
   return true;
 }
 
 /// True if a copy of a part that is shifted by no more than the limit is outside: on the way there, a point that is
 /// inside passes the surface, unless it passes a fan that closes a hole.
 /// @param center, radius a ball around the part, the center half-way
-bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest,
-                                    double limit) const {
+bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const {
   const double margin = 4 * solid_.winding().placement();
-  if (limit <= margin) return false;
+  if (far_limit_ <= margin) return false;
   const bool inside = solid_.winding().inside(center);
   if (!inside && is_outside(part, center, radius, {})) return true;
   const Triangle& face = solid_.surface().triangle(nearest);
@@ -210,7 +209,7 @@ bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double 
   for (int i = 0; i < 4; ++i) {
     const auto same = [&](const Vec3& known) { return dot(known, directions[i]) > kSameDirection; };
     if (std::any_of(directions, directions + i, same)) continue;
-    if (is_outside(part, center, radius, (limit - margin) * directions[i])) return true;
+    if (is_outside(part, center, radius, (far_limit_ - margin) * directions[i])) return true;
   }
   return false;
 }
@@ -259,6 +258,14 @@ void MovingPartSearch::divide(const MovingPart& part, std::uint32_t nearest, std
   parts.push_back(one);
 }
 
+/// True if there is no ridge between two faces.
+bool MovingPartSearch::in_one_plane(std::uint32_t face, std::uint32_t other) const {
+  const Triangle &a = solid_.surface().triangle(face), &b = solid_.surface().triangle(other);
+  const Vec3 normal = normalized(normal_unscaled(a));
+  return std::abs(dot(normal, normalized(normal_unscaled(b)))) > 1 - kSamePlane &&
+         std::abs(dot(normal, a[0] - b[0])) < kSamePlaneOffset * limit_;
+}
+
 bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const {
   constexpr double kEnd = 0.1;
   constexpr int kHalvings = 12;
@@ -266,13 +273,7 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
   for (int i = 0; i < 3; ++i) faces[i] = solid_.surface().distance(part[i], nearest).face;
   for (int k = 0; k < 3; ++k) {
     const int i = (edge + k) % 3, j = (i + 1) % 3;
-    if (faces[i] == faces[j]) continue;
-    if (std::abs(dot(normalized(normal_unscaled(solid_.surface().triangle(faces[i]))),
-                     normalized(normal_unscaled(solid_.surface().triangle(faces[j]))))) > 1 - 1e-6 &&
-        length(solid_.surface().triangle(faces[i])[0] - solid_.surface().triangle(faces[j])[0]) >= 0 &&
-        std::abs(dot(normalized(normal_unscaled(solid_.surface().triangle(faces[i]))),
-                     solid_.surface().triangle(faces[i])[0] - solid_.surface().triangle(faces[j])[0])) < 1e-3 * limit_)
-      continue;
+    if (faces[i] == faces[j] || in_one_plane(faces[i], faces[j])) continue;
     double near_first = 0, near_second = 1;
     for (int step = 0; step < kHalvings; ++step) {
       const double middle = (near_first + near_second) / 2;

@@ -51,14 +51,15 @@ class MovingPartSearch {
   Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
 
  private:
-  /// The limit of all points of a part: the far one unless none of them is far.
-  double limit_of(const MovingPart& part) const;
+  /// True if no point of a part is far, and near ones may be at any depth that the solid has.
+  bool is_unlimited(const MovingPart& part) const;
   bool outside(Vec3 center, double radius, double distance) const;
   bool holes_do_not_matter(Vec3 center, double radius) const;
-  bool near_face(const MovingPart& part, std::uint32_t face, double limit) const;
-  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest, double limit) const;
+  bool near_face(const MovingPart& part, std::uint32_t face) const;
+  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
   bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
   void divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const;
+  bool in_one_plane(std::uint32_t face, std::uint32_t other) const;
   bool find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const;
 
   const SolidShape& solid_;
