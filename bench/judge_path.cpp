@@ -27,30 +27,6 @@ struct Settings {
   bool ghosts = false;
 };
 
-/// Offsets from a face's center at which winding numbers tell a solid from a sheet, as a share of the diagonal.
-constexpr double kOffset = 1e-6;
-constexpr std::size_t kFacesTried = 60;
-/// Mean of the larger magnitude of the two winding numbers beside a face: 1 for a solid, 1/2 for a sheet.
-constexpr double kSolid = 0.8;
-
-/// True if the mesh is closed, but for cracks and small openings.
-bool is_solid(const TriangleMesh& mesh) {
-  const OracleMesh surface(mesh, true, false);
-  const double offset = kOffset * diagonal(surface.bounds());
-  const std::size_t stride = std::max<std::size_t>(1, mesh.faces.size() / kFacesTried);
-  double sum = 0;
-  int count = 0;
-  for (std::size_t f = 0; f < mesh.faces.size(); f += stride) {
-    const Triangle t = mesh.triangle(f);
-    const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
-    if (!(length(n) > 0)) continue;
-    const Vec3 center = (t[0] + t[1] + t[2]) / 3, aside = offset / length(n) * n;
-    sum += std::max(std::abs(surface.winding(center + aside)), std::abs(surface.winding(center - aside)));
-    ++count;
-  }
-  return count > 0 && sum > kSolid * count;
-}
-
 /// A component whose poses are followed through the moves.
 struct Body {
   std::string name;

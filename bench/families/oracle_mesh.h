@@ -63,4 +63,7 @@ class OracleMesh {
   bool solid_ = false, simple_ = false;
 };
 
+/// True if a mesh is closed, but for cracks and small openings.
+bool is_solid(const TriangleMesh& mesh);
+
 }  // namespace dismantle::families

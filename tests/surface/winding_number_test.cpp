@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace dismantle {
 namespace {
 
@@ -78,17 +80,45 @@ TEST(WindingNumber, IsContinuousInThePlaneOfAHole) {
 
 TEST(BoundaryLoops, AreTheClosedWalksOfEdgesInExcess) {
   const TriangleMesh box = scenes::box({0, 0, 0}, {1, 1, 1});
-  EXPECT_TRUE(boundary_loops(box.faces).empty());
-  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0).faces).size(), 1u);
-  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0).faces).front().size(), 3u);
-  EXPECT_EQ(boundary_loops(scenes::torn_apart(box).faces).size(), 12u);
+  EXPECT_TRUE(boundary_loops(box).empty());
+  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0)).size(), 1u);
+  EXPECT_EQ(boundary_loops(scenes::without_face(box, 0)).front().size(), 3u);
+  EXPECT_EQ(boundary_loops(scenes::torn_apart(box)).size(), 12u);
   TriangleMesh twice = box;
   twice.faces.push_back(twice.faces.front());
-  EXPECT_EQ(boundary_loops(twice.faces).size(), 1u);
+  EXPECT_EQ(boundary_loops(twice).size(), 1u);
   TriangleMesh touching;  // two triangles with a common vertex
   touching.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   touching.faces = {{{0, 1, 2}}, {{0, 3, 4}}};
-  EXPECT_EQ(boundary_loops(touching.faces).size(), 2u);
+  EXPECT_EQ(boundary_loops(touching).size(), 2u);
+}
+
+/// One face divided into four, but not its neighbours; new vertices are off the edges by `offset`.
+TriangleMesh with_divided_face(TriangleMesh mesh, double offset) {
+  const Face whole = mesh.faces.back();
+  mesh.faces.pop_back();
+  std::array<std::uint32_t, 3> middle;
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle[i] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back((mesh.vertices[whole.v[i]] + mesh.vertices[whole.v[(i + 1) % 3]]) / 2 +
+                            Vec3{offset, offset, offset});
+  }
+  for (std::size_t i = 0; i < 3; ++i) mesh.faces.push_back({{whole.v[i], middle[i], middle[(i + 2) % 3]}});
+  mesh.faces.push_back({{middle[0], middle[1], middle[2]}});
+  return mesh;
+}
+
+TEST(BoundaryLoops, AreNarrowAroundAFaceThatIsDividedUnlikeItsNeighbours) {
+  const TriangleMesh mesh = with_divided_face(scenes::box({0, 0, 0}, {1, 1, 1}), 0);
+  const auto loops = boundary_loops(mesh);
+  ASSERT_EQ(loops.size(), 3u);
+  for (const auto& loop : loops) EXPECT_EQ(loop.size(), 3u);
+}
+
+TEST(WindingNumber, TakesRoundedTJunctionsAsClosed) {
+  const TriangleMesh box = scenes::box({0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(Shape(with_divided_face(box, 1e-7)).winding.closed());
+  EXPECT_FALSE(Shape(with_divided_face(box, 1e-4)).winding.closed());
 }
 
 }  // namespace

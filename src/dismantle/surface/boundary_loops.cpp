@@ -27,10 +27,16 @@ std::vector<Step> excess_edges(Span<const Face> faces) {
   return steps;
 }
 
+/// The cosine of the angle between two directions; 0 where one of them has no length.
+double cosine(Vec3 a, Vec3 b) {
+  const double size = length(a) * length(b);
+  return size > 0 ? dot(a, b) / size : 0;
+}
+
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> boundary_loops(Span<const Face> faces) {
-  const std::vector<Step> steps = excess_edges(faces);
+std::vector<std::vector<std::uint32_t>> boundary_loops(const TriangleMesh& mesh) {
+  std::vector<Step> steps = excess_edges(mesh.faces);
   std::vector<std::vector<std::uint32_t>> loops;
   if (steps.empty()) return loops;
 
@@ -51,6 +57,14 @@ std::vector<std::vector<std::uint32_t>> boundary_loops(Span<const Face> faces) {
         walk.erase(first, walk.end());
       }
       if (next[at] == begin[at + 1]) break;
+      if (!walk.empty()) {
+        const Vec3 here = mesh.vertices[at], back = mesh.vertices[walk.back()] - here;
+        const auto turn = [&](const Step& s) { return cosine(back, mesh.vertices[s.second] - here); };
+        const auto first = steps.begin() + static_cast<std::ptrdiff_t>(next[at]);
+        const auto last = steps.begin() + static_cast<std::ptrdiff_t>(begin[at + 1]);
+        std::iter_swap(first,
+                       std::max_element(first, last, [&](const Step& a, const Step& b) { return turn(a) < turn(b); }));
+      }
       place[at] = walk.size();
       walk.push_back(at);
       at = steps[next[at]++].second;

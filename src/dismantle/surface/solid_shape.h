@@ -11,19 +11,21 @@
 
 namespace dismantle {
 
+class ShallowRegion;
+
 /// The surface of a component in the assembled state and its winding number, for queries about solids with faulty
-/// meshes. Immutable; may be shared between threads.
+/// meshes. Immutable to all queries; may be shared between threads.
 class SolidShape {
  public:
   /// An empty shape.
-  SolidShape() = default;
+  SolidShape();
   /// Builds the shape of a component: the same one on every executor.
-  explicit SolidShape(const Component& component, const Executor& executor = {}) {
-    const TriangleMesh mesh = assembled_mesh(component);
-    if (mesh.faces.empty()) return;
-    surface_ = std::make_unique<const SurfaceTree>(mesh, executor);
-    winding_ = std::make_unique<const WindingNumber>(mesh, *surface_);
-  }
+  explicit SolidShape(const Component& component, const Executor& executor = {});
+  /// Takes over another one, which is empty afterwards.
+  SolidShape(SolidShape&&) noexcept;
+  /// The same; what was here is gone.
+  SolidShape& operator=(SolidShape&&) noexcept;
+  ~SolidShape();
 
   /// True for a component without faces; no other function may be called then.
   bool empty() const { return surface_ == nullptr; }
@@ -31,10 +33,15 @@ class SolidShape {
   const SurfaceTree& surface() const { return *surface_; }
   /// Its winding number [mm, assembly frame].
   const WindingNumber& winding() const { return *winding_; }
+  /// Where no point is deeper than `limit` [mm]; kept, as it is refined where it is asked.
+  const ShallowRegion& shallow_region(double limit) const;
 
  private:
+  struct Regions;
+
   std::unique_ptr<const SurfaceTree> surface_;
   std::unique_ptr<const WindingNumber> winding_;
+  std::unique_ptr<Regions> regions_;
 };
 
 /// A shape at a pose.

@@ -49,6 +49,11 @@ double width_of(const std::vector<Triangle>& fan) {
   return width;
 }
 
+Vec3 farthest_from(Vec3 p, const std::vector<Vec3>& points) {
+  return *std::max_element(points.begin(), points.end(),
+                           [&](Vec3 a, Vec3 b) { return length_squared(a - p) < length_squared(b - p); });
+}
+
 /// True for a fan in a plane, as near as single precision can tell, whose triangles go once around its center.
 bool flat_and_simple(const std::vector<Triangle>& fan, double radius) {
   constexpr double kFlatness = 1e-6;
@@ -95,8 +100,8 @@ bool outside(const Aabb& box, Vec3 p) {
 WindingNumber::WindingNumber(const TriangleMesh& mesh, const SurfaceTree& surface)
     : surface_(surface), diagonal_(diagonal(surface.bounds())) {
   TriangleMesh all_fans;
-  std::vector<std::pair<double, Hole>> loops;
-  for (const std::vector<std::uint32_t>& loop : boundary_loops(mesh.faces)) {
+  std::vector<Hole> loops;
+  for (const std::vector<std::uint32_t>& loop : boundary_loops(mesh)) {
     Hole hole;
     for (const std::uint32_t v : loop) hole.rim.push_back(mesh.vertices[v]);
     for (const Vec3& p : hole.rim) hole.center += p / static_cast<double>(hole.rim.size());
@@ -110,18 +115,38 @@ WindingNumber::WindingNumber(const TriangleMesh& mesh, const SurfaceTree& surfac
       hole.circumference += length(t[2] - t[1]);
     }
     hole.flat = flat_and_simple(fan, hole.radius);
-    loops.emplace_back(width_of(fan), std::move(hole));
+    hole.width = width_of(fan);
+    hole.spine[0] = farthest_from(hole.center, hole.rim);
+    hole.spine[1] = farthest_from(hole.spine[0], hole.rim);
+    for (const Vec3& p : hole.rim)
+      hole.thickness =
+          std::max(hole.thickness, length(p - detail::closest_point_of_segment(hole.spine[0], hole.spine[1], p)));
+    loops.push_back(std::move(hole));
   }
   if (!all_fans.faces.empty()) fans_ = std::make_unique<const SurfaceTree>(all_fans);
 
-  std::stable_sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(loops.begin(), loops.end(), [](const Hole& a, const Hole& b) { return a.width < b.width; });
   double cracks = 0;
-  for (auto& [width, hole] : loops) {
-    cracks += width;
+  for (Hole& hole : loops) {
+    cracks += hole.width;
     if (cracks <= kCrackWidth * diagonal_) continue;
     rim_edge_count_ += hole.rim.size();
     holes_.push_back(std::move(hole));
   }
+}
+
+/// A bound of the absolute winding number of the fan at the points within `reach` of a point [mm]; infinite near it.
+/// A triangle of height h over its longest side, further than D from a point, covers no more of what can be seen from
+/// there than a strip of that height: at a place s along the strip, off the foot of the point, it is further than D
+/// and than s, so that the integral of h / max(D, s)^2, which is 4 h / D, bounds its solid angle.
+double WindingNumber::Hole::bound(Vec3 around, double reach) const {
+  double bound = flat ? 0.5 : kInfinite;
+  const double off_center = length(around - center) - radius - reach;
+  if (off_center > 0) bound = std::min(bound, area / (kSphere * off_center * off_center));
+  const double off_spine =
+      length(around - detail::closest_point_of_segment(spine[0], spine[1], around)) - thickness - reach;
+  if (off_spine > 0) bound = std::min(bound, 4 * width / (kSphere * off_spine));
+  return bound;
 }
 
 double WindingNumber::fan_winding(const Hole& hole, Vec3 point) const {
@@ -137,13 +162,23 @@ double WindingNumber::fan_winding(const Hole& hole, Vec3 point) const {
 
 double WindingNumber::at(Vec3 point, double negligible) const {
   if (closed() && outside(surface_.bounds(), point)) return 0;
+  const std::optional<int> whole = closed_at(point);
+  return whole ? at(point, negligible, *whole) : 0;
+}
+
+/// The winding number of the mesh closed by its fans; nothing where no ray tells it. @param point is moved a little
+/// where it is on a surface
+std::optional<int> WindingNumber::closed_at(Vec3& point) const {
   std::optional<int> whole = closed_winding(surface_, fans_.get(), point);
   if (!whole) {
-    point += kPlacement * diagonal_ * kRayDirections[0];
+    point += placement() * kRayDirections[0];
     whole = closed_winding(surface_, fans_.get(), point);
   }
-  if (!whole) return 0;
-  double winding = *whole;
+  return whole;
+}
+
+double WindingNumber::at(Vec3 point, double negligible, int closed) const {
+  double winding = closed;
   for (const Hole& hole : holes_) {
     const double apart = length(point - hole.center) - hole.radius;
     const double limit = kSphere * negligible / static_cast<double>(holes_.size());
@@ -154,9 +189,15 @@ double WindingNumber::at(Vec3 point, double negligible) const {
 }
 
 bool WindingNumber::inside(Vec3 point) const {
-  const double winding = std::abs(at(point, kNegligible));
-  if (closed() || std::abs(winding - 0.5) > kNegligible) return winding > 0.5;
-  return std::abs(at(point, 0)) > 0.5;
+  if (closed() && outside(surface_.bounds(), point)) return false;
+  const std::optional<int> whole = closed_at(point);
+  if (!whole) return false;
+  double fans = 0;
+  for (auto hole = holes_.begin(); hole != holes_.end() && fans < 0.5; ++hole) fans += hole->bound(point, 0);
+  if (fans < 0.5) return *whole != 0;
+  const double winding = std::abs(at(point, kNegligible, *whole));
+  if (std::abs(winding - 0.5) > kNegligible) return winding > 0.5;
+  return std::abs(at(point, 0, *whole)) > 0.5;
 }
 
 std::optional<std::vector<SurfaceCrossing>> WindingNumber::crossings(Vec3 point, Vec3 direction) const {
@@ -194,10 +235,9 @@ double WindingNumber::bound_outside_fans(Vec3 center, double radius) const {
   if (!whole || *whole != 0) return kInfinite;
   double bound = 0;
   for (const Hole& hole : holes_) {
-    const double apart = length(center - hole.center) - hole.radius - radius;
-    const double far = apart > 0 ? hole.area / (kSphere * apart * apart) : kInfinite;
-    if (!hole.flat && far > 0.5) return kInfinite;
-    bound += std::min(far, 0.5);
+    const double of_hole = hole.bound(center, radius);
+    if (of_hole > 0.5) return kInfinite;
+    bound += of_hole;
   }
   return bound;
 }

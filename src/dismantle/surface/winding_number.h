@@ -28,8 +28,9 @@ struct SurfaceCrossing {
 /// cracks only, that changes the side of no point that is further than their width from them.
 class WindingNumber {
  public:
-  /// Widths of cracks in all, as a part of the diagonal: the rounding of single precision.
-  static constexpr double kCrackWidth = 1e-7;
+  /// Widths of cracks in all, as a part of the diagonal: a few loops that the rounding of single precision, or of
+  /// seven digits of text, leaves open.
+  static constexpr double kCrackWidth = 1e-6;
   /// Largest distance, as a part of the diagonal, at which a point may be taken to be on the other side of a surface.
   static constexpr double kPlacement = 1e-9;
 
@@ -52,8 +53,8 @@ class WindingNumber {
   /// The fans that close the mesh; null where there are none.
   const SurfaceTree* fans() const { return fans_.get(); }
   /// A bound of the absolute winding number in a set of points, where the mesh closed by its fans has winding number 0:
-  /// a fan that is flat and simple covers no more than half of what can be seen, a far one less; infinite where that
-  /// mesh has another winding number. @param center, radius a ball around the set; the center is a point of it
+  /// a fan that is flat and simple covers no more than half of what can be seen, a far or a narrow one less; infinite
+  /// where that mesh has another winding number. @param center, radius a ball around the set; the center is a point of it
   /// @pre the set is connected and meets neither the mesh nor a fan
   double bound_outside_fans(Vec3 center, double radius) const;
   /// A bound of the change of the winding number from `center` to any point within `radius` [mm], by the law of Biot
@@ -68,10 +69,17 @@ class WindingNumber {
     double radius = 0;         // of the fan about the center
     double area = 0;           // of the fan
     double circumference = 0;  // of the loop
+    double width = 0;          // of the fan: the heights of its triangles
+    Vec3 spine[2];             // corners that are far apart
+    double thickness = 0;      // of the fan about the segment between them
     bool flat = false;         // the fan lies in a plane and covers no point twice
+
+    double bound(Vec3 around, double reach) const;
   };
 
   double at(Vec3 point, double negligible) const;
+  double at(Vec3 point, double negligible, int closed) const;
+  std::optional<int> closed_at(Vec3& point) const;
   double fan_winding(const Hole& hole, Vec3 point) const;
   double change_at_rim(const Hole& hole, Vec3 center, double radius) const;
 

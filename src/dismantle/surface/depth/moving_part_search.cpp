@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/depth/moving_part_search.h"
 
-#include "dismantle/core/span.h"
 #include "dismantle/narrowphase/closest_points.h"
-#include "dismantle/surface/depth/solid_depth.h"
+#include "dismantle/surface/depth/shallow_region.h"
 
 #include <algorithm>
 #include <array>
@@ -26,70 +25,6 @@ constexpr double kSamePlane = 1e-6, kSamePlaneOffset = 1e-3;
 Triangle mean(const Triangle& s, const Triangle& t) {
   return {{(s[0] + t[0]) / 2, (s[1] + t[1]) / 2, (s[2] + t[2]) / 2}};
 }
-
-/// The hull of all places of a part and of copies of it, each shifted: tells if an axis separates it from a triangle.
-class PartHull {
- public:
-  PartHull(const MovingPart& part, Span<const Vec3> shifts) {
-    for (const Vec3& shift : shifts)
-      for (const Triangle* t : {&part.begin, &part.end})
-        for (const Vec3& p : t->corner) {
-          corner_[count_++] = p + shift;
-          box_.extend(p + shift);
-        }
-    normal_ = normalized(normal_unscaled(part.begin));
-    lower_ = upper_ = dot(normal_, corner_[0]);
-    for (int i = 1; i < count_; ++i) {
-      lower_ = std::min(lower_, dot(normal_, corner_[i]));
-      upper_ = std::max(upper_, dot(normal_, corner_[i]));
-    }
-  }
-
-  /// True if it may meet a box that is larger by `gap`; across the part, it is thinner than its own box is.
-  bool may_meet(const Aabb& box, double gap) const {
-    if (!overlaps(box_, {box.lower - Vec3{gap, gap, gap}, box.upper + Vec3{gap, gap, gap}})) return false;
-    const Vec3 half = (box.upper - box.lower) / 2;
-    const double reach =
-        std::abs(normal_.x) * half.x + std::abs(normal_.y) * half.y + std::abs(normal_.z) * half.z + 2 * gap;
-    const double middle = dot(normal_, box.center());
-    return middle - reach <= upper_ && middle + reach >= lower_;
-  }
-
-  /// True if some axis certainly separates it by more than `gap`.
-  bool apart(const Triangle& face, double gap) const {
-    if (apart_along(normal_unscaled(face), face, gap)) return true;
-    const Triangle begin{{corner_[0], corner_[1], corner_[2]}};
-    if (apart_along(normal_unscaled(begin), face, gap)) return true;
-    const Vec3 way = corner_[3] - corner_[0];
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 edge = face[(i + 1) % 3] - face[i];
-      for (int k = 0; k < 3; ++k)
-        if (apart_along(cross(begin[(k + 1) % 3] - begin[k], edge), face, gap)) return true;
-      if (apart_along(cross(way, edge), face, gap)) return true;
-    }
-    return false;
-  }
-
- private:
-  bool apart_along(Vec3 axis, const Triangle& face, double gap) const {
-    const double size = length(axis);
-    if (!(size > 0)) return false;
-    double lower = dot(axis, corner_[0]), upper = lower;
-    for (int i = 1; i < count_; ++i) {
-      const double along = dot(axis, corner_[i]);
-      lower = std::min(lower, along);
-      upper = std::max(upper, along);
-    }
-    const double f[3] = {dot(axis, face[0]), dot(axis, face[1]), dot(axis, face[2])};
-    return std::min({f[0], f[1], f[2]}) - upper > gap * size || lower - std::max({f[0], f[1], f[2]}) > gap * size;
-  }
-
-  std::array<Vec3, 12> corner_;
-  int count_ = 0;
-  Aabb box_;
-  Vec3 normal_;                   // of the part
-  double lower_ = 0, upper_ = 0;  // along it
-};
 
 /// True if a hull is certainly further than `gap` from a surface.
 bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
@@ -120,11 +55,6 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
   return solid_.winding().inside(point);
 }
 
-bool MovingPartSearch::within(Vec3 center, double radius) const {
-  const MeshDistance nearest = solid_.surface().distance(center);
-  return nearest.distance + radius <= far_limit_ || outside(center, radius, nearest.distance);
-}
-
 bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
   if (far_limit_ == limit_) return false;
   const Vec3 center = (part.own[0] + part.own[1] + part.own[2]) / 3;
@@ -145,6 +75,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     if (++pieces > max_pieces) return {{}, false};
     const MovingPart part = parts.back();
     parts.pop_back();
+    if (region_ && region_->contains(PartHull(part))) continue;
     const Triangle middle = mean(part.begin, part.end);
     const Vec3 center = (middle[0] + middle[1] + middle[2]) / 3;
     double radius = 0, way = 0;
@@ -156,7 +87,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     last = nearest.face;
     // The simple reasons first: winding numbers of open meshes are expensive.
     if (nearest.distance + radius + way <= far_limit_ || near_face(part, nearest.face)) continue;
-    if (outside(center, radius + way, nearest.distance)) continue;
+    if (ball_outside(solid_.winding(), center, radius + way, nearest.distance)) continue;
     if (is_unlimited(part) || copy_outside(part, center, radius + way, nearest.face)) continue;
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
@@ -166,21 +97,6 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     divide(part, nearest.face, parts);
   }
   return {};
-}
-
-bool MovingPartSearch::outside(Vec3 center, double radius, double distance) const {
-  if (distance <= radius) return false;
-  const WindingNumber& winding = solid_.winding();
-  if (winding.closed()) return !winding.inside(center);
-  if (winding.fans()->distance(center).distance > radius && holes_do_not_matter(center, radius)) return true;
-  const double change = winding.max_change(center, radius);
-  return change < 1 && std::abs(winding.at(center)) + change < 0.5 + kUndecidedWinding;
-}
-
-/// True if the mesh closed by its fans is not around the center of a ball, nor do the holes by themselves make an
-/// inside of any point of the ball.
-bool MovingPartSearch::holes_do_not_matter(Vec3 center, double radius) const {
-  return solid_.winding().bound_outside_fans(center, radius) < 0.5 + kUndecidedWinding;
 }
 
 /// True if a part stays within the limit of one face of the surface.
@@ -222,7 +138,7 @@ bool MovingPartSearch::is_outside(const MovingPart& part, Vec3 center, double ra
   if (!clear_of(solid_.surface(), PartHull(part, Span<const Vec3>(shifts, 1)), gap)) return false;
   if (winding.closed()) return !winding.inside(center + shift);
   return clear_of(*winding.fans(), PartHull(part, Span<const Vec3>(shifts, 2)), gap) &&
-         holes_do_not_matter(center + shift, radius + length(shift));
+         holes_do_not_matter(winding, center + shift, radius + length(shift));
 }
 
 /// Divides an edge where the faces nearest to its ends are as near, but no part twice in turn; else halves the time
@@ -293,7 +209,7 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces) {
   const MovingPartSearch::Result result =
-      MovingPartSearch(solid, limit, limit).find({from, from, to}, pieces, max_pieces);
+      MovingPartSearch(solid, limit, limit, nullptr).find({from, from, to}, pieces, max_pieces);
   return result.complete && !result.found;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/surface/depth/part_hull.h"
+#include "dismantle/surface/depth/shallow_region.h"
 #include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
@@ -9,26 +11,16 @@
 
 namespace dismantle {
 
-/// A triangle, or a part of one, during an interval of time: all its points move linearly.
-struct MovingPart {
-  Triangle own;            ///< Corners in its own frame [mm].
-  Triangle begin;          ///< In the frame of the solid in which it moves [mm], at the beginning.
-  Triangle end;            ///< At the end.
-  double from = 0;         ///< The time at the beginning.
-  double to = 1;           ///< The time at the end.
-  std::uint32_t face = 0;  ///< The face that it is a part of.
-  bool at_ridge = false;   ///< It was divided where two faces of the solid are as near.
-};
-
 /// Searches moving parts of triangles for points that are deeper inside a solid than a limit, by branch and bound: see
 /// first_deeper().
 class MovingPartSearch {
  public:
   /// @param solid must outlive this @param limit of the depth [mm] @param far_limit of points that are further from
   /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
-  /// where no point of the solid is deeper than that
-  MovingPartSearch(const SolidShape& solid, double limit, double far_limit)
-      : solid_(solid), limit_(limit), far_limit_(far_limit) {}
+  /// where no point of the solid is deeper than that @param region where no point is deeper than the far limit; must
+  /// outlive this, or null, where there is little to search
+  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region)
+      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region) {}
 
   /// A point that is too deep at a time.
   struct Found {
@@ -44,8 +36,6 @@ class MovingPartSearch {
 
   /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame
   bool is_deep(Vec3 own, Vec3 point) const;
-  /// True if no point of a ball is too deep, for one of two simple reasons; false says nothing.
-  bool within(Vec3 center, double radius) const;
   /// Searches a part for a point that is too deep. @param pieces is increased by the number of pieces examined; the
   /// search is given up above `max_pieces`
   Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
@@ -53,8 +43,6 @@ class MovingPartSearch {
  private:
   /// True if no point of a part is far, and near ones may be at any depth that the solid has.
   bool is_unlimited(const MovingPart& part) const;
-  bool outside(Vec3 center, double radius, double distance) const;
-  bool holes_do_not_matter(Vec3 center, double radius) const;
   bool near_face(const MovingPart& part, std::uint32_t face) const;
   bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
   bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
@@ -65,6 +53,7 @@ class MovingPartSearch {
   const SolidShape& solid_;
   double limit_;
   double far_limit_;
+  const ShallowRegion* region_;
 };
 
 /// True if no point of a triangle whose corners move linearly gets deeper inside a solid than `limit` [mm]; false where

@@ -35,7 +35,8 @@ class SweptSearch {
         start_(start),
         end_(end),
         is_limited_(far_limit != limit),
-        parts_(other, limit, std::min(limit, far_limit)) {}
+        region_(other.shallow_region(std::min(limit, far_limit))),
+        parts_(other, limit, std::min(limit, far_limit), &region_) {}
 
   Vec3 at(Vec3 own, double time) const { return (1 - time) * (start_ * own) + time * (end_ * own); }
 
@@ -68,21 +69,29 @@ class SweptSearch {
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
     if (!is_limited_) return {};
-    std::vector<NodeIndex> nodes{own_.surface().bvh().root()};
-    while (!nodes.empty()) {
+    std::vector<Piece> pieces_left{{own_.surface().bvh().root(), from, to}};
+    while (!pieces_left.empty()) {
       if (++pieces > max_pieces) return {{}, false};
-      const NodeIndex node = nodes.back();
-      nodes.pop_back();
-      if (within(node, from, to)) continue;
+      const Piece piece = pieces_left.back();
+      pieces_left.pop_back();
+      const Aabb begin = box_at(piece.node, piece.from), end = box_at(piece.node, piece.to);
+      Aabb both = begin;
+      both.extend(end);
+      if (region_.contains(both)) continue;
       const Bvh& bvh = own_.surface().bvh();
-      if (node >= bvh.leaf_count()) {
-        const BvhChildren children = bvh.children[node - bvh.leaf_count()];
-        nodes.push_back(children.left);
-        nodes.push_back(children.right);
-        continue;
+      if (piece.node < bvh.leaf_count()) {
+        const MovingPart whole = part(bvh.leaf_triangle[piece.node], piece.from, piece.to);
+        const Result in_face = parts_.find(whole, pieces, max_pieces);
+        if (in_face.found || !in_face.complete) return in_face;
+      } else if (length(end.center() - begin.center()) > diagonal(begin)) {
+        const double middle = (piece.from + piece.to) / 2;
+        pieces_left.push_back({piece.node, middle, piece.to});
+        pieces_left.push_back({piece.node, piece.from, middle});
+      } else {
+        const BvhChildren children = bvh.children[piece.node - bvh.leaf_count()];
+        pieces_left.push_back({children.left, piece.from, piece.to});
+        pieces_left.push_back({children.right, piece.from, piece.to});
       }
-      const Result in_face = parts_.find(part(bvh.leaf_triangle[node], from, to), pieces, max_pieces);
-      if (in_face.found || !in_face.complete) return in_face;
     }
     return {};
   }
@@ -98,17 +107,28 @@ class SweptSearch {
             face};
   }
 
-  bool within(NodeIndex node, double from, double to) const {
-    const Aabb& box = own_.surface().box(node);
-    const Vec3 center = box.center();
-    const Vec3 begin = at(center, from), end = at(center, to);
-    return parts_.within((begin + end) / 2, diagonal(box) / 2 + length(end - begin) / 2);
+  /// The box around some faces at a time, in the frame of the other shape.
+  Aabb box_at(NodeIndex node, double time) const {
+    const Aabb& own = own_.surface().box(node);
+    Aabb box;
+    for (unsigned i = 0; i < 8; ++i)
+      box.extend(
+          at({i & 1 ? own.upper.x : own.lower.x, i & 2 ? own.upper.y : own.lower.y, i & 4 ? own.upper.z : own.lower.z},
+             time));
+    return box;
   }
+
+  /// Faces of the own surface during an interval of time.
+  struct Piece {
+    NodeIndex node;
+    double from, to;
+  };
 
   const SolidShape& own_;
   const SolidShape& other_;
   RigidTransform start_, end_;
   bool is_limited_;
+  const ShallowRegion& region_;
   MovingPartSearch parts_;
 };
 
