@@ -2,6 +2,7 @@
 #include "apps/cli/commands.h"
 #include "apps/server/server.h"
 #include "dismantle/documents/path_file.h"
+#include "dismantle/files/user_folders.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -74,15 +75,6 @@ void open_browser(const std::string& url) {
       .detach();
 }
 
-/// The folder for persistent state (XDG base directories); none if the environment does not give one.
-std::optional<fs::path> state_folder() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && fs::path(state).is_absolute())
-    return fs::path(state) / "dismantle";
-  if (const char* home = std::getenv("HOME"); home != nullptr && fs::path(home).is_absolute())
-    return fs::path(home) / ".local" / "state" / "dismantle";
-  return {};
-}
-
 Result<server::ServerOptions> server_options(const ViewOptions& o) {
   const Executor executor = make_executor(o.common);
   server::ServerOptions options;
@@ -90,7 +82,7 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   options.roots.assign(o.roots.begin(), o.roots.end());
   if (options.roots.empty() && !o.common.assembly_file.empty())
     options.roots.push_back(fs::absolute(o.common.assembly_file).parent_path());
-  if (!o.no_journal) options.state_folder = state_folder();
+  if (!o.no_journal) options.state_folder = user_state_folder();
   if (!o.web_folder.empty()) options.web_folder = o.web_folder;
   options.model.import = o.common.import;
   options.model.classify.tolerance = o.common.tolerance;

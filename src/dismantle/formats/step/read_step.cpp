@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/step/read_step.h"
 
+#include "dismantle/files/file_cache.h"
 #include "dismantle/files/isolated_process.h"
 #include "dismantle/files/read_file.h"
 #include "dismantle/files/sha256.h"
@@ -10,7 +11,9 @@
 
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
+#include <Standard_Version.hxx>
 #include <algorithm>
+#include <cstdio>
 #include <new>
 #include <string_view>
 
@@ -91,6 +94,33 @@ Error failure(const std::filesystem::path& file, const IsolatedResult& result) {
   }
 }
 
+/// Increased whenever the same file and options give another assembly, or its bytes another layout.
+constexpr int kImportVersion = 1;
+
+/// All that the result of import_step depends on.
+std::string cache_key(const std::string& content, const std::string& name, const ImportOptions& options) {
+  const auto number = [](double value) {
+    char digits[32];
+    return std::string(digits, static_cast<std::size_t>(std::snprintf(digits, sizeof digits, "%a", value)));
+  };
+  std::string key = "STEP";
+  for (const std::string& part :
+       {std::to_string(kImportVersion), std::string(DISMANTLE_VERSION), std::string(OCC_VERSION_COMPLETE), content,
+        name, options.units, number(options.deflection), number(options.angular_deflection),
+        std::to_string(static_cast<int>(options.solids)), std::to_string(options.limits.triangles),
+        std::to_string(options.limits.components)})
+    key += '\n' + part;
+  return key;
+}
+
+Span<const std::byte> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
+}
+
+std::string_view text_of(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 Result<Assembly> read_step(const std::filesystem::path& file, const ImportOptions& options) {
@@ -100,18 +130,26 @@ Result<Assembly> read_step(const std::filesystem::path& file, const ImportOption
   if (!text) return text.error();
   if (const Result<Done> frame = check_frame(file, *text); !frame) return frame.error();
 
-  IsolationLimits limits;
-  limits.memory_bytes = kStepMemoryBase + kStepMemoryPerByte * text->size();
-  limits.cpu_seconds = kStepCpuSeconds;
-  limits.silence_seconds = kStepSilenceSeconds;
-  const auto work = [&](IsolatedLine& line) { return import_into_line(*text, file.stem().string(), options, line); };
-  const IsolatedResult result = run_isolated(work, limits, options.progress);
-  if (result.ending != IsolatedEnding::Done) return failure(file, result);
-
-  std::optional<Assembly> assembly = assembly_from_bytes(result.bytes);
-  if (!assembly) return failure(file, {IsolatedEnding::Crashed, 0, {}, {}});
+  if (!report_progress(options.progress, "reading", 0)) return Error{ErrorKind::Failed, "cancelled"};
+  const std::string content = sha256(*text), name = file.stem().string();
+  const FileCache cache(options.cache_folder, options.cache_folder.empty() ? 0 : kCacheBytes);
+  const std::string key = cache_key(content, name, options);
+  std::optional<Assembly> assembly;
+  if (const std::optional<std::string> kept = cache.find(key)) assembly = assembly_from_bytes(bytes_of(*kept));
+  if (!assembly) {
+    IsolationLimits limits;
+    limits.memory_bytes = kStepMemoryBase + kStepMemoryPerByte * text->size();
+    limits.cpu_seconds = kStepCpuSeconds;
+    limits.silence_seconds = kStepSilenceSeconds;
+    const auto work = [&](IsolatedLine& line) { return import_into_line(*text, name, options, line); };
+    const IsolatedResult result = run_isolated(work, limits, options.progress);
+    if (result.ending != IsolatedEnding::Done) return failure(file, result);
+    assembly = assembly_from_bytes(result.bytes);
+    if (!assembly) return failure(file, {IsolatedEnding::Crashed, 0, {}, {}});
+    cache.keep(key, text_of(result.bytes));
+  }
   assembly->source_file = file.filename().string();
-  assembly->source_sha256 = sha256(*text);
+  assembly->source_sha256 = content;
   return std::move(*assembly);
 }
 
