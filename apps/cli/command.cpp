@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/command.h"
 
+#include "dismantle/files/user_folders.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 #include "dismantle/surface/find_clashes.h"
@@ -45,6 +46,17 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->type_name("RAD")
       ->check(CLI::PositiveNumber)
       ->group(group);
+  static const std::map<std::string, Solids> kSolids{{"split", Solids::Split}, {"join", Solids::Join}};
+  command
+      .add_option("--solids", o.import.solids,
+                  "STEP: a product with several solids gives a component of each (split) or one of all (join)")
+      ->transform(CLI::CheckedTransformer(kSolids))
+      ->type_name("split|join")
+      ->group(group);
+  command
+      .add_flag("--drop-duplicates", o.import.drop_duplicates,
+                "Leave out components that are identical with another one and in the same place")
+      ->group(group);
   command
       .add_option("--tolerance", o.tolerance,
                   "Penetration that still counts as contact (default: from size and deflection)")
@@ -66,6 +78,12 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
             std::fprintf(stderr, "dismantle: note: --fit has no effect any more; all overlaps are kept\n");
           })
       ->group("");
+  o.import.cache_folder = user_cache_folder().value_or(std::filesystem::path());
+  command
+      .add_flag_callback(
+          "--no-cache", [&o] { o.import.cache_folder.clear(); },
+          "STEP: neither use nor keep the triangles of files that were read before")
+      ->group(group);
   command.add_option("--simplify", o.simplify, "Simplify to about N triangles after loading")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
@@ -102,6 +120,14 @@ void add_allow_option(CLI::App& command, CommonOptions& o) {
       ->type_size(3)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_together_option(CLI::App& command, CommonOptions& o) {
+  command
+      .add_option("--together", o.together,
+                  "Treat as one part: each sub-assembly of the product tree that has this name, or fits this pattern "
+                  "with * and ?; where there is none, the components that fit, all together. May be repeated")
+      ->type_name("NAME|PATTERN");
 }
 
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {

@@ -37,6 +37,7 @@ struct CommonOptions {
   double tolerance = 0;                      ///< [mm]; 0: default.
   ClassifyRule pairs = ClassifyRule::Auto;   ///< What overlapping pairs may do.
   std::vector<DeclaredAllowance> allowed;    ///< --allow.
+  std::vector<std::string> together;         ///< --together.
   std::size_t simplify = 0;                  ///< Approximate number of triangles; 0: no simplification.
   DeviceChoice device = DeviceChoice::Auto;  ///< --device.
   bool uses_device = false;                  ///< The command can use a device; otherwise it computes on the CPU.
@@ -49,6 +50,8 @@ struct CommonOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Declares --allow, for commands that move components.
 void add_allow_option(CLI::App& command, CommonOptions& options);
+/// Declares --together.
+void add_together_option(CLI::App& command, CommonOptions& options);
 /// Declares the positional ASSEMBLY argument.
 void add_assembly_argument(CLI::App& command, CommonOptions& options);
 

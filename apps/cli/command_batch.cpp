@@ -38,11 +38,12 @@ struct BatchCommand {
 /// Everything but the input that a result depends on.
 std::string options_text(const BatchCommand& c) {
   return fmt::format(
-      "dismantle {} units={} deflection={} angular={} tolerance={} pairs={} simplify={} "
+      "dismantle {} units={} deflection={} angular={} solids={} drop-duplicates={} tolerance={} pairs={} simplify={} "
       "clearance={} time-limit={} check-only={} memory={} cpu-time={}",
       DISMANTLE_VERSION, c.common.import.units, c.common.import.deflection, c.common.import.angular_deflection,
-      c.common.tolerance, static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit, c.check_only,
-      c.limits.memory_gib, c.limits.cpu_seconds);
+      static_cast<int>(c.common.import.solids), c.common.import.drop_duplicates, c.common.tolerance,
+      static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit, c.check_only, c.limits.memory_gib,
+      c.limits.cpu_seconds);
 }
 
 Result<Done> write_json(const fs::path& file, const Json& json) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/documents/check_report.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/report/html_check_report.h"
@@ -33,8 +34,11 @@ Result<Done> write_html(const Assembly& assembly, const Clashes& clashes, const 
 Result<Done> run(const CheckCommand& command) {
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
-  const Result<Clashes> clashes = clashes_of(*assembly, command.common, command.clearance);
+  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
+  if (!groups) return groups.error();
+  Result<Clashes> clashes = clashes_of(*assembly, command.common, command.clearance);
   if (!clashes) return clashes.error();
+  std::erase_if(clashes->pairs, [&](const Clash& pair) { return groups->together(pair.a, pair.b); });
   if (!command.html_file.empty()) {
     const Result<Done> written = write_html(*assembly, *clashes, command);
     if (!written) return written.error();
@@ -63,6 +67,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--pictures", options->pictures, "Maximum number of pictures of single overlaps in the HTML page")
       ->type_name("N")
       ->capture_default_str();
+  add_together_option(*command, options->common);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
     const Result<Done> done = run(*options);

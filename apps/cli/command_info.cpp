@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/assembly/duplicates.h"
 
 #include <fmt/format.h>
 
@@ -30,10 +31,42 @@ Json to_json(Vec3 p) {
   return Json::array({p.x, p.y, p.z});
 }
 
+/// The components that another one is a duplicate of, by component; invalid for all others.
+std::vector<ComponentId> originals(const Assembly& assembly) {
+  std::vector<ComponentId> found(assembly.components.size());
+  for (const Duplicate& d : find_duplicates(assembly)) found[d.component.value] = d.of;
+  return found;
+}
+
+/// The products that are several components each, one a solid: nodes all of whose children are components of its name.
+struct SplitProducts {
+  std::size_t products = 0, components = 0;
+};
+
+SplitProducts split_products(const Assembly& assembly) {
+  std::vector<std::size_t> components(assembly.tree.size()), nodes(assembly.tree.size());
+  std::vector<bool> is_component(assembly.tree.size());
+  for (const Component& c : assembly.components) is_component[c.tree_node] = true;
+  for (std::uint32_t node = 1; node < assembly.tree.size(); ++node) {
+    const std::uint32_t parent = assembly.tree[node].parent;
+    ++nodes[parent];
+    if (is_component[node] && assembly.tree[node].name == assembly.tree[parent].name) ++components[parent];
+  }
+  SplitProducts split;
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+    if (components[node] > 1 && components[node] == nodes[node]) {
+      ++split.products;
+      split.components += components[node];
+    }
+  return split;
+}
+
 Json to_json(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
+  const std::vector<ComponentId> duplicate_of = originals(a);
   Json components = Json::array();
-  for (const Component& c : a.components) {
+  for (std::size_t i = 0; i < a.components.size(); ++i) {
+    const Component& c = a.components[i];
     const Aabb b = assembled_bounds(c);
     const MeshFaults& f = c.faults;
     components.push_back({{"name", c.name},
@@ -46,7 +79,8 @@ Json to_json(const Assembly& a) {
                           {"nonmanifold_edges", f.nonmanifold_edges},
                           {"misoriented_edges", f.misoriented_edges},
                           {"open_edges", f.open_edges},
-                          {"inside_out", f.inside_out}});
+                          {"inside_out", f.inside_out},
+                          {"duplicate_of", duplicate_of[i].valid() ? Json(a[duplicate_of[i]].name) : Json(nullptr)}});
   }
   return {{"format", "dismantle-info"},
           {"version", 1},
@@ -72,11 +106,20 @@ void print_text(const Assembly& a) {
   if (a.deflection > 0) fmt::print("tessellation deflection {:.4g} mm\n", a.deflection);
   if (a.simplification_error > 0)
     fmt::print("simplification moved the surface by at most {:.4g} mm\n", a.simplification_error);
+  if (const SplitProducts split = split_products(a); split.products > 0)
+    fmt::print("{} products with several solids are {} components, one a solid (--solids join: one a product)\n",
+               split.products, split.components);
+  const std::vector<ComponentId> duplicate_of = originals(a);
   std::size_t width = 9;
   for (const Component& c : a.components) width = std::max(width, c.name.size());
   fmt::print("\n{:<{}}  {:>9}  {}\n", "component", width, "triangles", "mesh");
-  for (const Component& c : a.components)
+  for (std::size_t i = 0; i < a.components.size(); ++i) {
+    const Component& c = a.components[i];
     fmt::print("{:<{}}  {:>9}  {}\n", c.name, width, c.mesh->faces.size(), describe_faults(c.faults));
+    if (duplicate_of[i].valid())
+      fmt::print("{:<{}}  identical and coincident with {}; probably placed twice (--drop-duplicates leaves it out)\n",
+                 "", width, a[duplicate_of[i]].name);
+  }
 }
 
 }  // namespace

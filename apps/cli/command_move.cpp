@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/certificates/choose_certificate_device.h"
 #include "dismantle/documents/motion_file.h"
 #include "dismantle/documents/path_file.h"
@@ -186,6 +187,18 @@ MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const Pai
   return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device};
 }
 
+/// Lets a move take along the groups of its components, if it is known what these are.
+void take_groups_along(MotionMove& move, const Assembly& assembly, const RigidGroups& groups) {
+  std::vector<ComponentId> own;
+  for (const std::string& name : move.components) {
+    const std::optional<ComponentId> id = assembly.find(name);
+    if (!id) return;  // refused where the motion is played
+    own.push_back(*id);
+  }
+  for (const ComponentId c : groups.with_groups(own))
+    if (std::find(own.begin(), own.end(), c) == own.end()) move.components.push_back(assembly[c].name);
+}
+
 Result<ExitCode> run(const MoveOptions& o) {
   const Result<Motion> read = read_motion(o.motion_file);
   if (!read) return read.error();
@@ -206,6 +219,10 @@ Result<ExitCode> run(const MoveOptions& o) {
   if (!assembly) return assembly.error();
   const Result<PairStates> states = classify(*assembly, o.common);
   if (!states) return states.error();
+
+  const Result<RigidGroups> groups = named_groups(*assembly, o.common.together);
+  if (!groups) return groups.error();
+  for (MotionMove& move : motion.moves) take_groups_along(move, *assembly, *groups);
 
   const MoveEngine moving = make_engine(o, *assembly, *states);
   const Result<PlayedMotion> played =
@@ -257,6 +274,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
                    "Response to contact: stop before the step, touch, or slide (default: as in the motion file)")
       ->transform(CLI::CheckedTransformer(kResponses))
       ->type_name("stop|touch|slide");
+  add_together_option(*command, options->common);
   command->add_option("--timing", options->timing_file, "Write the cost of every step as CSV")->type_name("CSV");
   add_allow_option(*command, options->common);
   add_common_options(*command, options->common);

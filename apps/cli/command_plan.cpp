@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/documents/path_file.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
@@ -87,8 +88,11 @@ Result<ExitCode> run(const PlanCommand& command) {
   if (!targets) return targets.error();
   const Result<std::vector<ComponentId>> fixed = find_all(*assembly, command.fixed);
   if (!fixed) return fixed.error();
+  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
+  if (!groups) return groups.error();
+  const std::vector<ComponentId> all_fixed = groups->with_groups(*fixed);
   for (const ComponentId c : *targets)
-    if (std::find(fixed->begin(), fixed->end(), c) != fixed->end())
+    if (std::binary_search(all_fixed.begin(), all_fixed.end(), c))
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
                                          "' cannot be removed (it is both target and fixed); leave out one of the two"};
 
@@ -96,6 +100,7 @@ Result<ExitCode> run(const PlanCommand& command) {
       *targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)};
   options.search_longer(command.effort);
   options.preferences = command.preferences;
+  options.together = groups->of_several();
   const Plan plan = plan_disassembly(*assembly, *states, options);
   const Path path = plan_path(*assembly, *states, plan);
   const Result<Done> written = write_path(command.output, path);
@@ -107,9 +112,14 @@ Result<ExitCode> run(const PlanCommand& command) {
   }
   if (command.common.json) {
     Json report = plan_json(*assembly, plan, path);
+    Json together = Json::array();
+    for (const std::vector<ComponentId>& group : options.together) together.push_back(names_json(*assembly, group));
+    report["together"] = together;
     report.update({{"path", command.output}, {"seconds", plan.seconds}});
     fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
+    for (const std::vector<ComponentId>& group : options.together)
+      fmt::print("one part: {}\n", names_text(*assembly, group));
     print_text(command, *assembly, plan);
   }
   return plan.complete() ? ExitCode::Done : ExitCode::No;
@@ -148,6 +158,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("TIMES")
       ->check(CLI::Range(0.0, 1e6));
   add_allow_option(*command, options->common);
+  add_together_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: all targets can be removed; 1: not all, with the reasons.");
   command->callback([options, &exit_code] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/planner/plan_disassembly.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,10 @@ Result<ExitCode> run(const WhyCommand& command) {
   if (!states) return states.error();
   const Executor executor = make_executor(command.common);
 
-  const Explanation why = why_blocked(*assembly, *states, *component, {executor, widest_lanes()});
+  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
+  if (!groups) return groups.error();
+
+  const Explanation why = why_blocked(*assembly, *states, *component, {executor, widest_lanes()}, groups->of_several());
   if (command.common.json) {
     Json report{{"format", "dismantle-why"}, {"version", 1}};
     report.update(explanation_json(*assembly, why));
@@ -47,6 +51,7 @@ void add_why_command(CLI::App& app, ExitCode& exit_code) {
   add_assembly_argument(*command, options->common);
   command->add_option("COMPONENT", options->component, "Name of the component, as in 'dismantle info'")->required();
   add_allow_option(*command, options->common);
+  add_together_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: nothing, it can be removed; 1: blocked, as printed.");
   command->callback([options, &exit_code] {

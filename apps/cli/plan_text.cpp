@@ -7,8 +7,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxNames = 4;
-
 }  // namespace
 
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name) {
@@ -17,14 +15,6 @@ Result<ComponentId> find_component(const Assembly& assembly, const std::string& 
     return Error{ErrorKind::Usage,
                  "'" + name + "' is unknown (the assembly has no component of that name); 'dismantle info' lists them"};
   return *id;
-}
-
-std::string names_text(const Assembly& assembly, const std::vector<ComponentId>& components) {
-  std::string text;
-  for (std::size_t i = 0; i < components.size() && i < kMaxNames; ++i)
-    text += (i > 0 ? ", " : "") + assembly[components[i]].name;
-  if (components.size() > kMaxNames) text += " and " + std::to_string(components.size() - kMaxNames) + " more";
-  return text;
 }
 
 Json names_json(const Assembly& assembly, const std::vector<ComponentId>& components) {
@@ -40,6 +30,7 @@ Json explanation_json(const Assembly& assembly, const Explanation& e) {
                         {"after_mm", b.contact.distance},
                         {"contact", {b.contact.point.x, b.contact.point.y, b.contact.point.z}}});
   return {{"component", assembly[e.component].name},
+          {"group", names_json(assembly, e.group)},
           {"direction", {e.direction.x, e.direction.y, e.direction.z}},
           {"along", direction_text(e.direction)},
           {"blocked_by", blockers},

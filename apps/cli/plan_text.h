@@ -16,9 +16,6 @@ namespace dismantle::cli {
 /// The component of a name. Errors: Usage if there is none.
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name);
 
-/// The names as text: the first four, and the number of the others.
-std::string names_text(const Assembly& assembly, const std::vector<ComponentId>& components);
-
 /// The names as a JSON array.
 nlohmann::ordered_json names_json(const Assembly& assembly, const std::vector<ComponentId>& components);
 /// An explanation as the JSON object of `why --json` and `plan --json`.

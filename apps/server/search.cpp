@@ -73,6 +73,7 @@ std::vector<Removal> removals_of(const SessionSnapshot& snapshot, const Plan& pl
 Explanation translated(const SessionSnapshot& snapshot, Explanation e) {
   const auto translate = [&](ComponentId& c) { c = snapshot.components[c.value]; };
   translate(e.component);
+  for (ComponentId& c : e.group) translate(c);
   for (Blocker& b : e.blockers) translate(b.component);
   for (ComponentId& c : e.together) translate(c);
   for (ComponentId& c : e.locked) translate(c);

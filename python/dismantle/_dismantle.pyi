@@ -255,7 +255,15 @@ class AuditReport:
     def seconds(self) -> float: ...
 
 def load(
-    file: _File, *, units: str = "", deflection: float = 0.0, angular_deflection: float = 0.0, progress: _Progress = None
+    file: _File,
+    *,
+    units: str = "",
+    deflection: float = 0.0,
+    angular_deflection: float = 0.0,
+    solids: str = "split",
+    drop_duplicates: bool = False,
+    cache: bool = True,
+    progress: _Progress = None,
 ) -> Assembly: ...
 def check(
     assembly: Assembly,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/check_report.h"
 #include "dismantle/engine/classify_pairs.h"
+#include "dismantle/files/user_folders.h"
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/surface/find_clashes.h"
@@ -28,12 +29,20 @@ struct ComponentView {
 };
 
 std::shared_ptr<Assembly> load(const std::filesystem::path& file, const std::string& units, double deflection,
-                               double angular_deflection, const py::object& progress) {
+                               double angular_deflection, const std::string& solids, bool drop_duplicates, bool cache,
+                               const py::object& progress) {
   PythonProgress watched(progress);
   ImportOptions options;
   options.units = units;
   options.deflection = deflection;
   options.angular_deflection = angular_deflection;
+  if (solids != "split" && solids != "join")
+    raise_usage("solids '" + solids +
+                "' is unknown (a product with several solids is split or joined); give 'split' or "
+                "'join'");
+  options.solids = solids == "join" ? Solids::Join : Solids::Split;
+  options.drop_duplicates = drop_duplicates;
+  if (cache) options.cache_folder = user_cache_folder().value_or(std::filesystem::path());
   options.progress = watched.callback();
   Result<Assembly> assembly = without_gil([&] { return load_assembly(file, options); });
   watched.finish();
@@ -267,11 +276,15 @@ void bind_assembly(py::module_& module) {
   bind_assembly_class(module);
   bind_pairs(module);
   module.def("load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
-             py::arg("angular_deflection") = 0.0, py::arg("progress") = py::none(),
+             py::arg("angular_deflection") = 0.0, py::arg("solids") = "split", py::arg("drop_duplicates") = false,
+             py::arg("cache") = true, py::arg("progress") = py::none(),
              "Reads a STEP, glTF, OBJ, STL, PLY or URDF file, or a folder of meshes. `units`: unit of the coordinates "
              "(mm, cm, "
              "m, um, in, ft; default: by the format). STEP: `deflection` [mm] and `angular_deflection` [rad] of the "
-             "tessellation; 0: default.");
+             "tessellation; 0: default. `solids`: what a product with several solids gives, a "
+             "component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
+             "identical with another one and in the same place. `cache`: keeps the triangles of STEP files for the "
+             "next time.");
   module.def(
       "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("clearance") = 0.0,
       py::arg("pairs") = "auto", py::arg("allow") = py::list(), py::arg("threads") = 0,

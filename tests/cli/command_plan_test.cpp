@@ -43,6 +43,23 @@ TEST_F(CliPlan, DisassemblesEverythingOnAPathThatPassesTheAudit) {
   EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
 }
 
+TEST_F(CliPlan, TreatsWhatBelongsTogetherAsOnePart) {
+  const Outcome o = run("plan parts -o all.path.json --json --together back front --together 'r*'");
+  ASSERT_EQ(o.exit_code, 2) << "back is one component";
+  EXPECT_NE(o.err.find("'back' cannot be treated as one part"), std::string::npos) << o.err;
+  const Outcome together = run("plan parts -o all.path.json --json --together '[bf][ar][co][kn]*'");
+  ASSERT_EQ(together.exit_code, 0) << together.err;
+  const Json plan = Json::parse(together.out);
+  EXPECT_EQ(plan["together"], Json::parse(R"([["back", "front"]])"));
+  EXPECT_EQ(plan["steps"].size(), 5u);
+  EXPECT_EQ(plan["removed"].size(), 6u);
+  EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+  EXPECT_NE(run("plan parts -o all.path.json --together '[bf][ar][co][kn]*'").out.find("one part: back, front\n"),
+            std::string::npos);
+  EXPECT_NE(run("why parts back --together '[bf][ar][co][kn]*'").out.find("more of its group"), std::string::npos);
+  EXPECT_EQ(run("check parts --together '*'").out.find("back "), std::string::npos);
+}
+
 TEST_F(CliPlan, WritesThePrecedenceGraph) {
   const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
   ASSERT_EQ(run(open + "order.json").exit_code, 0);

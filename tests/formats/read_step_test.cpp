@@ -142,6 +142,44 @@ TEST_F(NestedStep, ReadsTheSameBytesEveryTime) {
   for (std::size_t i = 0; i < a->components.size(); ++i) EXPECT_EQ(*a->components[i].mesh, *b->components[i].mesh);
 }
 
+TEST_F(NestedStep, IsTheSameOutOfTheCache) {
+  ImportOptions options;
+  options.cache_folder = folder_ / "cache";
+  bool meshed = false;
+  options.progress = [&](std::string_view stage, double) {
+    meshed = meshed || stage == "meshing";
+    return true;
+  };
+  const Result<Assembly> fresh = read_step(file_, options);
+  ASSERT_TRUE(fresh.ok());
+  EXPECT_TRUE(meshed);
+  meshed = false;
+  const Result<Assembly> kept = read_step(file_, options);
+  ASSERT_TRUE(kept.ok());
+  EXPECT_FALSE(meshed);
+  EXPECT_EQ(kept->source_sha256, fresh->source_sha256);
+  EXPECT_EQ(kept->source_file, "nested.step");
+  ASSERT_EQ(kept->components.size(), fresh->components.size());
+  for (std::size_t i = 0; i < fresh->components.size(); ++i) {
+    EXPECT_EQ(kept->components[i].name, fresh->components[i].name);
+    EXPECT_EQ(*kept->components[i].mesh, *fresh->components[i].mesh);
+    EXPECT_EQ(kept->components[i].assembly_from_mesh, fresh->components[i].assembly_from_mesh);
+  }
+
+  options.deflection = 0.5;  // other triangles
+  EXPECT_TRUE(read_step(file_, options).ok());
+  EXPECT_TRUE(meshed);
+  meshed = false;
+  options.units = "cm";
+  EXPECT_TRUE(read_step(file_, options).ok());
+  EXPECT_TRUE(meshed);
+  for (const auto& entry : std::filesystem::directory_iterator(options.cache_folder))
+    std::filesystem::resize_file(entry.path(), 1000);
+  meshed = false;
+  EXPECT_TRUE(read_step(file_, options).ok());
+  EXPECT_TRUE(meshed);
+}
+
 TEST(ReadStep, MakesAComponentOfEachSolidOfAProductAndOneOfItsLooseFaces) {
   const ScratchFolder folder;
   const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(50, 0, 0), 5.0).Shape();
@@ -155,6 +193,25 @@ TEST(ReadStep, MakesAComponentOfEachSolidOfAProductAndOneOfItsLooseFaces) {
   EXPECT_EQ(a->components[0].name, "mixed");
   EXPECT_EQ(a->components[2].name, "mixed#3");
   EXPECT_EQ(tree_path(*a, a->components[1].tree_node), "mixed < mixed");
+}
+
+TEST(ReadStep, JoinsTheSolidsOfAProductWhereAsked) {
+  StepWriter writer;
+  const TopoDS_Shape there = BRepPrimAPI_MakeBox(gp_Pnt(50, 0, 0), 1.0, 1.0, 1.0).Shape();
+  writer.part("two", compound_of({block(), there}));
+  writer.part("one", block());
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "solids.step";
+  ASSERT_TRUE(writer.write(file));
+  ImportOptions options;
+  EXPECT_EQ(read_step(file, options)->components.size(), 3u);
+  options.solids = Solids::Join;
+  const Result<Assembly> joined = read_step(file, options);
+  ASSERT_EQ(joined->components.size(), 2u);
+  EXPECT_EQ(joined->components[0].name, "two");
+  EXPECT_EQ(joined->components[0].mesh->faces.size(), 24u);
+  EXPECT_TRUE(joined->components[0].faults.closed());
+  expect_box(assembled_bounds(joined->components[0]), {0, 0, 0}, {51, 20, 30});
 }
 
 TEST(ReadStep, TakesTheColourOfTheLargestArea) {

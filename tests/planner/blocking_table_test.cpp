@@ -23,7 +23,8 @@ class BlockingTableTest : public testing::Test {
     for (const Component& c : scene_.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
     return features;
   }();
-  BlockingTable table_{engine_, features_, [] { return true; }};
+  RigidGroups groups_{scene_.assembly.components.size()};
+  BlockingTable table_{engine_, features_, groups_, [] { return true; }};
   ComponentSet all_ = ComponentSet::all(4);
 };
 
@@ -92,7 +93,7 @@ TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
 
 TEST_F(BlockingTableTest, EvaluatesNothingOnceStopped) {
   bool keep_going = true;
-  BlockingTable table(engine_, features_, [&] { return keep_going; });
+  BlockingTable table(engine_, features_, groups_, [&] { return keep_going; });
   const DirectionId d = table.add_direction({0, 0, 1});
   EXPECT_FALSE(table.blocks(kHigh, d, kLow));
   keep_going = false;

@@ -47,6 +47,34 @@ TEST(Explanation, TellsWhatLocksEachOther) {
   EXPECT_NE(explanation_text(chain, e).find("locked with {next link}"), std::string::npos);
 }
 
+TEST(Explanation, SpeaksOfAGroupAsOfOnePart) {
+  const Assembly stack = scenes::stack_in_tube(5);
+  const scenes::PlanScene scene = scenes::plan_scene(stack);
+  const ComponentId first = *stack.find("box 1"), second = *stack.find("box 2");
+  const Explanation e = why_blocked(scene.assembly, scene.pairs, first, {}, {{first, second}});
+  EXPECT_EQ(e.group, (std::vector<ComponentId>{first, second}));
+  ASSERT_EQ(e.blockers.size(), 1u);
+  EXPECT_EQ(explanation_text(stack, e).find("box 1 (with 1 more of its group) is blocked by box"), 0u)
+      << explanation_text(stack, e);
+}
+
+TEST(Explanation, NamesAFewAndCountsTheRest) {
+  std::vector<Component> components;
+  for (int i = 0; i < 9; ++i)
+    components.push_back(scenes::component("c" + std::to_string(i), scenes::box({0, 0, 0}, {1, 1, 1})));
+  const Assembly assembly = scenes::assembly(std::move(components));
+  Explanation e;
+  e.component = ComponentId(0);
+  e.group = {ComponentId(0)};
+  e.direction = {0, 0, 1};
+  for (std::uint32_t c = 1; c < 9; ++c) e.blockers.push_back({ComponentId(c), {}});
+  for (std::uint32_t c = 0; c < 9; ++c) e.locked.emplace_back(c);
+  EXPECT_EQ(
+      explanation_text(assembly, e),
+      "c0 is blocked by c1 (contact at (0, 0, 0)), c2 (contact at (0, 0, 0)), c3 (contact at (0, 0, 0)) and 5 more "
+      "along +Z, locked with {c1, c2, c3, c4 and 4 more}");
+}
+
 TEST(Explanation, SaysThatNothingBlocks) {
   const Assembly pot = scenes::covered_pot();
   EXPECT_EQ(explanation_text(pot, why(pot, "lid")), "lid can be removed along +Z");

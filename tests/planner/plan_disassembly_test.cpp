@@ -42,6 +42,86 @@ TEST(PlanDisassembly, TakesOutWhatGoesStraight) {
   }
 }
 
+std::vector<ComponentId> ids(const Assembly& assembly, const std::vector<std::string>& names) {
+  std::vector<ComponentId> found;
+  for (const std::string& name : names) found.push_back(*assembly.find(name));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(PlanDisassembly, TakesGroupsOutAsOnePart) {
+  const Assembly stack = scenes::stack_in_tube(5);
+  PlanOptions options;
+  options.together = {ids(stack, {"box 1", "box 2"}), ids(stack, {"box 4", "box 3"})};
+  const Plan plan = plan_of(stack, options);
+  EXPECT_TRUE(plan.complete());
+  ASSERT_EQ(plan.steps.size(), 3u);
+  std::set<std::vector<ComponentId>> moved;
+  for (const PlanStep& step : plan.steps) {
+    EXPECT_EQ(step.part_of, PlanStep::kWhole);
+    moved.insert(step.components);
+  }
+  EXPECT_TRUE(moved.count(options.together[0]) == 1 && moved.count(ids(stack, {"box 3", "box 4"})) == 1);
+  const PlanScene scene = plan_scene(stack);
+  EXPECT_TRUE(audit_path(stack, plan_path(stack, scene.pairs, plan), {}).holds());
+
+  options.targets = ids(stack, {"box 2"});
+  const Plan one = plan_of(stack, options);
+  EXPECT_TRUE(one.complete());
+  EXPECT_EQ(one.steps.back().components, options.together[0]);
+}
+
+TEST(PlanDisassembly, KeepsTheGroupOfWhatStays) {
+  const Assembly stack = scenes::stack_in_tube(3);
+  PlanOptions options;
+  options.together = {ids(stack, {"tube", "box 1"})};
+  const Plan plan = plan_of(stack, options);
+  EXPECT_TRUE(plan.complete());
+  EXPECT_EQ(plan.steps.size(), 2u);
+  options.together = {ids(stack, {"tube", "box 0", "box 2"})};
+  const Plan held = plan_of(stack, options);  // the box between the other two cannot get out
+  EXPECT_TRUE(held.steps.empty());
+  ASSERT_EQ(held.staying.size(), 1u);
+  EXPECT_EQ(held.staying[0].component, *stack.find("box 1"));
+}
+
+TEST(PlanDisassembly, SlidesGroupsOut) {
+  // Around a corner: the pin of the slot, and the hook, each with a core that fills a half of it.
+  for (std::vector<Component> components : {scenes::l_slot(0.1), scenes::hook(0.1)}) {
+    TriangleMesh core = assembled_mesh(components.back());
+    const Vec3 corner = core.vertices.front();
+    for (Vec3& p : core.vertices) p = corner + 0.5 * (p - corner);
+    components.push_back(scenes::component("core", core));
+    const Assembly assembly = scenes::assembly(components);
+    const std::string mover = components[components.size() - 2].name;
+    PlanOptions options;
+    options.together = {ids(assembly, {mover, "core"})};
+    options.targets = ids(assembly, {mover});
+    options.fixed = ids(assembly, {components[0].name});
+    const Plan plan = plan_of(assembly, options);
+    EXPECT_TRUE(plan.complete()) << mover;
+    ASSERT_FALSE(plan.steps.empty()) << mover;
+    EXPECT_EQ(plan.steps.back().components, options.together[0]) << mover;
+    const PlanScene scene = plan_scene(assembly);
+    EXPECT_TRUE(audit_path(assembly, plan_path(assembly, scene.pairs, plan), {}).holds()) << mover;
+  }
+}
+
+TEST(PlanDisassembly, SlidesAGroupWhereNoneOfItsPartsMoves) {
+  std::vector<Component> components = scenes::l_slot(0.1);
+  const Plan alone = plan_of(scenes::assembly(components));
+  ASSERT_TRUE(alone.complete());
+  EXPECT_EQ(alone.steps.back().tier, PlanTier::Sliding);
+  components.push_back(scenes::component("core", scenes::box({2, 2, 2}, {4, 4, 4})));
+  const Assembly assembly = scenes::assembly(components);
+  PlanOptions options;
+  options.together = {ids(assembly, {"pin", "core"})};
+  const Plan plan = plan_of(assembly, options);
+  ASSERT_EQ(plan.steps.size(), 1u);
+  EXPECT_EQ(plan.steps[0].tier, PlanTier::Sliding);
+  EXPECT_EQ(plan.steps[0].components, options.together[0]);
+}
+
 TEST(PlanDisassembly, IsTheSameInAnyOrientation) {
   std::mt19937_64 random(3);
   std::vector<Component> chain = scenes::chain_links();

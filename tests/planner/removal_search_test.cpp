@@ -28,7 +28,8 @@ class RemovalSearchTest : public testing::Test {
         scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Free, 0, 1, 1});
     engine_.emplace(scene_.assembly, scene_.pairs);
     features_.assign(count, shape_features(*scene_.assembly.components[0].mesh));
-    table_.emplace(*engine_, features_, kAlways);
+    groups_.emplace(count);
+    table_.emplace(*engine_, features_, *groups_, kAlways);
     directions_.assign(count, {});
     for (std::size_t k = 0; k < relations.size(); ++k) {
       const DirectionId d = table_->add_direction(normalized(Vec3{1, 0.1 * static_cast<double>(k), 0}));
@@ -64,6 +65,7 @@ class RemovalSearchTest : public testing::Test {
   scenes::PlanScene scene_;
   std::optional<CertificateEngine> engine_;
   std::vector<ShapeFeatures> features_;
+  std::optional<RigidGroups> groups_;
   std::optional<BlockingTable> table_;
   DirectionLists directions_;
 };

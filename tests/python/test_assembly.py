@@ -21,6 +21,18 @@ def test_loads_a_file_and_names_its_components():
     assert assembly.source_file == "microscope.step"
 
 
+def test_reads_step_files_as_asked(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    fresh = dismantle.load(MICROSCOPE, cache=False)
+    assert not list(tmp_path.iterdir())
+    kept = [dismantle.load(MICROSCOPE, solids="join", drop_duplicates=True) for _ in range(2)]
+    assert len(list((tmp_path / "dismantle").iterdir())) == 1
+    assert [a.names for a in kept] == [fresh.names] * 2
+    assert all(np.array_equal(a.faces, b.faces) for a, b in zip(kept[0].components, kept[1].components))
+    with pytest.raises(dismantle.UsageError, match="solids 'glued' is unknown"):
+        dismantle.load(MICROSCOPE, solids="glued")
+
+
 def test_gives_meshes_without_a_copy_that_outlive_the_assembly(drawer):
     vertices, faces = drawer["back"].vertices, drawer["back"].faces
     assert vertices.shape == (8, 3) and faces.shape == (12, 3)

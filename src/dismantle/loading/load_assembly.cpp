@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/loading/load_assembly.h"
 
+#include "dismantle/assembly/duplicates.h"
 #include "dismantle/files/text_name.h"
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/gltf/read_gltf.h"
@@ -51,6 +52,11 @@ Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& option
     if (!assembly) return assembly;
     if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
     clean_names(*assembly);
+    if (options.drop_duplicates) {
+      std::vector<ComponentId> duplicates;
+      for (const Duplicate& d : find_duplicates(*assembly)) duplicates.push_back(d.component);
+      remove_components(*assembly, duplicates);
+    }
     return assembly;
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::Failed, file.string() + " cannot be loaded (out of memory); simplify it or free memory"};

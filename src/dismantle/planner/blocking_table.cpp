@@ -15,9 +15,11 @@ constexpr double kMargin = 0.05;
 
 }  // namespace
 
-BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going)
+BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features,
+                             const RigidGroups& groups, KeepGoing keep_going)
     : engine_(engine),
       features_(features),
+      groups_(groups),
       keep_going_(std::move(keep_going)),
       rows_(features.size()),
       others_(features.size()) {
@@ -43,6 +45,8 @@ BlockingTable::Row& BlockingTable::row(ComponentId moving, DirectionId d) {
   Row& row = rows_[moving.value][d];
   if (row.known.empty()) {
     row.known.resize(features_.size());
+    for (const ComponentId mate : groups_.of(moving))
+      if (mate != moving) row.known[mate.value] = Known::Blocks;
     if (expectation_) row.expected = expectation_(moving, direction(d));
   }
   return row;
@@ -65,10 +69,14 @@ double BlockingTable::exit_distance(ComponentId moving, DirectionId d) const {
 }
 
 double BlockingTable::max_exit_distance(ComponentId moving) const {
-  const ShapeFeatures& m = features_[moving.value];
-  double way = 0;
-  for (const ShapeFeatures& f : features_) way = std::max(way, length(f.center - m.center) + f.radius);
-  return way + (1 + kMargin) * m.radius;
+  double most = 0;
+  for (const ComponentId member : groups_.of(moving)) {
+    const ShapeFeatures& m = features_[member.value];
+    double way = 0;
+    for (const ShapeFeatures& f : features_) way = std::max(way, length(f.center - m.center) + f.radius);
+    most = std::max(most, way + (1 + kMargin) * m.radius);
+  }
+  return most;
 }
 
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {

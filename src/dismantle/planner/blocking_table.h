@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
 #include "dismantle/planner/keep_going.h"
@@ -22,10 +23,11 @@ using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a
 /// Certified: a component that does not block is free of contact over the true motion.
 class BlockingTable {
  public:
-  /// @param engine, features (of every component) must outlive the table
+  /// @param engine, features (of every component), groups must outlive the table
   /// @param keep_going once it returns false, nothing is computed any more: unknown relations then count as
   /// blocked, without being stored
-  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, KeepGoing keep_going);
+  BlockingTable(const CertificateEngine& engine, Span<const ShapeFeatures> features, const RigidGroups& groups,
+                KeepGoing keep_going);
 
   /// Registers a unit direction; directions within 1e-6 of each other share an id.
   DirectionId add_direction(const Vec3& unit);
@@ -36,14 +38,18 @@ class BlockingTable {
   /// Distance along `d` after which `moving` has passed everything that is in its assembled pose [mm].
   double exit_distance(ComponentId moving, DirectionId d) const;
 
-  /// Distance in any direction after which `moving` has passed everything that is in its assembled pose [mm].
+  /// Distance in any direction after which the group of `moving` has passed everything that is in its assembled pose
+  /// [mm].
   double max_exit_distance(ComponentId moving) const;
   /// Centre of the bounding sphere of an assembled component [mm].
   Vec3 center(ComponentId c) const { return features_[c.value].center; }
   /// Radius of that sphere [mm].
   double radius(ComponentId c) const { return features_[c.value].radius; }
 
-  /// True if `fixed` blocks `moving` along `d`.
+  /// The groups of components that move together.
+  const RigidGroups& groups() const { return groups_; }
+
+  /// True if `fixed` blocks `moving` along `d`; components of one group always do.
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
   /// A blocking component among `present`, if there is one; the same one as long as it is present.
   std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
@@ -85,6 +91,7 @@ class BlockingTable {
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
+  const RigidGroups& groups_;
   KeepGoing keep_going_;
   Expectation expectation_;
   std::vector<Vec3> directions_;

@@ -12,6 +12,8 @@ namespace dismantle {
 
 namespace {
 
+/// Names that a sentence lists before it counts the rest.
+constexpr std::size_t kMaxNames = 4, kMaxBlockers = 3;
 constexpr double kAxisCosine = 1 - 5e-7;
 /// Of two directions with equally many blockers, the later one is preferred only if the component gets this many times
 /// further.
@@ -23,19 +25,33 @@ std::string point_text(const Vec3& p, const char* format) {
   return text;
 }
 
-std::string names_text(const Assembly& assembly, const std::vector<ComponentId>& components, ComponentId except) {
-  std::string text;
-  for (const ComponentId c : components)
-    if (c != except) text += (text.empty() ? "" : ", ") + assembly[c].name;
-  return text;
+/// The components outside a group that block one of its members, ascending; at most `enough` of them.
+std::vector<ComponentId> blockers_of(BlockingTable& table, Span<const ComponentId> group, DirectionId d,
+                                     const ComponentSet& others, std::size_t enough) {
+  ComponentSet found(others.universe());
+  for (const ComponentId member : group)
+    for (const ComponentId blocker : table.blockers(member, d, others, enough)) found.insert(blocker);
+  std::vector<ComponentId> blockers = found.members();
+  if (blockers.size() > enough) blockers.resize(enough);
+  return blockers;
+}
+
+/// The first contact of a group with a blocker.
+StraightContact first_contact(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
+                              ComponentId blocker) {
+  std::optional<StraightContact> first;
+  for (const ComponentId member : group)
+    if (const auto contact = table.contact(member, d, blocker);
+        contact && (!first || contact->distance < first->distance))
+      first = contact;
+  return first.value_or(StraightContact{});
 }
 
 /// Distance to the first contact with a blocker [mm].
-double way_to_first(const BlockingTable& table, ComponentId component, DirectionId d,
+double way_to_first(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
                     const std::vector<ComponentId>& blockers) {
   double way = std::numeric_limits<double>::infinity();
-  for (const ComponentId blocker : blockers)
-    way = std::min(way, table.contact(component, d, blocker).value_or(StraightContact{}).distance);
+  for (const ComponentId blocker : blockers) way = std::min(way, first_contact(table, group, d, blocker).distance);
   return way;
 }
 
@@ -44,23 +60,31 @@ double way_to_first(const BlockingTable& table, ComponentId component, Direction
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
                     const ComponentSet& present) {
   DISMANTLE_EXPECT(!directions.empty());
+  const Span<const ComponentId> group = table.groups().of(component);
+  ComponentSet others = present;
+  others.erase(group);
   DirectionId best;
   std::vector<ComponentId> fewest;
   double furthest = 0;
   for (const DirectionId d : directions) {
     const std::size_t enough = best.valid() ? fewest.size() + 1 : present.size();
-    std::vector<ComponentId> blockers = table.blockers(component, d, present, enough);
+    std::vector<ComponentId> blockers = blockers_of(table, group, d, others, enough);
     if (best.valid() && blockers.size() > fewest.size()) continue;
-    const double free_way = way_to_first(table, component, d, blockers);
+    const double free_way = way_to_first(table, group, d, blockers);
     if (best.valid() && blockers.size() == fewest.size() && free_way <= kClearlyFurther * furthest) continue;
     best = d;
     fewest = std::move(blockers);
     furthest = free_way;
   }
 
-  Explanation found{component, table.direction(best), {}, table.moving_together(component, best, present), {}};
+  Explanation found{component,
+                    {group.begin(), group.end()},
+                    table.direction(best),
+                    {},
+                    table.moving_together(component, best, present),
+                    {}};
   for (const ComponentId blocker : fewest)
-    found.blockers.push_back({blocker, table.contact(component, best, blocker).value_or(StraightContact{})});
+    found.blockers.push_back({blocker, first_contact(table, group, best, blocker)});
   std::stable_sort(found.blockers.begin(), found.blockers.end(),
                    [](const Blocker& a, const Blocker& b) { return a.contact.distance < b.contact.distance; });
   for (const ComponentId other : found.together) {
@@ -78,17 +102,29 @@ std::string direction_text(const Vec3& unit) {
   return point_text({rounded(unit.x), rounded(unit.y), rounded(unit.z)}, "(%.3f, %.3f, %.3f)");
 }
 
+std::string names_text(const Assembly& assembly, Span<const ComponentId> components) {
+  std::string text;
+  for (std::size_t i = 0; i < components.size() && i < kMaxNames; ++i)
+    text += (i > 0 ? ", " : "") + assembly[components[i]].name;
+  if (components.size() > kMaxNames) text += " and " + std::to_string(components.size() - kMaxNames) + " more";
+  return text;
+}
+
 std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   std::string text = assembly[e.component].name;
+  if (e.group.size() > 1) text += " (with " + std::to_string(e.group.size() - 1) + " more of its group)";
   if (e.blockers.empty()) return text + " can be removed along " + direction_text(e.direction);
   text += " is blocked by ";
-  for (std::size_t i = 0; i < e.blockers.size(); ++i) {
+  for (std::size_t i = 0; i < e.blockers.size() && i < kMaxBlockers; ++i) {
     const Blocker& b = e.blockers[i];
     text += (i > 0 ? ", " : "") + assembly[b.component].name + " (contact at " +
             point_text(b.contact.point, "(%.4g, %.4g, %.4g)") + ")";
   }
+  if (e.blockers.size() > kMaxBlockers) text += " and " + std::to_string(e.blockers.size() - kMaxBlockers) + " more";
   text += " along " + direction_text(e.direction);
-  if (e.locked.size() > 1) text += ", locked with {" + names_text(assembly, e.locked, e.component) + "}";
+  std::vector<ComponentId> locked = e.locked;
+  std::erase_if(locked, [&](ComponentId c) { return std::find(e.group.begin(), e.group.end(), c) != e.group.end(); });
+  if (!locked.empty()) text += ", locked with {" + names_text(assembly, locked) + "}";
   return text;
 }
 

@@ -8,8 +8,9 @@
 
 namespace dismantle {
 
-/// Explains what blocks the straight removal of a component from `present`: along the direction with the fewest
-/// blockers, and of equal ones the first along which it gets clearly further. Without blockers it can be removed.
+/// Explains what blocks the straight removal of a component, with its group, from `present`: along the direction with
+/// the fewest blockers, and of equal ones the first along which it gets clearly further. Without blockers it can be
+/// removed.
 /// @pre directions is not empty
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
                     const ComponentSet& present);
@@ -17,8 +18,11 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
 /// "+Z" or "-X" for a coordinate axis (within a thousandth), else "(0.577, -0.577, 0.577)".
 std::string direction_text(const Vec3& unit);
 
-/// One sentence: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with {plate}"; or that it can be
-/// removed.
+/// The names of components, at most a few: "washer, nut, screw, screw.2 and 59 more".
+std::string names_text(const Assembly& assembly, Span<const ComponentId> components);
+
+/// One sentence, with a few names at most: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with
+/// {plate}"; or that it can be removed.
 std::string explanation_text(const Assembly& assembly, const Explanation& explanation);
 
 }  // namespace dismantle

@@ -44,9 +44,10 @@ struct Blocker {
 
 /// Why a component cannot be removed: along the direction with the fewest blockers.
 struct Explanation {
-  ComponentId component;          ///< The component that stays.
-  Vec3 direction;                 ///< Unit.
-  std::vector<Blocker> blockers;  ///< Nearest first. Once they are gone it can be removed along the direction.
+  ComponentId component;           ///< The component that stays; of a group, the largest.
+  std::vector<ComponentId> group;  ///< The components of its group, including itself.
+  Vec3 direction;                  ///< Unit.
+  std::vector<Blocker> blockers;   ///< Nearest first. Once they are gone it can be removed along the direction.
   std::vector<ComponentId>
       together;  ///< The smallest set that could move along the direction as one body, including itself.
   std::vector<ComponentId> locked;  ///< Components that block each other along it (a strongly connected set).

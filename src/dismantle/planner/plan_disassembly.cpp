@@ -45,6 +45,12 @@ std::vector<ShapeFeatures> features_of(const Assembly& assembly, const Executor&
   return features;
 }
 
+RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
+  RigidGroups groups(assembly.components.size());
+  for (const std::vector<ComponentId>& together : options.together) groups.unite(together);
+  return groups;
+}
+
 /// Makes one plan of one assembly.
 class Planner {
  public:
@@ -52,10 +58,13 @@ class Planner {
       : assembly_(assembly),
         options_(options),
         count_(assembly.components.size()),
+        groups_(groups_of(assembly, options)),
+        targets_(groups_.with_groups(options.targets)),
+        fixed_(groups_.with_groups(options.fixed)),
         features_(features_of(assembly, options.engine.executor)),
-        validator_(assembly, pairs, options.engine, kFarAway * diagonal(assembled_bounds(assembly)),
+        validator_(assembly, pairs, options.engine, groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
-        table_(validator_.engine(), features_, [this] { return in_time(); }),
+        table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
         choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
         sliding_{options.slide_effort, 0, {}},
@@ -65,10 +74,10 @@ class Planner {
 
   Plan run() {
     const ComponentSet all = ComponentSet::all(count_);
-    if (options_.targets.empty()) {
+    if (targets_.empty()) {
       take_apart(all, PlanStep::kWhole);
     } else {
-      take_out(all, options_.targets, PlanStep::kWhole);
+      take_out(all, targets_, PlanStep::kWhole);
     }
     plan_.out_of_time = stopped_;
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
@@ -84,7 +93,7 @@ class Planner {
 
   /// The components that need no directions of their own: those that stay. With targets, any other may have to move.
   ComponentSet without_directions() const {
-    if (!options_.targets.empty() || count_ == 0) return ComponentSet(count_);
+    if (!targets_.empty() || count_ == 0) return ComponentSet(count_);
     return staying_of(ComponentSet::all(count_));
   }
 
@@ -104,14 +113,16 @@ class Planner {
   /// The components of a body that stay where they are while it is taken apart: the fixed ones, or the largest.
   ComponentSet staying_of(const ComponentSet& body) const {
     ComponentSet staying(count_);
-    for (const ComponentId c : options_.fixed)
+    for (const ComponentId c : fixed_)
       if (body.has(c)) staying.insert(c);
     if (staying.size() > 0) return staying;
     const std::vector<ComponentId> members = body.members();
     double largest = 0;
     for (const ComponentId c : members) largest = std::max(largest, features_[c.value].area);
-    staying.insert(*std::find_if(members.begin(), members.end(),
-                                 [&](ComponentId c) { return features_[c.value].area >= (1 - kSameSize) * largest; }));
+    const ComponentId largest_one = *std::find_if(members.begin(), members.end(), [&](ComponentId c) {
+      return features_[c.value].area >= (1 - kSameSize) * largest;
+    });
+    for (const ComponentId c : groups_.of(largest_one)) staying.insert(c);
     return staying;
   }
 
@@ -123,7 +134,7 @@ class Planner {
 
   /// Removes the targets from a body with as few others as possible; if straight motions are not enough, by themselves.
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
-    const ComponentSet never(count_, options_.fixed);
+    const ComponentSet never(count_, fixed_);
     const KeepGoing ask = [this] { return keep_going(); };
     ComponentSet left = body;
     for (;;) {
@@ -137,7 +148,7 @@ class Planner {
       plan_.steps.resize(steps);
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && keep_going())
+      if (left.has(target) && leads(target) && keep_going())
         plan_.staying.push_back(explain(table_, target, choice_.directions()[target.value], left));
   }
 
@@ -151,8 +162,12 @@ class Planner {
       const auto index = static_cast<std::uint32_t>(plan_.steps.size());
       plan_.steps.push_back(*step);
       plan_.steps.back().part_of = part_of;
-      taken_out_ += step->components.size() == 1 ? 1 : 0;
-      if (step->components.size() > 1) go_into(*step, index);
+      const std::size_t group = groups_.of(step->components.front()).size();
+      if (step->components.size() == group) {
+        taken_out_ += group;
+      } else {
+        go_into(*step, index);
+      }
     }
     return body;
   }
@@ -160,9 +175,9 @@ class Planner {
   /// Takes apart the body that a step removed, as far as required.
   void go_into(const PlanStep& step, std::uint32_t index) {
     const ComponentSet body(count_, step.components);
-    std::vector<ComponentId> targets = options_.targets;
+    std::vector<ComponentId> targets = targets_;
     std::erase_if(targets, [&](ComponentId c) { return !body.has(c); });
-    if (options_.targets.empty() || targets.size() == body.size()) {
+    if (targets_.empty() || targets.size() == body.size()) {
       take_apart(body, index);
     } else if (!targets.empty()) {
       take_out(body, targets, index);
@@ -187,11 +202,11 @@ class Planner {
     for (const ComponentId c : smallest_first(body, staying)) {
       for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
         if (!keep_going()) return std::nullopt;
-        if (!body.has(neighbour)) continue;
+        if (!body.has(neighbour) || groups_.together(c, neighbour)) continue;
         std::vector<ComponentId>& met = met_[{c, neighbour}];
         if (!met.empty() && body.has_all(met)) continue;
         PathSearch search = screw_out(validator_, table_, c, thread, [this] { return keep_going(); });
-        if (search.step) return std::move(search.step);
+        if (search.step) return with_group(std::move(*search.step));
         met = std::move(search.met);
       }
     }
@@ -218,6 +233,7 @@ class Planner {
                                            LongSearches& searches, const Search& search) {
     for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * searches.most; effort *= kEffortGrowth)
       for (const ComponentId c : smallest_first(body, staying)) {
+        if (!leads(c)) continue;
         LongSearches::InVain& before = searches.in_vain[c];
         if (before.effort >= effort && body.has_all(before.met)) continue;
         const std::size_t left = searches.most - std::min(searches.spent, searches.most);
@@ -225,7 +241,7 @@ class Planner {
         const std::size_t begun = validator_.effort();
         PathSearch found = search(c, std::min(effort, left));
         searches.spent += validator_.effort() - begun;
-        if (found.step) return std::move(found.step);
+        if (found.step) return with_group(std::move(*found.step));
         const bool no_further =
             before.effort > 0 && body.has_all(before.met) && found.furthest <= kFurther * before.furthest.value_or(0);
         before = {found.exhausted || no_further ? std::numeric_limits<std::size_t>::max() : effort,
@@ -250,6 +266,21 @@ class Planner {
       if (held_fast || rattles) return PathSearch{std::nullopt, slid.met, slid.furthest, true};
       return sample_out(validator_, table_, c, effort, [this] { return keep_going(); });
     });
+  }
+
+  /// True for the largest component of a group, for which the whole group is searched for and explained.
+  bool leads(ComponentId c) const {
+    const Span<const ComponentId> group = groups_.of(c);
+    return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {
+      return features_[a.value].radius < features_[b.value].radius;
+    }) == c;
+  }
+
+  /// A step of a component as that of its group.
+  PlanStep with_group(PlanStep step) const {
+    const Span<const ComponentId> group = groups_.of(step.components.front());
+    step.components.assign(group.begin(), group.end());
+    return step;
   }
 
   std::vector<ComponentId> smallest_first(const ComponentSet& body, const ComponentSet& staying) const {
@@ -302,7 +333,7 @@ class Planner {
 
   void explain_left(const ComponentSet& left, const ComponentSet& staying) {
     for (const ComponentId c : left.members())
-      if (!staying.has(c) && keep_going())
+      if (!staying.has(c) && leads(c) && keep_going())
         plan_.staying.push_back(explain(table_, c, choice_.directions()[c.value], left));
   }
 
@@ -312,6 +343,8 @@ class Planner {
   Clock::time_point start_ = Clock::now();
   std::atomic<bool> stopped_ = false;
   std::size_t taken_out_ = 0;
+  RigidGroups groups_;
+  std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
   MotionValidator validator_;
   BlockingTable table_;
@@ -331,11 +364,12 @@ Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const P
 }
 
 Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
-                        const CertificateOptions& options) {
+                        const CertificateOptions& options, const std::vector<std::vector<ComponentId>>& together) {
   DISMANTLE_EXPECT(component.value < assembly.components.size());
   PlanOptions plan;
   plan.targets = {component};
   plan.engine = options;
+  plan.together = together;
   return Planner(assembly, pairs, plan).explain_assembled(component);
 }
 

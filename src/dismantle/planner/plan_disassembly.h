@@ -32,6 +32,8 @@ struct PlanOptions {
   /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
   /// the first that is found, those in the direction of the previous step first, which is faster.
   std::vector<StepPreference> preferences{};
+  /// Sets of components that are not taken apart (RigidGroups).
+  std::vector<std::vector<ComponentId>> together{};
 
   /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {
@@ -45,7 +47,8 @@ struct PlanOptions {
 Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options);
 
 /// Explains what blocks the straight removal of a component from the assembled state; no blockers if it can be removed.
+/// @param together sets of components that are not taken apart
 Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
-                        const CertificateOptions& options);
+                        const CertificateOptions& options, const std::vector<std::vector<ComponentId>>& together = {});
 
 }  // namespace dismantle

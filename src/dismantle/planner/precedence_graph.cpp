@@ -27,7 +27,8 @@ class PrecedenceFinder {
       : assembly_(assembly),
         plan_(plan),
         size_(diagonal(assembled_bounds(assembly))),
-        validator_(assembly, pairs, options, kFarAway * size_, keep_going) {}
+        groups_(assembly.components.size()),
+        validator_(assembly, pairs, options, groups_, kFarAway * size_, keep_going) {}
 
   /// All predecessors of step `k`, ascending.
   std::vector<std::uint32_t> before(std::uint32_t k) {
@@ -95,6 +96,7 @@ class PrecedenceFinder {
   const Assembly& assembly_;
   const Plan& plan_;
   double size_;
+  RigidGroups groups_;  // what moves together is in the steps
   MotionValidator validator_;
 };
 

@@ -4,6 +4,8 @@
 #include "dismantle/core/progress.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace dismantle {
@@ -15,6 +17,15 @@ struct ImportLimits {
   std::size_t components = 100'000;               ///< Of the whole assembly.
 };
 
+/// Size of ImportOptions::cache_folder, at most [bytes].
+inline constexpr std::uint64_t kCacheBytes = std::uint64_t{2} << 30;
+
+/// What becomes of a product with several solids.
+enum class Solids {
+  Split,  ///< A component of each solid.
+  Join,   ///< One component of all.
+};
+
 /// Options of every reader.
 struct ImportOptions {
   std::string units;  ///< "mm", "cm", "m", "um", "in", "ft": overrides what the file says; empty: as the file says, mm
@@ -22,8 +33,13 @@ struct ImportOptions {
   double deflection = 0;  ///< STEP: largest distance of a triangle from its surface [mm]; 0: kDefaultRelativeDeflection
                           ///< of the assembly's size.
   double angular_deflection =
-      0;                ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
-  ImportLimits limits;  ///< Refuses larger input.
+      0;  ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
+  Solids solids = Solids::Split;  ///< STEP: products with several solids.
+  bool drop_duplicates = false;   ///< Leaves out components that find_duplicates() finds.
+  ImportLimits limits;            ///< Refuses larger input.
+  /// STEP: keeps the triangles of the files that were read (kCacheBytes of them), for the next time that a file is read
+  /// with the same options; empty: keeps nothing.
+  std::filesystem::path cache_folder;
   ProgressCallback progress;  ///< May be empty; may cancel.
 };
 

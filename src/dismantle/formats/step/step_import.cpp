@@ -282,7 +282,7 @@ Result<Assembly> import_step(std::string_view text, const std::string& name, con
   const LengthUnit unit = length_unit(*reader.Reader().Model());
   const double unit_scale = options.units.empty() ? 1 : *millimetres_per_unit(options.units) / unit.millimetres;
 
-  Result<StepProductTree> products = walk_step_products(document, name, options.limits.components);
+  Result<StepProductTree> products = walk_step_products(document, name, options.solids, options.limits.components);
   if (!products) return products.error();
   const double diagonal = assembly_diagonal(*products);
   const double deflection =

@@ -75,10 +75,11 @@ struct Path {
 
 class Walker {
  public:
-  Walker(const Handle(TDocStd_Document) & document, const std::string& root_name, std::size_t limit)
+  Walker(const Handle(TDocStd_Document) & document, const std::string& root_name, Solids solids, std::size_t limit)
       : shape_tool_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
         color_tool_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
         root_name_(root_name),
+        solids_(solids),
         limit_(limit) {}
 
   Result<StepProductTree> walk() {
@@ -153,6 +154,7 @@ class Walker {
       if (TopExp_Explorer(solids.Current(), TopAbs_FACE).More()) leaf.pieces.push_back(piece_of(solids.Current()));
     const TopoDS_Shape rest = faces_outside_solids(shape);
     if (!rest.IsNull()) leaf.pieces.push_back(piece_of(rest));
+    if (leaf.pieces.size() > 1 && solids_ == Solids::Join) leaf.pieces = {piece_of(shape)};
     leaves_.Bind(label, leaf);
     return leaves_.Find(label);
   }
@@ -194,6 +196,7 @@ class Walker {
   Handle(XCAFDoc_ShapeTool) shape_tool_;
   Handle(XCAFDoc_ColorTool) color_tool_;
   std::string root_name_;
+  Solids solids_;
   std::size_t limit_;
   bool too_large_ = false;
   StepProductTree result_;
@@ -204,8 +207,8 @@ class Walker {
 }  // namespace
 
 Result<StepProductTree> walk_step_products(const Handle(TDocStd_Document) & document, const std::string& root_name,
-                                           std::size_t limit) {
-  return Walker(document, root_name, limit).walk();
+                                           Solids solids, std::size_t limit) {
+  return Walker(document, root_name, solids, limit).walk();
 }
 
 }  // namespace dismantle

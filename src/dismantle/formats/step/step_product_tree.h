@@ -3,6 +3,7 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/core/result.h"
+#include "dismantle/formats/import/import_options.h"
 
 #include <NCollection_DataMap.hxx>
 #include <TDocStd_Document.hxx>
@@ -42,9 +43,9 @@ struct StepProductTree {
 };
 
 /// Walks the product tree of a document. Each solid of a product is an occurrence; its faces outside solids are one
-/// more. Names: of the product, else of the instance, else `root_name`. Errors: Unreadable if there are more
-/// occurrences than `limit`, or far more tree nodes than that.
+/// more; with Solids::Join, they are one occurrence together. Names: of the product, else of the instance, else
+/// `root_name`. Errors: Unreadable if there are more occurrences than `limit`, or far more tree nodes than that.
 Result<StepProductTree> walk_step_products(const Handle(TDocStd_Document) & document, const std::string& root_name,
-                                           std::size_t limit);
+                                           Solids solids, std::size_t limit);
 
 }  // namespace dismantle

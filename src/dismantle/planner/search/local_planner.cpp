@@ -5,7 +5,7 @@ namespace dismantle {
 
 StepResult LocalPlanner::slide(const Pose& target) {
   StepResult made = validator_.slide(target);
-  for (const BlockingPair& c : made.blocking_pairs) met_.insert(c.a == component_ ? c.b : c.a);
+  for (const BlockingPair& c : made.blocking_pairs) met_.insert(validator_.moves(c.a) ? c.b : c.a);
   for (const ContactPoint& c : made.contact_points) met_.insert(c.fixed);
   return made;
 }

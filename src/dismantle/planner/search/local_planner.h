@@ -19,13 +19,12 @@ struct PathSearch {
   bool exhausted = false;          ///< The search space is exhausted: more effort does not help.
 };
 
-/// The local planner of the searches: moves one component with the engine, from its assembled pose, and records what it
-/// meets. Its destructor restores the state.
+/// The local planner of the searches: moves one component, with its group, from its assembled pose with the engine, and
+/// records what it meets. Its destructor restores the state.
 class LocalPlanner {
  public:
   /// @param validator must outlive the local_planner, and must not be used elsewhere until then
-  LocalPlanner(MotionValidator& validator, ComponentId component)
-      : validator_(validator), component_(component), begun_(validator.effort()) {
+  LocalPlanner(MotionValidator& validator, ComponentId component) : validator_(validator), begun_(validator.effort()) {
     validator_.take(component);
   }
   ~LocalPlanner() { validator_.put_back(); }
@@ -51,7 +50,6 @@ class LocalPlanner {
 
  private:
   MotionValidator& validator_;
-  ComponentId component_;
   std::size_t begun_;
   std::set<ComponentId> met_;
 };

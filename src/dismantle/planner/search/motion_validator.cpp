@@ -19,8 +19,9 @@ constexpr std::size_t kSweepEffort = 32, kFrontShare = 128;
 }  // namespace
 
 MotionValidator::MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
-                                 double far, KeepGoing keep_going)
+                                 const RigidGroups& groups, double far, KeepGoing keep_going)
     : tolerance_(pairs.tolerance),
+      groups_(groups),
       far_(far),
       keep_going_(std::move(keep_going)),
       engine_(assembly, pairs, options),
@@ -89,20 +90,20 @@ const CertificateEngine& MotionValidator::hold(ComponentId component) {
 }
 
 void MotionValidator::take(ComponentId component) {
-  engine_.grab({&component, 1});
+  engine_.grab(groups_.of(component));
   moving_ = component;
 }
 
 void MotionValidator::go_back(const Pose& pose) {
   std::vector<Pose> poses = poses_;
-  poses[moving_.value] = pose;
+  for (const ComponentId c : groups_.of(moving_)) poses[c.value] = pose;
   engine_.jump(poses);
-  engine_.grab({&moving_, 1});
+  engine_.grab(groups_.of(moving_));
 }
 
 MotionValidator::Trial MotionValidator::try_exit(const Vec3& direction, double way) {
   const Pose from = pose();
-  Trial trial = trial_of(go_straight(direction, way), {&moving_, 1});
+  Trial trial = trial_of(go_straight(direction, way), groups_.of(moving_));
   go_back(from);
   return trial;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/planner/component_set.h"
 #include "dismantle/planner/keep_going.h"
@@ -13,10 +14,11 @@ namespace dismantle {
 /// Validates motions of a plan with the collision engine, which applies all rules of the guarantee.
 class MotionValidator {
  public:
-  /// @param far Distance at which removed components are parked [mm].
+  /// @param groups of components that move together; must outlive this @param far Distance at which removed components
+  /// are parked [mm].
   /// @param keep_going once it returns false, motions end as if blocked
-  MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options, double far,
-                  KeepGoing keep_going);
+  MotionValidator(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
+                  const RigidGroups& groups, double far, KeepGoing keep_going);
 
   /// Puts `present` into their assembled poses and removes all others.
   void stand(const ComponentSet& present);
@@ -34,17 +36,19 @@ class MotionValidator {
   /// The cost of all motions so far, in triangle-pair tests: a deterministic measure of time.
   std::size_t effort() const { return effort_; }
 
-  /// Makes one component the moving set in its assembled pose, to search for its exit path.
+  /// Makes the group of a component the moving set in its assembled pose, to search for its exit path.
   void take(ComponentId component);
-  /// The present pose of the moving component.
+  /// True if a component is in the group that was taken.
+  bool moves(ComponentId c) const { return groups_.together(moving_, c); }
+  /// The present pose of the moving set.
   const Pose& pose() const { return engine_.poses()[moving_.value]; }
   /// Moves towards `target`, sliding along contacts.
   StepResult slide(const Pose& target) { return step(target, ResponseKind::Slide); }
-  /// Returns the moving component to a pose reached before.
+  /// Returns the moving set to a pose reached before.
   void go_back(const Pose& pose);
-  /// Tests whether the moving component can move straight on by `way` [mm]; it keeps its pose.
+  /// Tests whether the moving set can move straight on by `way` [mm]; it keeps its pose.
   Trial try_exit(const Vec3& direction, double way);
-  /// The unit `directions` along which the moving component can probably move straight on by `way` [mm]. Nothing moves.
+  /// The unit `directions` along which the moving set can probably move straight on by `way` [mm]. Nothing moves.
   std::vector<Vec3> likely_exits(Span<const Vec3> directions, double way);
   /// Restores the assembled pose.
   void put_back();
@@ -57,6 +61,7 @@ class MotionValidator {
   static Trial trial_of(const StepResult& made, Span<const ComponentId> set);
 
   double tolerance_;
+  const RigidGroups& groups_;
   double far_;
   KeepGoing keep_going_;
   CertificateEngine engine_;
