@@ -54,7 +54,8 @@ class WindingNumber {
   const SurfaceTree* fans() const { return fans_.get(); }
   /// A bound of the absolute winding number in a set of points, where the mesh closed by its fans has winding number 0:
   /// a fan that is flat and simple covers no more than half of what can be seen, a far or a narrow one less; infinite
-  /// where that mesh has another winding number. @param center, radius a ball around the set; the center is a point of it
+  /// where that mesh has another winding number. @param center, radius a ball around the set; the center is a point of
+  /// it
   /// @pre the set is connected and meets neither the mesh nor a fan
   double bound_outside_fans(Vec3 center, double radius) const;
   /// A bound of the change of the winding number from `center` to any point within `radius` [mm], by the law of Biot
