@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -128,6 +129,11 @@ void add_together_option(CLI::App& command, CommonOptions& o) {
                   "Treat as one part: each sub-assembly of the product tree that has this name, or fits this pattern "
                   "with * and ?; where there is none, the components that fit, all together. May be repeated")
       ->type_name("NAME|PATTERN");
+}
+
+double default_overlap_limit(const Assembly& assembly) {
+  constexpr double kShare = 0.01, kMost = 0.5;
+  return std::min(kMost, kShare * diagonal(assembled_bounds(assembly)));
 }
 
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {

@@ -107,8 +107,8 @@ void print_text(const Assembly& a) {
   if (a.simplification_error > 0)
     fmt::print("simplification moved the surface by at most {:.4g} mm\n", a.simplification_error);
   if (const SplitProducts split = split_products(a); split.products > 0)
-    fmt::print("{} products with several solids are {} components, one a solid (--solids join: one a product)\n",
-               split.products, split.components);
+    fmt::print("{} with several solids: {} components, one for each solid (--solids join: one for each product)\n",
+               split.products == 1 ? "1 product" : fmt::format("{} products", split.products), split.components);
   const std::vector<ComponentId> duplicate_of = originals(a);
   std::size_t width = 9;
   for (const Component& c : a.components) width = std::max(width, c.name.size());

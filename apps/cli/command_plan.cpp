@@ -6,6 +6,7 @@
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
 #include "dismantle/instructions/precedence_files.h"
+#include "dismantle/planner/plan_allowing_overlaps.h"
 #include "dismantle/planner/plan_path.h"
 #include "dismantle/planner/step_preference.h"
 
@@ -25,7 +26,7 @@ struct PlanCommand {
   CommonOptions common;
   std::string output, graph;
   std::vector<std::string> targets, fixed;
-  double time_limit = 0, effort = 1;
+  double time_limit = 0, effort = 1, allow_overlap = 0;
   std::vector<StepPreference> preferences;
 };
 
@@ -101,12 +102,16 @@ Result<ExitCode> run(const PlanCommand& command) {
   options.search_longer(command.effort);
   options.preferences = command.preferences;
   options.together = groups->of_several();
-  const Plan plan = plan_disassembly(*assembly, *states, options);
-  const Path path = plan_path(*assembly, *states, plan);
+  options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
+  const AllowingPlan found = command.allow_overlap > 0
+                                 ? plan_allowing_overlaps(*assembly, *states, options)
+                                 : AllowingPlan{plan_disassembly(*assembly, *states, options), *states};
+  const Plan& plan = found.plan;
+  const Path path = plan_path(*assembly, found.pairs, plan);
   const Result<Done> written = write_path(command.output, path);
   if (!written) return written.error();
   if (!command.graph.empty()) {
-    const Result<std::size_t> ranks = write_graph(command.graph, *assembly, *states, plan, command.common);
+    const Result<std::size_t> ranks = write_graph(command.graph, *assembly, found.pairs, plan, command.common);
     if (!ranks) return ranks.error();
     if (!command.common.json) fmt::print("wrote {}: {} ranks of steps\n", command.graph, *ranks);
   }
@@ -120,6 +125,11 @@ Result<ExitCode> run(const PlanCommand& command) {
   } else {
     for (const std::vector<ComponentId>& group : options.together)
       fmt::print("one part: {}\n", names_text(*assembly, group));
+    for (const ComponentPair& pair : found.pairs.pairs)
+      if (const ComponentPair* before = states->find(pair.a, pair.b); pair.allowed_depth > before->allowed_depth)
+        fmt::print("allowed: {} and {} may be {:.3g} mm deep in each other until they are apart ({:.2g} mm more)\n",
+                   (*assembly)[pair.a].name, (*assembly)[pair.b].name, pair.allowed_depth,
+                   pair.allowed_depth - before->allowed_depth);
     print_text(command, *assembly, plan);
   }
   return plan.complete() ? ExitCode::Done : ExitCode::No;
@@ -152,6 +162,12 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "is up), equal components in a row, or keeping all supported; the first counts most")
       ->transform(CLI::CheckedTransformer(step_preferences()))
       ->type_name("direction|upright|groups|support");
+  command
+      ->add_option("--allow-overlap", options->allow_overlap,
+                   "Where a component stays otherwise, let it overlap what it touches by up to this much more than in "
+                   "the assembled state until they are apart; the path says which pairs, and by how much")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--effort", options->effort,
                    "Effort of the search for paths that are not straight, as a factor (default: 1, some seconds)")

@@ -32,7 +32,12 @@ Result<ExitCode> run(const WhyCommand& command) {
   const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
   if (!groups) return groups.error();
 
-  const Explanation why = why_blocked(*assembly, *states, *component, {executor, widest_lanes()}, groups->of_several());
+  PlanOptions options;
+  options.engine = {executor, widest_lanes()};
+  options.progress = progress_printer(command.common);
+  options.together = groups->of_several();
+  options.overlap_limit = default_overlap_limit(*assembly);
+  const Explanation why = why_blocked(*assembly, *states, *component, options);
   if (command.common.json) {
     Json report{{"format", "dismantle-why"}, {"version", 1}};
     report.update(explanation_json(*assembly, why));

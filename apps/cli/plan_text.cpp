@@ -23,6 +23,20 @@ Json names_json(const Assembly& assembly, const std::vector<ComponentId>& compon
   return names;
 }
 
+Json overlap_json(const Assembly& assembly, const LeastOverlap& overlap) {
+  Json pairs = Json::array();
+  for (const NeededOverlap& p : overlap.pairs)
+    pairs.push_back({{"a", assembly[p.moving].name},
+                     {"b", assembly[p.fixed].name},
+                     {"depth_mm", p.depth},
+                     {"more_mm", p.more},
+                     {"at", {p.at.x, p.at.y, p.at.z}}});
+  return {{"direction", {overlap.direction.x, overlap.direction.y, overlap.direction.z}},
+          {"along", direction_text(overlap.direction)},
+          {"more_mm", overlap.more},
+          {"pairs", pairs}};
+}
+
 Json explanation_json(const Assembly& assembly, const Explanation& e) {
   Json blockers = Json::array();
   for (const Blocker& b : e.blockers)
@@ -35,7 +49,8 @@ Json explanation_json(const Assembly& assembly, const Explanation& e) {
           {"along", direction_text(e.direction)},
           {"blocked_by", blockers},
           {"comes_out_with", names_json(assembly, e.together)},
-          {"locked_with", names_json(assembly, e.locked)}};
+          {"locked_with", names_json(assembly, e.locked)},
+          {"comes_out_with_overlap", e.overlap ? overlap_json(assembly, *e.overlap) : Json(nullptr)}};
 }
 
 Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {

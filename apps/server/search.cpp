@@ -171,7 +171,7 @@ Result<SearchResult> run_search(const SearchRequest& request, const ProgressCall
     result.snapshot = request.snapshot;
     const PlanOptions options = plan_options(request, watched);
     result.reasons.push_back(
-        translated(snapshot, why_blocked(snapshot.assembly, snapshot.pairs, options.targets[0], options.engine)));
+        translated(snapshot, why_blocked(snapshot.assembly, snapshot.pairs, options.targets[0], options)));
   } else {
     result = result_of(request, plan_disassembly(snapshot.assembly, snapshot.pairs, plan_options(request, watched)));
   }

@@ -73,7 +73,8 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
 
 ExplanationView why(const CheckedHolder& states, const py::object& component, int threads) {
   const ComponentId id = component_of(*states->assembly, component);
-  const CertificateOptions options{executor_of(threads), widest_lanes()};
+  PlanOptions options;
+  options.engine = {executor_of(threads), widest_lanes()};
   return {states, without_gil([&] { return why_blocked(*states->assembly, states->pairs, id, options); })};
 }
 

@@ -51,7 +51,9 @@ TEST(Explanation, SpeaksOfAGroupAsOfOnePart) {
   const Assembly stack = scenes::stack_in_tube(5);
   const scenes::PlanScene scene = scenes::plan_scene(stack);
   const ComponentId first = *stack.find("box 1"), second = *stack.find("box 2");
-  const Explanation e = why_blocked(scene.assembly, scene.pairs, first, {}, {{first, second}});
+  PlanOptions options;
+  options.together = {{first, second}};
+  const Explanation e = why_blocked(scene.assembly, scene.pairs, first, options);
   EXPECT_EQ(e.group, (std::vector<ComponentId>{first, second}));
   ASSERT_EQ(e.blockers.size(), 1u);
   EXPECT_EQ(explanation_text(stack, e).find("box 1 (with 1 more of its group) is blocked by box"), 0u)

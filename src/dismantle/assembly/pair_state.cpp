@@ -38,4 +38,11 @@ void PairStates::raise_allowances(const std::vector<ComponentPair>& with) {
     }
 }
 
+bool PairStates::declare(ComponentId a, ComponentId b, double depth) {
+  ComponentPair& pair = pairs[static_cast<std::size_t>(find(a, b) - pairs.data())];
+  if (pair.allowed_depth >= depth) return false;
+  pair.declared = pair.allowed_depth = depth;
+  return true;
+}
+
 }  // namespace dismantle

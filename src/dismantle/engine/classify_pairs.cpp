@@ -55,9 +55,7 @@ Result<Done> declare_allowances(PairStates& states, const Assembly& assembly, Sp
       return Error{ErrorKind::Usage, "no overlap can be allowed for '" + own.a + "' and '" + own.b +
                                          "' (they do not touch in the assembled state, and an allowance ends where two "
                                          "components have been apart); see 'dismantle check'"};
-    ComponentPair& pair = states.pairs[static_cast<std::size_t>(known - states.pairs.data())];
-    if (pair.allowed_depth >= own.depth) continue;
-    pair.declared = pair.allowed_depth = own.depth;
+    states.declare(*a, *b, own.depth);
   }
   return Done{};
 }

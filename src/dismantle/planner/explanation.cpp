@@ -82,6 +82,7 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
                     table.direction(best),
                     {},
                     table.moving_together(component, best, present),
+                    {},
                     {}};
   for (const ComponentId blocker : fewest)
     found.blockers.push_back({blocker, first_contact(table, group, best, blocker)});
@@ -110,6 +111,18 @@ std::string names_text(const Assembly& assembly, Span<const ComponentId> compone
   return text;
 }
 
+std::string overlap_text(const Assembly& assembly, const LeastOverlap& overlap) {
+  std::string text = "comes out along " + direction_text(overlap.direction) + " if ";
+  for (std::size_t i = 0; i < overlap.pairs.size(); ++i) {
+    const NeededOverlap& pair = overlap.pairs[i];
+    char more[32];
+    std::snprintf(more, sizeof more, "%.2g", pair.more);
+    text += (i > 0 ? ", and " : "") + std::string(more) + " mm more overlap with " + assembly[pair.fixed].name +
+            " (at " + point_text(pair.at, "(%.4g, %.4g, %.4g)") + ")";
+  }
+  return text + (overlap.pairs.size() > 1 ? " were allowed" : " was allowed");
+}
+
 std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   std::string text = assembly[e.component].name;
   if (e.group.size() > 1) text += " (with " + std::to_string(e.group.size() - 1) + " more of its group)";
@@ -125,6 +138,7 @@ std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   std::vector<ComponentId> locked = e.locked;
   std::erase_if(locked, [&](ComponentId c) { return std::find(e.group.begin(), e.group.end(), c) != e.group.end(); });
   if (!locked.empty()) text += ", locked with {" + names_text(assembly, locked) + "}";
+  if (e.overlap) text += "; " + overlap_text(assembly, *e.overlap);
   return text;
 }
 

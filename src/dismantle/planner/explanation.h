@@ -21,6 +21,9 @@ std::string direction_text(const Vec3& unit);
 /// The names of components, at most a few: "washer, nut, screw, screw.2 and 59 more".
 std::string names_text(const Assembly& assembly, Span<const ComponentId> components);
 
+/// "comes out along +X if 0.012 mm more overlap with bore (at (12, 0, 40)) was allowed".
+std::string overlap_text(const Assembly& assembly, const LeastOverlap& overlap);
+
 /// One sentence, with a few names at most: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with
 /// {plate}"; or that it can be removed.
 std::string explanation_text(const Assembly& assembly, const Explanation& explanation);

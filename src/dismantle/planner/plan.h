@@ -4,6 +4,7 @@
 #include "dismantle/certificates/certificate_engine.h"
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,22 @@ struct Blocker {
   StraightContact contact;  ///< The first contact with it.
 };
 
+/// The overlap that a pair of components would have to be allowed.
+struct NeededOverlap {
+  ComponentId moving;  ///< One of those that move.
+  ComponentId fixed;   ///< The one that blocks it.
+  double depth = 0;    ///< Depth that would have to be allowed until the two have been apart [mm].
+  double more = 0;     ///< By how much that is more than what is allowed now [mm].
+  Vec3 at;             ///< Where they meet first without it [mm, assembly frame].
+};
+
+/// A straight way out, and what would have to be allowed for it.
+struct LeastOverlap {
+  Vec3 direction;                    ///< Unit.
+  double more = 0;                   ///< The largest one of the pairs' [mm].
+  std::vector<NeededOverlap> pairs;  ///< All pairs that block, the one that needs the most first.
+};
+
 /// Why a component cannot be removed: along the direction with the fewest blockers.
 struct Explanation {
   ComponentId component;           ///< The component that stays; of a group, the largest.
@@ -51,6 +68,8 @@ struct Explanation {
   std::vector<ComponentId>
       together;  ///< The smallest set that could move along the direction as one body, including itself.
   std::vector<ComponentId> locked;  ///< Components that block each other along it (a strongly connected set).
+  std::optional<LeastOverlap>
+      overlap;  ///< What would have to be allowed for it to come out, where that was searched for.
 };
 
 /// A disassembly sequence.

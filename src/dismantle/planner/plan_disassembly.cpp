@@ -3,6 +3,7 @@
 
 #include "dismantle/core/contract.h"
 #include "dismantle/planner/explanation.h"
+#include "dismantle/planner/least_overlap.h"
 #include "dismantle/planner/search/component_axes.h"
 #include "dismantle/planner/search/direction_choice.h"
 #include "dismantle/planner/search/motion_validator.h"
@@ -67,6 +68,7 @@ class Planner {
         table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
         choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
+        overlaps_(assembly, pairs, table_, options.engine),
         sliding_{options.slide_effort, 0, {}},
         sampling_{options.sample_effort, 0, {}} {
     plan_.allowances = validator_.engine().overlapping_pairs();
@@ -84,9 +86,7 @@ class Planner {
     return std::move(plan_);
   }
 
-  Explanation explain_assembled(ComponentId component) {
-    return explain(table_, component, choice_.directions()[component.value], ComponentSet::all(count_));
-  }
+  Explanation explain_assembled(ComponentId component) { return explanation(component, ComponentSet::all(count_)); }
 
  private:
   PlannedAssembly planned(const PairStates& pairs) const { return {assembly_, features_, pairs.tolerance}; }
@@ -148,8 +148,7 @@ class Planner {
       plan_.steps.resize(steps);
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && leads(target) && keep_going())
-        plan_.staying.push_back(explain(table_, target, choice_.directions()[target.value], left));
+      if (left.has(target) && leads(target) && keep_going()) plan_.staying.push_back(explanation(target, left));
   }
 
   /// Removes what it can from `body` except `staying`. @return the rest
@@ -331,10 +330,17 @@ class Planner {
     return std::nullopt;
   }
 
+  Explanation explanation(ComponentId c, const ComponentSet& present) {
+    Explanation found = explain(table_, c, choice_.directions()[c.value], present);
+    if (options_.overlap_limit > 0 && !found.blockers.empty())
+      found.overlap = overlaps_.find(c, choice_.directions()[c.value], present, options_.overlap_limit,
+                                     [this] { return keep_going(); });
+    return found;
+  }
+
   void explain_left(const ComponentSet& left, const ComponentSet& staying) {
     for (const ComponentId c : left.members())
-      if (!staying.has(c) && leads(c) && keep_going())
-        plan_.staying.push_back(explain(table_, c, choice_.directions()[c.value], left));
+      if (!staying.has(c) && leads(c) && keep_going()) plan_.staying.push_back(explanation(c, left));
   }
 
   const Assembly& assembly_;
@@ -350,6 +356,7 @@ class Planner {
   BlockingTable table_;
   DirectionChoice choice_;
   ComponentAxes axes_;
+  OverlapSearch overlaps_;
   DirectionId last_direction_;
   std::vector<std::uint32_t> kinds_;  // of components, if preferences need them
   LongSearches sliding_, sampling_;
@@ -364,12 +371,11 @@ Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const P
 }
 
 Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
-                        const CertificateOptions& options, const std::vector<std::vector<ComponentId>>& together) {
+                        const PlanOptions& options) {
   DISMANTLE_EXPECT(component.value < assembly.components.size());
-  PlanOptions plan;
+  PlanOptions plan = options;
   plan.targets = {component};
-  plan.engine = options;
-  plan.together = together;
+  plan.fixed.clear();
   return Planner(assembly, pairs, plan).explain_assembled(component);
 }
 

@@ -32,6 +32,9 @@ struct PlanOptions {
   /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
   /// the first that is found, those in the direction of the previous step first, which is faster.
   std::vector<StepPreference> preferences{};
+  /// For each component that stays, an overlap is searched for by which it would come out, up to this much more than
+  /// what is allowed (OverlapSearch) [mm]; 0: none.
+  double overlap_limit = 0;
   /// Sets of components that are not taken apart (RigidGroups).
   std::vector<std::vector<ComponentId>> together{};
 
@@ -47,8 +50,8 @@ struct PlanOptions {
 Plan plan_disassembly(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options);
 
 /// Explains what blocks the straight removal of a component from the assembled state; no blockers if it can be removed.
-/// @param together sets of components that are not taken apart
+/// @param options of which targets and fixed do not matter
 Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, ComponentId component,
-                        const CertificateOptions& options, const std::vector<std::vector<ComponentId>>& together = {});
+                        const PlanOptions& options);
 
 }  // namespace dismantle
