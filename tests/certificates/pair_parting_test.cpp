@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace dismantle {
 namespace {
 
@@ -46,6 +48,34 @@ TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
   Grabbed pin(assembly, states, 0);
   for (int k = 1; k <= 40; ++k)
     EXPECT_TRUE(pin.engine.step({{}, quat_about({0, 0, 1}, 0.05 * k)}, ResponseKind::Slide).reached) << k;
+}
+
+/// A tube of which every fourth corner is on a chord of its circles instead: a half of the facets are pairs in a plane.
+TriangleMesh with_facets_in_pairs(double outer, double inner, double z0, double z1, std::uint32_t sides) {
+  TriangleMesh mesh = scenes::tube(outer, inner, z0, z1, 2 * sides);
+  const double across = kTurn / (2 * sides);
+  for (Vec3& p : mesh.vertices) {
+    const double radius = std::hypot(p.x, p.y);
+    if (radius == 0 || static_cast<long>(std::lround(std::atan2(p.y, p.x) / across)) % 4 != 1) continue;
+    p.x *= std::cos(across);
+    p.y *= std::cos(across);
+  }
+  return mesh;
+}
+
+TEST(PairParting, LetsHingesTurnWhoseFacetsAreDivided) {
+  for (const std::uint32_t sides : {16u, 17u, 31u})
+    for (const double phase : {0.0, 0.05, 0.1}) {
+      const TriangleMesh eye = with_facets_in_pairs(8, 5, 0, 10, 24);
+      const Assembly assembly =
+          scenes::assembly({scenes::component("pin", with_facets_in_pairs(5.005, 0, -2, 12, sides)),
+                            scenes::component("eye", scenes::moved(eye, {{}, quat_about({0, 0, 1}, phase)}))});
+      const PairStates states = states_of(assembly);
+      Grabbed pin(assembly, states, 0);
+      for (int k = 1; k <= 63; ++k)
+        ASSERT_TRUE(pin.engine.step({{}, quat_about({0, 0, 1}, 0.1 * k)}, ResponseKind::Stop).reached)
+            << sides << " sides, phase " << phase << ", step " << k;
+    }
 }
 
 }  // namespace

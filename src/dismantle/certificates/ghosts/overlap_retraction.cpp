@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace dismantle {
@@ -27,8 +28,8 @@ constexpr double kAcross = 0.1;
 /// Two axes are one if they are no further apart than so many tolerances where the components meet, and their
 /// directions differ by no more than this sine.
 constexpr double kSameAxis = 1, kSameDirection = 1e-4;
-/// The corners of a facet of a cylinder are this nearly on one circle, and its middle is no nearer to the axis than
-/// this share of the radius.
+/// Two corners of a facet of a cylinder, the third of which may be on a chord, are this nearly on one circle, and it is
+/// no nearer to the axis than this share of the radius.
 constexpr double kOnCircle = 0.999, kSmallestFacet = 0.965;
 
 /// Facets count as a cylinder if they cover at least this share of a circle, which is divided into so many parts: the
@@ -122,6 +123,29 @@ class Retraction {
            length(off - dot(off, a.direction) * a.direction) < kSameAxis * tolerance_;
   }
 
+  /// A face in coordinates about an axis.
+  struct Facet {
+    Vec3 across[3];                    // of its corners
+    double along[3];                   // of its corners [mm]
+    double nearest = 0, farthest = 0;  // distances from the axis [mm]
+    double on_circle = 0;              // that of the second farthest corner [mm]
+    bool is_shaft = false;             // its normal points away from the axis
+
+    Facet(const AxisFrame& axis, const Triangle& t, const Vec3& normal) {
+      for (int i = 0; i < 3; ++i) {
+        across[i] = axis.across(t[i]);
+        along[i] = axis.along(t[i]);
+      }
+      double corners[] = {length(across[0]), length(across[1]), length(across[2])};
+      std::sort(std::begin(corners), std::end(corners));
+      on_circle = corners[1];
+      nearest = farthest = corners[2];
+      for (int i = 0; i < 3; ++i)
+        nearest = std::min(nearest, AxisFrame::distance_of_segment(across[i], across[(i + 1) % 3]));
+      is_shaft = dot(normal, across[0]) > 0;
+    }
+  };
+
   /// Facets of one cylinder in coordinates about its axis.
   struct Cylinder {
     std::vector<std::uint32_t> faces;
@@ -130,6 +154,16 @@ class Retraction {
     std::bitset<kParts> seen;                                                // of the circle
 
     bool is_round() const { return static_cast<double>(seen.count()) >= kShareOfCircle * kParts; }
+    void add(const AxisFrame& axis, std::uint32_t face, const Facet& facet) {
+      faces.push_back(face);
+      for (int i = 0; i < 3; ++i) see(axis, facet.across[i], facet.across[(i + 1) % 3]);
+      nearest = std::min(nearest, facet.nearest);
+      farthest = std::max(farthest, facet.farthest);
+      for (const double at : facet.along) {
+        begin = std::min(begin, at);
+        end = std::max(end, at);
+      }
+    }
     /// Adds the part of the circle between two points of it, the short way round.
     void see(const AxisFrame& axis, const Vec3& from, const Vec3& to) {
       constexpr int kSteps = 8;
@@ -146,29 +180,44 @@ class Retraction {
 
   Cylinders cylinders_about(const AxisFrame& axis, const SolidTree& tree) const {
     Cylinders cylinders;
+    std::vector<std::pair<std::uint32_t, Facet>> others;  // that may be parts of facets
     for (std::uint32_t f = 0; f < tree.faces.size(); ++f) {
       const Triangle t = tree.triangle(f);
       const Vec3 normal = normalized(normal_unscaled(t));
       if (std::abs(dot(normal, axis.direction)) > kAcross) continue;
-      const Vec3 across[3] = {axis.across(t[0]), axis.across(t[1]), axis.across(t[2])};
-      const double r[3] = {length(across[0]), length(across[1]), length(across[2])};
-      const double farthest = std::max({r[0], r[1], r[2]});
-      double nearest = farthest;
-      for (int i = 0; i < 3; ++i)
-        nearest = std::min(nearest, AxisFrame::distance_of_segment(across[i], across[(i + 1) % 3]));
-      if (std::min({r[0], r[1], r[2]}) < kOnCircle * farthest || nearest < kSmallestFacet * farthest) continue;
-      const double radius = std::round(farthest / tolerance_);
-      Cylinder& cylinder = cylinders[dot(normal, across[0]) > 0 ? radius : -radius];
-      cylinder.faces.push_back(f);
-      for (int i = 0; i < 3; ++i) cylinder.see(axis, across[i], across[(i + 1) % 3]);
-      cylinder.nearest = std::min(cylinder.nearest, nearest);
-      cylinder.farthest = std::max(cylinder.farthest, farthest);
-      for (int i = 0; i < 3; ++i) {
-        cylinder.begin = std::min(cylinder.begin, axis.along(t[i]));
-        cylinder.end = std::max(cylinder.end, axis.along(t[i]));
+      const Facet facet(axis, t, normal);
+      if (facet.nearest < kSmallestFacet * facet.farthest) continue;
+      if (facet.on_circle < kOnCircle * facet.farthest) {
+        others.emplace_back(f, facet);
+        continue;
+      }
+      const double radius = std::round(facet.farthest / tolerance_);
+      cylinders[facet.is_shaft ? radius : -radius].add(axis, f, facet);
+    }
+    for (auto& [radius, cylinder] : cylinders) add_parts(axis, tree, others, radius > 0, cylinder);
+    return cylinders;
+  }
+
+  /// Adds faces between the chords and the circle of a cylinder that share corners with its facets.
+  static void add_parts(const AxisFrame& axis, const SolidTree& tree,
+                        std::vector<std::pair<std::uint32_t, Facet>>& others, bool is_shaft, Cylinder& cylinder) {
+    if (others.empty() || !cylinder.is_round()) return;
+    std::set<std::uint32_t> corners;
+    for (const std::uint32_t f : cylinder.faces) corners.insert(std::begin(tree.faces[f].v), std::end(tree.faces[f].v));
+    for (bool more = true; more;) {
+      more = false;
+      for (auto& [f, facet] : others) {
+        const auto& v = tree.faces[f].v;
+        if (facet.is_shaft != is_shaft || facet.farthest > cylinder.farthest ||
+            facet.nearest < kSmallestFacet * cylinder.farthest ||
+            std::none_of(std::begin(v), std::end(v), [&](std::uint32_t corner) { return corners.count(corner) > 0; }))
+          continue;
+        cylinder.add(axis, f, facet);
+        corners.insert(std::begin(v), std::end(v));
+        facet.farthest = std::numeric_limits<double>::infinity();  // it is taken
+        more = true;
       }
     }
-    return cylinders;
   }
 
   void allow_turning(const AxisFrame& axis) {
