@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -78,7 +79,15 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   fmt::print("wrote {}\n", command.output);
 }
 
+/// What is left of a time limit since a command began [s]; 0 without one.
+double time_left(double limit, std::chrono::steady_clock::time_point begun) {
+  constexpr double kLeast = 1e-3;
+  if (limit == 0) return 0;
+  return std::max(kLeast, limit - std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+}
+
 Result<ExitCode> run(const PlanCommand& command) {
+  const auto begun = std::chrono::steady_clock::now();
   if (const Result<Done> named = check_graph(command.graph); !named) return named.error();
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
@@ -97,8 +106,11 @@ Result<ExitCode> run(const PlanCommand& command) {
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
                                          "' cannot be removed (it is both target and fixed); leave out one of the two"};
 
-  PlanOptions options{
-      *targets, *fixed, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)};
+  PlanOptions options{*targets,
+                      *fixed,
+                      time_left(command.time_limit, begun),
+                      {executor, widest_lanes()},
+                      progress_printer(command.common)};
   options.search_longer(command.effort);
   options.preferences = command.preferences;
   options.together = groups->of_several();
@@ -153,7 +165,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "Also write the precedence graph of the steps: drawing (.svg), Graphviz (.dot), or JSON with "
                    "the tree of subassemblies (.json)")
       ->type_name("FILE");
-  command->add_option("--time-limit", options->time_limit, "Time limit of the search; keeps what was found")
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "Time limit, from the start of the command; keeps what was found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
   command

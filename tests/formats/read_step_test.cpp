@@ -5,6 +5,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -14,6 +15,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
+#include <map>
 
 namespace dismantle {
 namespace {
@@ -142,21 +144,27 @@ TEST_F(NestedStep, ReadsTheSameBytesEveryTime) {
   for (std::size_t i = 0; i < a->components.size(); ++i) EXPECT_EQ(*a->components[i].mesh, *b->components[i].mesh);
 }
 
+/// The files of a folder, each with its number on the disk, which changes when it is written anew.
+std::map<std::filesystem::path, std::uint64_t> files_in(const std::filesystem::path& folder) {
+  std::map<std::filesystem::path, std::uint64_t> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    struct stat status {};
+    EXPECT_EQ(::stat(entry.path().c_str(), &status), 0);
+    files[entry.path()] = status.st_ino;
+  }
+  return files;
+}
+
 TEST_F(NestedStep, IsTheSameOutOfTheCache) {
   ImportOptions options;
   options.cache_folder = folder_ / "cache";
-  bool meshed = false;
-  options.progress = [&](std::string_view stage, double) {
-    meshed = meshed || stage == "meshing";
-    return true;
-  };
   const Result<Assembly> fresh = read_step(file_, options);
   ASSERT_TRUE(fresh.ok());
-  EXPECT_TRUE(meshed);
-  meshed = false;
+  const auto first = files_in(options.cache_folder);
+  EXPECT_EQ(first.size(), 1u);
   const Result<Assembly> kept = read_step(file_, options);
   ASSERT_TRUE(kept.ok());
-  EXPECT_FALSE(meshed);
+  EXPECT_EQ(files_in(options.cache_folder), first);
   EXPECT_EQ(kept->source_sha256, fresh->source_sha256);
   EXPECT_EQ(kept->source_file, "nested.step");
   ASSERT_EQ(kept->components.size(), fresh->components.size());
@@ -168,16 +176,16 @@ TEST_F(NestedStep, IsTheSameOutOfTheCache) {
 
   options.deflection = 0.5;  // other triangles
   EXPECT_TRUE(read_step(file_, options).ok());
-  EXPECT_TRUE(meshed);
-  meshed = false;
+  EXPECT_EQ(files_in(options.cache_folder).size(), 2u);
   options.units = "cm";
   EXPECT_TRUE(read_step(file_, options).ok());
-  EXPECT_TRUE(meshed);
-  for (const auto& entry : std::filesystem::directory_iterator(options.cache_folder))
-    std::filesystem::resize_file(entry.path(), 1000);
-  meshed = false;
+  const auto three = files_in(options.cache_folder);
+  EXPECT_EQ(three.size(), 3u);
+  for (const auto& [file, number] : three) std::filesystem::resize_file(file, 1000);
   EXPECT_TRUE(read_step(file_, options).ok());
-  EXPECT_TRUE(meshed);
+  const auto after = files_in(options.cache_folder);
+  EXPECT_EQ(after.size(), 3u);
+  EXPECT_NE(after, three);
 }
 
 TEST(ReadStep, MakesAComponentOfEachSolidOfAProductAndOneOfItsLooseFaces) {

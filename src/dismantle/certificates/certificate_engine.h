@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/device/front_device.h"
+#include "dismantle/core/keep_going.h"
 #include "dismantle/engine/motion_engine.h"
 #include "dismantle/math/lane_dispatch.h"
 
@@ -41,6 +42,9 @@ struct StraightContact {
 struct CertificateOptions {
   Executor executor;                 ///< Runs the parts of a sweep in parallel; the results do not depend on it.
   LaneCount lanes = widest_lanes();  ///< Lanes of the kernels; the results do not depend on it.
+  /// May be empty. Once it returns false, the depth of pairs without ghosts counts as too deep where it is not known
+  /// yet, and no more ghosts are searched for: what the engine says is still true, but says less.
+  KeepGoing keep_going = {};
 };
 
 /// A device that evaluates fronts, and when it is used.

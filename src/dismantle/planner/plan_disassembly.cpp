@@ -63,12 +63,12 @@ class Planner {
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
         features_(features_of(assembly, options.engine.executor)),
-        validator_(assembly, pairs, options.engine, groups_, kFarAway * diagonal(assembled_bounds(assembly)),
+        validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
         table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
         choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
-        overlaps_(assembly, pairs, table_, options.engine),
+        overlaps_(assembly, pairs, table_, engine_options()),
         sliding_{options.slide_effort, 0, {}},
         sampling_{options.sample_effort, 0, {}} {
     plan_.allowances = validator_.engine().overlapping_pairs();
@@ -90,6 +90,12 @@ class Planner {
 
  private:
   PlannedAssembly planned(const PairStates& pairs) const { return {assembly_, features_, pairs.tolerance}; }
+
+  CertificateOptions engine_options() {
+    CertificateOptions options = options_.engine;
+    options.keep_going = [this] { return in_time(); };
+    return options;
+  }
 
   /// The components that need no directions of their own: those that stay. With targets, any other may have to move.
   ComponentSet without_directions() const {

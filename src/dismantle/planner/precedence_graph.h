@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/planner/keep_going.h"
+#include "dismantle/core/keep_going.h"
 #include "dismantle/planner/plan.h"
 
 #include <cstdint>

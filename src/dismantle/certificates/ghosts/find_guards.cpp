@@ -100,7 +100,8 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
         side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost, std::max(pair.depth, declared),
         declared,     tolerance,    search.kernels};
     // Corners of ghosts could not be displaced by as much as is declared.
-    const bool by_depth = pair.declared > 0 && solids;
+    const bool stopped = search.keep_going && !search.keep_going();
+    const bool by_depth = solids && (pair.declared > 0 || stopped);
     guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance);
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];

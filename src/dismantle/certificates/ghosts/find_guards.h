@@ -4,6 +4,7 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/certificates/ghosts/find_pair_ghosts.h"
+#include "dismantle/core/keep_going.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/surface/depth/swept_depth.h"
 
@@ -64,6 +65,7 @@ struct GuardSearch {
   Span<const ComponentTrees> trees;    ///< Shape [component_count].
   Executor executor;                   ///< Runs the pairs; the result does not depend on it.
   FrontKernels kernels;                ///< Any.
+  KeepGoing keep_going = {};           ///< Once it returns false, the depth of pairs that are left is bounded.
 };
 
 /// The guards of the pairs that touch or overlap in the assembled state, ordered by (a, b), except for those that are

@@ -11,7 +11,8 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
   std::vector<ComponentTrees> trees;
   for (std::uint32_t c = 0; c < poses_.size(); ++c)
     trees.push_back({&solid(ComponentId(c)), &store_.ghost(ComponentId(c), ComponentId(c))});
-  for (const FoundGuard& found : find_guards({assembly_, &pairs, trees, options_.executor, kernels_})) {
+  for (const FoundGuard& found :
+       find_guards({assembly_, &pairs, trees, options_.executor, kernels_, options_.keep_going})) {
     guarded_[{found.a, found.b}] = found.guard;
     if (!found.ghosts[0].empty()) store_.set_ghosts(found.a, found.b, found.ghosts, options_.executor);
     if (found.guard.guard != PairGuard::Depth) continue;

@@ -12,6 +12,9 @@ namespace dismantle {
 
 namespace {
 
+/// After so many pieces, it is asked whether to go on.
+constexpr std::size_t kAsk = 256;
+
 /// A shifted copy is given up where its box meets the boxes of more faces than this.
 constexpr int kMaxCopyFaces = 1000;
 /// Lengths along the surface count for this share where parts are divided.
@@ -72,7 +75,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
   std::vector<MovingPart> parts{whole};
   std::uint32_t last = 0;
   while (!parts.empty()) {
-    if (++pieces > max_pieces) return {{}, false};
+    if (++pieces > max_pieces || (pieces % kAsk == 0 && keep_going_ && !keep_going_())) return {{}, false};
     const MovingPart part = parts.back();
     parts.pop_back();
     if (region_ && region_->contains(PartHull(part))) continue;

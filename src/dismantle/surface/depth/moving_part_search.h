@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/core/keep_going.h"
 #include "dismantle/surface/depth/part_hull.h"
 #include "dismantle/surface/depth/shallow_region.h"
 #include "dismantle/surface/solid_shape.h"
@@ -19,8 +20,10 @@ class MovingPartSearch {
   /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
   /// where no point of the solid is deeper than that @param region where no point is deeper than the far limit; must
   /// outlive this, or null, where there is little to search
-  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region)
-      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region) {}
+  /// @param keep_going once it returns false, searches are given up; may be empty
+  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region,
+                   const KeepGoing& keep_going = {})
+      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region), keep_going_(keep_going) {}
 
   /// A point that is too deep at a time.
   struct Found {
@@ -54,6 +57,7 @@ class MovingPartSearch {
   double limit_;
   double far_limit_;
   const ShallowRegion* region_;
+  KeepGoing keep_going_;
 };
 
 /// True if no point of a triangle whose corners move linearly gets deeper inside a solid than `limit` [mm]; false where

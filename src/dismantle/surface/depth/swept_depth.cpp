@@ -29,14 +29,14 @@ class SweptSearch {
   using Result = MovingPartSearch::Result;
 
   SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start, const RigidTransform& end,
-              double limit, double far_limit)
+              double limit, double far_limit, const KeepGoing& keep_going)
       : own_(own),
         other_(other),
         start_(start),
         end_(end),
         is_limited_(far_limit != limit),
         region_(other.shallow_region(std::min(limit, far_limit))),
-        parts_(other, limit, std::min(limit, far_limit), &region_) {}
+        parts_(other, limit, std::min(limit, far_limit), &region_, keep_going) {}
 
   Vec3 at(Vec3 own, double time) const { return (1 - time) * (start_ * own) + time * (end_ * own); }
 
@@ -135,11 +135,13 @@ class SweptSearch {
 /// Both surfaces of a pair, each moving in the frame of the other.
 class PairSearch {
  public:
-  PairSearch(const SweptPair& pair, const DepthLimits& limits, double resolution, std::size_t max_pieces)
-      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits.limit, limits.far_a},
-                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits.limit, limits.far_b}},
+  PairSearch(const SweptPair& pair, const DepthLimits& limits, double resolution, std::size_t max_pieces,
+             const KeepGoing& keep_going)
+      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits.limit, limits.far_a, keep_going},
+                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits.limit, limits.far_b, keep_going}},
         resolution_(resolution),
-        max_pieces_(max_pieces) {}
+        max_pieces_(max_pieces),
+        keep_going_(keep_going) {}
 
   std::optional<DeepPoint> first() {
     double to = kFirstPart * resolution_;
@@ -153,7 +155,8 @@ class PairSearch {
         continue;
       }
       const double shorter = (to - free_until_) / kPartGrowth;
-      if (shorter < resolution_ || pieces_ > max_pieces_) {  // undecided: as if a point were deep
+      if (shorter < resolution_ || pieces_ > max_pieces_ ||
+          (keep_going_ && !keep_going_())) {  // undecided: as if a point were deep
         if (!known_) known_ = SweptSearch::Found{to, 0, {}};
         known_->time = std::min(known_->time, to);
         break;
@@ -200,6 +203,7 @@ class PairSearch {
   SweptSearch searches_[2];
   double resolution_;
   std::size_t max_pieces_;
+  const KeepGoing& keep_going_;
   std::size_t pieces_ = 0;  // examined so far
   double free_until_ = 0;
   std::optional<SweptSearch::Found> known_;
@@ -209,9 +213,9 @@ class PairSearch {
 }  // namespace
 
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
-                                      std::size_t max_pieces) {
+                                      std::size_t max_pieces, const KeepGoing& keep_going) {
   if (pair.a->empty() || pair.b->empty()) return std::nullopt;
-  return PairSearch(pair, limits, resolution, max_pieces).first();
+  return PairSearch(pair, limits, resolution, max_pieces, keep_going).first();
 }
 
 }  // namespace dismantle

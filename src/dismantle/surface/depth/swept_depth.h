@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/core/keep_going.h"
 #include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
@@ -38,6 +39,9 @@ struct DepthLimits {
   ///@}
 };
 
+/// Number of pieces after which first_deeper() gives up.
+inline constexpr std::size_t kMaxSweptPieces = 400000;
+
 /// Finds out if a point of either surface gets deeper inside the other solid than it may during a motion; depth
 /// as in solid_depth(). Branch and bound over surfaces and time: what it does not find does not exist. A piece of a
 /// surface stays within the limit if its corners are no further from any one triangle of the other surface than that at
@@ -46,8 +50,9 @@ struct DepthLimits {
 /// limit is outside a closed surface: a point that is inside is no deeper than the way to its copy is long. An interval
 /// that takes more than `max_pieces` pieces is halved; one of a `resolution` that takes as many counts as if a point
 /// had been found.
+/// Once `keep_going` returns false, it counts as if a point had been found where nothing is known yet.
 /// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
-                                      std::size_t max_pieces = 400000);
+                                      std::size_t max_pieces = kMaxSweptPieces, const KeepGoing& keep_going = {});
 
 }  // namespace dismantle
