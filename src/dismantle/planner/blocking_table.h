@@ -3,8 +3,8 @@
 
 #include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/planner/component_set.h"
 #include "dismantle/core/keep_going.h"
+#include "dismantle/planner/component_set.h"
 #include "dismantle/planner/shape_features.h"
 
 #include <cstddef>
