@@ -194,17 +194,19 @@ class Planner {
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
     if (!single.empty()) return keep_going() ? next_step(body, staying) : std::nullopt;
-    if (auto step = find_screwed(body, staying)) return step;
+    if (auto step = find_screwed(body, staying, false)) return step;
     const auto ask = [this] { return keep_going(); };
     while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, ask))
       if (auto step = try_removal(*removal, body)) return step;
+    if (auto step = find_screwed(body, staying, true)) return step;
     if (auto step = find_sliding(body, staying)) return step;
     return find_sampled(body, staying);
   }
 
-  /// A step that unscrews one component, the smallest first.
-  std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying) {
+  /// A step that unscrews one component, the smallest first. @param groups those with a group, or those without
+  std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying, bool groups) {
     for (const ComponentId c : smallest_first(body, staying)) {
+      if ((groups_.of(c).size() > 1) != groups) continue;
       for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
         if (!keep_going()) return std::nullopt;
         if (!body.has(neighbour) || groups_.together(c, neighbour)) continue;
