@@ -40,7 +40,7 @@ struct Settings {
 constexpr double kParallel = 1e-4, kOnAxis = 5;
 /// The least turn of a cylinder that goes all the way around.
 constexpr double kAround = 0.95 * kTurn;
-/// What facets of cylinders rise over each other, as a share of the radius.
+/// Depth that tessellation alone may add as cylinders turn in each other, as a share of the radius.
 constexpr double kFacets = 0.02;
 
 struct Axis {

@@ -52,7 +52,7 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 void add_allow_option(CLI::App& command, CommonOptions& options);
 /// Declares --together.
 void add_together_option(CLI::App& command, CommonOptions& options);
-/// Up to how much more overlap explanations say by how much a component stays [mm]: 1% of the diagonal, at most 0.5 mm.
+/// The largest additional overlap that explanations search for [mm]: 1% of the diagonal, at most 0.5 mm.
 double default_overlap_limit(const Assembly& assembly);
 /// Declares the positional ASSEMBLY argument.
 void add_assembly_argument(CLI::App& command, CommonOptions& options);

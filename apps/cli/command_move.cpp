@@ -187,7 +187,7 @@ MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const Pai
   return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device};
 }
 
-/// Lets a move take along the groups of its components, if it is known what these are.
+/// Adds the other members of its components' groups to a move. Unknown names are left for play_motion() to refuse.
 void take_groups_along(MotionMove& move, const Assembly& assembly, const RigidGroups& groups) {
   std::vector<ComponentId> own;
   for (const std::string& name : move.components) {

@@ -79,7 +79,7 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   fmt::print("wrote {}\n", command.output);
 }
 
-/// What is left of a time limit since a command began [s]; 0 without one.
+/// The remaining time of a limit that counts from the start of the command [s]; 0 if there is no limit.
 double time_left(double limit, std::chrono::steady_clock::time_point begun) {
   constexpr double kLeast = 1e-3;
   if (limit == 0) return 0;

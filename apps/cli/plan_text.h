@@ -18,7 +18,7 @@ Result<ComponentId> find_component(const Assembly& assembly, const std::string& 
 
 /// The names as a JSON array.
 nlohmann::ordered_json names_json(const Assembly& assembly, const std::vector<ComponentId>& components);
-/// What would have to be allowed for a component to come out, as a JSON object.
+/// The additional overlap that would let a component come out, as a JSON object.
 nlohmann::ordered_json overlap_json(const Assembly& assembly, const LeastOverlap& overlap);
 /// An explanation as the JSON object of `why --json` and `plan --json`.
 nlohmann::ordered_json explanation_json(const Assembly& assembly, const Explanation& explanation);

@@ -44,8 +44,8 @@ struct PairStates {
   /// Gives pairs that are listed the allowances of `pairs` where these are larger: an engine allows cylinders that turn
   /// in each other more than classify_pairs() (MotionEngine::overlapping_pairs()).
   void raise_allowances(const std::vector<ComponentPair>& pairs);
-  /// Allows a pair a depth [mm], where that is more than it is allowed. @return true where it is @pre the pair is
-  /// listed
+  /// Raises the allowance of a pair to a declared depth [mm]. @return false if it was allowed that already
+  /// @pre the pair is listed
   bool declare(ComponentId a, ComponentId b, double depth);
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What is left of a time limit is at least this, so that a plan says that it ran out of time [s].
+/// Shortest time limit of a plan, so that one without time left reports that it ran out of time [s].
 constexpr double kLeastTime = 1e-3;
 
 }  // namespace

@@ -20,7 +20,7 @@ struct ImportLimits {
 /// Size of ImportOptions::cache_folder, at most [bytes].
 inline constexpr std::uint64_t kCacheBytes = std::uint64_t{2} << 30;
 
-/// What becomes of a product with several solids.
+/// How a product with several solids is imported.
 enum class Solids {
   Split,  ///< A component of each solid.
   Join,   ///< One component of all.

@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-/// After so many pieces, it is asked whether to go on.
+/// Number of pieces between two calls of keep_going.
 constexpr std::size_t kAsk = 256;
 
 /// A shifted copy is given up where its box meets the boxes of more faces than this.

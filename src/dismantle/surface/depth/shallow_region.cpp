@@ -13,7 +13,7 @@ namespace {
 
 /// Cells are no smaller than this share of the limit, nor of the root.
 constexpr double kSmallestOfLimit = 1.0 / 16, kSmallestOfRoot = 1.0 / 512;
-/// Nor are cells looked at that are smaller than this share of what is asked for.
+/// A query does not examine cells smaller than this share of its own size.
 constexpr double kSmallestOfQuery = 1.0 / 8;
 
 constexpr unsigned kCorners = 8;
@@ -40,7 +40,7 @@ bool holes_do_not_matter(const WindingNumber& winding, Vec3 center, double radiu
   return winding.bound_outside_fans(center, radius) < 0.5 + kUndecidedWinding;
 }
 
-/// What is asked for.
+/// A hull or a box that is tested.
 struct ShallowRegion::Query {
   const PartHull* hull;  // null for a box
   const Aabb& box;
