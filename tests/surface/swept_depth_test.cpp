@@ -4,6 +4,7 @@
 #include "dismantle/surface/depth/solid_depth.h"
 
 #include "dismantle/surface/depth/moving_part_search.h"
+#include "dismantle/surface/depth/near_two_faces.h"
 #include "dismantle/surface/depth/nowhere_deeper.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
@@ -13,9 +14,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace dismantle {
 namespace {
@@ -192,6 +195,70 @@ TEST(FirstDeeper, ThatCannotBeDecidedStopsEarlierInsteadOfLater) {
   const auto found = first_deeper({&other.shape, &box.shape, {}, moved({0, 0, -1})}, {2.25}, 1e-3, 1);
   ASSERT_TRUE(found);
   EXPECT_LT(found->free_until, 0.25);
+}
+
+TEST(FirstDeeper, ProvesThatAPegCrossesTheMiddleOfAPlateThatIsNowhereDeeper) {
+  // Half-way between the faces of the plate, points are within the limit of either face, and no part is of one alone.
+  const Solid plate(scenes::tube(20, 3.25, -1, 1, 48)), peg(scenes::tube(4.25, 0, -1.5, 9, 64));
+  const double depth = solid_depth({&peg.shape, {}}, {&plate.shape, {}}, {1e-4, 1e-4, 1000000}).depth;
+  ASSERT_NEAR(depth, 1, 0.01);
+  EXPECT_FALSE(first_deeper({&peg.shape, &plate.shape, {}, moved({0, 0, -30})}, {depth + 0.003}, 1e-4, 20000));
+}
+
+TEST(NearTwoFaces, IsTrueOnlyWhereEverySampledPointIsNear) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int divided = 0;
+  for (const TriangleMesh& mesh : {scenes::box({-4, -4, -0.5}, {4, 4, 0.5}), scenes::tube(3, 2.2, -2, 2, 9)}) {
+    const Solid solid(mesh);
+    const SurfaceTree& surface = solid.shape.surface();
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 middle{3 * u(random), 3 * u(random), u(random)};
+      const double size = 0.5 + 0.4 * u(random), limit = 0.5 + 0.2 * u(random);
+      std::vector<Vec3> corners;
+      for (int k = 0; k < 4 + i % 5; ++k) corners.push_back(middle + size * Vec3{u(random), u(random), u(random)});
+      const std::uint32_t face = surface.distance(middle).face;
+      if (!near_two_faces(surface, Span<const Vec3>(corners.data(), corners.size()), face, limit)) continue;
+      divided += std::any_of(corners.begin(), corners.end(),
+                             [&](Vec3 p) { return surface.distance_to_face(p, face) > limit; });
+      for (int k = 0; k < 30; ++k) {
+        Vec3 p;
+        double sum = 0;
+        for (const Vec3& corner : corners) {
+          const double share = k < 15 ? std::pow(std::abs(u(random)), 8) : std::abs(u(random));
+          p += share * corner;
+          sum += share;
+        }
+        ASSERT_LE(oracle::distance(mesh, p / sum), limit + 1e-9) << "hull " << i;
+      }
+    }
+  }
+  EXPECT_GT(divided, 500);
+}
+
+TEST(FirstDeeper, DecidesTheSameForAnyPointAsForTheFirst) {
+  std::mt19937_64 random(23);
+  int deep = 0, free = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Solid a(scenes::tube(2, i % 3 == 0 ? 1 : 0, -2, 2, 5 + static_cast<std::uint32_t>(i % 7)));
+    const TriangleMesh second = scenes::box({-2, -1.5, -1}, {2, 1.5, 1});
+    const Solid b(second);
+    const RigidTransform start = transform_from_pose(scenes::random_pose(random, 4, 1)),
+                         end = transform_from_pose(scenes::random_pose(random, 3, 0.4)) * start;
+    const SweptPair pair{&a.shape, &b.shape, start, end};
+    const DepthLimits limits{0.2 + 0.015 * i};
+    const auto first = first_deeper(pair, limits, 0.01);
+    const auto any = first_deeper(pair, limits, 0.01, kMaxSweptPieces, {}, DeepSearch::Any);
+    ASSERT_EQ(first.has_value(), any.has_value()) << i;
+    (any ? deep : free) += 1;
+    if (!any) continue;
+    EXPECT_LE(any->free_until, first->time + 1e-9) << i;
+    const TriangleMesh& outer = any->of_a ? second : *a.component.mesh;
+    EXPECT_GT(oracle::distance(outer, any->point), limits.limit - 1e-9) << i;
+    EXPECT_GT(std::abs(oracle::winding_number(outer, any->point)), 0.5) << i;
+  }
+  EXPECT_GT(deep, 10);
+  EXPECT_GT(free, 5);
 }
 
 TEST(FirstDeeper, AgreesWithSamplesOfRandomSolidsClosedCrackedAndOpen) {

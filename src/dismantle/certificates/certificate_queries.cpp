@@ -118,7 +118,8 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   double shorter = kShorter * sweeper.tolerance() / length(motion.displacement);
   // Any contact shortens the motion; if the rest is free it was the first.
   while (to > from) {
-    const CertificateSweep found = sweeper.sweep_linear(motion, from, to);
+    const CertificateSweep found =
+        sweeper.sweep_linear(motion, from, to, search == StraightSearch::Any ? DeepSearch::Any : DeepSearch::First);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const SweepContact& a, const SweepContact& b) { return a.toi < b.toi; });

@@ -173,7 +173,7 @@ std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(con
                                                                              CertificateSweep& result) {
   std::vector<PairSweep> pairs;
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    sweep_depth(motion_past(motion, moving, fixed), result);
+    sweep_depth(motion_past(motion, moving, fixed), DeepSearch::First, result);
     for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
       const TestedPair tested{moving, fixed, surfaces};
       CertificateFront& front = store_.prepare(moving, fixed, ghost_of(surfaces), poses_);
@@ -308,7 +308,7 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    sweep_depth(motion_past(motion, moving, fixed), result);
+    sweep_depth(motion_past(motion, moving, fixed), DeepSearch::First, result);
     for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
       const TestedPair tested{moving, fixed, surfaces};
       std::optional<CertificateFront> fresh;
@@ -325,7 +325,8 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
   return result;
 }
 
-CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to) const {
+CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to,
+                                                  DeepSearch search_for) const {
   const ComponentId moving = motion.moving, fixed = motion.fixed;
   CertificateSweep result;
   if (solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
@@ -333,7 +334,7 @@ CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, do
     return seen_from(motion.pose_fixed,
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
-  sweep_depth({moving, fixed, at(from), at(to)}, result);
+  sweep_depth({moving, fixed, at(from), at(to)}, search_for, result);
   for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,

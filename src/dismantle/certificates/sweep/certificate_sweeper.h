@@ -8,6 +8,7 @@
 #include "dismantle/certificates/sweep/front_store.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
 #include "dismantle/math/screw.h"
+#include "dismantle/surface/depth/swept_depth.h"
 
 #include <map>
 #include <memory>
@@ -47,8 +48,8 @@ class CertificateSweeper {
   CertificateSweep sweep_const(const ScrewMotion& motion, double window) const;
   /// Sweeps part of a translation of one component past another: reports if it is free, and else some contacts, not
   /// necessarily the first. Independent of the moving set and of all poses. Free for pairs without ghost surfaces.
-  /// @param from, to the part, as fractions of the displacement
-  CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to) const;
+  /// @param from, to the part, as fractions of the displacement @param search_for of pairs whose depth is bounded
+  CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to, DeepSearch search_for) const;
   /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
   std::vector<SweepContact> near_pairs(double reach) const;
   /// Tests one pair of triangles along a motion from the present pose, with SweepBudget::Bounded.
@@ -125,7 +126,7 @@ class CertificateSweeper {
   /// The shape of a component, built when first asked for.
   const SolidShape& shape(ComponentId c);
   /// Adds the contact of components whose depth is bounded, if there is one.
-  void sweep_depth(const SeenMotion& motion, CertificateSweep& result) const;
+  void sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result) const;
   double displaced(ComponentId a, ComponentId b) const {
     return guarded(a, b).displaced + (1 - kGhostLength) * tolerance_;
   }

@@ -17,14 +17,14 @@ constexpr double kResolution = 0.25;
 
 }  // namespace
 
-void CertificateSweeper::sweep_depth(const SeenMotion& motion, CertificateSweep& result) const {
+void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result) const {
   const GuardedPair pair = guarded(motion.moving, motion.fixed);
   if (pair.guard != PairGuard::Depth) return;
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
   const auto deep = first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_),
-                                 kResolution * tolerance_ / way, kMaxSweptPieces, options_.keep_going);
+                                 kResolution * tolerance_ / way, kMaxSweptPieces, options_.keep_going, search_for);
   result.clearance = 0;
   if (!deep) return;
   const Screw screw = screw_between(motion.start, motion.end);

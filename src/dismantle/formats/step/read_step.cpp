@@ -95,7 +95,7 @@ Error failure(const std::filesystem::path& file, const IsolatedResult& result) {
 }
 
 /// Increased whenever the same file and options give another assembly, or its bytes another layout.
-constexpr int kImportVersion = 1;
+constexpr int kImportVersion = 2;
 
 /// All that the result of import_step depends on.
 std::string cache_key(const std::string& content, const std::string& name, const ImportOptions& options) {

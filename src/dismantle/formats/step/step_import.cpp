@@ -3,22 +3,20 @@
 
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/formats/import/units.h"
+#include "dismantle/formats/step/mesh_shapes.h"
 #include "dismantle/formats/step/read_step.h"
+#include "dismantle/formats/step/stage_progress.h"
 #include "dismantle/formats/step/step_mesh.h"
 #include "dismantle/formats/step/step_product_tree.h"
 
 #include <BRepBndLib.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
-#include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
-#include <Message_ProgressIndicator.hxx>
 #include <OSD_Parallel.hxx>
-#include <Precision.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
@@ -26,7 +24,6 @@
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS_Compound.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
 #include <cmath>
@@ -38,25 +35,6 @@
 namespace dismantle {
 
 namespace {
-
-/// Minimum edge length relative to the deflection [1]: OpenCASCADE's default of 0.1 would keep the angular deflection
-/// from refining small round features.
-constexpr double kMinEdge = 1e-3;
-
-/// Reports OpenCASCADE's progress as one stage.
-class StageProgress : public Message_ProgressIndicator {
- public:
-  StageProgress(const ProgressCallback& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
-
- protected:
-  void Show(const Message_ProgressScope&, const Standard_Boolean) override {
-    report_progress(progress_, stage_, GetPosition());
-  }
-
- private:
-  const ProgressCallback& progress_;
-  std::string stage_;
-};
 
 /// A stream over text that reports how far it has been read.
 class TextBuffer : public std::streambuf {
@@ -115,27 +93,6 @@ LengthUnit length_unit(const Interface_InterfaceModel& model) {
     if (millimetres > 0) return {millimetres, std::to_string(millimetres) + " mm"};
   }
   return {};
-}
-
-/// Meshes all shapes at once and returns the deflection that was used [mm].
-double mesh_shapes(const std::vector<TopoDS_Shape>& shapes, double deflection, double angle,
-                   const ProgressCallback& progress) {
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
-
-  IMeshTools_Parameters parameters;
-  parameters.Deflection = deflection;
-  parameters.Angle = angle;
-  parameters.MinSize = std::max(kMinEdge * deflection, Precision::Confusion());
-  parameters.InParallel = true;
-  BRepMesh_IncrementalMesh mesher;
-  mesher.SetShape(all);
-  mesher.ChangeParameters() = parameters;
-  const Handle(StageProgress) indicator = new StageProgress(progress, "meshing");
-  mesher.Perform(indicator->Start());
-  return deflection;
 }
 
 double assembly_diagonal(const StepProductTree& products) {

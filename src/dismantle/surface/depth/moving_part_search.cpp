@@ -2,6 +2,7 @@
 #include "dismantle/surface/depth/moving_part_search.h"
 
 #include "dismantle/narrowphase/closest_points.h"
+#include "dismantle/surface/depth/near_two_faces.h"
 #include "dismantle/surface/depth/shallow_region.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     const MeshDistance nearest = solid_.surface().distance(center, last);
     last = nearest.face;
     // The simple reasons first: winding numbers of open meshes are expensive.
-    if (nearest.distance + radius + way <= far_limit_ || near_face(part, nearest.face)) continue;
+    if (nearest.distance + radius + way <= far_limit_ || near_faces(part, nearest.face)) continue;
     if (ball_outside(solid_.winding(), center, radius + way, nearest.distance)) continue;
     if (is_unlimited(part) || copy_outside(part, center, radius + way, nearest.face)) continue;
     const double time = (part.from + part.to) / 2;
@@ -102,12 +103,11 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
   return {};
 }
 
-/// True if a part stays within the limit of one face of the surface.
-bool MovingPartSearch::near_face(const MovingPart& part, std::uint32_t face) const {
-  for (const Triangle* t : {&part.begin, &part.end})
-    for (int i = 0; i < 3; ++i)
-      if (solid_.surface().distance_to_face((*t)[i], face) > far_limit_) return false;
-  return true;
+/// True if a part stays within the limit of the face that is nearest to its middle, or of another one.
+bool MovingPartSearch::near_faces(const MovingPart& part, std::uint32_t nearest) const {
+  Vec3 corners[6];
+  for (int i = 0; i < 3; ++i) corners[i] = part.begin[i], corners[3 + i] = part.end[i];
+  return near_two_faces(solid_.surface(), Span<const Vec3>(corners, 6), nearest, far_limit_);
 }
 
 /// True if a copy of a part that is shifted by no more than the limit is outside: on the way there, a point that is

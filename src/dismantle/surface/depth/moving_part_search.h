@@ -46,7 +46,7 @@ class MovingPartSearch {
  private:
   /// True if no point of a part is far, and near ones may be at any depth that the solid has.
   bool is_unlimited(const MovingPart& part) const;
-  bool near_face(const MovingPart& part, std::uint32_t face) const;
+  bool near_faces(const MovingPart& part, std::uint32_t nearest) const;
   bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
   bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
   void divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const;

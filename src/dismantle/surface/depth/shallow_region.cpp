@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/depth/shallow_region.h"
 
+#include "dismantle/surface/depth/near_two_faces.h"
 #include "dismantle/surface/depth/solid_depth.h"
 
 #include <algorithm>
@@ -104,11 +105,9 @@ ShallowRegion::State ShallowRegion::examine(Vec3 center, double half) const {
   const double radius = std::sqrt(3.0) * half;
   const MeshDistance nearest = surface_.distance(center);
   if (nearest.distance + radius <= limit_) return State::Shallow;
-  // The distance from a triangle is a convex function.
-  double farthest = 0;
-  for (unsigned i = 0; i < kCorners; ++i)
-    farthest = std::max(farthest, surface_.distance_to_face(corner_of(center, half, i), nearest.face));
-  if (farthest <= limit_) return State::Shallow;
+  Vec3 corners[kCorners];
+  for (unsigned i = 0; i < kCorners; ++i) corners[i] = corner_of(center, half, i);
+  if (near_two_faces(surface_, Span<const Vec3>(corners, kCorners), nearest.face, limit_)) return State::Shallow;
   if (nearest.distance <= radius) return State::Mixed;
   if (ball_outside(winding_, center, radius, nearest.distance)) return State::Shallow;
   return nearest.distance - radius > limit_ && winding_.inside(center) ? State::Deep : State::Mixed;

@@ -143,12 +143,24 @@ class PairSearch {
         max_pieces_(max_pieces),
         keep_going_(keep_going) {}
 
-  std::optional<DeepPoint> first() {
+  /// A point that is too deep at some time, found by looking at ever later times.
+  std::optional<DeepPoint> sampled() const {
+    for (double time = kFirstPart * resolution_;; time *= 2) {
+      for (const int of : {0, 1})
+        if (const auto found = searches_[of].sample(std::min(1.0, time)))
+          return searches_[of].deep_point(*found, of == 0);
+      if (time >= 1) return std::nullopt;
+    }
+  }
+
+  std::optional<DeepPoint> find(DeepSearch search_for) {
     double to = kFirstPart * resolution_;
+    if (search_for == DeepSearch::Any)
+      if (const auto found = sampled()) return found;
     for (;;) {
       // A point that is known to be deep leaves a shorter motion to search.
       const double end = known_ ? known_->time - resolution_ : 1;
-      if (free_until_ >= end) break;
+      if (free_until_ >= end || (known_ && search_for == DeepSearch::Any)) break;
       to = std::min(to, end);
       if (search(to)) {
         to = std::max(kPartGrowth * free_until_, free_until_ + resolution_);
@@ -213,9 +225,9 @@ class PairSearch {
 }  // namespace
 
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
-                                      std::size_t max_pieces, const KeepGoing& keep_going) {
+                                      std::size_t max_pieces, const KeepGoing& keep_going, DeepSearch search_for) {
   if (pair.a->empty() || pair.b->empty()) return std::nullopt;
-  return PairSearch(pair, limits, resolution, max_pieces, keep_going).first();
+  return PairSearch(pair, limits, resolution, max_pieces, keep_going).find(search_for);
 }
 
 }  // namespace dismantle

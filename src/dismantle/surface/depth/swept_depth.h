@@ -39,6 +39,12 @@ struct DepthLimits {
   ///@}
 };
 
+/// Which point that gets too deep is sought.
+enum class DeepSearch {
+  First,  ///< The first one.
+  Any,    ///< Any: decides if there is one.
+};
+
 /// Number of pieces after which first_deeper() gives up.
 inline constexpr std::size_t kMaxSweptPieces = 400000;
 
@@ -52,7 +58,9 @@ inline constexpr std::size_t kMaxSweptPieces = 400000;
 /// had been found.
 /// Once `keep_going` returns false, it counts as if a point had been found where nothing is known yet.
 /// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
+/// @param search_for with DeepSearch::Any, `free_until` may be much earlier than `time`
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
-                                      std::size_t max_pieces = kMaxSweptPieces, const KeepGoing& keep_going = {});
+                                      std::size_t max_pieces = kMaxSweptPieces, const KeepGoing& keep_going = {},
+                                      DeepSearch search_for = DeepSearch::First);
 
 }  // namespace dismantle
