@@ -123,14 +123,6 @@ void add_allow_option(CLI::App& command, CommonOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_together_option(CLI::App& command, CommonOptions& o) {
-  command
-      .add_option("--together", o.together,
-                  "Treat as one part: each sub-assembly of the product tree that has this name, or fits this pattern "
-                  "with * and ?; where there is none, the components that fit, all together. May be repeated")
-      ->type_name("NAME|PATTERN");
-}
-
 double default_overlap_limit(const Assembly& assembly) {
   constexpr double kShare = 0.01, kMost = 0.5;
   return std::min(kMost, kShare * diagonal(assembled_bounds(assembly)));

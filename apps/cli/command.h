@@ -38,6 +38,9 @@ struct CommonOptions {
   ClassifyRule pairs = ClassifyRule::Auto;   ///< What overlapping pairs may do.
   std::vector<DeclaredAllowance> allowed;    ///< --allow.
   std::vector<std::string> together;         ///< --together.
+  std::vector<std::string> flexible;         ///< --flexible.
+  bool accept_proposals = false;             ///< --accept-proposals.
+  bool no_proposals = false;                 ///< --no-proposals.
   std::size_t simplify = 0;                  ///< Approximate number of triangles; 0: no simplification.
   DeviceChoice device = DeviceChoice::Auto;  ///< --device.
   bool uses_device = false;                  ///< The command can use a device; otherwise it computes on the CPU.
@@ -50,8 +53,6 @@ struct CommonOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Declares --allow, for commands that move components.
 void add_allow_option(CLI::App& command, CommonOptions& options);
-/// Declares --together.
-void add_together_option(CLI::App& command, CommonOptions& options);
 /// The largest additional overlap that explanations search for [mm]: 1% of the diagonal, at most 0.5 mm.
 double default_overlap_limit(const Assembly& assembly);
 /// Declares the positional ASSEMBLY argument.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/assembly/rigid_groups.h"
+#include "apps/cli/part_options.h"
 #include "dismantle/documents/check_report.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/report/html_check_report.h"
@@ -34,11 +34,12 @@ Result<Done> write_html(const Assembly& assembly, const Clashes& clashes, const 
 Result<Done> run(const CheckCommand& command) {
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
-  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
-  if (!groups) return groups.error();
   Result<Clashes> clashes = clashes_of(*assembly, command.common, command.clearance);
   if (!clashes) return clashes.error();
-  std::erase_if(clashes->pairs, [&](const Clash& pair) { return groups->together(pair.a, pair.b); });
+  PairStates states = pair_states(*clashes, command.common.pairs);
+  const Result<PartChoices> choices = choose_parts(*assembly, states, command.common);
+  if (!choices) return choices.error();
+  std::erase_if(clashes->pairs, [&](const Clash& pair) { return choices->groups.together(pair.a, pair.b); });
   if (!command.html_file.empty()) {
     const Result<Done> written = write_html(*assembly, *clashes, command);
     if (!written) return written.error();
@@ -46,6 +47,7 @@ Result<Done> run(const CheckCommand& command) {
   if (command.common.json) {
     fmt::print("{}", check_report_json(*assembly, *clashes));
   } else {
+    fmt::print("{}", choices_text(*assembly, *choices));
     fmt::print("{}", check_report_text(*assembly, *clashes));
     if (!command.html_file.empty()) fmt::print("\nReport with pictures: {}\n", command.html_file);
   }

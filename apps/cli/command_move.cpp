@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
-#include "dismantle/assembly/rigid_groups.h"
+#include "apps/cli/part_options.h"
 #include "dismantle/certificates/choose_certificate_device.h"
 #include "dismantle/documents/motion_file.h"
 #include "dismantle/documents/path_file.h"
@@ -217,12 +217,12 @@ Result<ExitCode> run(const MoveOptions& o) {
 
   const Result<Assembly> assembly = load(o.common);
   if (!assembly) return assembly.error();
-  const Result<PairStates> states = classify(*assembly, o.common);
+  Result<PairStates> states = classify(*assembly, o.common);
   if (!states) return states.error();
 
-  const Result<RigidGroups> groups = named_groups(*assembly, o.common.together);
-  if (!groups) return groups.error();
-  for (MotionMove& move : motion.moves) take_groups_along(move, *assembly, *groups);
+  const Result<PartChoices> choices = choose_parts(*assembly, *states, o.common);
+  if (!choices) return choices.error();
+  for (MotionMove& move : motion.moves) take_groups_along(move, *assembly, choices->groups);
 
   const MoveEngine moving = make_engine(o, *assembly, *states);
   const Result<PlayedMotion> played =
@@ -274,6 +274,7 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
                    "Response to contact: stop before the step, touch, or slide (default: as in the motion file)")
       ->transform(CLI::CheckedTransformer(kResponses))
       ->type_name("stop|touch|slide");
+  add_flexible_option(*command, options->common);
   add_together_option(*command, options->common);
   command->add_option("--timing", options->timing_file, "Write the cost of every step as CSV")->type_name("CSV");
   add_allow_option(*command, options->common);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/part_options.h"
 #include "apps/cli/plan_text.h"
-#include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/documents/path_file.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
@@ -91,16 +91,16 @@ Result<ExitCode> run(const PlanCommand& command) {
   if (const Result<Done> named = check_graph(command.graph); !named) return named.error();
   const Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
-  const Result<PairStates> states = classify(*assembly, command.common);
+  Result<PairStates> states = classify(*assembly, command.common);
   if (!states) return states.error();
+  const Result<PartChoices> choices = choose_parts(*assembly, *states, command.common);
+  if (!choices) return choices.error();
   const Executor executor = make_executor(command.common);
   const Result<std::vector<ComponentId>> targets = find_all(*assembly, command.targets);
   if (!targets) return targets.error();
   const Result<std::vector<ComponentId>> fixed = find_all(*assembly, command.fixed);
   if (!fixed) return fixed.error();
-  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
-  if (!groups) return groups.error();
-  const std::vector<ComponentId> all_fixed = groups->with_groups(*fixed);
+  const std::vector<ComponentId> all_fixed = choices->groups.with_groups(*fixed);
   for (const ComponentId c : *targets)
     if (std::binary_search(all_fixed.begin(), all_fixed.end(), c))
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
@@ -113,7 +113,8 @@ Result<ExitCode> run(const PlanCommand& command) {
                       progress_printer(command.common)};
   options.search_longer(command.effort);
   options.preferences = command.preferences;
-  options.together = groups->of_several();
+  options.together = choices->groups.of_several();
+  options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
   const AllowingPlan found = command.allow_overlap > 0
                                  ? plan_allowing_overlaps(*assembly, *states, options)
@@ -129,14 +130,11 @@ Result<ExitCode> run(const PlanCommand& command) {
   }
   if (command.common.json) {
     Json report = plan_json(*assembly, plan, path);
-    Json together = Json::array();
-    for (const std::vector<ComponentId>& group : options.together) together.push_back(names_json(*assembly, group));
-    report["together"] = together;
+    report.update(choices_json(*assembly, *choices));
     report.update({{"path", command.output}, {"seconds", plan.seconds}});
     fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    for (const std::vector<ComponentId>& group : options.together)
-      fmt::print("one part: {}\n", names_text(*assembly, group));
+    fmt::print("{}", choices_text(*assembly, *choices));
     for (const ComponentPair& pair : found.pairs.pairs)
       if (const ComponentPair* before = states->find(pair.a, pair.b); pair.allowed_depth > before->allowed_depth)
         fmt::print("allowed: {} and {} may be {:.3g} mm deep in each other until they are apart ({:.2g} mm more)\n",
@@ -188,6 +186,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("TIMES")
       ->check(CLI::Range(0.0, 1e6));
   add_allow_option(*command, options->common);
+  add_flexible_option(*command, options->common);
   add_together_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: all targets can be removed; 1: not all, with the reasons.");

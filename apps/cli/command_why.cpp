@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/part_options.h"
 #include "apps/cli/plan_text.h"
 #include "dismantle/assembly/rigid_groups.h"
 #include "dismantle/planner/plan_disassembly.h"
@@ -25,17 +26,18 @@ Result<ExitCode> run(const WhyCommand& command) {
   if (!assembly) return assembly.error();
   const Result<ComponentId> component = find_component(*assembly, command.component);
   if (!component) return component.error();
-  const Result<PairStates> states = classify(*assembly, command.common);
+  Result<PairStates> states = classify(*assembly, command.common);
   if (!states) return states.error();
   const Executor executor = make_executor(command.common);
 
-  const Result<RigidGroups> groups = named_groups(*assembly, command.common.together);
-  if (!groups) return groups.error();
+  const Result<PartChoices> choices = choose_parts(*assembly, *states, command.common);
+  if (!choices) return choices.error();
 
   PlanOptions options;
   options.engine = {executor, widest_lanes()};
   options.progress = progress_printer(command.common);
-  options.together = groups->of_several();
+  options.together = choices->groups.of_several();
+  options.flexible = choices->flexible;
   options.overlap_limit = default_overlap_limit(*assembly);
   const Explanation why = why_blocked(*assembly, *states, *component, options);
   if (command.common.json) {
@@ -56,6 +58,7 @@ void add_why_command(CLI::App& app, ExitCode& exit_code) {
   add_assembly_argument(*command, options->common);
   command->add_option("COMPONENT", options->component, "Name of the component, as in 'dismantle info'")->required();
   add_allow_option(*command, options->common);
+  add_flexible_option(*command, options->common);
   add_together_option(*command, options->common);
   add_common_options(*command, options->common);
   command->footer("Exit code 0: nothing, it can be removed; 1: blocked, as printed.");

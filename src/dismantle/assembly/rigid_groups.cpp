@@ -14,7 +14,8 @@ bool fits(const std::string& pattern, const std::string& name) {
   return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-/// The components below each node of the product tree.
+}  // namespace
+
 std::vector<std::vector<ComponentId>> components_below(const Assembly& assembly) {
   std::vector<std::vector<ComponentId>> below(assembly.tree.size());
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
@@ -26,7 +27,12 @@ std::vector<std::vector<ComponentId>> components_below(const Assembly& assembly)
   return below;
 }
 
-}  // namespace
+std::vector<ComponentId> components_named(const Assembly& assembly, const std::string& pattern) {
+  std::vector<ComponentId> fitting;
+  for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
+    if (fits(pattern, assembly.components[c].name)) fitting.emplace_back(c);
+  return fitting;
+}
 
 RigidGroups::RigidGroups(std::size_t count) : group_(count), members_(count) {
   std::iota(group_.begin(), group_.end(), std::size_t{0});
@@ -75,9 +81,7 @@ Result<RigidGroups> named_groups(const Assembly& assembly, Span<const std::strin
         found = true;
       }
     if (found) continue;
-    std::vector<ComponentId> fitting;
-    for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
-      if (fits(pattern, assembly.components[c].name)) fitting.emplace_back(c);
+    const std::vector<ComponentId> fitting = components_named(assembly, pattern);
     if (fitting.empty())
       return Error{ErrorKind::Usage, "'" + pattern +
                                          "' is unknown (no sub-assembly and no component has such a name); "

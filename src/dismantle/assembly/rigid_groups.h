@@ -34,6 +34,12 @@ class RigidGroups {
   std::vector<std::vector<ComponentId>> members_;  // of each group; empty for those that became part of another
 };
 
+/// The components below each node of the product tree, ascending.
+std::vector<std::vector<ComponentId>> components_below(const Assembly& assembly);
+
+/// The components of a name, or of a pattern with * and ?, ascending.
+std::vector<ComponentId> components_named(const Assembly& assembly, const std::string& pattern);
+
 /// The groups that a user names. A name, or a pattern with * and ?, is that of sub-assemblies of the product tree, each
 /// of which becomes a group; where there is none, of components, which all together become one. Errors: Usage where
 /// a name fits nothing, or only one component.

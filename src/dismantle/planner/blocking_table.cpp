@@ -2,6 +2,7 @@
 #include "dismantle/planner/blocking_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace dismantle {
@@ -10,6 +11,8 @@ namespace {
 
 /// Directions within this angle share an id [rad].
 constexpr double kSameDirection = 1e-6;
+/// A direction is along an axis if the cosine of the angle between them is no further from 1.
+constexpr double kAlongAxis = 1e-3;
 /// Margin of exit distances, as a share of the component's radius.
 constexpr double kMargin = 0.05;
 
@@ -85,7 +88,8 @@ bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed)
     if (!keep_going_()) return true;
     const double way = way_past(moving, d, fixed);
     const bool met =
-        way > 0 && engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value();
+        way > 0 && (!may_pass(moving, d, fixed) ||
+                    engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value());
     known = met ? Known::Blocks : Known::Free;
   }
   return known == Known::Blocks;
@@ -180,6 +184,15 @@ std::optional<ComponentId> BlockingTable::another_blocker(ComponentId moving, Di
     for (const ComponentId other : others_[moving.value])
       if (ends.has(other) == ends_it && is_new(other)) return other;
   return std::nullopt;
+}
+
+void BlockingTable::let_pass_along(ComponentId a, ComponentId b, Vec3 axis) {
+  only_along_[std::minmax(a, b)] = axis;
+}
+
+bool BlockingTable::may_pass(ComponentId moving, DirectionId d, ComponentId fixed) const {
+  const auto known = only_along_.find(std::minmax(moving, fixed));
+  return known == only_along_.end() || std::abs(dot(known->second, direction(d))) >= 1 - kAlongAxis;
 }
 
 void BlockingTable::add_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {

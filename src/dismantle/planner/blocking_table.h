@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace dismantle {
@@ -70,6 +71,9 @@ class BlockingTable {
   void expect_blockers(Expectation expectation) { expectation_ = std::move(expectation); }
   /// True if one of `present` is known or predicted to block.
   bool expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// Lets two components pass each other along an axis only, either way: a ring that gives, and what it is on.
+  /// @pre no relation of the two was computed yet
+  void let_pass_along(ComponentId a, ComponentId b, Vec3 axis);
   /// Records that `fixed` blocks, by a rule that a single sweep does not test.
   void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
   /// The first contact with a blocking component; none if it does not block.
@@ -88,6 +92,8 @@ class BlockingTable {
                                              const ComponentSet& together, const ComponentSet& ends);
   /// Distance along `d` after which `moving` has passed `fixed` [mm]; 0 if it never comes near it.
   double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
+  /// False if the two may pass each other along an axis only, and this is another direction.
+  bool may_pass(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
@@ -95,6 +101,7 @@ class BlockingTable {
   KeepGoing keep_going_;
   Expectation expectation_;
   std::vector<Vec3> directions_;
+  std::map<std::pair<ComponentId, ComponentId>, Vec3> only_along_;  // a < b
   std::vector<std::map<DirectionId, Row>>
       rows_;  // of every component: rows of different ones may be asked side by side
   std::vector<std::vector<ComponentId>> others_;  // of every component: the last blockers first, then the nearest

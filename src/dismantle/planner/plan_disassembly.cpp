@@ -72,6 +72,11 @@ class Planner {
         sliding_{options.slide_effort, 0, {}},
         sampling_{options.sample_effort, 0, {}} {
     plan_.allowances = validator_.engine().overlapping_pairs();
+    for (const FlexiblePart& part : options.flexible)
+      for (const ComponentPair& pair : pairs.pairs)
+        if (length_squared(part.axis) > 0 && pair.declared > 0 &&
+            (pair.a == part.component || pair.b == part.component))
+          table_.let_pass_along(pair.a, pair.b, part.axis);
   }
 
   Plan run() {

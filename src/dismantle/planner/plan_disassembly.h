@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/flexible_part.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/planner/plan.h"
@@ -37,6 +38,9 @@ struct PlanOptions {
   double overlap_limit = 0;
   /// Sets of components that are not taken apart (RigidGroups).
   std::vector<std::vector<ComponentId>> together{};
+  /// Components that give; the pairs were declared accordingly (allow_flexible()). Rings and what they touch pass each
+  /// other straight along their axes only.
+  std::vector<FlexiblePart> flexible{};
 
   /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/cli/part_options.h"
+
+#include "apps/cli/plan_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace dismantle::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Lines of proposals that are printed; the others are counted.
+constexpr std::size_t kMostProposals = 12;
+
+bool is_flexible(const std::vector<FlexiblePart>& parts, ComponentId c) {
+  return std::any_of(parts.begin(), parts.end(), [&](const FlexiblePart& part) { return part.component == c; });
+}
+
+/// True if the user has said it already.
+bool is_known(const PartChoices& choices, const Proposal& proposal) {
+  const ComponentId first = proposal.components[0];
+  if (proposal.kind == Proposal::Kind::Flexible) return is_flexible(choices.flexible, first);
+  return std::all_of(proposal.components.begin(), proposal.components.end(),
+                     [&](ComponentId c) { return choices.groups.together(c, first); });
+}
+
+std::string proposal_text(const Assembly& assembly, const Proposal& proposal) {
+  if (proposal.kind == Proposal::Kind::Flexible)
+    return fmt::format("{} gives by {:.2g} mm ({})", proposal.name, proposal.flexible.overlap, proposal.reason);
+  return fmt::format("{} is one part: {} ({})", proposal.name, names_text(assembly, proposal.components),
+                     proposal.reason);
+}
+
+}  // namespace
+
+void add_together_option(CLI::App& command, CommonOptions& o) {
+  command
+      .add_option("--together", o.together,
+                  "Treat as one part: each sub-assembly of the product tree that has this name, or fits this pattern "
+                  "with * and ?; where there is none, the components that fit, all together. May be repeated")
+      ->type_name("NAME|PATTERN");
+  const auto accept =
+      command.add_flag("--accept-proposals", o.accept_proposals,
+                       "Take the proposals of what is one purchased part, or gives, as if --together and "
+                       "--flexible named them");
+  command.add_flag("--no-proposals", o.no_proposals, "Propose nothing")->excludes(accept);
+}
+
+void add_flexible_option(CLI::App& command, CommonOptions& o) {
+  command
+      .add_option(
+          "--flexible", o.flexible,
+          "Components that give, by name or pattern: while they or what they touch are moved, the two may get MM "
+          "deep in each other (default: the component's thickness). May be repeated")
+      ->type_name("NAME[=MM]");
+}
+
+Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, const CommonOptions& options) {
+  PartChoices choices;
+  Result<RigidGroups> groups = named_groups(assembly, options.together);
+  if (!groups) return groups.error();
+  choices.groups = std::move(*groups);
+  Result<std::vector<FlexiblePart>> flexible = named_flexible(assembly, options.flexible);
+  if (!flexible) return flexible.error();
+  choices.flexible = std::move(*flexible);
+  if (!options.no_proposals) {
+    std::vector<Proposal> proposals = find_proposals(assembly, states);
+    std::copy_if(proposals.begin(), proposals.end(), std::back_inserter(choices.proposals),
+                 [&](const Proposal& proposal) { return !is_known(choices, proposal); });
+  }
+  choices.accepted = options.accept_proposals;
+  if (choices.accepted)
+    for (const Proposal& proposal : choices.proposals) {
+      if (proposal.kind == Proposal::Kind::Together) {
+        choices.groups.unite(proposal.components);
+      } else {
+        choices.flexible.push_back(proposal.flexible);
+      }
+    }
+  allow_flexible(states, choices.flexible);
+  return choices;
+}
+
+std::string choices_text(const Assembly& assembly, const PartChoices& choices) {
+  std::string text;
+  for (const std::vector<ComponentId>& group : choices.groups.of_several())
+    text += fmt::format("one part: {}\n", names_text(assembly, group));
+  for (const FlexiblePart& part : choices.flexible)
+    text += fmt::format("gives by {:.2g} mm: {}\n", part.overlap, assembly[part.component].name);
+  if (choices.proposals.empty()) return text;
+  text += choices.accepted ? "Accepted proposals:\n" : "Proposals (--accept-proposals takes them):\n";
+  const std::size_t shown = std::min(kMostProposals, choices.proposals.size());
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {}\n", proposal_text(assembly, choices.proposals[i]));
+  if (shown < choices.proposals.size()) text += fmt::format("  and {} more\n", choices.proposals.size() - shown);
+  return text + "\n";
+}
+
+Json choices_json(const Assembly& assembly, const PartChoices& choices) {
+  Json together = Json::array(), flexible = Json::array(), proposals = Json::array();
+  for (const std::vector<ComponentId>& group : choices.groups.of_several())
+    together.push_back(names_json(assembly, group));
+  for (const FlexiblePart& part : choices.flexible)
+    flexible.push_back({{"component", assembly[part.component].name}, {"overlap_mm", part.overlap}});
+  for (const Proposal& proposal : choices.proposals) {
+    const bool gives = proposal.kind == Proposal::Kind::Flexible;
+    Json entry{{"kind", gives ? "flexible" : "together"},
+               {"name", proposal.name},
+               {"components", names_json(assembly, proposal.components)},
+               {"reason", proposal.reason},
+               {"accepted", choices.accepted}};
+    if (gives) entry["overlap_mm"] = proposal.flexible.overlap;
+    proposals.push_back(std::move(entry));
+  }
+  return {{"together", together}, {"flexible", flexible}, {"proposals", proposals}};
+}
+
+}  // namespace dismantle::cli
