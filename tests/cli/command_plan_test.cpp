@@ -60,6 +60,40 @@ TEST_F(CliPlan, TreatsWhatBelongsTogetherAsOnePart) {
   EXPECT_EQ(run("check parts --together '*'").out.find("back "), std::string::npos);
 }
 
+TEST_F(CliPlan, ProposesWhatGivesAndTakesIt) {
+  write_box("cable", 20, 3, 3, 24, 6, 6);  // touches the front
+  const Outcome proposed = run("plan parts -o all.path.json");
+  EXPECT_NE(proposed.out.find("Proposals (--accept-proposals takes them):\n  cable gives by "), std::string::npos)
+      << proposed.out;
+  EXPECT_NE(proposed.out.find("(its name says 'cable')"), std::string::npos);
+  EXPECT_NE(run("check parts").out.find("cable gives by "), std::string::npos);
+  EXPECT_EQ(run("plan parts -o all.path.json --no-proposals").out.find("ropos"), std::string::npos);
+  const auto declared = [&] {
+    std::size_t count = 0;
+    const Json path = Json::parse(read_all(in("all.path.json")));
+    for (const Json& pair : path["pairs"]) count += pair["state"] == "declared";
+    return count;
+  };
+  EXPECT_EQ(declared(), 0u);
+
+  const Outcome taken = run("plan parts -o all.path.json --accept-proposals --json");
+  ASSERT_EQ(taken.exit_code, 0) << taken.err;
+  const Json plan = Json::parse(taken.out);
+  ASSERT_EQ(plan["proposals"].size(), 1u);
+  EXPECT_EQ(plan["proposals"][0]["kind"], "flexible");
+  EXPECT_EQ(plan["proposals"][0]["accepted"], true);
+  EXPECT_EQ(plan["flexible"][0]["component"], "cable");
+  EXPECT_EQ(declared(), 1u);
+  EXPECT_EQ(run("audit parts all.path.json").exit_code, 0);
+
+  ASSERT_EQ(run("plan parts -o all.path.json --flexible cable=0.25").exit_code, 0);
+  EXPECT_EQ(declared(), 1u);
+  EXPECT_NE(read_all(in("all.path.json")).find("0.25"), std::string::npos);
+  expect_error("plan parts -o all.path.json --flexible cord", 2, "'cord' is unknown");
+  expect_error("plan parts -o all.path.json --flexible cable=much", 2, "no number above 0");
+  EXPECT_EQ(run("plan parts -o all.path.json --accept-proposals --no-proposals").exit_code, 2);
+}
+
 TEST_F(CliPlan, WritesThePrecedenceGraph) {
   const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
   ASSERT_EQ(run(open + "order.json").exit_code, 0);
