@@ -85,6 +85,28 @@ TEST_F(SurfacePieces, StayWithinWhatIsSaidOfThem) {
   EXPECT_GT(within, 200);
 }
 
+TEST_F(SurfacePieces, StayWithinEitherOfTwoTriangles) {
+  int together = 0;
+  for (int i = 0; i < 40000; ++i) {
+    next();
+    // Two faces on either side of the piece, or at an angle.
+    Triangle s, t;
+    const Vec3 off = number(0, 0.6) * normalized(vector(1));
+    for (int k = 0; k < 3; ++k) {
+      s[k] = piece_.center + off + vector(1.5);
+      t[k] = piece_.center - off + vector(1.5);
+    }
+    const double limit = std::pow(10, number(-1, 0.2));
+    if (!stays_within_either(piece_, s, t, limit)) continue;
+    together += !stays_within(piece_, s, limit) && !stays_within(piece_, t, limit);
+    for (int k = 0; k < 40; ++k) {
+      const Vec3 p = sample().first;
+      EXPECT_LE(std::min(audit::distance_to_triangle(s, p), audit::distance_to_triangle(t, p)), limit + 1e-12);
+    }
+  }
+  EXPECT_GT(together, 100);
+}
+
 /// Triangles as near as the test allows: they are moved towards the piece until it is no longer certain to pass.
 TEST_F(SurfacePieces, PassClearOfTrianglesThatTheyDoNotMeet) {
   int near = 0;

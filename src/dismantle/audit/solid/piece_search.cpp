@@ -153,8 +153,16 @@ bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, c
 
 bool PieceSearch::near_surface(const SurfacePiece& piece, const Nearest& nearest) const {
   const double limit = this->limit() - rounding_;
-  return nearest.distance + piece.radius <= limit ||
-         (nearest.distance <= limit && stays_within(piece, solid_.surface().triangle(nearest.face), limit));
+  if (nearest.distance + piece.radius <= limit) return true;
+  if (nearest.distance > limit) return false;
+  const Triangle face = solid_.surface().triangle(nearest.face);
+  if (stays_within(piece, face, limit)) return true;
+  // Half-way between the two faces of a plate, a piece is within the limit of both together.
+  const auto nearer = [&](Vec3 a, Vec3 b) { return distance_to_triangle(face, a) < distance_to_triangle(face, b); };
+  const Vec3 far = *std::max_element(piece.corner, piece.corner + 6, nearer);
+  const SurfacePoint other = solid_.surface().closest(far, nearest.face);
+  return other.distance <= limit && other.face != nearest.face &&
+         stays_within_either(piece, face, solid_.surface().triangle(other.face), limit);
 }
 
 bool PieceSearch::stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) const {

@@ -63,6 +63,29 @@ bool stays_within(const SurfacePiece& piece, const Triangle& t, double limit) {
   return true;
 }
 
+bool stays_within_either(const SurfacePiece& piece, const Triangle& s, const Triangle& t, double limit) {
+  Vec3 up_s = unit_normal(s), up_t = unit_normal(t);
+  if (dot(up_s, piece.center - s[0]) < 0) up_s = -up_s;
+  if (dot(up_t, piece.center - t[0]) < 0) up_t = -up_t;
+  const double most = limit - piece.deviation;
+  // Above 0 where a point is higher over the plane of s.
+  double height[6];
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 p = piece.corner[k];
+    height[k] = dot(up_s, p - s[0]) - dot(up_t, p - t[0]);
+    if (!(distance_to_triangle(height[k] > 0 ? t : s, p) <= most)) return false;
+  }
+  // The corners of the cut are on the way from a corner on one side to a corner on the other.
+  for (int j = 0; j < 6; ++j)
+    for (int k = 0; k < 6; ++k) {
+      if (!(height[j] > 0) || height[k] > 0) continue;
+      const double way = height[j] / (height[j] - height[k]);
+      const Vec3 cut = (1 - way) * piece.corner[j] + way * piece.corner[k];
+      if (!(distance_to_triangle(s, cut) <= most) || !(distance_to_triangle(t, cut) <= most)) return false;
+    }
+  return true;
+}
+
 bool passes_clear(const SurfacePiece& piece, Vec3 shift, const Triangle& t, double margin) {
   Hull hull;
   for (int k = 0; k < 6; ++k) hull.points[k] = piece.corner[k] + shift;

@@ -16,6 +16,11 @@ Vec3 closest_point(const Triangle& t, Vec3 point);
 /// largest at a corner, at the begin or at the end.
 bool stays_within(const SurfacePiece& piece, const Triangle& t, double limit);
 
+/// True if all points of a piece stay within `limit` of one triangle or of another one: a plane cuts the hull of the
+/// corners in two, of which each is within the limit of one of them. It is the one on which points are as high over the
+/// plane of either triangle as over that of the other, on the side where the piece is.
+bool stays_within_either(const SurfacePiece& piece, const Triangle& s, const Triangle& t, double limit);
+
 /// True if the piece, shifted by `shift`, certainly does not meet the triangle during its slice: some axis separates
 /// them at both ends by more than the deviation and `margin`.
 bool passes_clear(const SurfacePiece& piece, Vec3 shift, const Triangle& t, double margin);
