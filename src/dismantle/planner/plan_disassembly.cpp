@@ -214,7 +214,7 @@ class Planner {
       if ((groups_.of(c).size() > 1) != groups) continue;
       for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
         if (!keep_going()) return std::nullopt;
-        if (!body.has(neighbour) || groups_.together(c, neighbour)) continue;
+        if (!body.has(neighbour) || groups_.together(c, neighbour) || !axes_.may_turn(c, thread, body)) continue;
         std::vector<ComponentId>& met = met_[{c, neighbour}];
         if (!met.empty() && body.has_all(met)) continue;
         PathSearch search = screw_out(validator_, table_, c, thread, [this] { return keep_going(); });

@@ -10,6 +10,9 @@ namespace {
 /// Limits of the directions and axes that a sliding component is pushed along and turned about.
 constexpr std::size_t kMaxPushes = 12;
 constexpr std::size_t kMaxTurns = 4;
+/// Two threads have one axis if their directions differ by less than this [rad], and their places by less than this
+/// share of the component's radius.
+constexpr double kSameAxis = 0.05;
 
 }  // namespace
 
@@ -32,6 +35,17 @@ const std::vector<NeighbourThread>& ComponentAxes::threads_of(ComponentId c) {
     known =
         touched_threads(planned_.assembly, validator_.hold(c), planned_.features[c.value].radius, planned_.tolerance);
   return *known;
+}
+
+bool ComponentAxes::may_turn(ComponentId c, const ThreadAxis& about, const ComponentSet& body) {
+  const double reach = kSameAxis * planned_.features[c.value].radius;
+  const auto is_other = [&](const NeighbourThread& known) {
+    const Vec3 off = cross(about.direction, known.thread.point - about.point);
+    return body.has(known.neighbour) &&
+           (length(cross(known.thread.direction, about.direction)) > kSameAxis || length(off) > reach);
+  };
+  const std::vector<NeighbourThread>& threads = threads_of(c);
+  return std::count_if(threads.begin(), threads.end(), is_other) < 2;
 }
 
 SlideMoves ComponentAxes::slide_moves(ComponentId c, const ComponentSet& body, const DirectionChoice& choice,

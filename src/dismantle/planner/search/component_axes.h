@@ -25,6 +25,9 @@ class ComponentAxes {
   /// The threads that a component shares with others: those modelled in both meshes, or else those that their
   /// contacting faces reveal.
   const std::vector<NeighbourThread>& threads_of(ComponentId c);
+  /// False if a component has threads about at least two other axes in common with components of `body`: a panel on its
+  /// screws does not turn about one of them. (A single one may be no thread.)
+  bool may_turn(ComponentId c, const ThreadAxis& about, const ComponentSet& body);
   /// The moves that a sliding search tries: the component's directions, and the axes of its own surfaces of revolution
   /// and of those that it touches. The maximum effort is left at 0.
   /// @param body the components that are present
