@@ -16,6 +16,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace dismantle::cli {
 
@@ -79,6 +80,13 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   fmt::print("wrote {}\n", command.output);
 }
 
+/// The number of components that a plan takes out.
+std::size_t removed_count(const Plan& plan) {
+  std::set<ComponentId> removed;
+  for (const PlanStep& step : plan.steps) removed.insert(step.components.begin(), step.components.end());
+  return removed.size();
+}
+
 /// The remaining time of a limit that counts from the start of the command [s]; 0 if there is no limit.
 double time_left(double limit, std::chrono::steady_clock::time_point begun) {
   constexpr double kLeast = 1e-3;
@@ -93,7 +101,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   if (!assembly) return assembly.error();
   Result<PairStates> states = classify(*assembly, command.common);
   if (!states) return states.error();
-  const Result<PartChoices> choices = choose_parts(*assembly, *states, command.common);
+  Result<PartChoices> choices = choose_parts(*assembly, *states, command.common);
   if (!choices) return choices.error();
   const Executor executor = make_executor(command.common);
   const Result<std::vector<ComponentId>> targets = find_all(*assembly, command.targets);
@@ -106,19 +114,27 @@ Result<ExitCode> run(const PlanCommand& command) {
       return Error{ErrorKind::Usage, "'" + (*assembly)[c].name +
                                          "' cannot be removed (it is both target and fixed); leave out one of the two"};
 
-  PlanOptions options{*targets,
-                      *fixed,
-                      time_left(command.time_limit, begun),
-                      {executor, widest_lanes()},
-                      progress_printer(command.common)};
+  PlanOptions options{*targets, *fixed, 0, {executor, widest_lanes()}, progress_printer(command.common)};
   options.search_longer(command.effort);
   options.preferences = command.preferences;
-  options.together = choices->groups.of_several();
   options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
-  const AllowingPlan found = command.allow_overlap > 0
-                                 ? plan_allowing_overlaps(*assembly, *states, options)
-                                 : AllowingPlan{plan_disassembly(*assembly, *states, options), *states};
+  const auto make_plan = [&] {
+    options.together = choices->groups.of_several();
+    options.time_limit = time_left(command.time_limit, begun);
+    return command.allow_overlap > 0 ? plan_allowing_overlaps(*assembly, *states, options)
+                                     : AllowingPlan{plan_disassembly(*assembly, *states, options), *states};
+  };
+  AllowingPlan found = make_plan();
+  const PartChoices first_choices = *choices;
+  if (!found.plan.out_of_time && take_back(*choices, found.plan)) {
+    AllowingPlan second = make_plan();
+    if (removed_count(second.plan) > removed_count(found.plan)) {
+      found = std::move(second);
+    } else {
+      *choices = first_choices;
+    }
+  }
   const Plan& plan = found.plan;
   const Path path = plan_path(*assembly, found.pairs, plan);
   const Result<Done> written = write_path(command.output, path);

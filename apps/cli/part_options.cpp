@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 namespace dismantle::cli {
 
@@ -27,7 +28,14 @@ bool is_known(const PartChoices& choices, const Proposal& proposal) {
   const ComponentId first = proposal.components[0];
   if (proposal.kind == Proposal::Kind::Flexible) return is_flexible(choices.flexible, first);
   return std::all_of(proposal.components.begin(), proposal.components.end(),
-                     [&](ComponentId c) { return choices.groups.together(c, first); });
+                     [&](ComponentId c) { return choices.named.together(c, first); });
+}
+
+/// Makes the groups of what is named and what is accepted.
+void unite_accepted(PartChoices& choices) {
+  choices.groups = choices.named;
+  for (const Proposal& proposal : choices.accepted)
+    if (proposal.kind == Proposal::Kind::Together) choices.groups.unite(proposal.components);
 }
 
 std::string proposal_text(const Assembly& assembly, const Proposal& proposal) {
@@ -35,6 +43,15 @@ std::string proposal_text(const Assembly& assembly, const Proposal& proposal) {
     return fmt::format("{} gives by {:.2g} mm ({})", proposal.name, proposal.flexible.overlap, proposal.reason);
   return fmt::format("{} is one part: {} ({})", proposal.name, names_text(assembly, proposal.components),
                      proposal.reason);
+}
+
+std::string proposals_text(const Assembly& assembly, const std::string& title, const std::vector<Proposal>& proposals) {
+  if (proposals.empty()) return {};
+  std::string text = title + "\n";
+  const std::size_t shown = std::min(kMostProposals, proposals.size());
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {}\n", proposal_text(assembly, proposals[i]));
+  if (shown < proposals.size()) text += fmt::format("  and {} more\n", proposals.size() - shown);
+  return text + "\n";
 }
 
 }  // namespace
@@ -65,26 +82,39 @@ Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, c
   PartChoices choices;
   Result<RigidGroups> groups = named_groups(assembly, options.together);
   if (!groups) return groups.error();
-  choices.groups = std::move(*groups);
+  choices.named = std::move(*groups);
   Result<std::vector<FlexiblePart>> flexible = named_flexible(assembly, options.flexible);
   if (!flexible) return flexible.error();
   choices.flexible = std::move(*flexible);
   if (!options.no_proposals) {
-    std::vector<Proposal> proposals = find_proposals(assembly, states);
-    std::copy_if(proposals.begin(), proposals.end(), std::back_inserter(choices.proposals),
-                 [&](const Proposal& proposal) { return !is_known(choices, proposal); });
+    std::vector<Proposal>& into = options.accept_proposals ? choices.accepted : choices.open;
+    for (Proposal& proposal : find_proposals(assembly, states))
+      if (!is_known(choices, proposal)) into.push_back(std::move(proposal));
   }
-  choices.accepted = options.accept_proposals;
-  if (choices.accepted)
-    for (const Proposal& proposal : choices.proposals) {
-      if (proposal.kind == Proposal::Kind::Together) {
-        choices.groups.unite(proposal.components);
-      } else {
-        choices.flexible.push_back(proposal.flexible);
-      }
-    }
+  for (const Proposal& proposal : choices.accepted)
+    if (proposal.kind == Proposal::Kind::Flexible) choices.flexible.push_back(proposal.flexible);
+  unite_accepted(choices);
   allow_flexible(states, choices.flexible);
   return choices;
+}
+
+bool take_back(PartChoices& choices, const Plan& plan) {
+  std::set<ComponentId> involved;
+  for (const Explanation& e : plan.staying) {
+    involved.insert(e.group.begin(), e.group.end());
+    for (const Blocker& blocker : e.blockers) involved.insert(blocker.component);
+  }
+  const auto keeps = [&](const Proposal& proposal) {
+    return proposal.kind == Proposal::Kind::Flexible ||
+           std::none_of(proposal.components.begin(), proposal.components.end(),
+                        [&](ComponentId c) { return involved.count(c) > 0; });
+  };
+  const auto first = std::stable_partition(choices.accepted.begin(), choices.accepted.end(), keeps);
+  if (first == choices.accepted.end()) return false;
+  choices.taken_back.insert(choices.taken_back.end(), first, choices.accepted.end());
+  choices.accepted.erase(first, choices.accepted.end());
+  unite_accepted(choices);
+  return true;
 }
 
 std::string choices_text(const Assembly& assembly, const PartChoices& choices) {
@@ -93,12 +123,10 @@ std::string choices_text(const Assembly& assembly, const PartChoices& choices) {
     text += fmt::format("one part: {}\n", names_text(assembly, group));
   for (const FlexiblePart& part : choices.flexible)
     text += fmt::format("gives by {:.2g} mm: {}\n", part.overlap, assembly[part.component].name);
-  if (choices.proposals.empty()) return text;
-  text += choices.accepted ? "Accepted proposals:\n" : "Proposals (--accept-proposals takes them):\n";
-  const std::size_t shown = std::min(kMostProposals, choices.proposals.size());
-  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {}\n", proposal_text(assembly, choices.proposals[i]));
-  if (shown < choices.proposals.size()) text += fmt::format("  and {} more\n", choices.proposals.size() - shown);
-  return text + "\n";
+  text += proposals_text(assembly, "Accepted proposals:", choices.accepted);
+  text += proposals_text(assembly, "Proposals that are not taken, as something would stay:", choices.taken_back);
+  text += proposals_text(assembly, "Proposals (--accept-proposals takes them):", choices.open);
+  return text;
 }
 
 Json choices_json(const Assembly& assembly, const PartChoices& choices) {
@@ -107,16 +135,17 @@ Json choices_json(const Assembly& assembly, const PartChoices& choices) {
     together.push_back(names_json(assembly, group));
   for (const FlexiblePart& part : choices.flexible)
     flexible.push_back({{"component", assembly[part.component].name}, {"overlap_mm", part.overlap}});
-  for (const Proposal& proposal : choices.proposals) {
-    const bool gives = proposal.kind == Proposal::Kind::Flexible;
-    Json entry{{"kind", gives ? "flexible" : "together"},
-               {"name", proposal.name},
-               {"components", names_json(assembly, proposal.components)},
-               {"reason", proposal.reason},
-               {"accepted", choices.accepted}};
-    if (gives) entry["overlap_mm"] = proposal.flexible.overlap;
-    proposals.push_back(std::move(entry));
-  }
+  for (const std::vector<Proposal>* list : {&choices.accepted, &choices.taken_back, &choices.open})
+    for (const Proposal& proposal : *list) {
+      const bool gives = proposal.kind == Proposal::Kind::Flexible;
+      Json entry{{"kind", gives ? "flexible" : "together"},
+                 {"name", proposal.name},
+                 {"components", names_json(assembly, proposal.components)},
+                 {"reason", proposal.reason},
+                 {"accepted", list == &choices.accepted}};
+      if (gives) entry["overlap_mm"] = proposal.flexible.overlap;
+      proposals.push_back(std::move(entry));
+    }
   return {{"together", together}, {"flexible", flexible}, {"proposals", proposals}};
 }
 

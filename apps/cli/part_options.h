@@ -3,6 +3,7 @@
 
 #include "apps/cli/command.h"
 #include "dismantle/assembly/rigid_groups.h"
+#include "dismantle/planner/plan.h"
 #include "dismantle/proposals/find_proposals.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,10 +12,12 @@ namespace dismantle::cli {
 
 /// What is known about parts that belong together and parts that give.
 struct PartChoices {
-  RigidGroups groups{0};               ///< --together, and the proposals if they are accepted.
-  std::vector<FlexiblePart> flexible;  ///< --flexible, and the proposals if they are accepted.
-  std::vector<Proposal> proposals;     ///< What is proposed besides; nothing with --no-proposals.
-  bool accepted = false;               ///< The proposals are in force.
+  RigidGroups named{0};                ///< --together.
+  RigidGroups groups{0};               ///< The same, and what is accepted.
+  std::vector<FlexiblePart> flexible;  ///< --flexible, and what is accepted.
+  std::vector<Proposal> accepted;      ///< Proposals in force, with --accept-proposals.
+  std::vector<Proposal> open;          ///< Others; nothing with --no-proposals.
+  std::vector<Proposal> taken_back;    ///< Accepted first, and not in force, as something would stay (take_back()).
 };
 
 /// Declares --together, --accept-proposals and --no-proposals.
@@ -25,6 +28,10 @@ void add_flexible_option(CLI::App& command, CommonOptions& options);
 /// Finds what the options name, and the proposals; declares the overlaps of flexible components. Errors: Usage for
 /// names that fit nothing.
 Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, const CommonOptions& options);
+
+/// Takes back accepted proposals of one part with components that stay in a plan or block one that does: a rod that is
+/// hooked into the arm of a servo stays as long as the arm stays on the servo. @return false if there are none
+bool take_back(PartChoices& choices, const Plan& plan);
 
 /// The parts that belong together or give, and what is proposed, a line each; empty if there is nothing to say.
 std::string choices_text(const Assembly& assembly, const PartChoices& choices);

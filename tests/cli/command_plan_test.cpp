@@ -94,6 +94,31 @@ TEST_F(CliPlan, ProposesWhatGivesAndTakesIt) {
   EXPECT_EQ(run("plan parts -o all.path.json --accept-proposals --no-proposals").exit_code, 2);
 }
 
+TEST_F(CliPlan, TakesProposalsBackThatKeepSomethingIn) {
+  fs::remove_all(in("parts"));
+  fs::create_directories(in("parts"));
+  write_box("sheet", 0, 0, 0, 100, 60, 2);
+  write_box("floor", -5, -5, -5, 105, 65, 0);
+  write_box("left", -5, -5, 0, 0, 65, 10);
+  write_box("right", 100, -5, 0, 105, 65, 10);
+  write_box("front", 0, -5, 0, 100, 0, 10);
+  write_box("back", 0, 60, 0, 100, 65, 10);
+  for (int k = 0; k < 10; ++k) write_box("chip" + std::to_string(k), 9.0 * k + 2, 30, 2, 9.0 * k + 7, 35, 4);
+  write_box("held", 20, 5, 2, 25, 10, 4);  // under the bar, and on the sheet
+  write_box("bar", 0, 5, 4, 100, 10, 10);
+  const std::string plan = "plan parts -o all.path.json --effort 0 --fixed floor left right front back bar --json ";
+  const Json without = Json::parse(run(plan + "--no-proposals").out);
+  EXPECT_EQ(without["removed"].size(), 10u);
+  const Json with = Json::parse(run(plan + "--accept-proposals").out);
+  EXPECT_EQ(with["removed"].size(), 10u);
+  ASSERT_EQ(with["proposals"].size(), 1u);
+  EXPECT_EQ(with["proposals"][0]["name"], "sheet");
+  EXPECT_EQ(with["proposals"][0]["accepted"], false);
+  EXPECT_TRUE(with["together"].empty());
+  // What the user names is not taken back.
+  EXPECT_EQ(Json::parse(run(plan + "--together '[sc]h*'").out)["removed"].size(), 0u);
+}
+
 TEST_F(CliPlan, WritesThePrecedenceGraph) {
   const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
   ASSERT_EQ(run(open + "order.json").exit_code, 0);

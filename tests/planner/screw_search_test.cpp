@@ -3,8 +3,10 @@
 
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/planner/plan_path.h"
+#include "dismantle/planner/search/component_axes.h"
 #include "tests/planner/plan_scenes.h"
 #include "tests/support/disassembly_cases.h"
+#include "tests/support/faulty_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +37,34 @@ TEST(ScrewSearch, KnowsTheThreadFromTheContacts) {
   EXPECT_EQ(threads[0].neighbour, ComponentId(0));
   EXPECT_NEAR(threads[0].thread.lead, 1.25, 0.15);  // the flanks guide it
   EXPECT_NEAR(std::abs(threads[0].thread.direction.z), 1, 1e-3);
+}
+
+TEST(ScrewSearch, TurnsNoPlateThatIsHeldByThreeScrews) {
+  const std::vector<Component> screw = scenes::short_screw(0.05, 24);
+  TriangleMesh plate;
+  std::vector<Component> components{{}};
+  for (int k = 0; k < 3; ++k) {
+    const Pose at{{60.0 * k, 0, 0}, {}};
+    plate = scenes::joined(std::move(plate), scenes::moved(*screw[0].mesh, at));
+    components.push_back(scenes::component("bolt " + std::to_string(k), scenes::moved(*screw[1].mesh, at)));
+  }
+  components[0] = scenes::component("plate", std::move(plate));
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(std::move(components)));
+  std::vector<ShapeFeatures> features;
+  for (const Component& c : scene.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
+  const RigidGroups groups(4);
+  MotionValidator validator(scene.assembly, scene.pairs, {}, groups, 1e4, [] { return true; });
+  ComponentAxes axes({scene.assembly, features, scene.pairs.tolerance}, validator);
+  const ComponentId plate_id(0);
+  const std::vector<NeighbourThread> threads = axes.threads_of(plate_id);
+  ASSERT_EQ(threads.size(), 3u);
+  ComponentSet body = ComponentSet::all(4);
+  for (const NeighbourThread& known : threads) EXPECT_FALSE(axes.may_turn(plate_id, known.thread, body));
+  for (std::uint32_t k = 1; k < 4; ++k)
+    for (const NeighbourThread& known : axes.threads_of(ComponentId(k)))
+      EXPECT_TRUE(axes.may_turn(ComponentId(k), known.thread, body));
+  body.erase(std::vector<ComponentId>{ComponentId(1), ComponentId(2)});
+  EXPECT_TRUE(axes.may_turn(plate_id, threads[2].thread, body));
 }
 
 TEST(ScrewSearch, SeesNoThreadInAPlainBore) {

@@ -13,6 +13,7 @@ namespace dismantle {
 
 /// What a person would probably say about some components before they are taken apart, and why.
 struct Proposal {
+  /// What a proposal is about.
   enum class Kind : std::uint8_t {
     Together,  ///< They are one purchased part, which is not taken apart.
     Flexible,  ///< The component gives.
