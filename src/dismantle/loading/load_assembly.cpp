@@ -9,6 +9,7 @@
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/read_mesh.h"
+#include "dismantle/formats/threemf/read_3mf.h"
 #include "dismantle/formats/urdf/read_urdf.h"
 
 #include <new>
@@ -35,6 +36,8 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
   switch (entry->format) {
     case FileFormat::Gltf:
       return read_gltf(file, options);
+    case FileFormat::ThreeMf:
+      return read_3mf(file, options);
     case FileFormat::Urdf:
       return read_urdf(file, options);
     case FileFormat::Obj:
