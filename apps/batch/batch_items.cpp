@@ -2,8 +2,7 @@
 #include "apps/batch/batch_items.h"
 
 #include "dismantle/files/sha256.h"
-#include "dismantle/files/text_scan.h"
-#include "dismantle/formats/mesh/read_mesh.h"
+#include "dismantle/formats/import/file_formats.h"
 
 #include <fnmatch.h>
 
@@ -66,17 +65,17 @@ std::pair<FileTree::const_iterator, FileTree::const_iterator> below(const FileTr
   return {first, last};
 }
 
-bool is_single_file_assembly(const std::string& extension) {
-  return extension == ".step" || extension == ".stp" || extension == ".gltf" || extension == ".glb" ||
-         extension == ".urdf";
-}
-
 /// The files of each assembly, by the assembly's name.
 std::map<std::string, std::vector<std::string>> group(const FileTree& files, MeshGrouping meshes) {
   std::map<std::string, std::vector<std::string>> items, folders;
   for (const auto& [name, state] : files) {
-    if (is_mesh_file(name)) folders[parent_of(name)].push_back(name);
-    if (is_single_file_assembly(lower_case(fs::path(name).extension().string()))) items[name] = {name};
+    const FormatEntry* entry = format_of(name);
+    if (entry == nullptr) continue;
+    if (entry->is_part) {
+      folders[parent_of(name)].push_back(name);
+    } else {
+      items[name] = {name};
+    }
   }
   for (auto& [folder, members] : folders) {
     if (meshes == MeshGrouping::Folder && members.size() > 1) {
@@ -97,9 +96,10 @@ std::string key_of(const std::string& item, const std::vector<std::string>& own,
   Sha256 hash;
   hash.update(options + '\0' + item + '\0');
   for (const std::string& name : own) add_to_key(hash, name, files.at(name));
-  const std::string extension = lower_case(fs::path(item).extension().string());
-  if (extension != ".gltf" && extension != ".urdf") return hash.finish();
-  const std::string prefix = extension == ".gltf" ? parent_of(item) : item.substr(0, item.find('/') + 1);
+  const FormatEntry* entry = format_of(item);
+  if (entry == nullptr || entry->is_part || !entry->has_links) return hash.finish();
+  const bool reaches_out = entry->format == FileFormat::Urdf;  // to packages beside its folder
+  const std::string prefix = reaches_out ? item.substr(0, item.find('/') + 1) : parent_of(item);
   const auto [first, last] = below(files, prefix);
   for (auto file = first; file != last; ++file) add_to_key(hash, file->first, file->second);
   return hash.finish();
@@ -132,8 +132,7 @@ Result<std::vector<BatchItem>> find_batch_items(const fs::path& root, const Batc
     items.push_back(std::move(item));
   }
   if (items.empty())
-    return Error{ErrorKind::Unreadable, root.string() +
-                                            " contains no assembly (no STEP, glTF, URDF, OBJ, STL or PLY file" +
+    return Error{ErrorKind::Unreadable, root.string() + " contains no assembly (no " + format_names() + " file" +
                                             (selection.only.empty() ? "" : " of a name like '" + selection.only + "'") +
                                             "); give another folder"};
   return items;

@@ -2,6 +2,7 @@
 #include "apps/cli/command.h"
 
 #include "dismantle/files/user_folders.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 #include "dismantle/surface/find_clashes.h"
@@ -37,20 +38,20 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   command.add_option("--units", o.import.units, "Unit of the input's coordinates (mm, cm, m, um, in, ft)")
       ->check(CLI::IsMember({"mm", "cm", "m", "um", "in", "ft"}))
       ->group(group);
-  command.add_option("--deflection", o.import.deflection, "STEP: largest distance of a triangle from its surface")
+  command.add_option("--deflection", o.import.deflection, "CAD files: largest distance of a triangle from its surface")
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->group(group);
   command
       .add_option("--angular-deflection", o.import.angular_deflection,
-                  "STEP: largest angle between neighbouring facets")
+                  "CAD files: largest angle between neighbouring facets")
       ->type_name("RAD")
       ->check(CLI::PositiveNumber)
       ->group(group);
   static const std::map<std::string, Solids> kSolids{{"split", Solids::Split}, {"join", Solids::Join}};
   command
       .add_option("--solids", o.import.solids,
-                  "STEP: a product with several solids gives a component of each (split) or one of all (join)")
+                  "CAD files: a product with several solids gives a component of each (split) or one of all (join)")
       ->transform(CLI::CheckedTransformer(kSolids))
       ->type_name("split|join")
       ->group(group);
@@ -83,7 +84,7 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   command
       .add_flag_callback(
           "--no-cache", [&o] { o.import.cache_folder.clear(); },
-          "STEP: neither use nor keep the triangles of files that were read before")
+          "CAD files: neither use nor keep the triangles of files that were read before")
       ->group(group);
   command.add_option("--simplify", o.simplify, "Simplify to about N triangles after loading")
       ->type_name("N")
@@ -129,7 +130,7 @@ double default_overlap_limit(const Assembly& assembly) {
 }
 
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {
-  command.add_option("ASSEMBLY", o.assembly_file, "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes")->required();
+  command.add_option("ASSEMBLY", o.assembly_file, format_names(",") + ", or a folder of meshes")->required();
 }
 
 bool is_path_file(const std::string& file) {

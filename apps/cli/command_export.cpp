@@ -8,6 +8,7 @@
 #include "dismantle/export/step_scene.h"
 #include "dismantle/export/swept_volume.h"
 #include "dismantle/files/atomic_file.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/write_mesh.h"
 #include "dismantle/instructions/instructions_page.h"
 #include "dismantle/instructions/instructions_pdf.h"
@@ -266,9 +267,8 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       "export", "Export an assembly and its path: animation, page, instructions, pictures, tables, path file");
   auto options = std::make_shared<ExportCommand>();
   command
-      ->add_option(
-          "ASSEMBLY", options->common.assembly_file,
-          "STEP, glTF, OBJ, STL, PLY, URDF, or a folder of meshes; or PATH alone, with the assembly in its folder")
+      ->add_option("ASSEMBLY", options->common.assembly_file,
+                   format_names(",") + ", or a folder of meshes; or PATH alone, with the assembly in its folder")
       ->required();
   command->add_option("PATH", options->path_file, "Path written by a session, move or plan (*.path.json)");
   command

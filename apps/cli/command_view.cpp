@@ -3,6 +3,7 @@
 #include "apps/server/server.h"
 #include "dismantle/documents/path_file.h"
 #include "dismantle/files/user_folders.h"
+#include "dismantle/formats/import/file_formats.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -139,8 +140,7 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   command->add_option(
       "ASSEMBLY", options->common.assembly_file,
-      "STEP, glTF, OBJ, STL, PLY, URDF, a folder of meshes, or a *.path.json as a guide (default: choose in "
-      "the page)");
+      format_names(",") + ", a folder of meshes, or a *.path.json as a guide (default: choose in the page)");
   command->add_option("--sample", options->sample, "Open a bundled sample")->type_name("NAME");
   command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
       ->type_name("DIR");

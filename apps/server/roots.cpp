@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/roots.h"
 
-#include "dismantle/files/text_scan.h"
+#include "dismantle/formats/import/file_formats.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace dismantle::server {
@@ -14,8 +13,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kPathSuffix = ".path.json";
-constexpr std::array<std::string_view, 8> kAssemblies = {".step", ".stp", ".gltf", ".glb",
-                                                         ".obj",  ".stl", ".ply",  ".urdf"};
 
 bool ends_with(const std::string& text, std::string_view suffix) {
   return text.size() > suffix.size() && text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
@@ -42,10 +39,9 @@ std::optional<RootEntry> entry_of(const fs::directory_entry& entry) {
     return found;
   }
   if (!entry.is_regular_file(error)) return {};
-  const std::string extension = lower_case(entry.path().extension().string());
   if (ends_with(found.name, kPathSuffix)) {
     found.kind = RootEntry::Kind::Path;
-  } else if (std::find(kAssemblies.begin(), kAssemblies.end(), extension) == kAssemblies.end()) {
+  } else if (format_of(entry.path()) == nullptr) {
     return {};
   }
   found.bytes = entry.file_size(error);

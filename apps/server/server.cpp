@@ -8,6 +8,7 @@
 #include "apps/server/file_commands.h"
 #include "apps/server/http_connection.h"
 #include "apps/server/static_files.h"
+#include "dismantle/formats/import/file_formats.h"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -99,7 +100,13 @@ class Server::Impl final : public Site, private EngineListener {
   void run() {
     Json roots = Json::array();
     for (const std::string& name : files_.roots().names()) roots.push_back(name);
-    hub_.set_hello({{"event", "hello"}, {"version", DISMANTLE_VERSION}, {"roots", std::move(roots)}});
+    Json extensions = Json::array();
+    for (const FormatEntry& format : file_formats())
+      for (const std::string_view extension : format.extensions) extensions.push_back(extension);
+    hub_.set_hello({{"event", "hello"},
+                    {"version", DISMANTLE_VERSION},
+                    {"roots", std::move(roots)},
+                    {"extensions", std::move(extensions)}});
     accept(v4_);
     if (v6_.is_open()) accept(v6_);
     tick();

@@ -3,6 +3,7 @@
 #include "dismantle/engine/classify_pairs.h"
 #include "dismantle/files/user_folders.h"
 #include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
 #include "dismantle/surface/find_clashes.h"
 #include "python/src/bind.h"
@@ -275,16 +276,18 @@ void bind_assembly(py::module_& module) {
   bind_component(module);
   bind_assembly_class(module);
   bind_pairs(module);
-  module.def("load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
-             py::arg("angular_deflection") = 0.0, py::arg("solids") = "split", py::arg("drop_duplicates") = false,
-             py::arg("cache") = true, py::arg("progress") = py::none(),
-             "Reads a STEP, glTF, OBJ, STL, PLY or URDF file, or a folder of meshes. `units`: unit of the coordinates "
-             "(mm, cm, "
-             "m, um, in, ft; default: by the format). STEP: `deflection` [mm] and `angular_deflection` [rad] of the "
-             "tessellation; 0: default. `solids`: what a product with several solids gives, a "
-             "component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
-             "identical with another one and in the same place. `cache`: keeps the triangles of STEP files for the "
-             "next time.");
+  module.def(
+      "load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
+      py::arg("angular_deflection") = 0.0, py::arg("solids") = "split", py::arg("drop_duplicates") = false,
+      py::arg("cache") = true, py::arg("progress") = py::none(),
+      ("Reads a file (" + format_names() +
+       "), or a folder of meshes. `units`: unit of the coordinates (mm, cm, "
+       "m, um, in, ft; default: by the format). CAD files: `deflection` [mm] and `angular_deflection` [rad] of the "
+       "tessellation; 0: default. `solids`: what a product with several solids gives, a "
+       "component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
+       "identical with another one and in the same place. `cache`: keeps the triangles of CAD files for the "
+       "next time.")
+          .c_str());
   module.def(
       "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("clearance") = 0.0,
       py::arg("pairs") = "auto", py::arg("allow") = py::list(), py::arg("threads") = 0,

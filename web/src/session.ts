@@ -49,9 +49,9 @@ export class Session {
         store.link = link;
       });
     connection.onFrame = (frame) => this.applyFrame(frame);
-    connection.on("hello", ({ roots }) =>
+    connection.on("hello", ({ roots, extensions }) =>
       this.change(() => {
-        store.roots = roots;
+        Object.assign(store, { roots, extensions });
       }),
     );
     connection.on("control", ({ control, clients }) => this.change(() => Object.assign(store, { control, clients })));

@@ -18,6 +18,8 @@ export interface SectionPlane {
 export interface Store {
   link: Link;
   roots: string[];
+  /// Extensions of the files that can be opened.
+  extensions: string[];
   control: boolean;
   clients: number;
   jobs: Map<number, JobEvent>;
@@ -47,6 +49,7 @@ export function emptyStore(): Store {
   return {
     link: "connecting",
     roots: [],
+    extensions: [],
     control: true,
     clients: 1,
     jobs: new Map(),

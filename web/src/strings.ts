@@ -16,7 +16,7 @@ const kEnglish = {
   "open.roots": "Files on this machine",
   "open.roots.none": "No folders to show. Start the program with --root FOLDER.",
   "open.choose": "Choose a file…",
-  "open.drop": "Drop a STEP, glTF, OBJ, STL or PLY file anywhere on this page, or",
+  "open.drop": "Drop a CAD or mesh file anywhere on this page, or",
   "open.up": "Up",
   "open.lead": "Take a mechanism apart by hand. Parts stop at contact and slide along it, as real ones do.",
   undo: "Undo",

@@ -4,11 +4,12 @@
 #include "dismantle/assembly/duplicates.h"
 #include "dismantle/files/text_name.h"
 #include "dismantle/files/text_scan.h"
+#include "dismantle/formats/cad/read_cad.h"
 #include "dismantle/formats/gltf/read_gltf.h"
 #include "dismantle/formats/import/assembly_builder.h"
-#include "dismantle/formats/import/mesh_source.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/read_mesh.h"
-#include "dismantle/formats/step/read_step.h"
+#include "dismantle/formats/threemf/read_3mf.h"
 #include "dismantle/formats/urdf/read_urdf.h"
 
 #include <new>
@@ -27,14 +28,25 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
   if (!fs::exists(status))
     return Error{ErrorKind::Unreadable, file.string() + " cannot be read (no such file); check the path"};
 
-  if (is_mesh_file(file)) return read_mesh(file, options);
-  const std::string extension = lower_case(file.extension().string());
-  if (extension == ".step" || extension == ".stp") return read_step(file, options);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(file, options);
-  if (extension == ".urdf") return read_urdf(file, options);
-  return Error{ErrorKind::Unreadable,
-               file.string() + " is no assembly that dismantle reads (extension " + in_quotes(extension) +
-                   "); convert it to STEP, glTF, OBJ, STL, PLY or URDF, or give a folder of meshes"};
+  const FormatEntry* entry = format_of(file);
+  if (entry == nullptr)
+    return Error{ErrorKind::Unreadable, file.string() + " is no assembly that dismantle reads (extension " +
+                                            in_quotes(lower_case(file.extension().string())) + "); convert it to " +
+                                            format_names() + ", or give a folder of meshes"};
+  switch (entry->format) {
+    case FileFormat::Gltf:
+      return read_gltf(file, options);
+    case FileFormat::ThreeMf:
+      return read_3mf(file, options);
+    case FileFormat::Urdf:
+      return read_urdf(file, options);
+    case FileFormat::Obj:
+    case FileFormat::Stl:
+    case FileFormat::Ply:
+      return read_mesh(file, options);
+    default:
+      return read_cad(file, options);
+  }
 }
 
 /// Names from files may contain any bytes; after this they are safe in JSON and on a terminal.

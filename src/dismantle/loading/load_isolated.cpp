@@ -2,7 +2,7 @@
 #include "dismantle/loading/load_isolated.h"
 
 #include "dismantle/files/isolated_process.h"
-#include "dismantle/files/text_scan.h"
+#include "dismantle/formats/cad/read_cad.h"
 #include "dismantle/formats/import/assembly_bytes.h"
 #include "dismantle/loading/load_assembly.h"
 
@@ -11,11 +11,6 @@ namespace dismantle {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_step(const fs::path& file) {
-  const std::string extension = lower_case(file.extension().string());
-  return extension == ".step" || extension == ".stp";
-}
 
 std::uint64_t size_on_disk(const fs::path& file) {
   std::error_code error;
@@ -65,7 +60,7 @@ Error failure(const fs::path& file, const IsolatedResult& result) {
 }  // namespace
 
 Result<Assembly> load_isolated(const fs::path& file, const ImportOptions& options) {
-  if (is_step(file)) return load_assembly(file, options);  // it isolates itself
+  if (is_cad_file(file)) return load_assembly(file, options);  // it isolates itself
   IsolationLimits limits;
   limits.memory_bytes = kMeshMemoryBase + kMeshMemoryPerByte * size_on_disk(file);
   limits.cpu_seconds = kMeshCpuSeconds;

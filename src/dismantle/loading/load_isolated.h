@@ -18,9 +18,9 @@ inline constexpr std::uint64_t kMeshMemoryPerByte = 100;
 /// Processor time limit of that process [s].
 inline constexpr double kMeshCpuSeconds = 3600;
 
-/// Reads an assembly as load_assembly does, but parses every format in a child process (read_step.h has the limits for
-/// STEP): a file that crashes a reader or exhausts memory gives an Error and does not end the calling program. Errors:
-/// as load_assembly.
+/// Reads an assembly as load_assembly does, but parses every format in a child process (read_cad.h has the limits for
+/// CAD files): a file that crashes a reader or exhausts memory gives an Error and does not end the calling program.
+/// Errors: as load_assembly.
 Result<Assembly> load_isolated(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace dismantle

@@ -6,8 +6,6 @@ import type { Commands } from "../wire/messages.ts";
 
 /// Time given to the server to announce an open assembly before the start page is shown [ms].
 const kStartPageDelay = 250;
-/// Extensions offered by the file picker.
-const kFileTypes = ".step,.stp,.glb,.gltf,.obj,.stl,.ply,.urdf";
 
 /// The dialog that opens assemblies, also shown as the start page: samples, recent files, files under the roots, an
 /// upload. A file dropped anywhere on the page is opened, too.
@@ -18,7 +16,6 @@ export class OpenDialog {
   private readonly roots = element("div", { class: "roots" });
   private readonly picker = element("input", {
     type: "file",
-    accept: kFileTypes,
     class: "visually-hidden",
     id: "file-picker",
     "aria-label": text("open.choose"),
@@ -111,7 +108,8 @@ export class OpenDialog {
     this.recent.replaceChildren(
       ...(files.length > 0 ? files : [element("li", { class: "muted" }, text("open.recent.none"))]),
     );
-    const { roots } = this.session.store;
+    const { roots, extensions } = this.session.store;
+    this.picker.accept = extensions.join();
     this.roots.replaceChildren(...roots.map((name, root) => this.rootList(name, root)));
     if (roots.length === 0) this.roots.append(element("p", { class: "muted" }, text("open.roots.none")));
   }

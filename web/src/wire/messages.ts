@@ -113,7 +113,7 @@ export interface JobEvent {
 
 /// The events of the server, by name.
 export interface Events {
-  hello: { version: string; roots: string[] };
+  hello: { version: string; roots: string[]; extensions: string[] };
   control: { control: boolean; clients: number };
   model: ModelEvent;
   state: StateEvent;

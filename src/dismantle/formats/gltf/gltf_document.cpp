@@ -216,8 +216,8 @@ class DocumentReader {
     if (indices.width != 1 || indices.scalar == GltfScalar::Float32) in_.fail(node, "its indices are no whole numbers");
   }
 
-  GltfNode node(const JsonNode& node, std::size_t node_count) {
-    GltfNode n;
+  SceneNode node(const JsonNode& node, std::size_t node_count) {
+    SceneNode n;
     n.name = optional_text(node, "name");
     n.mesh = optional_index(node, "mesh", document_.meshes.size());
     n.parent_from_node = transform(node);
@@ -225,7 +225,7 @@ class DocumentReader {
     return n;
   }
 
-  GltfTransform transform(const JsonNode& node) {
+  SceneTransform transform(const JsonNode& node) {
     if (const auto m = numbers<16>(node, "matrix"))  // by columns
       return {{{{(*m)[0], (*m)[4], (*m)[8]}, {(*m)[1], (*m)[5], (*m)[9]}, {(*m)[2], (*m)[6], (*m)[10]}}},
               {(*m)[12], (*m)[13], (*m)[14]}};

@@ -3,7 +3,7 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/core/result.h"
-#include "dismantle/math/mat3.h"
+#include "dismantle/formats/import/scene_assembly.h"
 
 #include <cstddef>
 #include <optional>
@@ -70,20 +70,6 @@ struct GltfMesh {
   std::vector<GltfPrimitive> primitives;  ///< Those of triangles; points and lines are left out.
 };
 
-/// The affine map x -> linear * x + translation.
-struct GltfTransform {
-  Mat3 linear;       ///< Rotation, scale and shear.
-  Vec3 translation;  ///< [m]
-};
-
-/// A node of the scene graph.
-struct GltfNode {
-  std::string name;                   ///< Empty if the file gives none.
-  std::optional<std::size_t> mesh;    ///< Index of its mesh.
-  std::vector<std::size_t> children;  ///< Indices of nodes.
-  GltfTransform parent_from_node;     ///< Local transform.
-};
-
 /// The parts of a glTF 2.0 document that describe shape and structure. Every index is within its array; offsets and
 /// lengths are as declared by the file and not yet checked against its bytes (GltfElements::open does). No node has two
 /// parents or is its own ancestor.
@@ -93,7 +79,7 @@ struct GltfDocument {
   std::vector<GltfAccessor> accessors;  ///< Typed arrays.
   std::vector<Color> materials;         ///< Base colours.
   std::vector<GltfMesh> meshes;         ///< Meshes.
-  std::vector<GltfNode> nodes;          ///< Scene graph.
+  std::vector<SceneNode> nodes;         ///< Scene graph [m].
   std::vector<std::size_t> roots;       ///< Nodes of the default scene, or all nodes without a parent.
 };
 

@@ -67,10 +67,10 @@ Result<double> append(const GltfPrimitive& primitive, const GltfElements& positi
 
 }  // namespace
 
-Result<GltfSurface> read_gltf_mesh(const GltfDocument& document, std::size_t mesh,
-                                   const std::vector<std::string_view>& buffers, const std::string& file_name,
-                                   std::size_t triangle_limit) {
-  GltfSurface surface;
+Result<SceneMesh> read_gltf_mesh(const GltfDocument& document, std::size_t mesh,
+                                 const std::vector<std::string_view>& buffers, const std::string& file_name,
+                                 std::size_t triangle_limit) {
+  SceneMesh surface;
   std::vector<double> area_of(document.materials.size() + 1, 0.0);  // the last: without material
   for (const GltfPrimitive& primitive : document.meshes[mesh].primitives) {
     const Result<GltfElements> positions = GltfElements::open(document, primitive.positions, buffers, file_name);

@@ -9,16 +9,10 @@
 
 namespace dismantle {
 
-/// The triangles of a glTF mesh and the colour of the largest part of its surface.
-struct GltfSurface {
-  TriangleMesh mesh;  ///< In metres, not welded or cleaned.
-  Color color;        ///< Of the largest area.
-};
-
-/// Reads the triangle primitives of a mesh into one. Errors: Unreadable if accessors or indices are out of range, a
+/// Reads the triangle primitives of a mesh into one [m]. Errors: Unreadable if accessors or indices are out of range, a
 /// position is not finite, or there are more than `triangle_limit` triangles.
-Result<GltfSurface> read_gltf_mesh(const GltfDocument& document, std::size_t mesh,
-                                   const std::vector<std::string_view>& buffers, const std::string& file_name,
-                                   std::size_t triangle_limit);
+Result<SceneMesh> read_gltf_mesh(const GltfDocument& document, std::size_t mesh,
+                                 const std::vector<std::string_view>& buffers, const std::string& file_name,
+                                 std::size_t triangle_limit);
 
 }  // namespace dismantle

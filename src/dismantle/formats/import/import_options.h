@@ -30,15 +30,15 @@ enum class Solids {
 struct ImportOptions {
   std::string units;  ///< "mm", "cm", "m", "um", "in", "ft": overrides what the file says; empty: as the file says, mm
                       ///< where it does not.
-  double deflection = 0;  ///< STEP: largest distance of a triangle from its surface [mm]; 0: kDefaultRelativeDeflection
-                          ///< of the assembly's size.
+  double deflection = 0;  ///< CAD files: largest distance of a triangle from its surface [mm]; 0:
+                          ///< kDefaultRelativeDeflection of the assembly's size.
   double angular_deflection =
-      0;  ///< STEP: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
-  Solids solids = Solids::Split;  ///< STEP: products with several solids.
+      0;  ///< CAD files: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
+  Solids solids = Solids::Split;  ///< CAD files: products with several solids.
   bool drop_duplicates = false;   ///< Leaves out components that find_duplicates() finds.
   ImportLimits limits;            ///< Refuses larger input.
-  /// STEP: keeps the triangles of the files that were read (kCacheBytes of them), for the next time that a file is read
-  /// with the same options; empty: keeps nothing.
+  /// CAD files: keeps the triangles of the files that were read (kCacheBytes of them), for the next time that a file is
+  /// read with the same options; empty: keeps nothing.
   std::filesystem::path cache_folder;
   ProgressCallback progress;  ///< May be empty; may cancel.
 };

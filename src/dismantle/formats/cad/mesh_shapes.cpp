@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/step/mesh_shapes.h"
+#include "dismantle/formats/cad/mesh_shapes.h"
 
-#include "dismantle/formats/step/stage_progress.h"
-#include "dismantle/formats/step/step_mesh.h"
+#include "dismantle/formats/cad/shape_mesh.h"
+#include "dismantle/formats/cad/stage_progress.h"
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -107,7 +107,10 @@ void mesh_shapes(const std::vector<TopoDS_Shape>& shapes, double deflection, dou
   TopoDS_Compound all;
   const BRep_Builder builder;
   builder.MakeCompound(all);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
+  for (const TopoDS_Shape& shape : shapes) {
+    BRepTools::Clean(shape);  // a file may hold triangles of another deflection
+    builder.Add(all, shape);
+  }
 
   IMeshTools_Parameters parameters;
   parameters.Deflection = deflection;

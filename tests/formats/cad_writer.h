@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <IGESCAFControl_Writer.hxx>
+#include <IGESControl_Controller.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -22,10 +24,10 @@
 
 namespace dismantle {
 
-/// Builds a product tree and writes it as STEP, for tests that read files of known content.
-class StepWriter {
+/// Builds a product tree and writes it as STEP or IGES, for tests that read files of known content.
+class CadWriter {
  public:
-  StepWriter() : document_(new TDocStd_Document("BinXCAF")) {
+  CadWriter() : document_(new TDocStd_Document("BinXCAF")) {
     Message::DefaultMessenger()->ChangePrinters().Clear();
     XCAFDoc_ShapeTool::SetAutoNaming(false);
     shapes_ = XCAFDoc_DocumentTool::ShapeTool(document_->Main());
@@ -57,12 +59,24 @@ class StepWriter {
     color(shapes_->AddSubShape(product, subshape), r, g, b);
   }
 
-  /// `unit`: "MM", "M", "INCH", ... @return false if it cannot be written
+  /// Writes STEP. `unit`: "MM", "M", "INCH", ... @return false if it cannot be written
   bool write(const std::filesystem::path& file, const char* unit = "MM") {
     shapes_->UpdateAssemblies();
     Interface_Static::SetCVal("write.step.unit", unit);
     STEPCAFControl_Writer writer;
     return writer.Transfer(document_) && writer.Write(file.c_str()) == IFSelect_RetDone;
+  }
+
+  /// The ways in which IGES has solids.
+  enum class IgesSolids { TrimmedSurfaces, Brep };
+  /// Writes IGES. @return false if it cannot be written
+  bool write_iges(const std::filesystem::path& file, IgesSolids solids, const char* unit = "MM") {
+    shapes_->UpdateAssemblies();
+    IGESControl_Controller::Init();
+    Interface_Static::SetIVal("write.iges.brep.mode", solids == IgesSolids::Brep ? 1 : 0);
+    Interface_Static::SetCVal("write.iges.unit", unit);
+    IGESCAFControl_Writer writer;
+    return writer.Transfer(document_) && writer.Write(file.c_str());
   }
 
  private:

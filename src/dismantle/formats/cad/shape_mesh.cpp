@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/step/step_mesh.h"
+#include "dismantle/formats/cad/shape_mesh.h"
 
 #include <BRep_Tool.hxx>
 #include <NCollection_DataMap.hxx>

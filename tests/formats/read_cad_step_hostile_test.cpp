@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are broken, truncated or malicious: one Error each, and the process survives.
-#include "dismantle/formats/step/read_step.h"
+#include "dismantle/formats/cad/read_cad.h"
 
-#include "tests/formats/step_writer.h"
+#include "tests/formats/cad_writer.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace dismantle {
 namespace {
 
 std::string small_step(const ScratchFolder& folder) {
-  StepWriter writer;
+  CadWriter writer;
   const TDF_Label top = writer.assembly("top");
   const TDF_Label pin = writer.part("pin", BRepPrimAPI_MakeCylinder(2.0, 9.0).Shape());
   writer.instance(top, pin, translation(1, 2, 3));
@@ -24,7 +24,7 @@ std::string small_step(const ScratchFolder& folder) {
 
 /// The Error that reading the bytes gives; empty if they can be read.
 std::string error_of(const ScratchFolder& folder, std::string_view bytes) {
-  const Result<Assembly> a = read_step(folder.put("hostile.step", bytes), {});
+  const Result<Assembly> a = read_cad(folder.put("hostile.step", bytes), {});
   return a ? "" : a.error().message;
 }
 
@@ -40,7 +40,7 @@ TEST(ReadStepHostile, ReportsFilesThatAreNotStep) {
   EXPECT_NE(error_of(folder, "solid cube\nendsolid\n").find("does not begin with ISO-10303-21"), std::string::npos);
   EXPECT_NE(error_of(folder, std::string("\x1f\x8b\x08", 3) + "xyz").find("gzip"), std::string::npos);
   EXPECT_NE(error_of(folder, "PK\x03\x04 and so on").find("zip"), std::string::npos);
-  EXPECT_NE(read_step(folder / "missing.step", {}).error().message.find("No such file"), std::string::npos);
+  EXPECT_NE(read_cad(folder / "missing.step", {}).error().message.find("No such file"), std::string::npos);
 }
 
 TEST(ReadStepHostile, ReportsTruncatedFiles) {
@@ -69,7 +69,7 @@ TEST(ReadStepHostile, RefusesFramesAroundNothingOrNonsense) {
 /// A transformation operator with a parameter missing: OpenCASCADE 7.6.3 follows a null pointer.
 TEST(ReadStepHostile, SurvivesACrashOfTheCadKernel) {
   const ScratchFolder folder;
-  StepWriter writer;
+  CadWriter writer;
   writer.part("pin", BRepPrimAPI_MakeCylinder(2.0, 9.0).Shape());
   ASSERT_TRUE(writer.write(folder / "pin.step"));
   std::string text = bytes_of(folder / "pin.step");
@@ -87,7 +87,7 @@ TEST(ReadStepHostile, SurvivesACrashOfTheCadKernel) {
 
 TEST(ReadStepHostile, RefusesATreeThatExplodes) {
   const ScratchFolder folder;
-  StepWriter writer;
+  CadWriter writer;
   TDF_Label level = writer.part("pin", BRepPrimAPI_MakeCylinder(2.0, 9.0).Shape());
   for (int i = 0; i < 13; ++i) {  // 8192 pins
     const TDF_Label above = writer.assembly(("level " + std::to_string(i)).c_str());
@@ -98,7 +98,7 @@ TEST(ReadStepHostile, RefusesATreeThatExplodes) {
   ASSERT_TRUE(writer.write(folder / "explodes.step"));
   ImportOptions options;
   options.limits.components = 1000;
-  const Result<Assembly> a = read_step(folder / "explodes.step", options);
+  const Result<Assembly> a = read_cad(folder / "explodes.step", options);
   ASSERT_FALSE(a.ok());
   EXPECT_NE(a.error().message.find("more than 1000 components"), std::string::npos) << a.error().message;
 }
@@ -115,7 +115,7 @@ TEST(ReadStepHostile, ReadsOrRefusesFilesWithChangedBytesAndLines) {
     std::string changed = whole;
     for (int k = 0; k < 1 + round % 6; ++k)
       changed[body + random() % (whole.size() - body - 40)] = alphabet[random() % alphabet.size()];
-    const Result<Assembly> a = read_step(folder.put("changed.step", changed), {});
+    const Result<Assembly> a = read_cad(folder.put("changed.step", changed), {});
     EXPECT_TRUE(a.ok() || !a.error().message.empty());
     read += a.ok() ? 1 : 0;
   }

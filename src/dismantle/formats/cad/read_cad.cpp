@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/formats/cad/read_cad.h"
+
+#include "dismantle/files/read_file.h"
+#include "dismantle/formats/cad/cad_assembly.h"
+#include "dismantle/formats/cad/cad_frame.h"
+#include "dismantle/formats/cad/cad_model.h"
+#include "dismantle/formats/import/file_formats.h"
+#include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/units.h"
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <OSD_Parallel.hxx>
+#include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
+#include <Standard_Version.hxx>
+#include <new>
+#include <string>
+
+namespace dismantle {
+
+namespace {
+
+/// Increased whenever the same file and options give another assembly, or its bytes another layout.
+constexpr int kImportVersion = 3;
+
+using ModelReader = Result<CadModel> (*)(const CadSource&, const ImportOptions&);
+
+ModelReader model_reader(FileFormat format) {
+  switch (format) {
+    case FileFormat::Step:
+      return read_step_model;
+    case FileFormat::Iges:
+      return read_iges_model;
+    case FileFormat::Brep:
+      return read_brep_model;
+    default:
+      return nullptr;
+  }
+}
+
+/// Runs in the child.
+Result<ImportedAssembly> import_cad(ModelReader read, const CadSource& source, const ImportOptions& options) {
+  try {
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+    OSD_Parallel::SetUseOcctThreads(true);  // TBB's threads may have been the parent's, and are not here
+    Result<CadModel> model = read(source, options);
+    if (!model) return model.error();
+    std::vector<LinkedFile> linked_files = std::move(model->linked_files);
+    Result<Assembly> assembly = assembly_from_cad(std::move(*model), options);
+    if (!assembly) return assembly.error();
+    return ImportedAssembly{std::move(*assembly), std::move(linked_files)};
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
+  } catch (const Standard_Failure& failure) {
+    const char* text_of_failure = failure.GetMessageString();
+    return Error{ErrorKind::Unreadable, "the CAD kernel gave up on it: " + std::string(failure.DynamicType()->Name()) +
+                                            " " + (text_of_failure ? text_of_failure : "") +
+                                            "; check it in the program that wrote it"};
+  }
+}
+
+}  // namespace
+
+bool is_cad_file(const std::filesystem::path& file) {
+  const FormatEntry* entry = format_of(file);
+  return entry != nullptr && model_reader(entry->format) != nullptr;
+}
+
+Result<Assembly> read_cad(const std::filesystem::path& file, const ImportOptions& options) {
+  DISMANTLE_EXPECT(is_cad_file(file));
+  if (!options.units.empty())
+    if (const Result<double> known = millimetres_per_unit(options.units); !known) return known.error();
+  const FormatEntry& entry = *format_of(file);
+  const Result<std::string> bytes = read_file(file, options.limits.file_bytes);
+  if (!bytes) return bytes.error();
+  if (const Result<Done> frame = check_cad_frame(entry.format, *bytes); !frame) {
+    const std::string& message = frame.error().message;
+    const std::size_t split = message.rfind("; ");
+    return unreadable_as(file, entry.name, message.substr(0, split), message.substr(split + 2));
+  }
+
+  IsolatedImport importer;
+  importer.format = entry.name;
+  importer.reader = "the CAD kernel";
+  importer.version = std::to_string(kImportVersion) + '\n' + DISMANTLE_VERSION + '\n' + OCC_VERSION_COMPLETE;
+  importer.limits.memory_bytes = kCadMemoryBase + kCadMemoryPerByte * bytes->size();
+  importer.limits.cpu_seconds = kCadCpuSeconds;
+  importer.limits.silence_seconds = kCadSilenceSeconds;
+  importer.import = [&](const ImportOptions& child_options) {
+    return import_cad(model_reader(entry.format), {*bytes, file}, child_options);
+  };
+  return import_isolated(file, *bytes, importer, options);
+}
+
+}  // namespace dismantle
