@@ -23,8 +23,10 @@ class ZipArchive {
  public:
   /// The archive of these bytes, which must outlive it. Errors: Unreadable if they are none.
   static Result<ZipArchive> open(std::string_view bytes);
+  ///@{ An archive can be moved.
   ZipArchive(ZipArchive&&) noexcept;
   ZipArchive& operator=(ZipArchive&&) noexcept;
+  ///@}
   ~ZipArchive();
 
   /// The names of all files in it, in the order of the archive.

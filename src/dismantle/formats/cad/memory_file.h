@@ -9,6 +9,7 @@ namespace dismantle {
 /// A file of these bytes in memory, for libraries that read only files. It ends with this object.
 class MemoryFile {
  public:
+  /// Copies the bytes.
   explicit MemoryFile(std::string_view bytes);
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;

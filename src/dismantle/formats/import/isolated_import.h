@@ -16,13 +16,13 @@ namespace dismantle {
 
 /// A file that another file refers to, as it was read.
 struct LinkedFile {
-  std::filesystem::path file;
-  std::string sha256;  ///< Of its bytes.
+  std::filesystem::path file;  ///< Where it is.
+  std::string sha256;          ///< Of its bytes.
 };
 
 /// What an importer made of a file.
 struct ImportedAssembly {
-  Assembly assembly;
+  Assembly assembly;                     ///< Its components.
   std::vector<LinkedFile> linked_files;  ///< Files that were read besides it.
 };
 
