@@ -29,7 +29,8 @@ std::string format_names(std::string_view last_joined_by) {
   std::string names;
   const Span<const FormatEntry> formats = file_formats();
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    if (i > 0) names += i + 1 < formats.size() ? ", " : " " + std::string(last_joined_by) + " ";
+    if (i > 0)
+      names += i + 1 < formats.size() || last_joined_by == "," ? ", " : " " + std::string(last_joined_by) + " ";
     names += formats[i].name;
   }
   return names;
