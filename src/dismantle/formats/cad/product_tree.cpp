@@ -54,6 +54,7 @@ std::uint32_t ProductTreeBuilder::add_product(const TopoDS_Shape& shape, CadProd
   std::vector<TopoDS_Shape> shapes = pieces_of(shape, loose_faces_);
   if (shapes.size() > 1 && solids_ == Solids::Join) shapes = {shape};
   std::vector<Piece> pieces;
+  pieces.reserve(shapes.size());
   for (const TopoDS_Shape& piece : shapes) pieces.push_back(piece_of(piece));
   pieces_.push_back(std::move(pieces));
   result_.products.push_back(std::move(product));
