@@ -40,6 +40,28 @@ TEST(Slide, TakesAPegWithAShoulderOutOfItsHole) {
   }
 }
 
+TEST(Slide, GoesOnAfterContactsThatAllowedNoMotion) {
+  // Once, contacts that allow no motion ended all motions of the peg, also those of later steps.
+  expect_comes_out(peg_in_hole(64, 0.001), 0.005);
+}
+
+TEST(Slide, DoesNotTiltABallThatIsPressedStraightOntoAPlate) {
+  constexpr int kRings = 48;
+  Profile half;
+  for (int i = 0; i <= kRings; ++i) {
+    const double angle = kTurn / 2 * i / kRings;
+    half.push_back({i == 0 || i == kRings ? 0 : 0.5 * std::sin(angle), 0.503 - 0.5 * std::cos(angle)});
+  }
+  TriangleMesh ball = moved(revolved(half, 96), {{3, 1, 0}, {}});
+  const SlideScene scene = slide_scene(
+      {component("plate", box({-20, -20, -5}, {20, 20, 0})), component("ball", std::move(ball))}, {0, 0, -1}, 1);
+  const Drag made = drag(scene, 0.01, std::vector<Pose>(5, Pose{{0, 0, -0.1}, {}}));
+  EXPECT_TRUE(made.audit.holds()) << violations_of(made.audit);
+  const Pose end = made.played.steps.back().result.pose;
+  EXPECT_LT(end.position.z, -0.003);
+  EXPECT_EQ(end.rotation, Quat());
+}
+
 TEST(Slide, TakesAKeyOutOfItsSlotInBothDirections) {
   for (const double clearance : {0.0, 0.01}) {
     SCOPED_TRACE(clearance);

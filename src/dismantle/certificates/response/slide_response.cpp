@@ -19,6 +19,11 @@ constexpr int kMaxTries = 40;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or after it if
 /// it is the step's first: the next step goes on.
 constexpr double kCreepShare = 0.1;
+/// A rotation that was not asked for is made only where it brings the set this share of what is wanted further on: what
+/// is pressed straight on does not tilt for the little that a contact beside its middle would yield.
+constexpr double kTiltShare = 0.1;
+/// Weighs rotations against translations in a motion that is to be without rotation, in characteristic lengths.
+constexpr double kNoRotation = 1e3;
 /// Contacts that let the set hardly move are found again this many times in a row, then ever more rarely.
 constexpr unsigned kAlwaysSearchAgain = 4;
 /// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
@@ -76,6 +81,11 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
     allowed = contacts_.nearest(shortened(straight_to(state.target), reach_), characteristic_length);
     allowed.bounded = true;
   }
+  if (allowed.bounded && length(wanted.rotation) < kScrewMinimumAngle) {
+    const Twist straight = contacts_.nearest(tried, kNoRotation * characteristic_length);
+    const double gain = dot(allowed.velocity - straight.velocity, tried.velocity);
+    if (gain < kTiltShare * length_squared(tried.velocity)) allowed = {straight.velocity, {}, true};
+  }
   const Twist twist = bent_little(allowed);
   const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
   return {twist, travel_of(twist), creeping, twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
@@ -111,7 +121,9 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
   if (!found.complete) {
     // Other pairs may block earlier: all of them have to be examined up to where these allow the motion.
     reach_ = fraction * trial.travel;
-    return !(reach_ < kRestShare * sweeper_.tolerance());
+    if (reach_ >= kRestShare * sweeper_.tolerance()) return true;
+    reach_ = kMinTry * sweeper_.tolerance();  // of the next step: this one ends
+    return false;
   }
   reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
   if (!make_part(motion, fraction, window, result)) return false;
