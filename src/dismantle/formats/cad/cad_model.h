@@ -46,6 +46,9 @@ Result<CadModel> read_step_model(const CadSource& source, const ImportOptions& o
 /// IGES: a product of each group of entities that has no groups in it, with names and colours. Its faces outside solids
 /// are sewn together where they meet; closed shells become solids.
 Result<CadModel> read_iges_model(const CadSource& source, const ImportOptions& options);
+/// FCStd: the visible objects of a FreeCAD document, their labels, placements and colours, and those of the documents
+/// that it links to.
+Result<CadModel> read_freecad_model(const CadSource& source, const ImportOptions& options);
 /// BREP, text or binary: a product of each compound that has no compounds in it.
 Result<CadModel> read_brep_model(const CadSource& source, const ImportOptions& options);
 

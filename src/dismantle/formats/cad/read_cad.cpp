@@ -36,6 +36,8 @@ ModelReader model_reader(FileFormat format) {
       return read_iges_model;
     case FileFormat::Brep:
       return read_brep_model;
+    case FileFormat::FreeCad:
+      return read_freecad_model;
     default:
       return nullptr;
   }

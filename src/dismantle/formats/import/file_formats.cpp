@@ -9,11 +9,16 @@ namespace dismantle {
 
 Span<const FormatEntry> file_formats() {
   static const std::vector<FormatEntry> kFormats = {
-      {FileFormat::Step, "STEP", {".step", ".stp"}},  {FileFormat::Iges, "IGES", {".iges", ".igs"}},
-      {FileFormat::Brep, "BREP", {".brep", ".brp"}},  {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
-      {FileFormat::ThreeMf, "3MF", {".3mf"}},         {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
-      {FileFormat::Obj, "OBJ", {".obj"}, true, true}, {FileFormat::Stl, "STL", {".stl"}, true},
-      {FileFormat::Ply, "PLY", {".ply"}, true},
+      {FileFormat::Step, "STEP", {".step", ".stp"}},
+      {FileFormat::Iges, "IGES", {".iges", ".igs"}},
+      {FileFormat::Brep, "BREP", {".brep", ".brp"}},
+      {FileFormat::FreeCad, "FCStd", {".fcstd"}, false, true},
+      {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
+      {FileFormat::ThreeMf, "3MF", {".3mf"}},
+      {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
+      {FileFormat::Obj, "OBJ", {".obj"}, true, true},
+      {FileFormat::Stl, "STL", {".stl"}, true},
+      {FileFormat::Ply, "PLY", {".ply"}, true},  // a line each
   };
   return kFormats;
 }
