@@ -5,6 +5,7 @@
 #include "dismantle/formats/cad/product_tree.h"
 #include "dismantle/formats/import/import_options.h"
 #include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/units.h"
 
 #include <filesystem>
 #include <string>
@@ -12,15 +13,6 @@
 #include <vector>
 
 namespace dismantle {
-
-/// The length unit of a CAD file.
-struct LengthUnit {
-  double millimetres = 1;
-  std::string name = "mm";
-};
-
-/// The unit of that many millimetres; mm unless the number is positive and finite.
-LengthUnit length_unit_of(double millimetres);
 
 /// A CAD file as OpenCASCADE reads it, not meshed.
 struct CadModel {

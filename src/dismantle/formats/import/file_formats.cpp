@@ -15,6 +15,8 @@ Span<const FormatEntry> file_formats() {
       {FileFormat::FreeCad, "FCStd", {".fcstd"}, false, true},
       {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
       {FileFormat::ThreeMf, "3MF", {".3mf"}},
+      {FileFormat::Collada, "COLLADA", {".dae"}},
+      {FileFormat::Vrml, "VRML", {".wrl", ".vrml"}},
       {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
       {FileFormat::Obj, "OBJ", {".obj"}, true, true},
       {FileFormat::Stl, "STL", {".stl"}, true},
