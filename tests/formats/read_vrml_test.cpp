@@ -107,6 +107,22 @@ TEST(ReadVrml, ShowsTheChosenChildAndTheFirstLevel) {
   EXPECT_NE(error_of("Switch { choice " + small + " }").find("no component"), std::string::npos);
 }
 
+TEST(ReadVrml, JoinsOpenShapesWithoutANameInAGroup) {
+  const std::string points = "coord Coordinate { point [ 0 0 0, 10 0 0, 0 10 0, 0 0 10 ] }";
+  const auto side = [&](const std::string& corners) {
+    return "Shape { geometry IndexedFaceSet { " + points + " coordIndex [ " + corners + " ] } }\n";
+  };
+  const std::string sides = side("0 2 1") + side("0 1 3 -1 0 3 2") + side("1 2 3");
+  const Assembly a =
+      read("DEF part Group { children [ " + sides + "Shape { geometry Box { } } DEF own " + side("0 2 1") + " ] }");
+  ASSERT_EQ(a.components.size(), 3u);
+  EXPECT_EQ(a.components[1].name, "own");
+  EXPECT_EQ(a.components[2].name, "part#2");
+  EXPECT_TRUE(a.components[2].faults.bounds_solid());
+  EXPECT_NEAR(signed_volume(*a.components[2].mesh), 1000.0 / 6, 1e-9);
+  EXPECT_EQ(read(sides).components.size(), 1u);
+}
+
 TEST(ReadVrml, LeavesOutWhatIsNoSurface) {
   const Assembly a = read(
       "PROTO P [ field SFVec3f at 0 0 0 field MFString s [ \"}]\" ] ] { Transform { translation IS at } }\n"

@@ -56,6 +56,26 @@ std::optional<TriangleMesh> vrml_mesh(VrmlPolygons polygons, std::size_t triangl
   return mesh;
 }
 
+SceneMesh joined(const std::vector<const SceneMesh*>& parts) {
+  SceneMesh whole;
+  double largest = -1;
+  for (const SceneMesh* part : parts) {
+    const auto first = static_cast<std::uint32_t>(whole.mesh.vertices.size());
+    const std::vector<Vec3>& vertices = part->mesh.vertices;
+    whole.mesh.vertices.insert(whole.mesh.vertices.end(), vertices.begin(), vertices.end());
+    double area = 0;
+    for (std::size_t f = 0; f < part->mesh.faces.size(); ++f) {
+      const Face& face = part->mesh.faces[f];
+      whole.mesh.faces.push_back({{first + face.v[0], first + face.v[1], first + face.v[2]}});
+      area += length(normal_unscaled(part->mesh.triangle(f)));
+    }
+    if (area <= largest) continue;
+    largest = area;
+    whole.color = part->color;
+  }
+  return whole;
+}
+
 TessellatedShape vrml_solid(std::string_view type, Vec3 size, double radius, double height) {
   if (type == "Box") return tessellate_box(size);
   TessellatedShape shape = type == "Sphere"     ? tessellate_sphere(radius)

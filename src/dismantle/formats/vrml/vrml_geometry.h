@@ -38,4 +38,7 @@ std::optional<TriangleMesh> vrml_mesh(VrmlPolygons polygons, std::size_t triangl
 /// The mesh of a Box (of that size), Sphere, Cylinder or Cone node; axes along y.
 TessellatedShape vrml_solid(std::string_view type, Vec3 size, double radius, double height);
 
+/// The meshes as one, in the colour of the one with the largest surface.
+SceneMesh joined(const std::vector<const SceneMesh*>& parts);
+
 }  // namespace dismantle

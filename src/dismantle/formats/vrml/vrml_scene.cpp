@@ -47,6 +47,7 @@ class VrmlParser {
       if (!statement(words_.next(), "", 0, value)) return *error_;
       if (value.kind == Value::Kind::Node) result_.scene.roots.push_back(value.index);
     }
+    join_sheets(result_.scene.roots, "");
     return std::move(result_);
   }
 
@@ -62,6 +63,7 @@ class VrmlParser {
     if (word == "DEF") {
       const std::string name(words_.next());
       if (!node(words_.next(), name, depth, value)) return false;
+      if (value.kind == Value::Kind::Node) sheets_.erase(value.index);
       defined_[name] = value;
       return true;
     }
@@ -154,22 +156,11 @@ class VrmlParser {
   /// Remembers the name, and skips the rest.
   bool prototype(bool is_external) {
     prototypes_.insert(std::string(words_.next()));
-    if (words_.next() != "[") return fail("a PROTO without an interface");
-    if (!skip_raw("]")) return false;
+    if (words_.next() != "[" || !words_.skip_past("[", "]")) return fail("a PROTO without an interface");
     const std::string_view word = words_.next();
-    if (!is_external) return word == "{" ? skip_raw("}") : fail("a PROTO without a body");
-    return word == "[" ? skip_raw("]") : true;
-  }
-
-  /// Skips to a closing bracket or brace, and reads nothing.
-  bool skip_raw(std::string_view end) {
-    const std::string_view begin = end == "]" ? "[" : "{";
-    for (int depth = 1; depth > 0;) {
-      const std::string_view word = words_.next();
-      if (word.empty()) return fail("it ends too early");
-      depth += word == begin ? 1 : word == end ? -1 : 0;
-    }
-    return true;
+    if (word == "[") return words_.skip_past("[", "]") || fail("it ends too early");
+    if (is_external) return true;
+    return (word == "{" && words_.skip_past("{", "}")) || fail("a PROTO without a body");
   }
 
   template <std::size_t kCount>
@@ -216,7 +207,28 @@ class VrmlParser {
       const bool is_shown = type == "Switch" ? choice[0] == static_cast<double>(i) : type != "LOD" || i == 0;
       if (is_shown && children[i]) result.children.push_back(*children[i]);
     }
+    join_sheets(result.children, name);
     return add_scene_node(std::move(result), value);
+  }
+
+  /// Makes one node of the shapes without a name that are open: many programs write a shape for each face of a part, or
+  /// for each colour.
+  void join_sheets(std::vector<std::size_t>& siblings, const std::string& name) {
+    std::vector<const SceneMesh*> parts;
+    std::vector<std::size_t> others;
+    for (const std::size_t sibling : siblings) {
+      if (sheets_.contains(sibling)) {
+        parts.push_back(&result_.meshes[*result_.scene.nodes[sibling].mesh]);
+      } else {
+        others.push_back(sibling);
+      }
+    }
+    if (parts.size() < 2) return;
+    SceneMesh whole = joined(parts);
+    others.push_back(result_.scene.nodes.size());
+    result_.scene.nodes.push_back({name, result_.meshes.size(), {}, {}});
+    result_.meshes.push_back(std::move(whole));
+    siblings = std::move(others);
   }
 
   /// One node, or several in brackets; none for what is not drawn.
@@ -253,6 +265,7 @@ class VrmlParser {
       if (mesh.mesh.faces.size() > copied_left_) return fail("more triangles than the limit");
       copied_left_ -= mesh.mesh.faces.size();
       if (appearance.kind == Value::Kind::Color) mesh.color = appearance.color;
+      if (!clean_mesh(mesh.mesh).faults.closed()) sheets_.insert(result_.scene.nodes.size());
       result_.meshes.push_back(std::move(mesh));
     }
     return add_scene_node(std::move(result), value);
@@ -367,6 +380,7 @@ class VrmlParser {
   std::vector<std::vector<Vec3>> points_;
   std::map<std::string, Value> defined_;  // a node within itself is not there yet
   std::set<std::string> prototypes_;
+  std::set<std::size_t> sheets_;  // shapes without a name that are open, by node
   std::optional<Error> error_;
 };
 

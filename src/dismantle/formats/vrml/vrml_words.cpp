@@ -53,4 +53,14 @@ std::optional<double> VrmlWords::number() {
   return value;
 }
 
+bool VrmlWords::skip_past(std::string_view begin, std::string_view end) {
+  for (std::size_t depth = 1; depth > 0;) {
+    const std::string_view word = next();
+    if (word.empty()) return false;
+    if (word == begin) ++depth;
+    if (word == end) --depth;
+  }
+  return true;
+}
+
 }  // namespace dismantle

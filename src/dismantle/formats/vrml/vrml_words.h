@@ -23,6 +23,8 @@ class VrmlWords {
 
   /// Takes the next word if it is a number. None, without taking it, if it is not, or is not finite.
   std::optional<double> number();
+  /// Takes all words up to the `end` that matches a `begin` taken before. @return false if there is none
+  bool skip_past(std::string_view begin, std::string_view end);
 
  private:
   void skip_blanks();
