@@ -51,9 +51,9 @@ TEST(ReadCadFreeCad, ShowsWhatIsVisibleAndNotMadeIntoAnotherFeature) {
 TEST(ReadCadFreeCad, PlacesLinksAndArraysOfABody) {
   expect_components(kFiles / "links.FCStd", {{"bracket", "links", 349.73, {0, 0, 100}, {10, 10, 104}},
                                              {"second", "links", 349.73, {20, 0, 0}, {30, 10, 4}},
-                                             {"row", "row", 349.73, {0, 50, 0}, {10, 60, 4}},
-                                             {"row#2", "row", 349.73, {0, 70, 0}, {10, 80, 4}},
-                                             {"row#3", "row", 349.73, {0, 90, 0}, {10, 100, 4}},
+                                             {"row_i0", "row", 349.73, {0, 50, 0}, {10, 60, 4}},
+                                             {"row_i1", "row", 349.73, {0, 70, 0}, {10, 80, 4}},
+                                             {"row_i2", "row", 349.73, {0, 90, 0}, {10, 100, 4}},
                                              {"Array2_i0", "seen", 349.73, {60, 0, 100}, {70, 10, 104}},
                                              {"Array2_i1", "seen", 349.73, {60, 0, 130}, {70, 10, 134}},
                                              {"large", "links", 2797.88, {100, 0, 0}, {120, 20, 8}}});

@@ -216,7 +216,8 @@ class SceneReader {
       }
       if (3 * i + 3 <= scales.size())
         placement = placement * scaled({scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]});
-      content.children.push_back(add_node(link.label, placement * from_target, of_target));
+      content.children.push_back(add_node(link.label + "_i" + std::to_string(i), placement * from_target,
+                                          of_target));  // as FreeCAD names them
     }
     return scaled_content(link.label, scaled(link.scale), std::move(content));
   }

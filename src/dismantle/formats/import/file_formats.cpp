@@ -32,11 +32,11 @@ const FormatEntry* format_of(const std::filesystem::path& file) {
   return nullptr;
 }
 
-std::string format_names(std::string_view last_joined_by) {
+std::string format_names(std::string_view before_last) {
   std::string names;
   const Span<const FormatEntry> formats = file_formats();
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    if (i > 0) names += i + 1 < formats.size() ? ", " : " " + std::string(last_joined_by) + " ";
+    if (i > 0) names += i + 1 < formats.size() ? ", " : before_last;
     names += formats[i].name;
   }
   return names;

@@ -29,6 +29,6 @@ Span<const FormatEntry> file_formats();
 const FormatEntry* format_of(const std::filesystem::path& file);
 
 /// The names of all formats, for a sentence: "STEP, IGES, ..., STL or PLY".
-std::string format_names(std::string_view last_joined_by = "or");
+std::string format_names(std::string_view before_last = " or ");
 
 }  // namespace dismantle
