@@ -17,18 +17,18 @@ namespace dismantle {
 /// A reference to an object, perhaps of another document.
 struct FreeCadLink {
   std::string file;  ///< Relative to the document's folder; empty: the document itself.
-  std::string name;
+  std::string name;  ///< Of the object.
   std::string path;  ///< From the object to one below it: names with a dot after each; empty: the object itself.
 };
 
 /// The properties of an object of a FreeCAD document that say what it looks like and where it is.
 struct FreeCadObject {
-  std::string name;   ///< Unique in the document.
-  std::string type;   ///< "Part::Box", "App::Link", ...
-  std::string label;  ///< What the user calls it; the name if there is none.
-  SceneTransform placement;
-  bool is_visible = true;
-  std::optional<Color> color;
+  std::string name;                               ///< Unique in the document.
+  std::string type;                               ///< "Part::Box", "App::Link", ...
+  std::string label;                              ///< What the user calls it; the name if there is none.
+  SceneTransform placement;                       ///< In the group around it, or the document [mm].
+  bool is_visible = true;                         ///< By itself: what is around it may be hidden.
+  std::optional<Color> color;                     ///< None if the document gives none.
   std::string shape_file;                         ///< Name of the BREP file with its shape; empty if it has none.
   std::optional<std::vector<std::string>> group;  ///< Names of the objects in it, if it is a group.
   std::vector<std::string> inputs;  ///< Names of objects that it makes its shape of, and that it replaces.

@@ -19,15 +19,15 @@ using FreeCadEntryReader =
 
 /// A shape of a document: a BREP file in it, in the frame of its object.
 struct FreeCadShape {
-  std::filesystem::path file;
-  std::string entry;
-  std::optional<Color> color;
+  std::filesystem::path file;  ///< The document.
+  std::string entry;           ///< Name of the BREP file in it.
+  std::optional<Color> color;  ///< None if the document gives none.
 };
 
 /// The visible objects of a document, and of those that it links to. A scene's mesh is an index into `shapes`.
 struct FreeCadScene {
-  Scene scene;  ///< [mm]. Nodes are named by the objects' labels. No node is its own ancestor.
-  std::vector<FreeCadShape> shapes;
+  Scene scene;                       ///< [mm]. Nodes are named by the objects' labels. No node is its own ancestor.
+  std::vector<FreeCadShape> shapes;  ///< Each once, whatever the number of its occurrences.
 };
 
 /// Reads the objects of a FreeCAD document: what is visible and not made into another feature; of a body, its result;

@@ -15,7 +15,7 @@ enum class FileFormat { Step, Iges, Brep, FreeCad, Gltf, ThreeMf, Collada, Vrml,
 
 /// A format, and how its files are recognised.
 struct FormatEntry {
-  FileFormat format;
+  FileFormat format;                         ///< Which one it is.
   std::string_view name;                     ///< For users: "STEP".
   std::vector<std::string_view> extensions;  ///< In lower case, with the dot.
   bool is_part = false;    ///< One part a file: the files of a folder together are an assembly (OBJ, STL, PLY).

@@ -34,14 +34,14 @@ struct SceneNode {
 /// A scene graph: the nodes of a file that has meshes and places them. Every index is below the number of nodes. A node
 /// that is the child of several occurs below each of them.
 struct Scene {
-  std::vector<SceneNode> nodes;
-  std::vector<std::size_t> roots;
+  std::vector<SceneNode> nodes;    ///< In any order.
+  std::vector<std::size_t> roots;  ///< Indices of nodes.
 };
 
 /// The triangles of a mesh, in the file's units, not welded or cleaned; every index is below the vertex count.
 struct SceneMesh {
-  TriangleMesh mesh;
-  Color color;  ///< Of the largest part of its surface.
+  TriangleMesh mesh;  ///< In the file's units.
+  Color color;        ///< Of the largest part of its surface.
 };
 
 /// The mesh of an index. Errors: Unreadable, also if it has more than `triangle_limit` triangles.

@@ -13,7 +13,7 @@ Result<double> millimetres_per_unit(std::string_view units);
 
 /// The length unit of a file.
 struct LengthUnit {
-  double millimetres = 1;
+  double millimetres = 1;   ///< Per unit.
   std::string name = "mm";  ///< One that millimetres_per_unit knows, or a number of millimetres.
 };
 

@@ -15,11 +15,11 @@ namespace dismantle {
 
 /// The fields of a Transform node.
 struct VrmlTransform {
-  std::array<double, 3> translation{};
-  std::array<double, 4> rotation{};  ///< Axis, and angle [rad].
-  std::array<double, 3> scale{1, 1, 1};
-  std::array<double, 4> scale_orientation{};
-  std::array<double, 3> center{};
+  std::array<double, 3> translation{};        ///< Applied last.
+  std::array<double, 4> rotation{};           ///< Axis, and angle [rad].
+  std::array<double, 3> scale{1, 1, 1};       ///< Along the axes that scale_orientation gives.
+  std::array<double, 4> scale_orientation{};  ///< As rotation.
+  std::array<double, 3> center{};             ///< Of rotation and scale.
 };
 
 /// The map of a Transform node. None if the length of an axis is not finite.
@@ -27,9 +27,9 @@ std::optional<SceneTransform> vrml_transform(const VrmlTransform& fields);
 
 /// The fields of an IndexedFaceSet node.
 struct VrmlPolygons {
-  std::vector<Vec3> vertices;
-  std::vector<double> indices;  ///< Of the corners; a negative one ends a polygon.
-  bool is_counter_clockwise = true;
+  std::vector<Vec3> vertices;        ///< In the file's units.
+  std::vector<double> indices;       ///< Of the corners; a negative one ends a polygon.
+  bool is_counter_clockwise = true;  ///< Seen from outside.
 };
 
 /// The triangles of polygons. None if an index is out of range, or there are more than `triangle_limit`.

@@ -14,8 +14,8 @@ namespace dismantle {
 /// The shapes of a VRML file and the groups that place them. A scene's mesh is an index into `meshes`.
 struct VrmlScene {
   Scene scene;  ///< Nodes are named by DEF, or after what is around them. No node is its own ancestor.
-  std::vector<SceneMesh> meshes;
-  double deflection = 0;  ///< Largest distance of a triangle from the sphere, cylinder or cone that it is of.
+  std::vector<SceneMesh> meshes;  ///< Of all shapes.
+  double deflection = 0;          ///< Largest distance of a triangle from the sphere, cylinder or cone that it is of.
 };
 
 /// Parses VRML 2.0 (VRML97): groups, transforms, shapes of polygons, boxes, spheres, cylinders and cones, and their
