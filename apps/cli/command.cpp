@@ -130,7 +130,7 @@ double default_overlap_limit(const Assembly& assembly) {
 }
 
 void add_assembly_argument(CLI::App& command, CommonOptions& o) {
-  command.add_option("ASSEMBLY", o.assembly_file, format_names(",") + ", or a folder of meshes")->required();
+  command.add_option("ASSEMBLY", o.assembly_file, format_names(", ") + ", or a folder of meshes")->required();
 }
 
 bool is_path_file(const std::string& file) {

@@ -268,7 +268,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ExportCommand>();
   command
       ->add_option("ASSEMBLY", options->common.assembly_file,
-                   format_names(",") + ", or a folder of meshes; or PATH alone, with the assembly in its folder")
+                   format_names(", ") + ", or a folder of meshes; or PATH alone, with the assembly in its folder")
       ->required();
   command->add_option("PATH", options->path_file, "Path written by a session, move or plan (*.path.json)");
   command

@@ -140,7 +140,7 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   command->add_option(
       "ASSEMBLY", options->common.assembly_file,
-      format_names(",") + ", a folder of meshes, or a *.path.json as a guide (default: choose in the page)");
+      format_names(", ") + ", a folder of meshes, or a *.path.json as a guide (default: choose in the page)");
   command->add_option("--sample", options->sample, "Open a bundled sample")->type_name("NAME");
   command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
       ->type_name("DIR");

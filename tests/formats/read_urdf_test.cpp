@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/urdf/read_urdf.h"
 
-#include "dismantle/formats/urdf/tessellate.h"
+#include "dismantle/formats/mesh/tessellate.h"
 #include "dismantle/formats/urdf/urdf_kinematics.h"
 #include "dismantle/loading/load_assembly.h"
 #include "tests/support/parse_expectations.h"

@@ -23,11 +23,11 @@ class ZipArchive {
  public:
   /// The archive of these bytes, which must outlive it. Errors: Unreadable if they are none.
   static Result<ZipArchive> open(std::string_view bytes);
-  ///@{ An archive can be moved.
+  ///@{ Movable, not copyable.
   ZipArchive(ZipArchive&&) noexcept;
   ZipArchive& operator=(ZipArchive&&) noexcept;
-  ///@}
   ~ZipArchive();
+  ///@}
 
   /// The names of all files in it, in the order of the archive.
   std::vector<std::string> names() const;

@@ -5,12 +5,14 @@
 #include "dismantle/files/text_name.h"
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/formats/collada/read_collada.h"
 #include "dismantle/formats/gltf/read_gltf.h"
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/read_mesh.h"
 #include "dismantle/formats/threemf/read_3mf.h"
 #include "dismantle/formats/urdf/read_urdf.h"
+#include "dismantle/formats/vrml/read_vrml.h"
 
 #include <new>
 #include <stdexcept>
@@ -38,6 +40,10 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
       return read_gltf(file, options);
     case FileFormat::ThreeMf:
       return read_3mf(file, options);
+    case FileFormat::Collada:
+      return read_collada(file, options);
+    case FileFormat::Vrml:
+      return read_vrml(file, options);
     case FileFormat::Urdf:
       return read_urdf(file, options);
     case FileFormat::Obj:

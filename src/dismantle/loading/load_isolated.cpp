@@ -4,6 +4,7 @@
 #include "dismantle/files/isolated_process.h"
 #include "dismantle/formats/cad/read_cad.h"
 #include "dismantle/formats/import/assembly_bytes.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
 
 namespace dismantle {
@@ -11,6 +12,11 @@ namespace dismantle {
 namespace fs = std::filesystem;
 
 namespace {
+
+bool is_collada_file(const fs::path& file) {
+  const FormatEntry* entry = format_of(file);
+  return entry != nullptr && entry->format == FileFormat::Collada;
+}
 
 std::uint64_t size_on_disk(const fs::path& file) {
   std::error_code error;
@@ -60,7 +66,7 @@ Error failure(const fs::path& file, const IsolatedResult& result) {
 }  // namespace
 
 Result<Assembly> load_isolated(const fs::path& file, const ImportOptions& options) {
-  if (is_cad_file(file)) return load_assembly(file, options);  // it isolates itself
+  if (is_cad_file(file) || is_collada_file(file)) return load_assembly(file, options);  // it isolates itself
   IsolationLimits limits;
   limits.memory_bytes = kMeshMemoryBase + kMeshMemoryPerByte * size_on_disk(file);
   limits.cpu_seconds = kMeshCpuSeconds;

@@ -58,7 +58,8 @@ Result<Done> check_cad_frame(FileFormat format, std::string_view bytes) {
   const std::string_view head = bytes.substr(0, kSearched);
   const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kSearched));
   if (head.substr(0, 2) == "\x1f\x8b") return unreadable("it is compressed with gzip; unpack it first");
-  if (head.substr(0, kZip.size()) == kZip) return unreadable("it is a zip archive; unpack it first");
+  if (head.substr(0, kZip.size()) == kZip && format != FileFormat::FreeCad)
+    return unreadable("it is a zip archive; unpack it first");
   switch (format) {
     case FileFormat::Step:
       return check_step(head, tail);

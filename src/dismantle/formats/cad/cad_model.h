@@ -5,6 +5,7 @@
 #include "dismantle/formats/cad/product_tree.h"
 #include "dismantle/formats/import/import_options.h"
 #include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/units.h"
 
 #include <filesystem>
 #include <string>
@@ -12,15 +13,6 @@
 #include <vector>
 
 namespace dismantle {
-
-/// The length unit of a CAD file.
-struct LengthUnit {
-  double millimetres = 1;
-  std::string name = "mm";
-};
-
-/// The unit of that many millimetres; mm unless the number is positive and finite.
-LengthUnit length_unit_of(double millimetres);
 
 /// A CAD file as OpenCASCADE reads it, not meshed.
 struct CadModel {
@@ -46,6 +38,9 @@ Result<CadModel> read_step_model(const CadSource& source, const ImportOptions& o
 /// IGES: a product of each group of entities that has no groups in it, with names and colours. Its faces outside solids
 /// are sewn together where they meet; closed shells become solids.
 Result<CadModel> read_iges_model(const CadSource& source, const ImportOptions& options);
+/// FCStd: the visible objects of a FreeCAD document, their labels, placements and colours, and those of the documents
+/// that it links to.
+Result<CadModel> read_freecad_model(const CadSource& source, const ImportOptions& options);
 /// BREP, text or binary: a product of each compound that has no compounds in it.
 Result<CadModel> read_brep_model(const CadSource& source, const ImportOptions& options);
 

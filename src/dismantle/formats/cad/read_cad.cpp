@@ -16,6 +16,7 @@
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
 #include <Standard_Version.hxx>
+#include <algorithm>
 #include <new>
 #include <string>
 
@@ -36,6 +37,8 @@ ModelReader model_reader(FileFormat format) {
       return read_iges_model;
     case FileFormat::Brep:
       return read_brep_model;
+    case FileFormat::FreeCad:
+      return read_freecad_model;
     default:
       return nullptr;
   }
@@ -55,10 +58,10 @@ Result<ImportedAssembly> import_cad(ModelReader read, const CadSource& source, c
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
-    const char* text_of_failure = failure.GetMessageString();
+    std::string text = failure.GetMessageString() == nullptr ? "" : failure.GetMessageString();
+    text.resize(std::min(text.find_first_of("\r\n"), text.size()));  // what caused what follows, with addresses
     return Error{ErrorKind::Unreadable, "the CAD kernel gave up on it: " + std::string(failure.DynamicType()->Name()) +
-                                            " " + (text_of_failure ? text_of_failure : "") +
-                                            "; check it in the program that wrote it"};
+                                            " " + text + "; check it in the program that wrote it"};
   }
 }
 

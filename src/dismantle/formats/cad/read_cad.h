@@ -27,7 +27,8 @@ inline constexpr double kCadCpuSeconds = 4 * 3600;
 /// Limit of the time without any progress [s].
 inline constexpr double kCadSilenceSeconds = 600;
 
-/// True if the extension is that of a CAD file, in upper or lower case: .step, .stp, .iges, .igs, .brep, .brp.
+/// True if the extension is that of a CAD file, in upper or lower case: .step, .stp, .iges, .igs, .brep, .brp,
+/// .fcstd.
 bool is_cad_file(const std::filesystem::path& file);
 
 /// Reads a CAD file through OpenCASCADE: one component for each solid of each product's occurrences, with the product's
@@ -35,6 +36,8 @@ bool is_cad_file(const std::filesystem::path& file);
 /// - STEP (AP203, AP214, AP242): the product tree; a product's faces outside solids are one component.
 /// - IGES: entities and groups; faces that meet are sewn together, and closed shells become solids.
 /// - BREP, text or binary: each solid, and each shell outside solids.
+/// - FCStd: what is visible in a FreeCAD document and not made into another feature, with labels and placements; links
+///   and arrays as occurrences, parts and groups as tree. Documents that it links to are read, too.
 /// The file is parsed and meshed in a child process within the limits above, so that a file that crashes the CAD kernel
 /// is an Error and not a crash; the child is a fork, so the calling program must not have started OpenCASCADE's own
 /// thread pool (OSD_ThreadPool). `options.units` replaces the file's first length unit: all lengths scale by their

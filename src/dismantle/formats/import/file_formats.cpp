@@ -9,11 +9,18 @@ namespace dismantle {
 
 Span<const FormatEntry> file_formats() {
   static const std::vector<FormatEntry> kFormats = {
-      {FileFormat::Step, "STEP", {".step", ".stp"}},  {FileFormat::Iges, "IGES", {".iges", ".igs"}},
-      {FileFormat::Brep, "BREP", {".brep", ".brp"}},  {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
-      {FileFormat::ThreeMf, "3MF", {".3mf"}},         {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
-      {FileFormat::Obj, "OBJ", {".obj"}, true, true}, {FileFormat::Stl, "STL", {".stl"}, true},
-      {FileFormat::Ply, "PLY", {".ply"}, true},
+      {FileFormat::Step, "STEP", {".step", ".stp"}},
+      {FileFormat::Iges, "IGES", {".iges", ".igs"}},
+      {FileFormat::Brep, "BREP", {".brep", ".brp"}},
+      {FileFormat::FreeCad, "FCStd", {".fcstd"}, false, true},
+      {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
+      {FileFormat::ThreeMf, "3MF", {".3mf"}},
+      {FileFormat::Collada, "COLLADA", {".dae"}},
+      {FileFormat::Vrml, "VRML", {".wrl", ".vrml"}},
+      {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
+      {FileFormat::Obj, "OBJ", {".obj"}, true, true},
+      {FileFormat::Stl, "STL", {".stl"}, true},
+      {FileFormat::Ply, "PLY", {".ply"}, true},  // a line each
   };
   return kFormats;
 }
@@ -25,12 +32,11 @@ const FormatEntry* format_of(const std::filesystem::path& file) {
   return nullptr;
 }
 
-std::string format_names(std::string_view last_joined_by) {
+std::string format_names(std::string_view before_last) {
   std::string names;
   const Span<const FormatEntry> formats = file_formats();
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    if (i > 0)
-      names += i + 1 < formats.size() || last_joined_by == "," ? ", " : " " + std::string(last_joined_by) + " ";
+    if (i > 0) names += i + 1 < formats.size() ? ", " : before_last;
     names += formats[i].name;
   }
   return names;

@@ -11,11 +11,11 @@
 namespace dismantle {
 
 /// The formats of files that hold assemblies.
-enum class FileFormat { Step, Iges, Brep, Gltf, ThreeMf, Urdf, Obj, Stl, Ply };
+enum class FileFormat { Step, Iges, Brep, FreeCad, Gltf, ThreeMf, Collada, Vrml, Urdf, Obj, Stl, Ply };
 
 /// A format, and how its files are recognised.
 struct FormatEntry {
-  FileFormat format;                         ///< Which one.
+  FileFormat format;                         ///< Which one it is.
   std::string_view name;                     ///< For users: "STEP".
   std::vector<std::string_view> extensions;  ///< In lower case, with the dot.
   bool is_part = false;    ///< One part a file: the files of a folder together are an assembly (OBJ, STL, PLY).
@@ -29,6 +29,6 @@ Span<const FormatEntry> file_formats();
 const FormatEntry* format_of(const std::filesystem::path& file);
 
 /// The names of all formats, for a sentence: "STEP, IGES, ..., STL or PLY".
-std::string format_names(std::string_view last_joined_by = "or");
+std::string format_names(std::string_view before_last = " or ");
 
 }  // namespace dismantle

@@ -16,13 +16,13 @@ namespace dismantle {
 
 /// A file that another file refers to, as it was read.
 struct LinkedFile {
-  std::filesystem::path file;  ///< Where it is.
+  std::filesystem::path file;  ///< Absolute.
   std::string sha256;          ///< Of its bytes.
 };
 
 /// What an importer made of a file.
 struct ImportedAssembly {
-  Assembly assembly;                     ///< Its components.
+  Assembly assembly;                     ///< Its source_file and source_sha256 need not be set.
   std::vector<LinkedFile> linked_files;  ///< Files that were read besides it.
 };
 

@@ -34,13 +34,13 @@ struct SceneNode {
 /// A scene graph: the nodes of a file that has meshes and places them. Every index is below the number of nodes. A node
 /// that is the child of several occurs below each of them.
 struct Scene {
-  std::vector<SceneNode> nodes;    ///< All of them.
-  std::vector<std::size_t> roots;  ///< Indices of those at the top.
+  std::vector<SceneNode> nodes;    ///< In any order.
+  std::vector<std::size_t> roots;  ///< Indices of nodes.
 };
 
 /// The triangles of a mesh, in the file's units, not welded or cleaned; every index is below the vertex count.
 struct SceneMesh {
-  TriangleMesh mesh;  ///< Its triangles.
+  TriangleMesh mesh;  ///< In the file's units.
   Color color;        ///< Of the largest part of its surface.
 };
 

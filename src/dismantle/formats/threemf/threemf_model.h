@@ -16,21 +16,21 @@ namespace dismantle {
 struct ThreeMfUse {
   std::string part;          ///< Name of the model part that has the object; empty: the one of the reference.
   std::int64_t object = 0;   ///< Its id in that part.
-  SceneTransform placement;  ///< Of the object in the one that refers to it.
+  SceneTransform placement;  ///< From the object to what refers to it.
 };
 
 /// An object of a model part: a mesh, or other objects.
 struct ThreeMfObject {
   std::string name;                    ///< Empty if the file gives none.
   SceneMesh mesh;                      ///< In the file's units; every index is below the vertex count.
-  std::vector<ThreeMfUse> components;  ///< The objects that it consists of.
+  std::vector<ThreeMfUse> components;  ///< The objects that it is made of.
   bool is_support = false;             ///< Helps a printer, and is no part of the product.
 };
 
 /// One model part of a 3MF package, as declared: references are not checked.
 struct ThreeMfModel {
-  std::string units = "mm";                                 ///< Of its numbers.
-  std::unordered_map<std::int64_t, ThreeMfObject> objects;  ///< By their ids.
+  std::string units = "mm";                                 ///< As millimetres_per_unit knows them.
+  std::unordered_map<std::int64_t, ThreeMfObject> objects;  ///< By id.
   std::vector<ThreeMfUse> items;                            ///< What is built.
 };
 

@@ -6,7 +6,7 @@
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/formats/mesh/read_mesh.h"
-#include "dismantle/formats/urdf/tessellate.h"
+#include "dismantle/formats/mesh/tessellate.h"
 #include "dismantle/formats/urdf/urdf_kinematics.h"
 
 #include <tinyxml2.h>

@@ -17,6 +17,9 @@ TessellatedShape tessellate_box(Vec3 size);
 /// A cylinder about the z axis, centred at the origin, with vertices on the surface.
 TessellatedShape tessellate_cylinder(double radius, double length);
 
+/// A cone about the z axis, its base of that radius at -length / 2 and its apex at length / 2.
+TessellatedShape tessellate_cone(double radius, double length);
+
 /// A sphere about the origin, with vertices on the surface.
 TessellatedShape tessellate_sphere(double radius);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/urdf/tessellate.h"
+#include "dismantle/formats/mesh/tessellate.h"
 
 #include <cmath>
 #include <cstdint>
@@ -55,6 +55,13 @@ TessellatedShape tessellate_cylinder(double radius, double length) {
     for (std::uint32_t i = 0; i < kSides; ++i) rings.push_back(around(radius, height, i));
   const double deflection = radius * (1 - std::cos(std::numbers::pi / kSides));
   return {close_rings(std::move(rings), -length / 2, length / 2), deflection};
+}
+
+TessellatedShape tessellate_cone(double radius, double length) {
+  std::vector<Vec3> ring;
+  for (std::uint32_t i = 0; i < kSides; ++i) ring.push_back(around(radius, -length / 2, i));
+  const double deflection = radius * (1 - std::cos(std::numbers::pi / kSides));
+  return {close_rings(std::move(ring), -length / 2, length / 2), deflection};
 }
 
 TessellatedShape tessellate_sphere(double radius) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of collada_import.cpp where there is no Assimp.
+#include "dismantle/formats/collada/collada_import.h"
+
+namespace dismantle {
+
+std::string collada_reader() {
+  return {};
+}
+
+Result<Assembly> import_collada(std::string_view, const std::string&, const ImportOptions&) {
+  return Error{ErrorKind::Unreadable, "this dismantle was built without Assimp; convert the file to glTF"};
+}
+
+}  // namespace dismantle
