@@ -40,6 +40,25 @@ TEST(PairParting, KeepsAnAllowanceAsLongAsTwoOverlap) {
   EXPECT_TRUE(block.engine.step({}, ResponseKind::Slide).reached);
 }
 
+TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnother) {
+  // Nowhere near the surface that it is inside of, and 1 mm deep.
+  const Assembly assembly = scenes::assembly({scenes::component("part", scenes::box({-1, -1, -2}, {1, 1, -1})),
+                                              scenes::component("block", scenes::box({-20, -20, -20}, {20, 20, 0}))});
+  const PairStates states = states_of(assembly);
+  const double start = states.pairs.at(0).depth;
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    SCOPED_TRACE(static_cast<int>(response));
+    Grabbed deeper(assembly, states, 0), out(assembly, states, 0);
+    for (int k = 1; k <= 3; ++k) {
+      const Pose pose = deeper.engine.step({{0, 0, -0.1 * k}, {}}, response).pose;
+      const TriangleMesh part = scenes::moved(*assembly.components[0].mesh, pose);
+      EXPECT_LE(oracle::sampled_depth(part, *assembly.components[1].mesh, 0.5).depth, start + kTolerance);
+      out.engine.step({{0, 0, 0.2 * k}, {}}, response);
+      EXPECT_EQ(out.engine.overlapping_pairs().size(), 1u);
+    }
+  }
+}
+
 TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
   // In phase the facets are 0.005 mm apart, and meet after half a facet.
   const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.995, 0, -2, 12, 16)),

@@ -245,7 +245,7 @@ class GhostSide {
 
   /// How many pairs of faces meet; at least `enough` where that is reached.
   std::size_t count_meeting(const SolidTree& surface, const FacePairs& near, std::size_t enough) const {
-    const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
+    const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, request_.tolerance);
     std::size_t meeting = 0;
     for (const auto& [face_own, face_other] : near)
       if (!sweep.test(face_own, face_other, {}).free && ++meeting >= enough) break;
@@ -331,14 +331,14 @@ class GhostSide {
   /// True if a surface does not meet the other component while it is shifted.
   /// @param near all pairs of their faces that may
   bool free(const SolidTree& surface, const FacePairs& near, Vec3 from, Vec3 to) const {
-    const TrianglePairSweep sweep(surface, *other_.tree, {from, {}}, {to, {}}, 0, {0, request_.tolerance, {}});
+    const TrianglePairSweep sweep(surface, *other_.tree, {from, {}}, {to, {}}, 0, request_.tolerance);
     const auto meet = [&](const auto& faces) { return !sweep.test(faces.first, faces.second, {}).free; };
     return std::none_of(near.begin(), near.end(), meet);
   }
 
   /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more.
   FacePairs near_faces(const SolidTree& surface, double reach) const {
-    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, {0, request_.tolerance, {}});
+    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, request_.tolerance);
     PairMotion motion = still.motion();
     motion.allowed = -reach;
     const CertificateFront pairs{

@@ -14,6 +14,7 @@ namespace dismantle {
 /// Ghost surfaces are displaced by at most this share of the tolerance, and the depth of an overlap: the rest of the
 /// tolerance is for the arcs' deviation.
 inline constexpr double kGhostLength = (1 - kArcShare) * (1 - 1e-6);
+static_assert(kGhostLength + kArcShare < 1, "together they are at most the tolerance");
 
 /// Two components that touch or overlap in the assembled state.
 struct PairGhostRequest {

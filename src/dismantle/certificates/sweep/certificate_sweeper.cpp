@@ -102,13 +102,13 @@ ScrewMotion CertificateSweeper::motion_between(const Pose& start, const Pose& en
 TrianglePairSweep CertificateSweeper::triangle_pair_sweep(const TestedPair& pair, const ScrewMotion& motion,
                                                           SweepBudget budget) const {
   const Pose& frame = poses_[pair.fixed.value];
-  TrianglePairRules rules{0, tolerance(), {}};
+  AdvancementLimits limits;
   if (budget == SweepBudget::Bounded || budget == SweepBudget::WholeCylinders) {
-    rules.limits.steps = kBoundedSteps;
-    rules.limits.min_progress = std::max(rules.limits.min_progress, kBoundedShare * tolerance() / motion.path_length);
+    limits.steps = kBoundedSteps;
+    limits.min_progress = std::max(limits.min_progress, kBoundedShare * tolerance() / motion.path_length);
   }
   return TrianglePairSweep(moving_surface(pair), fixed_surface(pair), seen_from(frame, motion.start),
-                           seen_from(frame, motion.end), motion.deviation, rules);
+                           seen_from(frame, motion.end), motion.deviation, tolerance(), limits);
 }
 
 template <class Visit>
@@ -338,7 +338,7 @@ CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, do
   for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,
-                                           {0, tolerance(), {}});
+                                           tolerance());
     PairMotion pair_motion = triangle_pairs.motion();
     pair_motion.max_blocked = 1;
     const CertificateFront front = store_.new_front(moving, fixed, ghost_of(surfaces));

@@ -42,7 +42,7 @@ class CertificateSweeper {
 
   /// Sweeps the moving set along a motion from its pose, and updates the fronts. Nothing moves.
   /// @param window time after the first contact in which others are reported, as a fraction of the motion
-  /// @pre the motion's deviation is less than the tolerance; beyond kArcShare of it allowed pairs may be found blocked
+  /// @pre the motion's deviation is at most kArcShare of the tolerance (chord_count)
   CertificateSweep sweep(const ScrewMotion& motion, double window, SweepBudget budget = SweepBudget::Exhaustive);
   /// As sweep() for a motion from any pose, leaving the fronts unchanged: any number may run in parallel.
   CertificateSweep sweep_const(const ScrewMotion& motion, double window) const;

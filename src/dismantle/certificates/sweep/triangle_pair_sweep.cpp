@@ -28,8 +28,9 @@ SolidView view(const SolidTree& solid) {
 }  // namespace
 
 TrianglePairSweep::TrianglePairSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start,
-                                     const Pose& end, double deviation, const TrianglePairRules& rules)
-    : moving_(&moving), fixed_(&fixed), start_pose_(start), end_pose_(end), share_(kArcShare * rules.tolerance) {
+                                     const Pose& end, double deviation, double tolerance,
+                                     const AdvancementLimits& limits)
+    : moving_(&moving), fixed_(&fixed), start_pose_(start), end_pose_(end), share_(kArcShare * tolerance) {
   kernel_.moving = view(moving);
   kernel_.fixed = view(fixed);
   kernel_.start = transform_from_pose(start);
@@ -38,11 +39,9 @@ TrianglePairSweep::TrianglePairSweep(const SolidTree& moving, const SolidTree& f
                        ? kernel_.start.rotation
                        : mat3_from_quat(pose_between(start, end, 0.5).rotation);
   kernel_.deviation = deviation;
-  kernel_.allowed = rules.allowed > 0 ? rules.allowed - std::max(share_, deviation) : 0;
-  kernel_.rules = rules;
-  DISMANTLE_EXPECT(rules.tolerance > 0);
-  DISMANTLE_EXPECT(rules.allowed > 0 || deviation <= share_ * (1 + 1e-6));
-  DISMANTLE_EXPECT(rules.allowed == 0 || (rules.allowed >= rules.tolerance && kernel_.allowed > 0));
+  kernel_.limits = limits;
+  DISMANTLE_EXPECT(tolerance > 0);
+  DISMANTLE_EXPECT(deviation <= share_ * (1 + 1e-6));
 }
 
 PairMotion TrianglePairSweep::motion() const {
@@ -50,7 +49,6 @@ PairMotion TrianglePairSweep::motion() const {
   motion.t0 = between_trees(kernel_.start, moving_->tree, fixed_->tree);
   motion.t1 = between_trees(kernel_.end, moving_->tree, fixed_->tree);
   motion.middle = kernel_.middle;
-  motion.allowed = kernel_.rules.allowed > 0 ? kernel_.rules.allowed - share_ : 0;
   motion.deviation = std::max(0.0, kernel_.deviation - share_);
   motion.kept = share_;
   motion.back = screw_between(inverse(start_pose_), inverse(end_pose_));

@@ -14,11 +14,10 @@ namespace dismantle {
 class TrianglePairSweep {
  public:
   /// @param start, end poses of the moving component in the fixed one's frame; the motion is the one screw between
-  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]: with ghost
-  /// surfaces at most kArcShare of the tolerance, which their displacements leave; else less than the allowance, from
-  /// which the excess over that share is subtracted
+  /// @param deviation upper bound of the distance of any arc of the moving component from its chord [mm]
+  /// @pre it is at most kArcShare of the tolerance, which the displacements of ghost surfaces leave
   TrianglePairSweep(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
-                    double deviation, const TrianglePairRules& rules);
+                    double deviation, double tolerance, const AdvancementLimits& limits = {});
 
   /// The motion in the form that fronts use.
   PairMotion motion() const;

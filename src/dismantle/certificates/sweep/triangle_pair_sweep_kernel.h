@@ -33,21 +33,14 @@ struct TrianglePairResult {
   struct Contact {
     std::uint32_t face_moving = 0;  ///< Face of the moving component.
     std::uint32_t face_fixed = 0;   ///< Face of the fixed component.
-    double toi = 0;                 ///< The two are certainly allowed on [0, toi].
+    double toi = 0;                 ///< The two are certainly apart on [0, toi].
     /// Unit, from the moving to the fixed triangle [frame of the fixed component]; zero if no axis separates them.
     Vec3 axis;
   };
 
-  bool free = true;  ///< The two are certainly allowed during the whole motion.
+  bool free = true;  ///< The two are certainly apart during the whole motion.
   double gap = 0;    ///< Lower bound of their distance during the whole motion, along the axis [mm].
   Contact contact;   ///< The axis is set even if free.
-};
-
-/// The rules that decide if two triangles may go on.
-struct TrianglePairRules {
-  double allowed = 0;        ///< Allowed penetration depth [mm]; 0 where one of the surfaces is a ghost surface.
-  double tolerance = 0;      ///< Tolerance of the assembly [mm].
-  AdvancementLimits limits;  ///< Limits of the conservative advancement.
 };
 
 namespace detail {
@@ -167,14 +160,13 @@ class LeastBlockingAxis {
 
 /// The triangle-pair test of a TrianglePairSweep: the same code on the CPU and on CUDA.
 struct TrianglePairSweepKernel {
-  SolidView moving;         ///< The moving solid, in the memory of the processor that runs the test.
-  SolidView fixed;          ///< The fixed solid.
-  RigidTransform start;     ///< Of the moving component at the start, in the fixed one's frame.
-  RigidTransform end;       ///< The same at the end.
-  Mat3 middle;              ///< The rotation half way.
-  double deviation = 0;     ///< Bound of the distance between arcs and chords [mm].
-  double allowed = 0;       ///< The allowance less the deviation; 0 where it is 0 [mm].
-  TrianglePairRules rules;  ///< Of the two components.
+  SolidView moving;          ///< The moving solid, in the memory of the processor that runs the test.
+  SolidView fixed;           ///< The fixed solid.
+  RigidTransform start;      ///< Of the moving component at the start, in the fixed one's frame.
+  RigidTransform end;        ///< The same at the end.
+  Mat3 middle;               ///< The rotation half way.
+  double deviation = 0;      ///< Bound of the distance between arcs and chords [mm].
+  AdvancementLimits limits;  ///< Of the conservative advancement.
 
   /// Two faces and their triangles at the start of the motion.
   struct Pair {
@@ -239,7 +231,7 @@ struct TrianglePairSweepKernel {
     return count;
   }
 
-  /// True if the axis certainly keeps the two within the allowance during the motion.
+  /// True if the axis certainly separates the two during the motion.
   DISMANTLE_HOST_DEVICE bool still_separates(const TriangleMotion& motion, const Pair& pair, Vec3 axis) const {
     const Triangle &t0 = motion.t0, &t1 = motion.t1;
     const double size = length(axis);
@@ -252,7 +244,7 @@ struct TrianglePairSweepKernel {
     }
     // Two dot products of coordinates up to `reach`, each off by less than 8 u of three of them.
     const double gap = low - high - detail::kDotError * reach;
-    return gap >= -allowed * min(size, 1.0) * (1 - detail::kDotError);
+    return gap >= 0;
   }
 
   /// The outward normals around both faces, the moving one's turned by `rotation`; none that restrict an axis unless
@@ -272,14 +264,8 @@ struct TrianglePairSweepKernel {
   /// Tests two triangles whose corners move linearly.
   DISMANTLE_HOST_DEVICE AxisCcdResult test_chords(const TriangleMotion& motion, const Pair& pair, Vec3 hint) const {
     const TriangleMotion still{pair.fixed, pair.fixed};
-    AxisCcdResult found = ccd_triangle_triangle(motion, still, allowed, hint, rules.limits);
+    AxisCcdResult found = ccd_triangle_triangle(motion, still, 0, hint, limits);
     if (found.ccd.status == CcdStatus::Free) return found;
-    if (allowed > 0) {
-      if (length_squared(hint) == 0) return found;
-      // It is blocked on the side of the hint: the least blocking axis may be on another.
-      const AxisCcdResult unbound = ccd_triangle_triangle(motion, still, allowed, Vec3{}, rules.limits);
-      return unbound.ccd.toi > found.ccd.toi ? unbound : found;
-    }
     // The axis that the search ended with may separate them only by chance: the response needs that of the contact.
     Around around;
     for (const bool any : {false, true}) {
