@@ -11,6 +11,9 @@ namespace dismantle {
 
 namespace {
 
+/// Bound of the rounding of a squared distance, relative.
+constexpr double kRounding = 1e-12;
+
 /// Squared distance from a point to a box.
 double distance_squared(const Aabb& box, Vec3 p) {
   const Vec3 outside = max(max(box.lower - p, p - box.upper), Vec3{});
@@ -45,7 +48,7 @@ double SurfaceTree::distance_to_face(Vec3 point, std::uint32_t face) const {
   return length(point - closest_point_of_triangle(triangles_[face], point));
 }
 
-MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint) const {
+MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within) const {
   struct Waiting {
     NodeIndex node;
     double squared;
@@ -55,9 +58,10 @@ MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint) const {
   stack[waiting++] = {bvh_.root(), 0};
   std::uint32_t best_face = hint;
   double best_squared = length_squared(point - closest_point_of_triangle(triangles_[hint], point));
+  const double limit = within * within * (1 + kRounding);
   while (waiting > 0) {
     const Waiting at = stack[--waiting];
-    if (at.squared >= best_squared) continue;
+    if (at.squared >= best_squared || at.squared > limit) continue;
     if (at.node < bvh_.leaf_count()) {
       const std::uint32_t face = bvh_.leaf_triangle[at.node];
       const double squared = length_squared(point - closest_point_of_triangle(triangles_[face], point));

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace dismantle {
@@ -27,7 +28,9 @@ class SurfaceTree {
 
   /// The distance from `point` to the mesh, exact up to the rounding of closest_point_of_triangle().
   /// @param hint a triangle to start from: the nearer, the fewer nodes are visited
-  MeshDistance distance(Vec3 point, std::uint32_t hint = 0) const;
+  /// @param within if the mesh is further away than this [mm], the result is some triangle that is, too
+  MeshDistance distance(Vec3 point, std::uint32_t hint = 0,
+                        double within = std::numeric_limits<double>::infinity()) const;
   /// A triangle of the mesh.
   const Triangle& triangle(std::uint32_t face) const { return triangles_[face]; }
   /// Number of triangles.

@@ -80,10 +80,8 @@ class GhostSide {
         other_(of_a ? request.b : request.a),
         usual_(of_a ? request.ghost_a : request.ghost_b),
         request_(request),
-        is_a_(of_a),
-        retraction_(overlap_retraction(own_, other_, request.depth, request.tolerance)) {}
+        is_a_(of_a) {}
 
-  const OverlapRetraction& retraction() const { return retraction_; }
   bool usual_is_apart() const { return apart(*usual_, near_faces(*usual_, 0)); }
 
   /// Displaced vertices.
@@ -230,17 +228,23 @@ class GhostSide {
     return std::nullopt;
   }
 
+  /// Found when it is first wanted: most pairs need none.
+  const OverlapRetraction& retraction() const {
+    if (!retraction_) retraction_ = overlap_retraction(own_, other_, request_.depth, request_.tolerance);
+    return *retraction_;
+  }
+
   /// The patches that are to be retracted, each as one of its faces.
   std::vector<std::uint32_t> overlapping_patches() const {
     std::vector<std::uint32_t> patches;
     for (std::uint32_t f = 0; f < own_.tree->faces.size(); ++f)
-      if (retraction_.patch[f] == f && retraction_.needed[f] > 0) patches.push_back(f);
+      if (retraction().patch[f] == f && retraction().needed[f] > 0) patches.push_back(f);
     return patches;
   }
 
-  void set_patch(std::vector<double>& retractions, std::uint32_t patch, double retraction) const {
+  void set_patch(std::vector<double>& retractions, std::uint32_t patch, double by) const {
     for (std::uint32_t f = 0; f < retractions.size(); ++f)
-      if (retraction_.patch[f] == patch) retractions[f] = retraction;
+      if (retraction().patch[f] == patch) retractions[f] = by;
   }
 
   /// How many pairs of faces meet; at least `enough` where that is reached.
@@ -275,8 +279,8 @@ class GhostSide {
 
   /// How far the faces are retracted [mm]: no further than the depth, or their corners would get too deep.
   std::vector<double> needed(double margin) const {
-    std::vector<double> needed = retraction_.needed;
-    const double most = std::max(request_.depth, retraction_.turning);
+    std::vector<double> needed = retraction().needed;
+    const double most = std::max(request_.depth, retraction().turning);
     for (double& n : needed) n = std::max(std::min(margin * n, most), request_.everywhere);
     return needed;
   }
@@ -357,7 +361,7 @@ class GhostSide {
   const SolidTree* usual_;
   const PairGhostRequest& request_;
   bool is_a_;
-  OverlapRetraction retraction_;
+  mutable std::optional<OverlapRetraction> retraction_;
   double depth_limit_ = 0;
   bool has_ended_ = false;
 };
@@ -366,7 +370,7 @@ class GhostSide {
 
 std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   GhostSide a(request, true), b(request, false);
-  const double turning = std::max(a.retraction().turning, b.retraction().turning);
+  const double turning = turning_retraction(request.a, request.b, request.depth, request.tolerance);
   const bool can_turn = turning <= kPlay * request.tolerance;
   const bool usual = request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart();
   const double play = std::min(kPlay / kOverlap * overlap_from(request), kPlay * request.tolerance);

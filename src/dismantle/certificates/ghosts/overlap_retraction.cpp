@@ -40,13 +40,16 @@ constexpr std::size_t kParts = 72;
 class Retraction {
  public:
   Retraction(const OverlapSide& own, const OverlapSide& other, double depth, double tolerance)
-      : own_(own), other_(other), depth_(depth), tolerance_(tolerance), needed_(own.tree->faces.size()) {
-    normals_.reserve(needed_.size());
-    for (std::uint32_t f = 0; f < needed_.size(); ++f)
-      normals_.push_back((own.tree->inside_out ? -1.0 : 1.0) * normalized(normal_unscaled(own.tree->triangle(f))));
+      : own_(own), other_(other), depth_(depth), tolerance_(tolerance), needed_(own.tree->faces.size()) {}
+
+  double find_turning() {
+    allow_turning();
+    return turning_;
   }
 
   OverlapRetraction find() {
+    for (std::uint32_t f = 0; f < needed_.size(); ++f)
+      normals_.push_back((own_.tree->inside_out ? -1.0 : 1.0) * normalized(normal_unscaled(own_.tree->triangle(f))));
     find_patches();
     if (depth_ > kNoticeable * tolerance_) {
       look_at_samples(*own_.tree, other_, true);
@@ -91,7 +94,11 @@ class Retraction {
   }
 
   void look_at(Vec3 point, std::uint32_t face, const OverlapSide& inside, bool of_own) {
-    const MeshDistance nearest = inside.shape().surface().distance(point);
+    const SurfaceTree& surface = inside.shape().surface();
+    Aabb at;
+    at.extend(point);
+    if (!overlaps(surface.bounds(), at)) return;
+    const MeshDistance nearest = surface.distance(point, 0, depth_);
     if (nearest.distance <= needed_[root(of_own ? face : nearest.face)]) return;
     if (nearest.distance <= depth_ && inside.shape().winding().inside(point))
       need(face, point, nearest, of_own, inside);
@@ -265,6 +272,10 @@ class Retraction {
 };
 
 }  // namespace
+
+double turning_retraction(const OverlapSide& a, const OverlapSide& b, double depth, double tolerance) {
+  return std::max(Retraction(a, b, depth, tolerance).find_turning(), Retraction(b, a, depth, tolerance).find_turning());
+}
 
 OverlapRetraction overlap_retraction(const OverlapSide& own, const OverlapSide& other, double depth, double tolerance) {
   return Retraction(own, other, depth, tolerance).find();

@@ -34,6 +34,9 @@ struct OverlapRetraction {
 /// @param tolerance depths below a tenth of it do not count [mm]
 OverlapRetraction overlap_retraction(const OverlapSide& own, const OverlapSide& other, double depth, double tolerance);
 
+/// The larger OverlapRetraction::turning of two components, without the rest.
+double turning_retraction(const OverlapSide& a, const OverlapSide& b, double depth, double tolerance);
+
 /// Neighbouring faces that differ by less belong to one smooth patch [rad].
 inline constexpr double kSmoothAngle = 0.5235987755982988;
 
