@@ -59,6 +59,19 @@ TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnother) {
   }
 }
 
+TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnotherAfterAJump) {
+  const Assembly assembly = scenes::assembly({scenes::component("part", scenes::box({-1, -1, -2}, {1, 1, -1})),
+                                              scenes::component("block", scenes::box({-20, -20, -20}, {20, 20, 0}))});
+  const PairStates states = states_of(assembly);
+  Grabbed part(assembly, states, 0);
+  part.engine.jump(std::vector<Pose>{{{0.5, 0, 0}, {}}, {}});
+  EXPECT_EQ(part.engine.overlapping_pairs().size(), 1u);
+  const ComponentId id(0);
+  part.engine.grab({&id, 1});
+  const Pose pose = part.engine.step({{0.5, 0, -1}, {}}, ResponseKind::Touch).pose;
+  EXPECT_GE(pose.position.z, -kTolerance);
+}
+
 TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
   // In phase the facets are 0.005 mm apart, and meet after half a facet.
   const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.995, 0, -2, 12, 16)),
