@@ -30,6 +30,7 @@ struct PlanCommand {
   std::vector<std::string> targets, fixed;
   double time_limit = 0, effort = 1, allow_overlap = 0;
   std::vector<StepPreference> preferences;
+  bool margins = false;
 };
 
 bool ends_with(const std::string& text, std::string_view ending) {
@@ -66,11 +67,18 @@ Result<std::vector<ComponentId>> find_all(const Assembly& assembly, const std::v
   return found;
 }
 
+/// ", margin 0.12 mm (to cover)"; empty where none was searched for.
+std::string margin_text(const Assembly& a, const PlanStep& step) {
+  if (!step.margin) return {};
+  if (!step.margin->nearest.valid()) return fmt::format(", margin over {:.3g} mm", step.margin->margin);
+  return fmt::format(", margin {:.3g} mm (to {})", step.margin->margin, a[step.margin->nearest].name);
+}
+
 void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan) {
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const PlanStep& step = plan.steps[k];
-    fmt::print("{:>4}  {}  {}, {}\n", k + 1, names_text(a, step.components), name_of(step.tier),
-               direction_text(step.exit));
+    fmt::print("{:>4}  {}  {}, {}{}\n", k + 1, names_text(a, step.components), name_of(step.tier),
+               direction_text(step.exit), margin_text(a, step));
   }
   fmt::print("{}{} steps in {:.2f} s:", plan.steps.empty() ? "" : "\n", plan.steps.size(), plan.seconds);
   for (const auto& [tier, count] : tier_counts(plan)) fmt::print(" {} {};", count, name_of(tier));
@@ -117,6 +125,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   PlanOptions options{*targets, *fixed, 0, {executor, widest_lanes()}, progress_printer(command.common)};
   options.search_longer(command.effort);
   options.preferences = command.preferences;
+  options.margins = command.margins;
   options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
   const auto make_plan = [&] {
@@ -184,6 +193,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "Time limit, from the start of the command; keeps what was found")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--margins", options->margins,
+                    "For each step, by how much all surfaces could grow before it would not be free: half the smallest "
+                    "distance to what the moving components do not touch in the assembled state");
   command
       ->add_option("--prefer", options->preferences,
                    "Among components that can be removed next, prefer the same direction, not downwards (z "

@@ -55,11 +55,16 @@ Json explanation_json(const Assembly& assembly, const Explanation& e) {
 
 Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
   Json steps = Json::array(), staying = Json::array(), tiers = Json::object();
-  for (const PlanStep& step : plan.steps)
+  for (const PlanStep& step : plan.steps) {
     steps.push_back({{"components", names_json(a, step.components)},
                      {"tier", name_of(step.tier)},
                      {"part_of_step", step.part_of == PlanStep::kWhole ? Json(nullptr) : Json(step.part_of)},
                      {"exit", {step.exit.x, step.exit.y, step.exit.z}}});
+    if (!step.margin) continue;
+    steps.back()["margin_mm"] = step.margin->margin;
+    const bool is_near = step.margin->nearest.valid();
+    steps.back()["nearest"] = is_near ? Json(a[step.margin->nearest].name) : Json(nullptr);
+  }
   for (const Explanation& e : plan.staying) staying.push_back(explanation_json(a, e));
   for (const auto& [tier, count] : tier_counts(plan)) tiers[std::string(name_of(tier))] = count;
   return {{"format", "dismantle-plan"},

@@ -228,6 +228,10 @@ class PlanStep:
     def exit(self) -> NDArray[np.float64]: ...
     @property
     def part_of(self) -> Optional[int]: ...
+    @property
+    def margin(self) -> Optional[float]: ...
+    @property
+    def nearest(self) -> Optional[str]: ...
 
 class Plan:
     @property
@@ -283,6 +287,7 @@ def plan(
     prefer: Sequence[str] = (),
     time_limit: float = 0.0,
     effort: float = 1.0,
+    margins: bool = False,
     threads: int = 0,
     progress: _Progress = None,
 ) -> Plan: ...

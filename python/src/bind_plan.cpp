@@ -48,7 +48,7 @@ std::vector<StepPreference> preferences_of(const std::vector<std::string>& names
 }
 
 PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed,
-              const std::vector<std::string>& prefer, double time_limit, double effort, int threads,
+              const std::vector<std::string>& prefer, double time_limit, double effort, bool margins, int threads,
               const py::object& progress) {
   PythonProgress watched(progress);
   PlanOptions options;
@@ -56,6 +56,7 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
   options.targets = components_of(*states->assembly, targets);
   options.fixed = components_of(*states->assembly, fixed);
   options.time_limit = time_limit;
+  options.margins = margins;
   options.engine.executor = executor_of(threads);
   options.progress = watched.callback();
   if (!(time_limit >= 0)) raise_usage("the plan cannot be made (the time limit is negative); give 0 for none");
@@ -162,7 +163,22 @@ void bind_plan_classes(py::module_& module) {
             if (s.step.part_of == PlanStep::kWhole) return {};
             return s.step.part_of;
           },
-          "Index of the step that removed the body from which this step removes the set; None: the assembly.");
+          "Index of the step that removed the body from which this step removes the set; None: the assembly.")
+      .def_property_readonly(
+          "margin",
+          [](const StepOfPlan& s) -> std::optional<double> {
+            if (!s.step.margin) return {};
+            return s.step.margin->margin;
+          },
+          "By how much all surfaces could grow before the motion would not be free [mm]: half the smallest distance to "
+          "components that are not touched in the assembled state. None without plan(margins=True).")
+      .def_property_readonly(
+          "nearest",
+          [](const StepOfPlan& s) -> std::optional<std::string> {
+            if (!s.step.margin || !s.step.margin->nearest.valid()) return {};
+            return (*s.states->assembly)[s.step.margin->nearest].name;
+          },
+          "Name of the component at twice the margin; None if nothing is near.");
   py::class_<PlanView>(module, "Plan", "A disassembly sequence.")
       .def_property_readonly(
           "steps",
@@ -226,11 +242,12 @@ void bind_plan(py::module_& module) {
   bind_audit(module);
   module.def(
       "plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(), py::arg("fixed") = py::none(),
-      py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+      py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("margins") = false,
+      py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Finds a disassembly sequence of everything, or of `targets`; components in `fixed` never move. `prefer` orders "
       "the components that can be removed next: 'direction', 'upright', 'groups', 'support', the first counts most. "
-      "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight.");
+      "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight. `margins`: "
+      "find PlanStep.margin.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0,
              "Finds the blockers of the straight removal of a component.");
   module.def(

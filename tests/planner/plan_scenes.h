@@ -64,12 +64,12 @@ inline Assembly covered_pot() {
 }
 
 /// A dovetail whose halves slide apart along z, in a frame around it that is open along y: they leave it together, and
-/// only then come apart.
-inline Assembly framed_dovetail() {
+/// only then come apart. @param depth of the frame along +y
+inline Assembly framed_dovetail(double depth = 10) {
   const Profile outer = {{-25, -10}, {25, -10}, {25, 40}, {-25, 40}}, inner = {{-15, 0}, {15, 0}, {15, 30}, {-15, 30}};
   const Pose upright{{}, quat_about({1, 0, 0}, kTurn / 4)};
   std::vector<Component> components = dovetail(0).assembly.components;
-  components.push_back(component("frame", moved(extruded_band(outer, inner, true, -10, 5), upright)));
+  components.push_back(component("frame", moved(extruded_band(outer, inner, true, -depth, 5), upright)));
   return assembly(std::move(components));
 }
 

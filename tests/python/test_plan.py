@@ -15,6 +15,9 @@ def test_finds_the_order_and_a_path_that_passes_the_audit(states):
     assert [s.components for s in plan.steps] == [["front"], ["back"]]
     assert plan.steps[0].tier == "straight" and plan.steps[0].part_of is None
     assert np.array_equal(plan.steps[0].exit, [1, 0, 0])
+    assert plan.steps[0].margin is None and plan.steps[0].nearest is None
+    with_margins = dismantle.plan(states, targets="back", fixed=WALLS, margins=True)
+    assert all(s.margin > 0 for s in with_margins.steps)
     path = plan.path()
     assert path.removed == ["back", "front"] or path.removed == ["front", "back"]
     report = dismantle.audit(states.assembly, path)

@@ -22,6 +22,12 @@ enum class PlanTier {
 /// "straight", "helical", "sliding", "sampled", "straight together": as in reports.
 std::string_view name_of(PlanTier tier);
 
+/// By how much all surfaces could grow before the motion of a step would not be free.
+struct StepMargin {
+  double margin = 0;    ///< Half the smallest distance to components that are not touched in the assembled state [mm].
+  ComponentId nearest;  ///< The component at that distance; invalid if nothing is near.
+};
+
 /// The removal of a set of components from the body that they belong to, as one rigid body.
 struct PlanStep {
   /// Value of part_of for the whole assembly.
@@ -34,7 +40,8 @@ struct PlanStep {
   /// The path: from the assembled pose through these poses, one screw motion each, then straight along `exit`. Relative
   /// to the body that the set belongs to, as if that were in its assembled pose.
   std::vector<Pose> poses;
-  Vec3 exit;  ///< Unit direction of the last, straight part.
+  Vec3 exit;                           ///< Unit direction of the last, straight part.
+  std::optional<StepMargin> margin{};  ///< With PlanOptions::margins.
 };
 
 /// A component that blocks the straight removal of another along one direction.

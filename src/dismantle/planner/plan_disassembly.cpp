@@ -11,6 +11,7 @@
 #include "dismantle/planner/search/sample_search.h"
 #include "dismantle/planner/search/screw_search.h"
 #include "dismantle/planner/search/slide_search.h"
+#include "dismantle/planner/step_margin.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
@@ -68,6 +69,8 @@ class Planner {
         table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
         choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
+        margins_(assembly, pairs, validator_),
+        size_(diagonal(assembled_bounds(assembly))),
         overlaps_(assembly, pairs, table_, engine_options()),
         sliding_{options.slide_effort, 0, {}},
         sampling_{options.sample_effort, 0, {}} {
@@ -82,10 +85,11 @@ class Planner {
   Plan run() {
     const ComponentSet all = ComponentSet::all(count_);
     if (targets_.empty()) {
-      take_apart(all, PlanStep::kWhole);
+      bodies_.push_back({all, staying_of(all), PlanStep::kWhole});
     } else {
       take_out(all, targets_, PlanStep::kWhole);
     }
+    take_apart_bodies();
     plan_.out_of_time = stopped_;
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);
@@ -137,10 +141,22 @@ class Planner {
     return staying;
   }
 
-  /// Removes everything from a body that can be removed, and takes apart what is removed as one body.
-  void take_apart(const ComponentSet& body, std::uint32_t part_of) {
-    const ComponentSet left = take_away(body, staying_of(body), part_of);
-    explain_left(left, staying_of(left));
+  /// What a plan tries to remove the next component.
+  enum class Effort {
+    Simple,  ///< Straight motions and threads.
+    Any,     ///< Sliding and random motions as well, which may take long.
+  };
+
+  /// Removes everything that can be removed from the bodies to be taken apart, and from those that are removed in one
+  /// piece meanwhile. What takes long in one of them waits until nothing simple is left in any.
+  void take_apart_bodies() {
+    for (const Effort effort : {Effort::Simple, Effort::Any})
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body body = bodies_[i];
+        ComponentSet left = take_away(body.left, body.staying, body.part_of, effort);
+        bodies_[i].left = std::move(left);
+      }
+    for (const Body& body : bodies_) explain_left(body.left, staying_of(body.left));
   }
 
   /// Removes the targets from a body with as few others as possible; if straight motions are not enough, by themselves.
@@ -152,22 +168,24 @@ class Planner {
       const auto needed = fewest_removals(table_, choice_.directions(), body, never, targets, ask);
       ComponentSet staying = body;
       staying.erase(needed ? needed->members() : targets);
-      const std::size_t steps = plan_.steps.size();
-      left = take_away(body, staying, part_of);
+      const std::size_t steps = plan_.steps.size(), bodies = bodies_.size();
+      left = take_away(body, staying, part_of, Effort::Any);
       if (!needed || !left.has_any(targets) || stopped_) break;
       // The engine refused a step; the table knows the reason now.
       plan_.steps.resize(steps);
+      bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
     for (const ComponentId target : targets)
       if (left.has(target) && leads(target) && keep_going()) plan_.staying.push_back(explanation(target, left));
   }
 
   /// Removes what it can from `body` except `staying`. @return the rest
-  ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of) {
+  ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of, Effort effort) {
     while (body.size() > staying.size() && keep_going()) {
       validator_.stand(body);
-      const std::optional<PlanStep> step = next_step(body, staying);
+      std::optional<PlanStep> step = next_step(body, staying, effort);
       if (!step) break;
+      if (options_.margins) step->margin = margins_.of(*step, body.members(), size_);
       body.erase(step->components);
       const auto index = static_cast<std::uint32_t>(plan_.steps.size());
       plan_.steps.push_back(*step);
@@ -182,28 +200,29 @@ class Planner {
     return body;
   }
 
-  /// Takes apart the body that a step removed, as far as required.
+  /// Has the body that a step removed taken apart, as far as required.
   void go_into(const PlanStep& step, std::uint32_t index) {
     const ComponentSet body(count_, step.components);
     std::vector<ComponentId> targets = targets_;
     std::erase_if(targets, [&](ComponentId c) { return !body.has(c); });
     if (targets_.empty() || targets.size() == body.size()) {
-      take_apart(body, index);
+      bodies_.push_back({body, staying_of(body), index});
     } else if (!targets.empty()) {
       take_out(body, targets, index);
     }
   }
 
-  std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying) {
+  std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying, Effort effort) {
     const std::vector<StraightRemoval> single = single_removals(body, staying);
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
-    if (!single.empty()) return keep_going() ? next_step(body, staying) : std::nullopt;
+    if (!single.empty()) return keep_going() ? next_step(body, staying, effort) : std::nullopt;
     if (auto step = find_screwed(body, staying, false)) return step;
     const auto ask = [this] { return keep_going(); };
     while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, ask))
       if (auto step = try_removal(*removal, body)) return step;
     if (auto step = find_screwed(body, staying, true)) return step;
+    if (effort == Effort::Simple) return std::nullopt;
     if (auto step = find_sliding(body, staying)) return step;
     return find_sampled(body, staying);
   }
@@ -369,11 +388,19 @@ class Planner {
   BlockingTable table_;
   DirectionChoice choice_;
   ComponentAxes axes_;
+  StepMargins margins_;
+  double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
   DirectionId last_direction_;
   std::vector<std::uint32_t> kinds_;  // of components, if preferences need them
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
+  /// Components that are taken apart in one place.
+  struct Body {
+    ComponentSet left, staying;
+    std::uint32_t part_of;
+  };
+  std::vector<Body> bodies_;
   Plan plan_;
 };
 

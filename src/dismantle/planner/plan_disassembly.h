@@ -42,6 +42,9 @@ struct PlanOptions {
   /// other straight along their axes only.
   std::vector<FlexiblePart> flexible{};
 
+  /// Finds the margin of each step (PlanStep::margin).
+  bool margins = false;
+
   /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {
     slide_effort = static_cast<std::size_t>(times * static_cast<double>(slide_effort));

@@ -39,9 +39,9 @@ constexpr double kOverlap = 0.1;
 /// The same where one of the two is a sheet.
 constexpr double kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
-constexpr std::size_t kMaxNear = 200000;
+constexpr std::size_t kMaxNear = 100000;
 /// Where still more are, as in parts that are modelled in the place of each other, the search for ghosts ends.
-constexpr std::size_t kTooManyNear = 1000000;
+constexpr std::size_t kTooManyNear = 300000;
 /// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
 constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
@@ -50,7 +50,7 @@ constexpr double kSameSide = 0.05;
 /// Patches are left out of the retraction one by one only where no more than this number overlap.
 constexpr std::size_t kMaxPatches = 24;
 /// Largest number of tests of pairs of faces in that search.
-constexpr std::size_t kMaxTests = 2000000;
+constexpr std::size_t kMaxTests = 500000;
 /// Largest number of pieces examined to bound the depth of displaced faces.
 constexpr std::size_t kMaxPieces = 100000;
 /// So many vertices of each surface are looked at.
@@ -102,7 +102,7 @@ class GhostSide {
         starts.push_back(retracted_vertices(own.vertices, outward, {needed(margin), usual, usual, max_length}));
     const std::size_t retractions = own.has_outside || own.inside_out ? starts.size() : 0;
     if (overlaps()) starts.push_back(moved_out(usual, max_length));
-    const FacePairs near = near_faces(own, 2 * max_length);
+    const FacePairs& near = near_within(max_length + usual);
     if (near.size() > kTooManyNear) {
       has_ended_ = true;
       return std::nullopt;
@@ -190,10 +190,9 @@ class GhostSide {
   /// Vertices where fewer patches are retracted than overlap: along the edge between two patches, points that are
   /// nearest to one of them get out through the other one as well. One patch after another is left where it is, or,
   /// where that is better, follows its neighbours, as long as fewer faces meet.
-  std::optional<Found> retract_chosen(const FacePairs& near, double max_length) const {
+  std::optional<Found> retract_chosen(const FacePairs& near, double max_length) {
     const SolidTree& own = *own_.tree;
     const std::vector<std::uint32_t> patches = overlapping_patches();
-    std::size_t tests = 0;
     if (patches.size() < 2 || patches.size() > kMaxPatches) return std::nullopt;
     const std::vector<Face> outward = outward_faces(own.faces, own.inside_out);
     const double usual = kGaps[0] * request_.tolerance;
@@ -211,7 +210,7 @@ class GhostSide {
       for (const std::uint32_t patch : patches)
         for (const double other : kOthers) {
           if (fewest == 0 || chosen[patch] <= other) continue;
-          if ((tests += near.size()) > kMaxTests) return std::nullopt;
+          if ((tests_ += near.size()) > kMaxTests) return std::nullopt;
           const std::size_t meeting = count_meeting(displaced(vertices_with(patch, other)), near, fewest);
           if (meeting >= fewest) continue;
           fewest = meeting;
@@ -340,6 +339,15 @@ class GhostSide {
     return std::none_of(near.begin(), near.end(), meet);
   }
 
+  /// The pairs of faces of the two components that are nearer than `reach` [mm], and some more.
+  const FacePairs& near_within(double reach) {
+    if (reach <= near_reach_) return near_;
+    // Where the shortest displacements were not enough, somewhat longer ones will be tried as well.
+    near_reach_ = near_reach_ > 0 ? std::max(reach, kMaxFactorForCorners * near_reach_) : reach;
+    near_ = near_faces(*own_.tree, near_reach_);
+    return near_;
+  }
+
   /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more.
   FacePairs near_faces(const SolidTree& surface, double reach) const {
     const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, request_.tolerance);
@@ -362,6 +370,9 @@ class GhostSide {
   const PairGhostRequest& request_;
   bool is_a_;
   mutable std::optional<OverlapRetraction> retraction_;
+  FacePairs near_;
+  double near_reach_ = 0;  // of `near_` [mm]
+  std::size_t tests_ = 0;  // of retract_chosen()
   double depth_limit_ = 0;
   bool has_ended_ = false;
 };

@@ -49,6 +49,7 @@ CertificateSweep CertificateResponse::sweep(const ScrewMotion& motion, double wi
   result.cost.pairs = found.front;
   result.cost.triangle_pairs += found.triangle_tests;
   result.cost.tests += found.triangle_tests;
+  result.cost.depth_tests += found.depth_tests;
   result.cost.device_tests += found.device_tests;
   return found;
 }

@@ -23,8 +23,9 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
-  const auto deep = first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_),
-                                 kResolution * tolerance_ / way, kMaxSweptPieces, options_.keep_going, search_for);
+  const auto deep =
+      first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_), kResolution * tolerance_ / way,
+                   kMaxSweptPieces, options_.keep_going, search_for, &result.depth_tests);
   result.clearance = 0;
   if (!deep) return;
   const Screw screw = screw_between(motion.start, motion.end);

@@ -13,8 +13,9 @@ constexpr double kParts[] = {0.004, 0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 
 /// A motion that was stopped goes on if a restart advances by at least this share of the tolerance.
 constexpr double kNewStartShare = 0.1;
 constexpr int kMaxStarts = 8;
-/// Cost of a sweep in triangle-pair tests, and the number of front pairs that count as one more.
-constexpr std::size_t kSweepEffort = 32, kFrontShare = 128;
+/// Cost of a sweep in triangle-pair tests, that of a point or piece whose depth is bounded, and the number of front
+/// pairs that count as one more.
+constexpr std::size_t kSweepEffort = 32, kDepthEffort = 4, kFrontShare = 128;
 
 }  // namespace
 
@@ -59,7 +60,8 @@ void MotionValidator::put_back() {
 
 StepResult MotionValidator::step(const Pose& target, ResponseKind response) {
   StepResult made = engine_.step(target, response);
-  effort_ += made.cost.tests + (kSweepEffort + made.cost.pairs / kFrontShare) * static_cast<std::size_t>(made.sweeps);
+  effort_ += made.cost.tests + kDepthEffort * made.cost.depth_tests +
+             (kSweepEffort + made.cost.pairs / kFrontShare) * static_cast<std::size_t>(made.sweeps);
   return made;
 }
 
@@ -87,6 +89,14 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
 const CertificateEngine& MotionValidator::hold(ComponentId component) {
   engine_.grab({&component, 1});
   return engine_;
+}
+
+Clearance MotionValidator::clearance_at(Span<const ComponentId> set, const Pose& pose, double limit) {
+  std::vector<Pose> poses = poses_;
+  for (const ComponentId c : set) poses[c.value] = pose;
+  engine_.jump(poses);
+  engine_.grab(set);
+  return engine_.clearance(limit);
 }
 
 void MotionValidator::take(ComponentId component) {

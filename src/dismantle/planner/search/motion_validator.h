@@ -29,6 +29,9 @@ class MotionValidator {
   };
   /// Tests whether the set can move along a unit direction by `way` [mm]. The state is restored.
   Trial try_straight(Span<const ComponentId> set, const Vec3& direction, double way);
+  /// The distance from a set at a pose to all others that are present, if it is below `limit` [mm]: engine's
+  /// clearance().
+  Clearance clearance_at(Span<const ComponentId> set, const Pose& pose, double limit);
   /// The engine with one component as the moving set in its assembled pose, for queries.
   const CertificateEngine& hold(ComponentId component);
   /// The engine.

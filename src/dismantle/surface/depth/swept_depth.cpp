@@ -60,11 +60,16 @@ class SweptSearch {
       const Triangle& t = own.triangle(static_cast<std::uint32_t>(f));
       for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]}) {
         const Vec3 now = at(p, time);
-        if (overlaps(box, {now, now}) && parts_.is_deep(p, now)) return Found{time, static_cast<std::uint32_t>(f), p};
+        if (!overlaps(box, {now, now})) continue;
+        ++samples_;
+        if (parts_.is_deep(p, now)) return Found{time, static_cast<std::uint32_t>(f), p};
       }
     }
     return std::nullopt;
   }
+
+  /// Number of sampled points that were near the other shape.
+  std::size_t samples() const { return samples_; }
 
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
@@ -130,6 +135,7 @@ class SweptSearch {
   bool is_limited_;
   const ShallowRegion& region_;
   MovingPartSearch parts_;
+  mutable std::size_t samples_ = 0;
 };
 
 /// Both surfaces of a pair, each moving in the frame of the other.
@@ -152,6 +158,9 @@ class PairSearch {
       if (time >= 1) return std::nullopt;
     }
   }
+
+  /// Number of points and pieces examined.
+  std::size_t cost() const { return pieces_ + searches_[0].samples() + searches_[1].samples(); }
 
   std::optional<DeepPoint> find(DeepSearch search_for) {
     double to = kFirstPart * resolution_;
@@ -225,9 +234,13 @@ class PairSearch {
 }  // namespace
 
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
-                                      std::size_t max_pieces, const KeepGoing& keep_going, DeepSearch search_for) {
+                                      std::size_t max_pieces, const KeepGoing& keep_going, DeepSearch search_for,
+                                      std::size_t* cost) {
   if (pair.a->empty() || pair.b->empty()) return std::nullopt;
-  return PairSearch(pair, limits, resolution, max_pieces, keep_going).find(search_for);
+  PairSearch search(pair, limits, resolution, max_pieces, keep_going);
+  std::optional<DeepPoint> found = search.find(search_for);
+  if (cost) *cost += search.cost();
+  return found;
 }
 
 }  // namespace dismantle

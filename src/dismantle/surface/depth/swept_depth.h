@@ -59,8 +59,9 @@ inline constexpr std::size_t kMaxSweptPieces = 400000;
 /// Once `keep_going` returns false, it counts as if a point had been found where nothing is known yet.
 /// @param resolution of times: `free_until` is earlier than `time` by no more than this, if the search ends
 /// @param search_for with DeepSearch::Any, `free_until` may be much earlier than `time`
+/// @param cost if not null, is increased by the number of points and pieces that were examined
 std::optional<DeepPoint> first_deeper(const SweptPair& pair, const DepthLimits& limits, double resolution,
                                       std::size_t max_pieces = kMaxSweptPieces, const KeepGoing& keep_going = {},
-                                      DeepSearch search_for = DeepSearch::First);
+                                      DeepSearch search_for = DeepSearch::First, std::size_t* cost = nullptr);
 
 }  // namespace dismantle
