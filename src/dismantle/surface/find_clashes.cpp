@@ -156,9 +156,12 @@ Result<Clashes> find_clashes(const Assembly& assembly, const ClashOptions& optio
   Clashes clashes;
   clashes.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(assembly);
   if (!report_progress(options.progress, "building the hierarchy", 0)) return cancelled;
-  const AssemblySurface surface = make_assembly_surface(assembly, options.executor);
+  // The bounds, which take most of the memory, are there once at a time: grown ones first.
+  AssemblySurface surface;
+  surface.triangles = make_assembly_triangles(assembly, options.executor);
   const double near = std::max(options.clearance, clashes.tolerance);
-  const auto candidates = near_component_pairs(surface, near, options.executor);
+  const auto candidates = near_component_pairs(surface.triangles, near, options.executor);
+  surface.bounds = bounds_at(surface.triangles, surface.triangles.vertices, 0, options.executor);
 
   PairShapes shapes(assembly, candidates);
   const PairCheck check(surface, shapes, clashes.tolerance, options);
