@@ -179,8 +179,6 @@ void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(p));
     for (std::size_t behind = p; behind < parts_.size(); ++behind) parts_[behind].mark_changed();
   }
-  // A large product has many small fronts.
-  if (parts_.size() == 1) parts_[0].shrink();
 }
 
 void CertificateFront::exchange_roles() {

@@ -36,11 +36,4 @@ void CertificatePart::remove(std::size_t i) {
   if (size() % CertificateBlocks::kBlock == 0) resize_blocks(block_count() - 1);
 }
 
-void CertificatePart::shrink() {
-  if (4 * data_.capacity() <= 5 * data_.size()) return;
-  pairs_.shrink_to_fit();
-  data_.shrink_to_fit();
-  changed_.shrink_to_fit();
-}
-
 }  // namespace dismantle

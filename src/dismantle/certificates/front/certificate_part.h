@@ -45,8 +45,6 @@ class CertificatePart {
   void set_certificate(std::size_t i, const Certificate& certificate);
   /// Removes pair i; the last one takes its slot.
   void remove(std::size_t i);
-  /// Frees memory that is not used, where that is much.
-  void shrink();
 
  private:
   void resize_blocks(std::size_t count);
