@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace dismantle {
@@ -113,7 +114,8 @@ TEST_F(BlockingTableTest, GivesNearlyEqualDirectionsOneId) {
     const Vec3 unit = normalized(Vec3{any(random), any(random), any(random)});
     const DirectionId d = table_.add_direction(unit);
     EXPECT_EQ(table_.add_direction(normalized(unit + 4e-7 * Vec3{any(random), any(random), any(random)})), d);
-    EXPECT_NE(table_.add_direction(normalized(unit + 1e-5 * Vec3{unit.y, unit.z, -unit.x})), d);
+    const Vec3 aside = normalized(cross(unit, std::abs(unit.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    EXPECT_NE(table_.add_direction(normalized(unit + 1e-5 * aside)), d);
   }
 }
 
