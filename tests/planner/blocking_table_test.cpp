@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 namespace dismantle {
 namespace {
 
@@ -83,24 +86,44 @@ TEST_F(BlockingTableTest, ExpectsWhatItWasToldUntilItKnowsBetter) {
   table_.expect_blockers([](ComponentId c, const Vec3& direction) {
     return c == kLow && direction.z > 0.5 ? std::vector{kTube, kHigh} : std::vector<ComponentId>();
   });
-  EXPECT_FALSE(table_.expects_blocker(kLow, aside(), all_));
-  EXPECT_TRUE(table_.expects_blocker(kLow, up(), all_));
+  EXPECT_FALSE(table_.expected_blocker(kLow, aside(), all_));
+  EXPECT_EQ(table_.expected_blocker(kLow, up(), all_), kTube);
   EXPECT_EQ(table_.any_blocker(kLow, up(), all_), kHigh) << "expected blockers are tested first";
   ComponentSet left = all_;
   left.erase(kHigh);
-  EXPECT_FALSE(table_.expects_blocker(kLow, up(), left)) << "the tube turned out not to block";
+  EXPECT_FALSE(table_.expected_blocker(kLow, up(), left)) << "the tube turned out not to block";
 }
 
 TEST_F(BlockingTableTest, EvaluatesNothingOnceStopped) {
   bool keep_going = true;
   BlockingTable table(engine_, features_, groups_, [&] { return keep_going; });
   const DirectionId d = table.add_direction({0, 0, 1});
-  EXPECT_FALSE(table.blocks(kHigh, d, kLow));
+  EXPECT_FALSE(table.blocks(kHigh, d, kTube));
   keep_going = false;
-  EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "it is already known";
-  EXPECT_TRUE(table.blocks(kHigh, d, kMiddle));
+  EXPECT_FALSE(table.blocks(kHigh, d, kTube)) << "it is already known";
+  EXPECT_FALSE(table.blocks(kHigh, d, kLow)) << "their bounds tell";
+  EXPECT_TRUE(table.blocks(kMiddle, d, kTube));
   keep_going = true;
-  EXPECT_FALSE(table.blocks(kHigh, d, kMiddle)) << "an unfinished query must not be stored";
+  EXPECT_FALSE(table.blocks(kMiddle, d, kTube)) << "an unfinished query must not be stored";
+}
+
+TEST_F(BlockingTableTest, GivesNearlyEqualDirectionsOneId) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 unit = normalized(Vec3{any(random), any(random), any(random)});
+    const DirectionId d = table_.add_direction(unit);
+    EXPECT_EQ(table_.add_direction(normalized(unit + 4e-7 * Vec3{any(random), any(random), any(random)})), d);
+    const Vec3 aside = normalized(cross(unit, std::abs(unit.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    EXPECT_NE(table_.add_direction(normalized(unit + 1e-5 * aside)), d);
+  }
+}
+
+TEST_F(BlockingTableTest, ExitsPastEverythingInTheWay) {
+  const double up_and_out = table_.exit_distance(kLow, up());
+  for (const ComponentId c : {kTube, kMiddle, kHigh})
+    EXPECT_GE(up_and_out, features_[c.value].center.z + features_[c.value].radius - features_[kLow.value].center.z);
+  EXPECT_LE(up_and_out, table_.max_exit_distance(kLow));
 }
 
 }  // namespace

@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/search/removal_search.h"
 
-#include "tests/planner/plan_scenes.h"
+#include "tests/planner/blocking_relations.h"
 
 #include <gtest/gtest.h>
 
 namespace dismantle {
 namespace {
 
-const KeepGoing kAlways = [] { return true; };
-
-/// A product given by its blocking relations: boxes in random order, whose table is filled directly.
-class RemovalSearchTest : public testing::Test {
+/// Searches in products given by their blocking relations.
+class RemovalSearchTest : public scenes::RelationsTest {
  protected:
-  /// @param blocked the blocked component and its blockers, one entry per direction
-  using Relations = std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
-
-  /// The table of `count` boxes far apart, along as many directions as there are relations.
-  void make(std::uint32_t count, const Relations& relations) {
-    std::vector<Component> components;
-    for (std::uint32_t k = 0; k < count; ++k)
-      components.push_back(scenes::component("box", scenes::box({0, 0, 0}, {1, 1, 1})));
-    scene_ = {scenes::assembly(std::move(components)), {0.01, {}}};
-    // Free pairs do not block: only the given relations do.
-    for (std::uint32_t a = 0; a < count; ++a)
-      for (std::uint32_t b = a + 1; b < count; ++b)
-        scene_.pairs.pairs.push_back({ComponentId(a), ComponentId(b), PairState::Free, 0, 1, 1});
-    engine_.emplace(scene_.assembly, scene_.pairs);
-    features_.assign(count, shape_features(*scene_.assembly.components[0].mesh));
-    groups_.emplace(count);
-    table_.emplace(*engine_, features_, *groups_, kAlways);
-    directions_.assign(count, {});
-    for (std::size_t k = 0; k < relations.size(); ++k) {
-      const DirectionId d = table_->add_direction(normalized(Vec3{1, 0.1 * static_cast<double>(k), 0}));
-      for (std::vector<DirectionId>& own : directions_) own.push_back(d);
-      for (const auto& [moving, fixed] : relations[k]) table_->add_blocker(ComponentId(moving), d, ComponentId(fixed));
-    }
-  }
-
   /// The minimum number of components to remove, by trying all sets.
   std::size_t by_brute_force(ComponentId target) {
     const std::size_t count = features_.size();
@@ -61,13 +34,6 @@ class RemovalSearchTest : public testing::Test {
     }
     return best;
   }
-
-  scenes::PlanScene scene_;
-  std::optional<CertificateEngine> engine_;
-  std::vector<ShapeFeatures> features_;
-  std::optional<RigidGroups> groups_;
-  std::optional<BlockingTable> table_;
-  DirectionLists directions_;
 };
 
 TEST_F(RemovalSearchTest, TakesTheShorterExit) {
@@ -107,18 +73,8 @@ TEST_F(RemovalSearchTest, NeverTakesOutMoreThanTheOptimum) {
   std::mt19937_64 random(7);
   int searched = 0;
   for (int round = 0; round < 60; ++round) {
-    // In each direction, a random few block those before them in an order, so that all can be removed.
     const std::uint32_t count = 9;
-    Relations relations(3);
-    for (auto& direction : relations) {
-      std::vector<std::uint32_t> order(count);
-      for (std::uint32_t k = 0; k < count; ++k) order[k] = k;
-      std::shuffle(order.begin(), order.end(), random);
-      for (std::uint32_t i = 0; i < count; ++i)
-        for (std::uint32_t j = i + 1; j < count; ++j)
-          if (random() % 2 == 0) direction.emplace_back(order[i], order[j]);
-    }
-    make(count, relations);
+    make(count, scenes::random_relations(count, 3, random));
     const ComponentId target(0);
     const auto found =
         fewest_removals(*table_, directions_, ComponentSet::all(count), ComponentSet(count), {&target, 1}, kAlways);

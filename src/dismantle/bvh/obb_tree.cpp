@@ -39,6 +39,7 @@ class Builder {
     if (!parts.empty())
       std::stable_sort(order_.begin(), order_.end(),
                        [parts](std::uint32_t f, std::uint32_t g) { return parts[f] < parts[g]; });
+    tree.triangles.reserve(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const Face& face = faces[f];
       const Triangle local{

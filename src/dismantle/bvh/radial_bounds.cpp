@@ -149,20 +149,26 @@ RevolutionSurface::RevolutionSurface(Span<const Vec3> vertices, Span<const Face>
       threads_(std::move(threads)),
       bounds_about_(std::make_unique<BoundsAbout[]>(axes_.size())) {
   if (axes_.empty()) return;
-  order_.reserve(nodes_.size());
-  order_.push_back(0);
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    const ObbNode& node = nodes_[order_[k]];
-    if (!node.leaf()) order_.insert(order_.end(), {node.child, node.child + 1});
-  }
+  const std::vector<std::uint32_t> order = node_order();
   std::vector<std::uint32_t> counts(nodes_.size(), 1);
-  for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
+  for (auto i = order.rbegin(); i != order.rend(); ++i) {
     const ObbNode& node = nodes_[*i];
     if (!node.leaf()) counts[*i] = counts[node.child] + counts[node.child + 1];
   }
   slots_.assign(nodes_.size(), 0);
-  for (const std::uint32_t i : order_)
+  for (const std::uint32_t i : order)
     if (counts[i] >= kLargeNode) slots_[i] = ++large_count_;
+}
+
+std::vector<std::uint32_t> RevolutionSurface::node_order() const {
+  std::vector<std::uint32_t> order;
+  order.reserve(nodes_.size());
+  order.push_back(0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const ObbNode& node = nodes_[order[k]];
+    if (!node.leaf()) order.insert(order.end(), {node.child, node.child + 1});
+  }
+  return order;
 }
 
 double RevolutionSurface::size() const {
@@ -181,7 +187,8 @@ const RadialBoundsList& RevolutionSurface::bounds_about(std::size_t axis) const 
     std::vector<RadialBounds> nodes(nodes_.size());
     std::vector<Sector> sectors(nodes_.size());
     std::vector<Wall> walls(nodes_.size());
-    for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
+    const std::vector<std::uint32_t> order = node_order();
+    for (auto i = order.rbegin(); i != order.rend(); ++i) {
       const ObbNode& node = nodes_[*i];
       if (node.leaf()) {
         const Face& f = faces_[node.child];

@@ -74,6 +74,8 @@ class RevolutionSurface {
   const RadialBoundsList& bounds_about(std::size_t axis) const;
 
  private:
+  /// The tree's nodes, parents before their children.
+  std::vector<std::uint32_t> node_order() const;
   struct BoundsAbout {
     std::once_flag once;
     RadialBoundsList nodes;
@@ -84,7 +86,6 @@ class RevolutionSurface {
   Span<const ObbNode> nodes_;
   std::vector<RevolutionAxis> axes_;
   std::vector<ThreadAxis> threads_;
-  std::vector<std::uint32_t> order_;  ///< The tree's nodes, parents before their children.
   std::vector<std::uint32_t> slots_;  ///< As RadialBoundsList has them.
   std::uint32_t large_count_ = 0;
   std::unique_ptr<BoundsAbout[]> bounds_about_;

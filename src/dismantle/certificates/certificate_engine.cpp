@@ -54,7 +54,11 @@ std::vector<ComponentPair> CertificateEngine::overlapping_pairs() const {
 }
 
 std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
-  return contacts_within(impl_->sweeper, reach);
+  return contacts_of(impl_->sweeper, impl_->sweeper.near_pairs(reach), reach);
+}
+
+std::vector<ContactPoint> CertificateEngine::contacts(ComponentId component, double reach) const {
+  return contacts_of(impl_->sweeper, impl_->sweeper.near_pairs(component, reach), reach);
 }
 
 Clearance CertificateEngine::clearance(double limit) const {

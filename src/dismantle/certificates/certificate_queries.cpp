@@ -55,9 +55,9 @@ std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double lim
 
 }  // namespace
 
-std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach) {
+std::vector<ContactPoint> contacts_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach) {
   std::vector<ContactPoint> contacts;
-  for (const SweepContact& pair : sweeper.near_pairs(reach)) {
+  for (const SweepContact& pair : pairs) {
     const Triangle moving = placed(sweeper, pair.moving, pair.face_moving);
     const Triangle fixed = placed(sweeper, pair.fixed, pair.face_fixed);
     const TriangleDistance apart = distance_triangle_triangle(moving, fixed);
@@ -145,11 +145,9 @@ StraightMover mover(const CertificateSweeper& sweeper, const LinearMotion& motio
 /// The first contact of the whole moving set: the contact of one component shortens the motion for the others.
 FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 displacement) {
   FirstContact first;
-  for (std::uint32_t k = 0; k < sweeper.poses().size(); ++k) {
-    const ComponentId fixed(k);
-    if (sweeper.moves(fixed)) continue;
+  for (const ComponentId fixed : sweeper.near_straight(displacement)) {
     for (const ComponentId moving : sweeper.moving_set()) {
-      const LinearMotion motion{moving, fixed, first.toi * displacement, sweeper.pose(), sweeper.poses()[k]};
+      const LinearMotion motion{moving, fixed, first.toi * displacement, sweeper.pose(), sweeper.poses()[fixed.value]};
       const auto contact = straight_contact(sweeper, motion, StraightSearch::First);
       if (!contact) continue;
       first = {

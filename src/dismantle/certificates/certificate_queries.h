@@ -8,8 +8,8 @@
 
 namespace dismantle {
 
-/// The result of CertificateEngine::contacts().
-std::vector<ContactPoint> contacts_within(const CertificateSweeper& sweeper, double reach);
+/// The result of CertificateEngine::contacts() from CertificateSweeper::near_pairs(), which contain them.
+std::vector<ContactPoint> contacts_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach);
 
 /// The result of CertificateEngine::clearance().
 Clearance min_clearance(const CertificateSweeper& sweeper, double limit);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace dismantle {
@@ -15,6 +16,22 @@ constexpr double kSameDirection = 1e-6;
 constexpr double kAlongAxis = 1e-3;
 /// Margin of exit distances, as a share of the component's radius.
 constexpr double kMargin = 0.05;
+/// Bounds the rounding of positions, relative to the coordinates.
+constexpr double kRounding = 1e-9;
+/// Number of blockers of a component that are tried first in other directions: a few probably block those, too.
+constexpr std::size_t kMaxLastBlockers = 16;
+
+std::vector<BoundingSphere> spheres_of(Span<const ShapeFeatures> features) {
+  std::vector<BoundingSphere> spheres;
+  spheres.reserve(features.size());
+  for (const ShapeFeatures& f : features) spheres.push_back({f.center, f.radius});
+  return spheres;
+}
+
+std::array<std::int64_t, 3> cell_of(const Vec3& unit) {
+  const auto index = [](double x) { return static_cast<std::int64_t>(std::floor(x / kSameDirection)); };
+  return {index(unit.x), index(unit.y), index(unit.z)};
+}
 
 }  // namespace
 
@@ -24,34 +41,65 @@ BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFe
       features_(features),
       groups_(groups),
       keep_going_(std::move(keep_going)),
+      spheres_(spheres_of(features)),
       rows_(features.size()),
-      others_(features.size()) {
-  for (std::uint32_t c = 0; c < features.size(); ++c) {
-    std::vector<ComponentId>& others = others_[c];
-    for (std::uint32_t k = 0; k < features.size(); ++k)
-      if (k != c) others.emplace_back(k);
-    const auto gap = [&](ComponentId k) {
-      return length(features[k.value].center - features[c].center) - features[k.value].radius;
-    };
-    std::stable_sort(others.begin(), others.end(), [&](ComponentId a, ComponentId b) { return gap(a) < gap(b); });
-  }
-}
+      last_blockers_(features.size()),
+      together_(features.size()),
+      blocked_by_(features.size()) {}
 
 DirectionId BlockingTable::add_direction(const Vec3& unit) {
-  for (std::uint32_t d = 0; d < directions_.size(); ++d)
-    if (length(directions_[d] - unit) < kSameDirection) return DirectionId(d);
+  const auto [x, y, z] = cell_of(unit);
+  DirectionId same;
+  for (std::int64_t i = x - 1; i <= x + 1; ++i)
+    for (std::int64_t j = y - 1; j <= y + 1; ++j)
+      for (std::int64_t k = z - 1; k <= z + 1; ++k) {
+        const auto cell = cells_.find({i, j, k});
+        if (cell == cells_.end()) continue;
+        for (const DirectionId d : cell->second)
+          if (length(directions_[d.value] - unit) < kSameDirection && (!same.valid() || d < same)) same = d;
+      }
+  if (same.valid()) return same;
   directions_.push_back(unit);
-  return DirectionId(static_cast<std::uint32_t>(directions_.size() - 1));
+  const DirectionId added(static_cast<std::uint32_t>(directions_.size() - 1));
+  cells_[{x, y, z}].push_back(added);
+  return added;
+}
+
+BlockingTable::Known* BlockingTable::Row::find(ComponentId c) {
+  const auto found = std::lower_bound(near.begin(), near.end(), c);
+  return found == near.end() || *found != c ? nullptr : &known[static_cast<std::size_t>(found - near.begin())];
 }
 
 BlockingTable::Row& BlockingTable::row(ComponentId moving, DirectionId d) {
-  Row& row = rows_[moving.value][d];
-  if (row.known.empty()) {
-    row.known.resize(features_.size());
-    for (const ComponentId mate : groups_.of(moving))
-      if (mate != moving) row.known[mate.value] = Known::Blocks;
-    if (expectation_) row.expected = expectation_(moving, direction(d));
-  }
+  auto [place, is_new] = rows_[moving.value].try_emplace(d);
+  if (is_new) place->second = new_row(moving, d);
+  return place->second;
+}
+
+BlockingTable::Row BlockingTable::new_row(ComponentId moving, DirectionId d) const {
+  Row row;
+  if (expectation_) row.expected = expectation_(moving, direction(d));
+  row.near = row.expected;
+  const Span<const ComponentId> group = groups_.of(moving);
+  row.near.insert(row.near.end(), group.begin(), group.end());
+  for_each_in_way(moving, d, [&](ComponentId c, double) {
+    if (!boxes_stay_apart(moving, d, c) || passes_along_axis(moving, c)) row.near.push_back(c);
+  });
+  std::sort(row.near.begin(), row.near.end());
+  row.near.erase(std::unique(row.near.begin(), row.near.end()), row.near.end());
+  std::erase(row.near, moving);
+
+  row.known.resize(row.near.size());
+  for (const ComponentId mate : group)
+    if (mate != moving) *row.find(mate) = Known::Blocks;
+  row.nearest.resize(row.near.size());
+  std::iota(row.nearest.begin(), row.nearest.end(), 0u);
+  const auto gap = [&](std::uint32_t i) {
+    const ShapeFeatures& other = features_[row.near[i].value];
+    return length(other.center - features_[moving.value].center) - other.radius;
+  };
+  std::stable_sort(row.nearest.begin(), row.nearest.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return gap(a) < gap(b); });
   return row;
 }
 
@@ -64,10 +112,44 @@ double BlockingTable::way_past(ComponentId moving, DirectionId d, ComponentId fi
   return aside > reach ? 0 : std::max(0.0, along + reach);
 }
 
+template <class Visit>
+void BlockingTable::for_each_in_way(ComponentId moving, DirectionId d, const Visit& visit) const {
+  const ShapeFeatures& m = features_[moving.value];
+  const auto out_of_way = [&](const BoundingSphere& s) {
+    const Vec3 apart = s.center - m.center;
+    const double along = dot(apart, direction(d)), reach = m.radius + s.radius;
+    const double margin = kRounding * (max_abs(m.center) + max_abs(s.center) + reach);
+    return std::max(length(apart - along * direction(d)) - reach, -(along + reach)) - margin;
+  };
+  spheres_.traverse(
+      out_of_way, [] { return 0.0; },
+      [&](std::uint32_t c) {
+        if (c == moving.value) return;
+        const double way = way_past(moving, d, ComponentId(c));
+        if (way > 0) visit(ComponentId(c), way);
+      });
+}
+
+bool BlockingTable::boxes_stay_apart(ComponentId moving, DirectionId d, ComponentId fixed) const {
+  const Aabb &m = features_[moving.value].bounds, &f = features_[fixed.value].bounds;
+  if (m.empty() || f.empty()) return true;
+  const Vec3 apart = f.center() - m.center(), half = 0.5 * (m.size() + f.size());
+  const double margin = kRounding * (max_abs(m.center()) + max_abs(f.center()) + max_abs(half));
+  const auto reach = [&](const Vec3& w) {
+    return half.x * std::abs(w.x) + half.y * std::abs(w.y) + half.z * std::abs(w.z);
+  };
+  const Vec3& ahead = direction(d);
+  if (-dot(ahead, apart) > reach(ahead) + margin) return true;
+  for (const Vec3& edge : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const Vec3 w = cross(ahead, edge);
+    if (std::abs(dot(w, apart)) > reach(w) + margin) return true;
+  }
+  return false;
+}
+
 double BlockingTable::exit_distance(ComponentId moving, DirectionId d) const {
   double way = 0;
-  for (std::uint32_t c = 0; c < features_.size(); ++c)
-    if (c != moving.value) way = std::max(way, way_past(moving, d, ComponentId(c)));
+  for_each_in_way(moving, d, [&](ComponentId, double past) { way = std::max(way, past); });
   return way + kMargin * features_[moving.value].radius;
 }
 
@@ -83,46 +165,63 @@ double BlockingTable::max_exit_distance(ComponentId moving) const {
 }
 
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
-  Known& known = row(moving, d).known[fixed.value];
-  if (known == Known::Nothing) {
+  return blocks(row(moving, d), moving, d, fixed);
+}
+
+bool BlockingTable::blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed) {
+  Known* known = row.find(fixed);
+  if (!known) return false;
+  if (*known == Known::Nothing) {
     if (!keep_going_()) return true;
     const double way = way_past(moving, d, fixed);
     const bool met =
         way > 0 && (!may_pass(moving, d, fixed) ||
                     engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value());
-    known = met ? Known::Blocks : Known::Free;
+    *known = met ? Known::Blocks : Known::Free;
   }
-  return known == Known::Blocks;
+  return *known == Known::Blocks;
 }
 
 std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
   Row& known = row(moving, d);
   if (known.witness.valid() && present.has(known.witness)) return known.witness;
+  const auto is_blocker = [&](ComponentId c) { return present.has(c) && blocks(known, moving, d, c); };
   for (const ComponentId other : known.expected)
-    if (present.has(other) && blocks(moving, d, other)) return known.witness = other;
-  std::vector<ComponentId>& others = others_[moving.value];
-  for (auto other = others.begin(); other != others.end(); ++other) {
-    if (!present.has(*other) || !blocks(moving, d, *other)) continue;
-    known.witness = *other;
-    std::rotate(others.begin(), other, other + 1);  // it probably blocks other directions, too
+    if (is_blocker(other)) return known.witness = other;
+  for (const ComponentId other : last_blockers_[moving.value])
+    if (is_blocker(other)) return known.witness = other;
+  for (const std::uint32_t i : known.nearest) {
+    if (!is_blocker(known.near[i])) continue;
+    known.witness = known.near[i];
+    remember_blocker(moving, known.witness);
     return known.witness;
   }
   return std::nullopt;
 }
 
-bool BlockingTable::expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
-  const Row& known = row(moving, d);
-  if (known.witness.valid() && present.has(known.witness)) return true;
-  return std::any_of(known.expected.begin(), known.expected.end(),
-                     [&](ComponentId other) { return present.has(other) && known.known[other.value] != Known::Free; });
+void BlockingTable::remember_blocker(ComponentId moving, ComponentId blocker) {
+  std::vector<ComponentId>& last = last_blockers_[moving.value];
+  std::erase(last, blocker);
+  last.insert(last.begin(), blocker);
+  if (last.size() > kMaxLastBlockers) last.pop_back();
+}
+
+std::optional<ComponentId> BlockingTable::expected_blocker(ComponentId moving, DirectionId d,
+                                                           const ComponentSet& present) {
+  Row& known = row(moving, d);
+  if (known.witness.valid() && present.has(known.witness)) return known.witness;
+  for (const ComponentId other : known.expected)
+    if (present.has(other) && *known.find(other) != Known::Free) return other;
+  return std::nullopt;
 }
 
 std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId d, const ComponentSet& present,
                                                  std::size_t enough) {
   std::vector<ComponentId> found;
-  for (const ComponentId other : others_[moving.value]) {
+  Row& known = row(moving, d);
+  for (const std::uint32_t i : known.nearest) {
     if (found.size() >= enough) break;
-    if (present.has(other) && blocks(moving, d, other)) found.push_back(other);
+    if (present.has(known.near[i]) && blocks(known, moving, d, known.near[i])) found.push_back(known.near[i]);
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -136,15 +235,16 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
 
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                                         ComponentSet& ends, std::size_t most) {
-  ComponentSet together(features_.size());
-  std::vector<ComponentId> blocked_by(features_.size());  // the component that a member moves along with
+  together_.erase(members_);
+  members_.clear();
+  blocked_by_[moving.value] = ComponentId();
   std::vector<ComponentId> unfollowed{moving},
       unasked;  // members whose known relations, and whose unknown ones, are not expanded yet
   while (!unfollowed.empty() || !unasked.empty()) {
     if (unfollowed.empty()) {
       const ComponentId member = unasked.back();
-      if (const auto next = another_blocker(member, d, present, together, ends)) {
-        blocked_by[next->value] = member;
+      if (const auto next = another_blocker(member, d, present, ends)) {
+        blocked_by_[next->value] = member;
         unfollowed.push_back(*next);
       } else {
         unasked.pop_back();
@@ -153,36 +253,40 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
     }
     const ComponentId member = unfollowed.back();
     unfollowed.pop_back();
-    if (together.has(member)) continue;
-    together.insert(member);
+    if (together_.has(member)) continue;
+    together_.insert(member);
+    members_.push_back(member);
     if (ends.has(member)) {
-      for (ComponentId c = member; c.valid(); c = blocked_by[c.value]) ends.insert(c);
+      for (ComponentId c = member; c.valid(); c = blocked_by_[c.value]) ends.insert(c);
       return {};
     }
-    if (together.size() > most) {
+    if (members_.size() > most) {
       ends.insert(moving);
       return {};
     }
     unasked.push_back(member);
-    const std::vector<Known>& known = row(member, d).known;
-    for (const ComponentId other : others_[member.value])
-      if (known[other.value] == Known::Blocks && present.has(other) && !together.has(other)) {
-        blocked_by[other.value] = member;
-        unfollowed.push_back(other);
-      }
+    const Row& known = row(member, d);
+    for (const std::uint32_t i : known.nearest) {
+      const ComponentId other = known.near[i];
+      if (known.known[i] != Known::Blocks || !present.has(other) || together_.has(other)) continue;
+      blocked_by_[other.value] = member;
+      unfollowed.push_back(other);
+    }
   }
-  return together.members();
+  std::vector<ComponentId> together = members_;
+  std::sort(together.begin(), together.end());
+  return together;
 }
 
 std::optional<ComponentId> BlockingTable::another_blocker(ComponentId moving, DirectionId d,
-                                                          const ComponentSet& present, const ComponentSet& together,
-                                                          const ComponentSet& ends) {
-  const auto is_new = [&](ComponentId c) { return present.has(c) && !together.has(c) && blocks(moving, d, c); };
-  for (const ComponentId other : row(moving, d).expected)
+                                                          const ComponentSet& present, const ComponentSet& ends) {
+  Row& known = row(moving, d);
+  const auto is_new = [&](ComponentId c) { return present.has(c) && !together_.has(c) && blocks(known, moving, d, c); };
+  for (const ComponentId other : known.expected)
     if (is_new(other)) return other;
   for (const bool ends_it : {true, false})
-    for (const ComponentId other : others_[moving.value])
-      if (ends.has(other) == ends_it && is_new(other)) return other;
+    for (const std::uint32_t i : known.nearest)
+      if (ends.has(known.near[i]) == ends_it && is_new(known.near[i])) return known.near[i];
   return std::nullopt;
 }
 
@@ -196,7 +300,15 @@ bool BlockingTable::may_pass(ComponentId moving, DirectionId d, ComponentId fixe
 }
 
 void BlockingTable::add_blocker(ComponentId moving, DirectionId d, ComponentId fixed) {
-  row(moving, d).known[fixed.value] = Known::Blocks;
+  Row& known = row(moving, d);
+  if (!known.find(fixed)) {
+    const auto place = std::lower_bound(known.near.begin(), known.near.end(), fixed) - known.near.begin();
+    known.near.insert(known.near.begin() + place, fixed);
+    known.known.insert(known.known.begin() + place, Known::Nothing);
+    for (std::uint32_t& i : known.nearest) i += i >= static_cast<std::uint32_t>(place);
+    known.nearest.push_back(static_cast<std::uint32_t>(place));
+  }
+  *known.find(fixed) = Known::Blocks;
 }
 
 std::optional<StraightContact> BlockingTable::contact(ComponentId moving, DirectionId d, ComponentId fixed) const {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "dismantle/assembly/rigid_groups.h"
+#include "dismantle/bvh/sphere_tree.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/keep_going.h"
 #include "dismantle/planner/component_set.h"
 #include "dismantle/planner/shape_features.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -21,7 +23,8 @@ using DirectionId = Id<struct DirectionTag>;  ///< Index of a direction within a
 
 /// Directional blocking relations (Wilson, Latombe 1994): which component blocks which on a straight motion to infinity
 /// from the assembled state. A relation is computed on first use and does not depend on what else is removed.
-/// Certified: a component that does not block is free of contact over the true motion.
+/// Certified: a component that does not block is free of contact over the true motion. Only components whose bounds
+/// meet the volume that a motion sweeps are stored and swept.
 class BlockingTable {
  public:
   /// @param engine, features (of every component), groups must outlive the table
@@ -69,8 +72,8 @@ class BlockingTable {
   using Expectation = std::function<std::vector<ComponentId>(ComponentId moving, const Vec3& direction)>;
   /// Sets the prediction. @pre no relation was computed yet
   void expect_blockers(Expectation expectation) { expectation_ = std::move(expectation); }
-  /// True if one of `present` is known or predicted to block.
-  bool expects_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
+  /// One of `present` that is known or predicted to block, if there is one.
+  std::optional<ComponentId> expected_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
   /// Lets two components pass each other along an axis only, either way: a ring that gives, and what it is on.
   /// @pre no relation of the two was computed yet
   void let_pass_along(ComponentId a, ComponentId b, Vec3 axis);
@@ -81,19 +84,34 @@ class BlockingTable {
 
  private:
   enum class Known : std::uint8_t { Nothing, Free, Blocks };
+  /// The relations of a component along a direction. Components that are not in it do not block.
   struct Row {
-    std::vector<Known> known;  // of every component
-    ComponentId witness;       // the last one found to block
+    std::vector<ComponentId> near;       ///< Ascending.
+    std::vector<Known> known;            ///< Of each of these.
+    std::vector<std::uint32_t> nearest;  ///< Their indices, the nearest first.
+    ComponentId witness;                 ///< The last one found to block.
     std::vector<ComponentId> expected;
+
+    /// The relation to a component; null if that is not near.
+    Known* find(ComponentId c);
   };
   Row& row(ComponentId moving, DirectionId d);
-  /// One of `present` that blocks and is not in `together`: the expected ones are asked first, then those of `ends`.
+  Row new_row(ComponentId moving, DirectionId d) const;
+  bool blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed);
+  /// One of `present` that blocks and is not in `together_`: the expected ones are asked first, then those of `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                             const ComponentSet& together, const ComponentSet& ends);
+                                             const ComponentSet& ends);
+  /// Calls visit(component, way_past) for those with a way past them.
+  template <class Visit>
+  void for_each_in_way(ComponentId moving, DirectionId d, const Visit& visit) const;
   /// Distance along `d` after which `moving` has passed `fixed` [mm]; 0 if it never comes near it.
   double way_past(ComponentId moving, DirectionId d, ComponentId fixed) const;
+  /// True if the bounding boxes certainly stay apart, also when projected along `d`.
+  bool boxes_stay_apart(ComponentId moving, DirectionId d, ComponentId fixed) const;
   /// False if the two may pass each other along an axis only, and this is another direction.
   bool may_pass(ComponentId moving, DirectionId d, ComponentId fixed) const;
+  bool passes_along_axis(ComponentId a, ComponentId b) const { return only_along_.count(std::minmax(a, b)) > 0; }
+  void remember_blocker(ComponentId moving, ComponentId blocker);
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
@@ -101,10 +119,16 @@ class BlockingTable {
   KeepGoing keep_going_;
   Expectation expectation_;
   std::vector<Vec3> directions_;
-  std::map<std::pair<ComponentId, ComponentId>, Vec3> only_along_;  // a < b
+  std::map<std::array<std::int64_t, 3>, std::vector<DirectionId>> cells_;  // of directions, for those that are equal
+  std::map<std::pair<ComponentId, ComponentId>, Vec3> only_along_;         // a < b
+  SphereTree spheres_;                                                     // of all components
   std::vector<std::map<DirectionId, Row>>
       rows_;  // of every component: rows of different ones may be asked side by side
-  std::vector<std::vector<ComponentId>> others_;  // of every component: the last blockers first, then the nearest
+  std::vector<std::vector<ComponentId>> last_blockers_;  // of every component, in any direction; the last first
+  // Of moving_together():
+  ComponentSet together_;
+  std::vector<ComponentId> members_;     // of `together_`
+  std::vector<ComponentId> blocked_by_;  // of each of these: the component that it moves along with
 };
 
 }  // namespace dismantle

@@ -6,6 +6,7 @@
 #include "dismantle/planner/least_overlap.h"
 #include "dismantle/planner/search/component_axes.h"
 #include "dismantle/planner/search/direction_choice.h"
+#include "dismantle/planner/search/free_component_search.h"
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
 #include "dismantle/planner/search/sample_search.h"
@@ -19,6 +20,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
 
 namespace dismantle {
@@ -40,13 +42,6 @@ constexpr double kSameSize = 1e-6;
 /// Distance at which removed components stand, in diagonals of the assembly.
 constexpr double kFarAway = 100;
 
-std::vector<ShapeFeatures> features_of(const Assembly& assembly, const Executor& executor) {
-  std::vector<ShapeFeatures> features(assembly.components.size());
-  executor.for_each_heavy(features.size(),
-                          [&](std::size_t c) { features[c] = shape_features(assembled_mesh(assembly.components[c])); });
-  return features;
-}
-
 RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
   RigidGroups groups(assembly.components.size());
   for (const std::vector<ComponentId>& together : options.together) groups.unite(together);
@@ -63,11 +58,12 @@ class Planner {
         groups_(groups_of(assembly, options)),
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
-        features_(features_of(assembly, options.engine.executor)),
+        features_(shape_features(assembly, options.engine.executor)),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
         table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
-        choice_(planned(pairs), table_, validator_, without_directions(), [this] { return keep_going(); }),
+        choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
+                [this] { return keep_going(); }),
         axes_(planned(pairs), validator_),
         margins_(assembly, pairs, validator_),
         size_(diagonal(assembled_bounds(assembly))),
@@ -112,10 +108,12 @@ class Planner {
     return staying_of(ComponentSet::all(count_));
   }
 
-  /// False once the user or the time limit ends the search.
+  /// False once the user or the time limit ends the search; thread-safe.
   bool keep_going() {
-    const double done = static_cast<double>(taken_out_) / static_cast<double>(std::max<std::size_t>(1, count_));
-    if (!stopped_ && !report_progress(options_.progress, "planning", done)) stopped_ = true;
+    const std::lock_guard lock(progress_mutex_);
+    const auto all = static_cast<double>(std::max<std::size_t>(1, count_));
+    if (!stopped_ && !report_progress(options_.progress, "planning", static_cast<double>(taken_out_) / all))
+      stopped_ = true;
     return in_time();
   }
   /// False once the time limit ends the search; thread-safe.
@@ -181,12 +179,14 @@ class Planner {
 
   /// Removes what it can from `body` except `staying`. @return the rest
   ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of, Effort effort) {
+    FreeComponentSearch search(table_, choice_.directions(), body, staying);
     while (body.size() > staying.size() && keep_going()) {
       validator_.stand(body);
-      std::optional<PlanStep> step = next_step(body, staying, effort);
+      std::optional<PlanStep> step = next_step(body, staying, effort, search);
       if (!step) break;
       if (options_.margins) step->margin = margins_.of(*step, body.members(), size_);
       body.erase(step->components);
+      search.remove(step->components);
       const auto index = static_cast<std::uint32_t>(plan_.steps.size());
       plan_.steps.push_back(*step);
       plan_.steps.back().part_of = part_of;
@@ -212,11 +212,12 @@ class Planner {
     }
   }
 
-  std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying, Effort effort) {
-    const std::vector<StraightRemoval> single = single_removals(body, staying);
+  std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying, Effort effort,
+                                    FreeComponentSearch& search) {
+    const std::vector<StraightRemoval> single = single_removals(body, staying, search);
     for (const StraightRemoval& removal : single)
       if (auto step = try_removal(removal, body)) return step;
-    if (!single.empty()) return keep_going() ? next_step(body, staying, effort) : std::nullopt;
+    if (!single.empty()) return keep_going() ? next_step(body, staying, effort, search) : std::nullopt;
     if (auto step = find_screwed(body, staying, false)) return step;
     const auto ask = [this] { return keep_going(); };
     while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, ask))
@@ -324,15 +325,15 @@ class Planner {
   }
 
   /// Single components that can be removed straight, in the order in which to try them.
-  std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying) {
+  std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying,
+                                               FreeComponentSearch& search) {
     if (!options_.preferences.empty()) {
       if (kinds_.empty()) kinds_ = component_kinds(assembly_);
       StepBefore before;
       if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
       return preferred_removals({table_, choice_.directions(), kinds_, options_.preferences}, body, staying, before);
     }
-    std::vector<StraightRemoval> single = free_components(table_, choice_.directions(), body, staying,
-                                                          options_.engine.executor, [this] { return in_time(); });
+    std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return in_time(); });
     std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
       const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
       if (a_goes_on != b_goes_on) return a_goes_on;
@@ -380,6 +381,7 @@ class Planner {
   std::size_t count_;
   Clock::time_point start_ = Clock::now();
   std::atomic<bool> stopped_ = false;
+  std::mutex progress_mutex_;
   std::size_t taken_out_ = 0;
   RigidGroups groups_;
   std::vector<ComponentId> targets_, fixed_;  // with their groups

@@ -64,17 +64,18 @@ Interval overlap(const Aabb& box, const Vec3& exit, const SweptBox& swept) {
       if (!(length(n) > 0)) continue;
       const Interval one = overlap_along(box, exit, swept, n);
       all = {std::max(all.from, one.from), std::min(all.to, one.to)};
+      if (all.empty()) return all;
     }
   }
   return all;
 }
 
-/// The smallest distance outside all intervals.
+/// The smallest distance outside all intervals. @pre none is empty
 double first_outside(std::vector<Interval> taken) {
   std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
   double distance = 0;
   for (const Interval& t : taken)
-    if (!t.empty() && t.from <= distance) distance = std::max(distance, t.to);
+    if (t.from <= distance) distance = std::max(distance, t.to);
   return distance;
 }
 
@@ -120,8 +121,11 @@ class Aside {
     const Aabb start = way_box(step, base);
     passed.push_back({start, {}});
     std::vector<Interval> taken;
-    for (const Aabb& box : room)
-      for (const SweptBox& other : passed) taken.push_back(overlap(inflated(box, room_), exit, other));
+    for (const Aabb& box : room) {
+      const Aabb roomy = inflated(box, room_);
+      for (const SweptBox& other : passed)
+        if (const Interval one = overlap(roomy, exit, other); !one.empty()) taken.push_back(one);
+    }
     const double distance = distances_[k] = first_outside(std::move(taken));
     passed.push_back({leaving, distance * exit});
     for (SweptBox& swept : inner) {

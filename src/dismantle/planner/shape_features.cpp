@@ -31,10 +31,18 @@ ShapeFeatures shape_features(const TriangleMesh& mesh) {
     const Vec3 axis = cross(a, b);
     if (areas > 0 && length(axis) > kMinSine * areas) axes.add(axis, length(axis) / std::sqrt(areas));
   }
-  ShapeFeatures features{normals.heaviest(kMaxNormals), axes.heaviest(kMaxAxes), {}, 0, 0};
+  ShapeFeatures features{normals.heaviest(kMaxNormals), axes.heaviest(kMaxAxes), {}, 0, 0, {}};
   for (const Vec3& a : area_vectors) features.area += length(a);
   for (const Vec3& p : mesh.vertices) features.center += p / static_cast<double>(mesh.vertices.size());
+  for (const Vec3& p : mesh.vertices) features.bounds.extend(p);
   for (const Vec3& p : mesh.vertices) features.radius = std::max(features.radius, length(p - features.center));
+  return features;
+}
+
+std::vector<ShapeFeatures> shape_features(const Assembly& assembly, const Executor& executor) {
+  std::vector<ShapeFeatures> features(assembly.components.size());
+  executor.for_each_heavy(features.size(),
+                          [&](std::size_t c) { features[c] = shape_features(assembled_mesh(assembly.components[c])); });
   return features;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/assembly.h"
+#include "dismantle/exec/executor.h"
+#include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/triangle_mesh.h"
 #include "dismantle/planner/search/direction_clusters.h"
 
@@ -16,10 +19,13 @@ struct ShapeFeatures {
   Vec3 center;        ///< The mean of its vertices [mm].
   double radius = 0;  ///< Of its bounding sphere about the center [mm].
   double area = 0;    ///< Surface area [mm^2]; independent of the tessellation.
+  Aabb bounds;        ///< Its bounding box [mm].
 };
 
 /// Finds plane faces, and the axes of bores, shafts, ribs and other extruded shapes: two faces that meet at an angle
 /// share the direction of the cross product of their normals, and around a bore all of these agree.
 ShapeFeatures shape_features(const TriangleMesh& mesh);
+/// The features of all assembled components of an assembly.
+std::vector<ShapeFeatures> shape_features(const Assembly& assembly, const Executor& executor);
 
 }  // namespace dismantle

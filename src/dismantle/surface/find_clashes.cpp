@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace dismantle {
 
@@ -18,11 +20,55 @@ namespace {
 /// The largest difference of the bounds of a depth, as a part of the tolerance.
 constexpr double kGapOfTolerance = 0.1;
 
+/// The shapes of components, each of which is there from the first of its pairs to the last.
+class PairShapes {
+ public:
+  using Pairs = std::vector<std::pair<ComponentId, ComponentId>>;
+
+  PairShapes(const Assembly& assembly, const Pairs& pairs) : assembly_(assembly), shapes_(assembly.components.size()) {
+    for (const auto& [a, b] : pairs) {
+      ++shapes_[a.value].pairs_left;
+      ++shapes_[b.value].pairs_left;
+    }
+  }
+
+  /// The shape of a component. @pre not all of its pairs are done
+  const SolidShape& of(ComponentId c) {
+    Built& built = shapes_[c.value];
+    std::call_once(built.once, [&] { built.shape = SolidShape(assembly_[c]); });
+    return built.shape;
+  }
+  /// Notes that a pair needs its shapes no longer.
+  void end_pair(ComponentId a, ComponentId b) {
+    for (const ComponentId c : {a, b})
+      if (--shapes_[c.value].pairs_left == 0) shapes_[c.value].shape = SolidShape();
+  }
+
+ private:
+  struct Built {
+    std::once_flag once;
+    SolidShape shape;
+    std::atomic<std::size_t> pairs_left{0};
+  };
+  const Assembly& assembly_;
+  std::vector<Built> shapes_;
+};
+
+/// The order in which few shapes are needed at a time where components are listed in the order of the product tree: a
+/// pair comes with the later one of its components.
+std::vector<std::size_t> by_later_component(const PairShapes::Pairs& pairs) {
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+    return std::pair(pairs[i].second, pairs[i].first) < std::pair(pairs[k].second, pairs[k].first);
+  });
+  return order;
+}
+
 /// Compares pairs of components.
 class PairCheck {
  public:
-  PairCheck(const AssemblySurface& surface, const std::vector<SolidShape>& shapes, double tolerance,
-            const ClashOptions& options)
+  PairCheck(const AssemblySurface& surface, PairShapes& shapes, double tolerance, const ClashOptions& options)
       : surface_(surface),
         shapes_(shapes),
         tolerance_(tolerance),
@@ -36,8 +82,8 @@ class PairCheck {
     Clash clash;
     clash.a = a;
     clash.b = b;
-    if (shapes_[a.value].empty() || shapes_[b.value].empty()) return std::nullopt;
-    const PlacedShape first{&shapes_[a.value], {}}, second{&shapes_[b.value], {}};
+    const PlacedShape first{&shapes_.of(a), {}}, second{&shapes_.of(b), {}};
+    if (first.shape->empty() || second.shape->empty()) return std::nullopt;
     const SolidDepth depth = solid_depth(first, second, depth_options_);
     clash.depth = depth.depth;
     clash.depth_attained = depth.attained;
@@ -73,7 +119,7 @@ class PairCheck {
 
   /// True if no part of a surface that does not meet the other one is inside that.
   bool outside(ComponentId inner, ComponentId outer) const {
-    const WindingNumber& winding = shapes_[outer.value].winding();
+    const WindingNumber& winding = shapes_.of(outer).winding();
     if (!winding.closed()) return false;
     const std::vector<std::uint32_t> vertices = shell_vertices(surface_.triangles, inner);
     return std::none_of(vertices.begin(), vertices.end(),
@@ -81,7 +127,7 @@ class PairCheck {
   }
 
   const AssemblySurface& surface_;
-  const std::vector<SolidShape>& shapes_;
+  PairShapes& shapes_;
   double tolerance_, clearance_;
   bool volumes_;
   DepthOptions depth_options_;
@@ -110,19 +156,21 @@ Result<Clashes> find_clashes(const Assembly& assembly, const ClashOptions& optio
   Clashes clashes;
   clashes.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(assembly);
   if (!report_progress(options.progress, "building the hierarchy", 0)) return cancelled;
-  const AssemblySurface surface = make_assembly_surface(assembly, options.executor);
+  // The bounds, which take most of the memory, are there once at a time: grown ones first.
+  AssemblySurface surface;
+  surface.triangles = make_assembly_triangles(assembly, options.executor);
   const double near = std::max(options.clearance, clashes.tolerance);
-  const auto candidates = near_component_pairs(surface, near, options.executor);
+  const auto candidates = near_component_pairs(surface.triangles, near, options.executor);
+  surface.bounds = bounds_at(surface.triangles, surface.triangles.vertices, 0, options.executor);
 
-  std::vector<SolidShape> shapes(assembly.components.size());
-  if (!run_all(shapes.size(), "building the hierarchy", options,
-               [&](std::size_t c) { shapes[c] = SolidShape(assembly.components[c]); }))
-    return cancelled;
+  PairShapes shapes(assembly, candidates);
   const PairCheck check(surface, shapes, clashes.tolerance, options);
+  const std::vector<std::size_t> order = by_later_component(candidates);
   std::vector<std::optional<Clash>> found(candidates.size());
   if (!run_all(found.size(), "comparing components", options, [&](std::size_t i) {
-        const auto [a, b] = candidates[i];
-        found[i] = check.check(a, b);
+        const auto [a, b] = candidates[order[i]];
+        found[order[i]] = check.check(a, b);
+        shapes.end_pair(a, b);
       }))
     return cancelled;
   for (const std::optional<Clash>& clash : found)

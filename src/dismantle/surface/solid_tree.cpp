@@ -9,17 +9,22 @@ namespace {
 
 /// Fills in the normals, and the faces at each vertex.
 void find_normals(SolidTree& solid) {
-  solid.normals.resize(solid.faces.size());
-  solid.around_begin.assign(solid.vertices.size() + 1, 0);
+  SolidTree::FaceNormals found;
+  found.normals.resize(solid.faces.size());
+  found.around_begin.assign(solid.vertices.size() + 1, 0);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-    solid.normals[f] = normalized(normal_unscaled(solid.triangle(f)));
-    for (const std::uint32_t v : solid.faces[f].v) ++solid.around_begin[v + 1];
+    found.normals[f] = normalized(normal_unscaled(solid.triangle(f)));
+    for (const std::uint32_t v : solid.faces[f].v) ++found.around_begin[v + 1];
   }
-  for (std::size_t v = 0; v < solid.vertices.size(); ++v) solid.around_begin[v + 1] += solid.around_begin[v];
-  solid.around.resize(3 * solid.faces.size());
-  std::vector<std::uint32_t> next(solid.around_begin.begin(), solid.around_begin.end() - 1);
+  for (std::size_t v = 0; v < solid.vertices.size(); ++v) found.around_begin[v + 1] += found.around_begin[v];
+  found.around.resize(3 * solid.faces.size());
+  std::vector<std::uint32_t> next(found.around_begin.begin(), found.around_begin.end() - 1);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
-    for (const std::uint32_t v : solid.faces[f].v) solid.around[next[v]++] = f;
+    for (const std::uint32_t v : solid.faces[f].v) found.around[next[v]++] = f;
+  solid.face_normals = std::make_shared<const SolidTree::FaceNormals>(std::move(found));
+  solid.normals = solid.face_normals->normals;
+  solid.around_begin = solid.face_normals->around_begin;
+  solid.around = solid.face_normals->around;
 }
 
 /// The cylinders and threads that are recognised in a shape.
@@ -49,6 +54,7 @@ SolidTree make_displaced_tree(const SolidTree& solid, std::vector<Vec3> vertices
   displaced.normals = solid.normals;
   displaced.around_begin = solid.around_begin;
   displaced.around = solid.around;
+  displaced.face_normals = solid.face_normals;
   Recognised found;
   if (solid.revolution) {
     const Span<const RevolutionAxis> axes = solid.revolution->axes();

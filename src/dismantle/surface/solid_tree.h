@@ -21,17 +21,27 @@ struct SolidTree {
   bool has_outside = false;
   /// The mesh bounds a volume, but its normals point inwards.
   bool inside_out = false;
-  std::vector<Vec3> normals;                ///< Unit outward normal of each face.
-  std::vector<std::uint32_t> around_begin;  ///< Begin of each vertex's range in `around`, shape [vertex_count + 1].
-  std::vector<std::uint32_t> around;        ///< Faces at each vertex.
-  ObbTree tree;                             ///< Boxes over the faces.
+  Span<const Vec3> normals;                ///< Unit outward normal of each face.
+  Span<const std::uint32_t> around_begin;  ///< Begin of each vertex's range in `around`, shape [vertex_count + 1].
+  Span<const std::uint32_t> around;        ///< Faces at each vertex.
+  ObbTree tree;                            ///< Boxes over the faces.
   std::unique_ptr<const RevolutionSurface> revolution;  ///< Its surfaces of revolution; null where it has no faces.
+  /// What the spans above refer to; ghost surfaces share it with their component.
+  struct FaceNormals;
+  std::shared_ptr<const FaceNormals> face_normals;  ///< Null where the spans are empty.
 
   /// A face's triangle in the assembled state [mm].
   Triangle triangle(std::uint32_t face) const {
     const Face& f = faces[face];
     return {{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
   }
+};
+
+/// The normals of a solid's faces, and the faces at its vertices.
+struct SolidTree::FaceNormals {
+  std::vector<Vec3> normals;                ///< As SolidTree has them.
+  std::vector<std::uint32_t> around_begin;  ///< As SolidTree has them.
+  std::vector<std::uint32_t> around;        ///< As SolidTree has them.
 };
 
 /// Builds the tree of a component. The result depends on the component alone.

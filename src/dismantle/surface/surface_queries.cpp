@@ -48,11 +48,11 @@ AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& 
   return s;
 }
 
-std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& s, double margin,
+std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblyTriangles& triangles, double margin,
                                                                       const Executor& executor) {
   std::vector<std::pair<ComponentId, ComponentId>> pairs;
-  const std::vector<Kdop16> grown = bounds_at(s.triangles, s.triangles.vertices, margin / 2, executor);
-  bvh_traverse_components(s.triangles.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
+  const std::vector<Kdop16> grown = bounds_at(triangles, triangles.vertices, margin / 2, executor);
+  bvh_traverse_components(triangles.bvh, grown, [&](ComponentId a, ComponentId b) { pairs.emplace_back(a, b); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

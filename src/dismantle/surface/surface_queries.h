@@ -34,7 +34,7 @@ struct AssemblySurface {
 AssemblySurface make_assembly_surface(const Assembly& assembly, const Executor& executor);
 
 /// Pairs of components whose bounds come within `margin` [mm] of each other (a superset), a < b, ordered.
-std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblySurface& surface, double margin,
+std::vector<std::pair<ComponentId, ComponentId>> near_component_pairs(const AssemblyTriangles& triangles, double margin,
                                                                       const Executor& executor);
 
 /// The intersection of two components' surfaces.

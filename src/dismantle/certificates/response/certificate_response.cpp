@@ -37,7 +37,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
   if (result.reached) result.blocking_pairs.clear();
-  result.cost.overlapping_pairs = sweeper_.overlapping_pairs().size();
+  result.cost.overlapping_pairs = sweeper_.overlapping_count();
   result.cost.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return result;
 }

@@ -2,7 +2,6 @@
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 
 #include "dismantle/certificates/sweep/sweep_tasks.h"
-#include "dismantle/core/contract.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
@@ -53,46 +52,16 @@ CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairState
       tolerance_(pairs.tolerance),
       store_(assembly, kGhostLength * pairs.tolerance, options.executor),
       device_(std::move(device)),
+      near_(store_.spheres()),
       poses_(assembly.components.size()),
-      is_moving_(assembly.components.size()) {
+      is_moving_(assembly.components.size()),
+      guarded_of_(assembly.components.size()),
+      is_changed_(assembly.components.size()) {
   prepare_ghosts(pairs);
-}
-
-void CertificateSweeper::grab(Span<const ComponentId> components) {
-  DISMANTLE_EXPECT(!components.empty());
-  moving_.assign(components.begin(), components.end());
-  std::sort(moving_.begin(), moving_.end());
-  std::fill(is_moving_.begin(), is_moving_.end(), false);
-  Aabb box;
-  for (const ComponentId c : moving_) {
-    DISMANTLE_EXPECT(poses_[c.value] == pose());
-    is_moving_[c.value] = true;
-    box.extend(assembled_bounds((*assembly_)[c]));
+  for (const auto& [key, pair] : guarded_) {
+    guarded_of_[key.first.value].push_back(key.second);
+    guarded_of_[key.second.value].push_back(key.first);
   }
-  center_ = box.empty() ? Vec3{} : box.center();
-  radius_ = 0;
-  for (const ComponentId c : moving_)
-    for (const Vec3& p : solid(c).vertices) radius_ = std::max(radius_, length(p - center_));
-}
-
-void CertificateSweeper::move_to(const Pose& pose) {
-  for (const ComponentId c : moving_) poses_[c.value] = pose;
-}
-
-void CertificateSweeper::return_to(const Pose& pose) {
-  move_to(pose);
-  find_parted();
-}
-
-void CertificateSweeper::jump(Span<const Pose> poses) {
-  DISMANTLE_EXPECT(poses.size() == poses_.size());
-  const auto moved = [&](ComponentId c) { return !(poses[c.value] == poses_[c.value]); };
-  if (std::any_of(moving_.begin(), moving_.end(), moved)) {
-    moving_.clear();
-    std::fill(is_moving_.begin(), is_moving_.end(), false);
-  }
-  poses_.assign(poses.begin(), poses.end());
-  find_parted();
 }
 
 ScrewMotion CertificateSweeper::motion_between(const Pose& start, const Pose& end) const {
@@ -115,18 +84,23 @@ template <class Visit>
 void CertificateSweeper::for_each_near(const ScrewMotion& motion, double reach, CertificateSweep& result,
                                        Visit visit) const {
   const RigidTransform from = transform_from_pose(motion.start), to = transform_from_pose(motion.end);
+  std::vector<ComponentId> near;
   for (const ComponentId moving : moving_) {
     if (solid(moving).tree.empty()) continue;
-    for (std::uint32_t k = 0; k < poses_.size(); ++k) {
-      const ComponentId fixed(k);
-      if (is_moving_[k] || solid(fixed).tree.empty()) continue;
-      const double gap = store_.spheres().gap(moving, from, to, motion.deviation, fixed, poses_[k]);
-      if (gap > reach) {
-        result.clearance = std::min(result.clearance, gap);
-      } else {
-        visit(moving, fixed);
-      }
-    }
+    near.clear();
+    // What is further away than the clearance that is known changes nothing.
+    const auto limit = [&] { return std::max(reach, result.clearance); };
+    near_.for_each(store_.spheres().swept(moving, from, to, motion.deviation), limit,
+                   [&](ComponentId fixed, double gap) {
+                     if (is_moving_[fixed.value] || solid(fixed).tree.empty()) return;
+                     if (gap > reach) {
+                       result.clearance = std::min(result.clearance, gap);
+                     } else {
+                       near.push_back(fixed);
+                     }
+                   });
+    std::sort(near.begin(), near.end());
+    for (const ComponentId fixed : near) visit(moving, fixed);
   }
 }
 
@@ -360,20 +334,16 @@ void CertificateSweeper::sweep_const(const CertificateFront& front, const PairSw
   result.front += front.size();
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> CertificateSweeper::near_faces(ComponentId moving,
-                                                                                    ComponentId fixed,
-                                                                                    const ScrewMotion& rest,
-                                                                                    double reach) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> faces;
+void CertificateSweeper::add_near_faces(ComponentId moving, ComponentId fixed, const ScrewMotion& rest, double reach,
+                                        std::vector<SweepContact>& pairs) const {
   const CertificateFront front = store_.new_front(moving, fixed, GhostOf::None);
   PairMotion motion = triangle_pair_sweep({moving, fixed}, rest, SweepBudget::Exhaustive).motion();
   motion.allowed = -reach;
   const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
-    faces.emplace_back(candidate.face_moving, candidate.face_fixed);
+    pairs.push_back({moving, fixed, FaceId(candidate.face_moving), FaceId(candidate.face_fixed), 0, {}});
     return TrianglePairVerdict{};
   };
   front.sweep_const(front.prepare_sweep(motion), kernels_, take);
-  return faces;
 }
 
 std::vector<SweepContact> CertificateSweeper::near_pairs(double reach) const {
@@ -381,10 +351,25 @@ std::vector<SweepContact> CertificateSweeper::near_pairs(double reach) const {
   if (moving_.empty()) return pairs;
   CertificateSweep unused;
   const ScrewMotion rest = motion_to(pose());
-  for_each_near(rest, reach, unused, [&](ComponentId moving, ComponentId fixed) {
-    for (const auto& [face_moving, face_fixed] : near_faces(moving, fixed, rest, reach))
-      pairs.push_back({moving, fixed, FaceId(face_moving), FaceId(face_fixed), 0, {}});
-  });
+  for_each_near(rest, reach, unused,
+                [&](ComponentId moving, ComponentId fixed) { add_near_faces(moving, fixed, rest, reach, pairs); });
+  sort_blocked(pairs);
+  return pairs;
+}
+
+std::vector<SweepContact> CertificateSweeper::near_pairs(ComponentId moving, double reach) const {
+  std::vector<SweepContact> pairs;
+  const Pose& at = poses_[moving.value];
+  const RigidTransform world = transform_from_pose(at);
+  const BoundingSphere sphere = store_.spheres().at(moving, at);
+  const ScrewMotion rest = screw_motion(at, at, sphere.center, sphere.radius);
+  if (solid(moving).tree.empty()) return pairs;
+  near_.for_each(
+      store_.spheres().swept(moving, world, world, rest.deviation), [&] { return reach; },
+      [&](ComponentId fixed, double gap) {
+        if (gap <= reach && fixed != moving && !solid(fixed).tree.empty())
+          add_near_faces(moving, fixed, rest, reach, pairs);
+      });
   sort_blocked(pairs);
   return pairs;
 }

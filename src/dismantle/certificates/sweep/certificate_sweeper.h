@@ -6,6 +6,7 @@
 #include "dismantle/certificates/ghosts/find_guards.h"
 #include "dismantle/certificates/sweep/certificate_sweep.h"
 #include "dismantle/certificates/sweep/front_store.h"
+#include "dismantle/certificates/sweep/near_components.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/surface/depth/swept_depth.h"
@@ -52,12 +53,17 @@ class CertificateSweeper {
   CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to, DeepSearch search_for) const;
   /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
   std::vector<SweepContact> near_pairs(double reach) const;
+  /// The same as if a component, at its present pose, were the moving set. Any number may run in parallel.
+  std::vector<SweepContact> near_pairs(ComponentId moving, double reach) const;
   /// Tests one pair of triangles along a motion from the present pose, with SweepBudget::Bounded.
   /// @param pair with the axis to start with
   TrianglePairResult sweep_pair(const SweepContact& pair, const ScrewMotion& motion) const;
   /// Tests only these pairs along a motion from the present pose, with SweepBudget::Exhaustive.
   /// @param pairs those of the same components in a row
   CertificateSweep sweep_pairs(Span<const SweepContact> pairs, const ScrewMotion& motion, double window) const;
+
+  /// The components, ascending, that may be met by the moving set on a translation from its pose [mm], and some others.
+  std::vector<ComponentId> near_straight(const Vec3& displacement) const;
 
   /// Puts the moving set at `pose` without a test.
   void move_to(const Pose& pose);
@@ -75,6 +81,8 @@ class CertificateSweeper {
   GuardedPair guarded(ComponentId a, ComponentId b) const;
   /// The pairs with an allowance of their own that have not been apart since, a < b.
   std::vector<ComponentPair> overlapping_pairs() const;
+  /// Their number.
+  std::size_t overlapping_count() const { return guarded_.size() - parted_count_; }
   /// The surfaces of two components that are tested: each with the ghost of the other; none without ghosts.
   Span<const SurfacePair> surface_pairs(ComponentId a, ComponentId b) const;
   ///@{ The surfaces of a pair.
@@ -86,7 +94,7 @@ class CertificateSweeper {
   }
   ///@}
   /// From now on the pair is treated like any other pair. @pre they are further apart than the tolerance
-  void part(ComponentId a, ComponentId b) { set_parted(a, b, true); }
+  void part(ComponentId a, ComponentId b) { change_parted(a, b, true); }
   /// Parts the pairs of the moving set that are apart at its pose.
   void part_others();
 
@@ -108,6 +116,11 @@ class CertificateSweeper {
   /// Finds the ghost surfaces of components that touch or overlap in the assembled state.
   void prepare_ghosts(const PairStates& pairs);
   void set_parted(ComponentId a, ComponentId b, bool parted);
+  /// As set_parted(); keeps the count of pairs that have parted.
+  void change_parted(ComponentId a, ComponentId b, bool parted);
+  /// Notes that pairs of a component may part or overlap again: find_parted() looks at those.
+  void mark_changed(ComponentId c);
+  void place(ComponentId c, const Pose& pose);
   ComponentAt placed(ComponentId c);
   /// True if two components are further apart than a distance [mm], and none is inside the other.
   bool apart(ComponentId a, ComponentId b, double distance);
@@ -130,11 +143,11 @@ class CertificateSweeper {
   double displaced(ComponentId a, ComponentId b) const {
     return guarded(a, b).displaced + (1 - kGhostLength) * tolerance_;
   }
-  /// Finds the pairs that have parted from the present poses.
+  /// Finds the pairs that have parted from the present poses, of components that have changed.
   void find_parted();
-  /// The pairs of faces of two components at rest that are nearer than `reach` [mm], and possibly some more.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_faces(ComponentId moving, ComponentId fixed,
-                                                                  const ScrewMotion& rest, double reach) const;
+  /// Adds the pairs of faces of two components at rest that are nearer than `reach` [mm], and possibly some more.
+  void add_near_faces(ComponentId moving, ComponentId fixed, const ScrewMotion& rest, double reach,
+                      std::vector<SweepContact>& pairs) const;
   TrianglePairSweep triangle_pair_sweep(const TestedPair& pair, const ScrewMotion& motion, SweepBudget budget) const;
   /// Calls visit(moving, fixed) for the component pairs that may come nearer to each other than `reach` during a
   /// motion.
@@ -164,9 +177,14 @@ class CertificateSweeper {
   std::map<ComponentId, std::shared_ptr<const SolidShape>> shapes_;     ///< Of components whose depth is bounded.
   FrontStore store_;
   CertificateDevice device_;
+  NearComponents near_;
   std::vector<Pose> poses_;
   std::vector<ComponentId> moving_;
   std::vector<bool> is_moving_;
+  std::vector<std::vector<ComponentId>> guarded_of_;  ///< The other components of its pairs in `guarded_`.
+  std::size_t parted_count_ = 0;                      ///< Of the pairs in `guarded_`.
+  std::vector<ComponentId> changed_;                  ///< Since find_parted() was last called.
+  std::vector<bool> is_changed_;
   Vec3 center_;  ///< Of a sphere around the moving set [mm, assembled].
   double radius_ = 0;
 };

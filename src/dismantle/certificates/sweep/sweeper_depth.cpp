@@ -51,20 +51,22 @@ void CertificateSweeper::part_swept(const std::vector<PairSweep>& pairs) {
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
     const TestedPair& tested = pairs[i].tested;
     const double needed = std::max(tolerance_, guarded(tested.moving, tested.fixed).parting);
-    if (std::min(pairs[i].apart_by, pairs[i + 1].apart_by) > needed) set_parted(tested.moving, tested.fixed, true);
+    if (std::min(pairs[i].apart_by, pairs[i + 1].apart_by) > needed) change_parted(tested.moving, tested.fixed, true);
   }
 }
 
 void CertificateSweeper::part_others() {
-  for (auto& [key, pair] : guarded_) {
-    if (pair.parted || is_moving_[key.first.value] == is_moving_[key.second.value]) continue;
-    const RigidTransform b = transform_from_pose(poses_[key.second.value]);
-    const double gap = store_.spheres().gap(key.second, b, b, 0, key.first, poses_[key.first.value]);
-    if (gap > std::max(tolerance_, pair.parting) ||
-        (!near(key.first, key.second, pair) && apart(key.first, key.second, pair.parting) &&
-         usual_ghosts_apart(key.first, key.second)))
-      set_parted(key.first, key.second, true);
-  }
+  for (const ComponentId moving : moving_)
+    for (const ComponentId other : guarded_of_[moving.value]) {
+      const auto& [first, second] = std::minmax(moving, other);
+      GuardedPair& pair = guarded_.at({first, second});
+      if (pair.parted || is_moving_[other.value]) continue;
+      const RigidTransform b = transform_from_pose(poses_[second.value]);
+      const double gap = store_.spheres().gap(second, b, b, 0, first, poses_[first.value]);
+      if (gap > std::max(tolerance_, pair.parting) ||
+          (!near(first, second, pair) && apart(first, second, pair.parting) && usual_ghosts_apart(first, second)))
+        change_parted(first, second, true);
+    }
 }
 
 bool CertificateSweeper::near(ComponentId a, ComponentId b, GuardedPair& pair) const {
@@ -95,15 +97,37 @@ bool CertificateSweeper::usual_ghosts_apart(ComponentId a, ComponentId b) {
   return dismantle::usual_ghosts_apart(placed(a), placed(b), tolerance_);
 }
 
+void CertificateSweeper::change_parted(ComponentId a, ComponentId b, bool parted) {
+  const auto known = guarded_.find(std::minmax(a, b));
+  if (known == guarded_.end() || known->second.parted == parted) return;
+  set_parted(a, b, parted);
+  parted ? ++parted_count_ : --parted_count_;
+  mark_changed(a);
+}
+
+void CertificateSweeper::mark_changed(ComponentId c) {
+  if (is_changed_[c.value]) return;
+  is_changed_[c.value] = true;
+  changed_.push_back(c);
+}
+
 void CertificateSweeper::find_parted() {
-  for (auto& [key, pair] : guarded_) {
-    const auto [first, second] = key;
-    const Pose &a = poses_[first.value], &b = poses_[second.value];
-    // A pair that has parted remains so where the ghost surfaces that all have do not meet.
-    const bool parted =
-        !(a == b) && (pair.parted || apart(first, second, pair.parting)) && usual_ghosts_apart(first, second);
-    if (parted != pair.parted) set_parted(first, second, parted);
-  }
+  const std::vector<ComponentId> changed = std::move(changed_);
+  changed_.clear();
+  for (const ComponentId c : changed)
+    for (const ComponentId other : guarded_of_[c.value]) {
+      if (is_changed_[other.value] && other < c) continue;  // the other one's turn
+      const auto& [first, second] = std::minmax(c, other);
+      const GuardedPair& pair = guarded_.at({first, second});
+      const Pose &a = poses_[first.value], &b = poses_[second.value];
+      // A pair that has parted remains so where the ghost surfaces that all have do not meet.
+      const bool parted =
+          !(a == b) && (pair.parted || apart(first, second, pair.parting)) && usual_ghosts_apart(first, second);
+      if (parted == pair.parted) continue;
+      set_parted(first, second, parted);
+      parted ? ++parted_count_ : --parted_count_;
+    }
+  for (const ComponentId c : changed) is_changed_[c.value] = false;
 }
 
 }  // namespace dismantle

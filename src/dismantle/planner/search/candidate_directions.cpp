@@ -162,15 +162,14 @@ Vec3 snapped(const Vec3& axis, const ShapeFeatures& features) {
 
 }  // namespace
 
-ContactNormals contact_normals(const Assembly& assembly, const CertificateEngine& engine, double radius,
-                               double tolerance) {
-  const double most = kLargestReach * radius;
+ContactNormals contact_normals(const PlannedAssembly& planned, const CertificateEngine& engine, ComponentId component) {
+  const double most = kLargestReach * planned.features[component.value].radius;
   std::vector<ContactPoint> contacts;
-  for (double reach = kFirstReach * tolerance; contacts.size() < kEnoughContacts; reach *= kReachGrowth) {
-    contacts = engine.contacts(reach);
+  for (double reach = kFirstReach * planned.tolerance; contacts.size() < kEnoughContacts; reach *= kReachGrowth) {
+    contacts = engine.contacts(component, reach);
     if (reach > most) break;
   }
-  return gather(assembly, contacts);
+  return gather(planned.assembly, contacts);
 }
 
 std::vector<ComponentId> neighbours_against(const ContactNormals& contacts, const Vec3& direction) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/planner/shape_features.h"
+#include "dismantle/planner/planned_assembly.h"
 
 #include <map>
 #include <set>
@@ -18,10 +18,9 @@ struct ContactNormals {
   std::set<ComponentId> neighbours;                                 ///< All components in contact.
 };
 
-/// The contact normals of the moving component of the engine, in its assembled pose.
-/// @param radius of the component [mm]
-ContactNormals contact_normals(const Assembly& assembly, const CertificateEngine& engine, double radius,
-                               double tolerance);
+/// The contact normals of a component. May be called by many threads at the same time.
+/// @param engine with all components in their assembled poses
+ContactNormals contact_normals(const PlannedAssembly& planned, const CertificateEngine& engine, ComponentId component);
 
 /// The neighbours with contact faces that clearly oppose a unit direction; they usually block it.
 std::vector<ComponentId> neighbours_against(const ContactNormals& contacts, const Vec3& direction);

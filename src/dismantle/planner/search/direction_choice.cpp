@@ -14,18 +14,18 @@ constexpr double kRankWeight = 0.9;
 
 }  // namespace
 
-DirectionChoice::DirectionChoice(const PlannedAssembly& planned, BlockingTable& table, MotionValidator& validator,
-                                 const ComponentSet& staying, const KeepGoing& keep_going)
+DirectionChoice::DirectionChoice(const PlannedAssembly& planned, BlockingTable& table, const CertificateEngine& engine,
+                                 const ComponentSet& staying, const Executor& executor, const KeepGoing& keep_going)
     : table_(table), contacts_(planned.size()), directions_(planned.size()) {
-  std::vector<double> popularity;  // of every direction
   std::vector<std::vector<CandidateDirection>> own(planned.size());
-  for (std::uint32_t c = 0; c < planned.size() && keep_going(); ++c) {
-    const ComponentId id(c);
-    if (!staying.has(id)) {
-      contacts_[c] =
-          contact_normals(planned.assembly, validator.hold(id), planned.features[c].radius, planned.tolerance);
-      own[c] = candidate_directions(id, contacts_[c], planned.features);
-    }
+  executor.for_each_heavy(planned.size(), [&](std::size_t c) {
+    const ComponentId id(static_cast<std::uint32_t>(c));
+    if (staying.has(id) || !keep_going()) return;
+    contacts_[c] = contact_normals(planned, engine, id);
+    own[c] = candidate_directions(id, contacts_[c], planned.features);
+  });
+  std::vector<double> popularity;  // of every direction
+  for (std::uint32_t c = 0; c < planned.size(); ++c) {
     double weight = 1;
     const auto vote = [&](const Vec3& direction) {
       const std::size_t index = table_.add_direction(direction).value;

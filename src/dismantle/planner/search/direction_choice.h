@@ -5,7 +5,6 @@
 #include "dismantle/planner/component_set.h"
 #include "dismantle/planner/planned_assembly.h"
 #include "dismantle/planner/search/candidate_directions.h"
-#include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
 
 #include <vector>
@@ -18,9 +17,10 @@ class DirectionChoice {
  public:
   /// Adds the directions to `table`, and tells it which neighbours to test first.
   /// @param staying components that never move: they get only shared directions
-  /// @param keep_going components after it returns false get only shared directions
-  DirectionChoice(const PlannedAssembly& planned, BlockingTable& table, MotionValidator& validator,
-                  const ComponentSet& staying, const KeepGoing& keep_going);
+  /// @param engine with all components in their assembled poses
+  /// @param keep_going thread-safe; components after it returns false get only shared directions
+  DirectionChoice(const PlannedAssembly& planned, BlockingTable& table, const CertificateEngine& engine,
+                  const ComponentSet& staying, const Executor& executor, const KeepGoing& keep_going);
   DirectionChoice(const DirectionChoice&) = delete;
   DirectionChoice& operator=(const DirectionChoice&) = delete;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/search/removal_search.h"
 
+#include "dismantle/planner/search/free_component_search.h"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,11 +12,6 @@
 namespace dismantle {
 
 namespace {
-
-/// The directions to test: those without a predicted blocker, or all.
-enum class Hope { Good, Little };
-/// Number of components that are tested in parallel, the smallest first.
-constexpr std::size_t kFewComponents = 8;
 
 /// Candidate sets by size, the smallest first; ties in the order found.
 struct Waiting {
@@ -62,12 +59,15 @@ class RemovalSearch {
   /// nothing are put back. An upper bound of the search.
   std::optional<ComponentSet> enough_for(Span<const ComponentId> targets) {
     ComponentSet left = present_;
+    FreeComponentSearch search(table_, directions_, left, never_);
     std::vector<StraightRemoval> taken;
     while (left.has_any(targets)) {
-      const std::vector<StraightRemoval> single =
-          free_components(table_, directions_, left, never_, Executor(), keep_going_);
+      const std::vector<StraightRemoval> single = search.find(Executor(), keep_going_);
       if (single.empty() || !keep_going_()) return std::nullopt;
-      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      for (const StraightRemoval& removal : single) {
+        left.erase(removal.components);
+        search.remove(removal.components);
+      }
       taken.insert(taken.end(), single.begin(), single.end());
     }
     ComponentSet needed(present_.universe(), targets);
@@ -90,14 +90,18 @@ class RemovalSearch {
   ComponentSet left_over(const ComponentSet& needed) {
     ComponentSet left = present_;
     const ComponentSet others = all_but(needed);
+    FreeComponentSearch search(table_, directions_, left, others);
+    const auto remove = [&](const StraightRemoval& removal) {
+      left.erase(removal.components);
+      search.remove(removal.components);
+    };
     while (keep_going_()) {
-      const std::vector<StraightRemoval> single =
-          free_components(table_, directions_, left, others, Executor(), keep_going_);
-      for (const StraightRemoval& removal : single) left.erase(removal.components);
+      const std::vector<StraightRemoval> single = search.find(Executor(), keep_going_);
+      std::for_each(single.begin(), single.end(), remove);
       if (!single.empty()) continue;
       const auto body = smallest_body(table_, directions_, left, others, keep_going_);
       if (!body) break;
-      left.erase(body->components);
+      remove(*body);
     }
     return left;
   }
@@ -136,35 +140,6 @@ class RemovalSearch {
 };
 
 }  // namespace
-
-std::vector<StraightRemoval> free_components(BlockingTable& table, const DirectionLists& directions,
-                                             const ComponentSet& present, const ComponentSet& never,
-                                             const Executor& executor, const KeepGoing& keep_going) {
-  std::vector<ComponentId> asked = present.members();
-  std::erase_if(asked, [&](ComponentId c) { return never.has(c); });
-  std::stable_sort(asked.begin(), asked.end(),
-                   [&](ComponentId a, ComponentId b) { return table.radius(a) < table.radius(b); });
-  const auto first_free = [&](ComponentId c, Hope hope) {
-    for (const DirectionId d : directions[c.value]) {
-      if (!keep_going()) break;
-      if (hope == Hope::Good && table.expects_blocker(c, d, present)) continue;
-      if (!table.any_blocker(c, d, present)) return d;
-    }
-    return DirectionId();
-  };
-
-  std::vector<StraightRemoval> found;
-  for (const Hope hope : {Hope::Good, Hope::Little}) {
-    for (std::size_t first = 0; first < asked.size() && found.empty(); first += kFewComponents) {
-      const std::size_t count = std::min(kFewComponents, asked.size() - first);
-      std::vector<DirectionId> free(count);
-      executor.for_each_heavy(count, [&](std::size_t i) { free[i] = first_free(asked[first + i], hope); });
-      for (std::size_t i = 0; i < count; ++i)
-        if (free[i].valid()) found.push_back({{asked[first + i]}, free[i]});
-    }
-  }
-  return found;
-}
 
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/planner/search/removal_search.h"
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace dismantle {
+
+/// Finds the single components that can be removed from a set that gets smaller and smaller: as free_components(), but
+/// a component that was blocked is tested again only after one of its blockers was removed.
+class FreeComponentSearch {
+ public:
+  /// @param table, directions must outlive this @param present all that will be there @param never components that stay
+  FreeComponentSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
+                      const ComponentSet& never);
+
+  /// Notes that components are not there any more.
+  void remove(Span<const ComponentId> components);
+  /// The result of free_components() for what is there.
+  std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going);
+
+ private:
+  /// The directions to test: those without a predicted blocker, or all.
+  enum class Hope : std::uint8_t { Good, Little };
+  /// The first free direction of a component, or what blocks all of them.
+  struct Found {
+    DirectionId free;
+    std::vector<ComponentId> blockers;
+    bool finished = true;  ///< False if the search was ended.
+  };
+  Found test(ComponentId c, Hope hope, const KeepGoing& keep_going) const;
+  /// Tests those of a batch that wait.
+  std::vector<StraightRemoval> test_batch(Span<const std::uint32_t> places, Hope hope, const Executor& executor,
+                                          const KeepGoing& keep_going);
+  /// The number of components that are there before a place in `order_`.
+  std::uint32_t rank(std::uint32_t place) const;
+  void count_down(std::uint32_t place);
+  std::set<std::uint32_t>& waiting(Hope hope) { return waiting_[static_cast<std::size_t>(hope)]; }
+
+  BlockingTable& table_;
+  const DirectionLists& directions_;
+  ComponentSet present_;
+  std::vector<ComponentId> order_;                    ///< Those that may be removed, the smallest first.
+  std::vector<std::uint32_t> place_;                  ///< Of each component in `order_`; kNowhere for those that stay.
+  std::vector<std::uint32_t> counts_;                 ///< Fenwick tree over `order_` of those that are there.
+  std::array<std::set<std::uint32_t>, 2> waiting_;    ///< By hope: places of those that are not known to be blocked.
+  std::vector<std::vector<ComponentId>> blocked_by_;  ///< By blocker: those to test again without it.
+};
+
+}  // namespace dismantle
