@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "dismantle/assembly/duplicates.h"
+#include "dismantle/assembly/equal_shapes.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +64,7 @@ SplitProducts split_products(const Assembly& assembly) {
 
 Json to_json(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
-  const std::vector<ComponentId> duplicate_of = originals(a);
+  const std::vector<ComponentId> duplicate_of = originals(a), shapes = first_of_shape(a);
   Json components = Json::array();
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     const Component& c = a.components[i];
@@ -80,6 +81,7 @@ Json to_json(const Assembly& a) {
                           {"misoriented_edges", f.misoriented_edges},
                           {"open_edges", f.open_edges},
                           {"inside_out", f.inside_out},
+                          {"same_shape_as", shapes[i].value != i ? Json(a[shapes[i]].name) : Json(nullptr)},
                           {"duplicate_of", duplicate_of[i].valid() ? Json(a[duplicate_of[i]].name) : Json(nullptr)}});
   }
   return {{"format", "dismantle-info"},
@@ -89,6 +91,7 @@ Json to_json(const Assembly& a) {
             {"sha256", a.source_sha256},
             {"units", a.source_units},
             {"components", a.components.size()},
+            {"shapes", shape_count(shapes)},
             {"triangles", triangle_count(a)},
             {"bounds", {to_json(box.lower), to_json(box.upper)}},
             {"deflection_mm", a.deflection},
@@ -100,7 +103,9 @@ Json to_json(const Assembly& a) {
 void print_text(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
   const Vec3 size = box.size();
-  fmt::print("{}: {} components, {} triangles\n", a.source_file, a.components.size(), triangle_count(a));
+  const std::vector<ComponentId> shapes = first_of_shape(a);
+  fmt::print("{}: {} components of {} different shapes, {} triangles\n", a.source_file, a.components.size(),
+             shape_count(shapes), triangle_count(a));
   fmt::print("units {}, size {:.6g} x {:.6g} x {:.6g} mm, default tolerance {:.4g} mm\n", a.source_units, size.x,
              size.y, size.z, default_tolerance(a));
   if (a.deflection > 0) fmt::print("tessellation deflection {:.4g} mm\n", a.deflection);

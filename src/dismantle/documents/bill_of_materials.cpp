@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/bill_of_materials.h"
 
+#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/files/csv_text.h"
 #include "dismantle/files/json_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 namespace dismantle {
 
@@ -48,10 +52,6 @@ BillItem new_item(const Component& c) {
   return item;
 }
 
-bool are_alike(const Component& a, const Component& b) {
-  return a.color == b.color && (a.mesh == b.mesh || *a.mesh == *b.mesh);
-}
-
 /// "#aabbcc", or "#aabbccdd" with alpha if it is not opaque.
 std::string color_text(const Color& color) {
   const auto part = [](float value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); };
@@ -71,13 +71,15 @@ std::vector<std::string> component_names(const Assembly& assembly, const BillIte
 
 std::vector<BillItem> bill_of_materials(const Assembly& assembly) {
   std::vector<BillItem> bill;
+  const std::vector<ComponentId> firsts = first_of_shape(assembly);
+  std::map<std::pair<ComponentId, std::array<float, 4>>, std::size_t> lines;  // by shape and colour
   for (std::uint32_t i = 0; i < assembly.components.size(); ++i) {
     const Component& c = assembly.components[i];
-    auto line = std::find_if(bill.begin(), bill.end(),
-                             [&](const BillItem& item) { return are_alike(assembly[item.components.front()], c); });
-    if (line == bill.end()) line = bill.insert(line, new_item(c));
-    line->components.push_back(ComponentId(i));
-    line->places.push_back(place_of(assembly, c));
+    const auto [line, is_new] =
+        lines.try_emplace({firsts[i], {c.color.r, c.color.g, c.color.b, c.color.a}}, bill.size());
+    if (is_new) bill.push_back(new_item(c));
+    bill[line->second].components.push_back(ComponentId(i));
+    bill[line->second].places.push_back(place_of(assembly, c));
   }
   return bill;
 }

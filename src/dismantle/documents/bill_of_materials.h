@@ -21,8 +21,8 @@ struct BillItem {
   Color color;                          ///< Of all of them.
 };
 
-/// The bill of materials of an assembly. Two shapes are equal if their meshes are equal, number by number: instances of
-/// a product, or equal files. Ordered by the first component of each line.
+/// The bill of materials of an assembly. Shapes are equal as first_of_shape() finds them. Ordered by the first
+/// component of each line.
 std::vector<BillItem> bill_of_materials(const Assembly& assembly);
 
 /// The bill as CSV (RFC 4180) with a header; the columns are in docs/formats.md.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/plan_disassembly.h"
 
+#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/least_overlap.h"
@@ -307,7 +308,7 @@ class Planner {
   /// Single components that can be removed straight, in the order in which to try them.
   std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying) {
     if (!options_.preferences.empty()) {
-      if (kinds_.empty()) kinds_ = component_kinds(assembly_);
+      if (kinds_.empty()) kinds_ = first_of_shape(assembly_);
       StepBefore before;
       if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
       return preferred_removals({table_, choice_.directions(), kinds_, options_.preferences}, body, staying, before);
@@ -371,7 +372,7 @@ class Planner {
   ComponentAxes axes_;
   OverlapSearch overlaps_;
   DirectionId last_direction_;
-  std::vector<std::uint32_t> kinds_;  // of components, if preferences need them
+  std::vector<ComponentId> kinds_;  // first_of_shape(), if preferences need it
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
   Plan plan_;
