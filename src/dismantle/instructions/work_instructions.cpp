@@ -2,8 +2,8 @@
 #include "dismantle/instructions/work_instructions.h"
 
 #include "dismantle/documents/bill_of_materials.h"
+#include "dismantle/fasteners/hexagon_drives.h"
 #include "dismantle/features/thread_axes.h"
-#include "dismantle/instructions/hexagon_drives.h"
 #include "dismantle/instructions/motion_text.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
