@@ -2,9 +2,12 @@
 #include "apps/cli/commands.h"
 #include "dismantle/assembly/duplicates.h"
 #include "dismantle/assembly/equal_shapes.h"
+#include "dismantle/documents/fastener_json.h"
+#include "dismantle/fasteners/find_fasteners.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +65,34 @@ SplitProducts split_products(const Assembly& assembly) {
   return split;
 }
 
+Json fasteners_json(const Assembly& a) {
+  Json list = Json::array();
+  for (const CountedFastener& counted : counted_fasteners(find_fasteners(a))) {
+    Json entry = fastener_json(counted.fastener), names = Json::array();
+    for (const ComponentId c : counted.components) names.push_back(a[c].name);
+    entry["count"] = counted.components.size();
+    entry["components"] = names;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+void print_fasteners(const Assembly& a) {
+  const std::vector<CountedFastener> list = counted_fasteners(find_fasteners(a));
+  if (list.empty()) return;
+  std::size_t width = 0;  // of names that a tool follows
+  for (const CountedFastener& f : list)
+    if (!tool_text(f.fastener).empty()) width = std::max(width, fastener_text(f.fastener).size());
+  fmt::print("\nfasteners\n");
+  for (const CountedFastener& f : list) {
+    const std::string name = fastener_text(f.fastener), tool = tool_text(f.fastener);
+    if (tool.empty())
+      fmt::print("{:>4}  {}\n", f.components.size(), name);
+    else
+      fmt::print("{:>4}  {:<{}}  {}\n", f.components.size(), name, width, tool);
+  }
+}
+
 Json to_json(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
   const std::vector<ComponentId> duplicate_of = originals(a), shapes = first_of_shape(a);
@@ -97,6 +128,7 @@ Json to_json(const Assembly& a) {
             {"deflection_mm", a.deflection},
             {"simplification_error_mm", a.simplification_error},
             {"default_tolerance_mm", default_tolerance(a)}}},
+          {"fasteners", fasteners_json(a)},
           {"components", components}};
 }
 
@@ -125,6 +157,7 @@ void print_text(const Assembly& a) {
       fmt::print("{:<{}}  identical and coincident with {}; probably placed twice (--drop-duplicates leaves it out)\n",
                  "", width, a[duplicate_of[i]].name);
   }
+  print_fasteners(a);
 }
 
 }  // namespace

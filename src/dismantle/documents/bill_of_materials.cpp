@@ -2,6 +2,7 @@
 #include "dismantle/documents/bill_of_materials.h"
 
 #include "dismantle/assembly/equal_shapes.h"
+#include "dismantle/documents/fastener_json.h"
 #include "dismantle/files/csv_text.h"
 #include "dismantle/files/json_text.h"
 
@@ -61,6 +62,11 @@ std::string color_text(const Color& color) {
   return text;
 }
 
+/// A text about the fastener of an item as a field; empty if it is none.
+std::string of_fastener(const BillItem& item, std::string (*text)(const Fastener&)) {
+  return item.fastener ? csv_field(text(*item.fastener)) : std::string();
+}
+
 std::vector<std::string> component_names(const Assembly& assembly, const BillItem& item) {
   std::vector<std::string> names;
   for (const ComponentId c : item.components) names.push_back(assembly[c].name);
@@ -69,31 +75,49 @@ std::vector<std::string> component_names(const Assembly& assembly, const BillIte
 
 }  // namespace
 
-std::vector<BillItem> bill_of_materials(const Assembly& assembly) {
-  std::vector<BillItem> bill;
+std::vector<std::size_t> bill_lines(const Assembly& assembly) {
   const std::vector<ComponentId> firsts = first_of_shape(assembly);
-  std::map<std::pair<ComponentId, std::array<float, 4>>, std::size_t> lines;  // by shape and colour
-  for (std::uint32_t i = 0; i < assembly.components.size(); ++i) {
-    const Component& c = assembly.components[i];
-    const auto [line, is_new] =
-        lines.try_emplace({firsts[i], {c.color.r, c.color.g, c.color.b, c.color.a}}, bill.size());
-    if (is_new) bill.push_back(new_item(c));
-    bill[line->second].components.push_back(ComponentId(i));
-    bill[line->second].places.push_back(place_of(assembly, c));
+  std::map<std::pair<ComponentId, std::array<float, 4>>, std::size_t> numbers;  // by shape and colour
+  std::vector<std::size_t> lines;
+  lines.reserve(firsts.size());
+  for (std::size_t c = 0; c < firsts.size(); ++c) {
+    const Color& color = assembly.components[c].color;
+    const std::size_t next = numbers.size();
+    lines.push_back(numbers.try_emplace({firsts[c], {color.r, color.g, color.b, color.a}}, next).first->second);
+  }
+  return lines;
+}
+
+std::vector<BillItem> bill_of_materials(const Assembly& assembly) {
+  return bill_of_materials(assembly, find_fasteners(assembly));
+}
+
+std::vector<BillItem> bill_of_materials(const Assembly& assembly,
+                                        const std::vector<std::optional<Fastener>>& fasteners) {
+  std::vector<BillItem> bill;
+  const std::vector<std::size_t> lines = bill_lines(assembly);
+  for (std::uint32_t c = 0; c < lines.size(); ++c) {
+    const Component& component = assembly.components[c];
+    if (lines[c] == bill.size()) bill.push_back(new_item(component));
+    BillItem& item = bill[lines[c]];
+    item.components.push_back(ComponentId(c));
+    item.places.push_back(place_of(assembly, component));
+    if (!item.fastener) item.fastener = fasteners[c];
   }
   return bill;
 }
 
 std::string bill_csv(const Assembly& assembly, const std::vector<BillItem>& bill) {
-  std::string text = csv_row({"item", "name", "count", "size_x_mm", "size_y_mm", "size_z_mm", "volume_mm3", "area_mm2",
-                              "triangles", "color", "components", "places"});
+  std::string text = csv_row({"item", "name", "count", "fastener", "designation", "tool", "size_x_mm", "size_y_mm",
+                              "size_z_mm", "volume_mm3", "area_mm2", "triangles", "color", "components", "places"});
   for (std::size_t i = 0; i < bill.size(); ++i) {
     const BillItem& item = bill[i];
-    text +=
-        csv_row({csv_field(i + 1), csv_field(item.name), csv_field(item.components.size()), csv_field(item.size.x),
-                 csv_field(item.size.y), csv_field(item.size.z), item.volume ? csv_field(*item.volume) : std::string(),
-                 csv_field(item.area), csv_field(item.triangles), color_text(item.color),
-                 csv_field(joined(component_names(assembly, item))), csv_field(joined(item.places))});
+    text += csv_row({csv_field(i + 1), csv_field(item.name), csv_field(item.components.size()),
+                     of_fastener(item, kind_text), of_fastener(item, designation_text), of_fastener(item, tool_text),
+                     csv_field(item.size.x), csv_field(item.size.y), csv_field(item.size.z),
+                     item.volume ? csv_field(*item.volume) : std::string(), csv_field(item.area),
+                     csv_field(item.triangles), color_text(item.color),
+                     csv_field(joined(component_names(assembly, item))), csv_field(joined(item.places))});
   }
   return text;
 }
@@ -103,6 +127,7 @@ std::string bill_json(const Assembly& assembly, const std::vector<BillItem>& bil
   for (const BillItem& item : bill) {
     const std::string values = json_line({{"name", item.name},
                                           {"count", item.components.size()},
+                                          {"fastener", item.fastener ? fastener_json(*item.fastener) : JsonValue()},
                                           {"size_mm", {item.size.x, item.size.y, item.size.z}},
                                           {"volume_mm3", item.volume ? JsonValue(*item.volume) : JsonValue()},
                                           {"area_mm2", item.area},

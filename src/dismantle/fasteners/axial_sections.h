@@ -5,6 +5,8 @@
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace dismantle {
@@ -36,8 +38,7 @@ std::vector<AxialSection> axial_sections(const TriangleMesh& mesh, const AxisFra
 /// How strongly a radius varies `order` times per turn: the amplitude of that Fourier component relative to the mean.
 double lobe_amplitude(const std::array<double, kSectionRays>& radii, int order);
 
-/// The axis about which a mesh may be a fastener: through its middle, with an outline that is round or that a sixth of
-/// a turn takes to itself. Nothing if there is none.
+/// An axis about which a mesh may be a fastener, and the extent of the mesh along and about it.
 struct FastenerAxis {
   AxisFrame frame;                               ///< `along` is 0 in the middle of the mesh.
   double begin = 0;                              ///< Smallest position along the axis of a vertex [mm].
@@ -45,6 +46,9 @@ struct FastenerAxis {
   double radius = 0;                             ///< Largest distance of a vertex from the axis [mm].
   double length() const { return end - begin; }  ///< Along the axis [mm].
 };
+
+/// The axes about which a mesh may be a fastener, the most symmetrical first: through its middle, with an outline that
+/// is round or that a sixth of a turn takes to itself. Empty for other meshes.
 std::vector<FastenerAxis> fastener_axes(const TriangleMesh& mesh);
 
 }  // namespace dismantle

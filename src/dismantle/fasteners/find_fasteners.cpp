@@ -139,7 +139,9 @@ std::optional<Fastener> judged(const std::vector<FastenerShape>& shapes, const F
 }
 
 auto order_of(const Fastener& f) {
-  return std::make_tuple(f.kind, f.head, f.drive, f.diameter, f.length, f.drive_size);
+  // The thickness of nuts and washers, and the height of circlips, are no part of their designation.
+  const bool has_length = f.kind != Kind::Nut && f.kind != Kind::Washer && f.kind != Kind::Circlip;
+  return std::make_tuple(f.kind, f.head, f.drive, f.diameter, has_length ? f.length : 0, f.drive_size);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/fasteners/fastener.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 

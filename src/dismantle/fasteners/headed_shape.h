@@ -4,6 +4,7 @@
 #include "dismantle/fasteners/axial_sections.h"
 #include "dismantle/fasteners/fastener.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace dismantle {
@@ -32,9 +33,14 @@ struct HeadedShape {
 std::optional<HeadedShape> headed_shape(const TriangleMesh& mesh, const FastenerAxis& axis,
                                         const std::vector<AxialSection>& sections);
 
-/// The recess in an end of a mesh.
-/// @param from_end true for the end of the axis, false for its beginning
-enum class AxisEnd : std::uint8_t { Begin, End };
+/// An end of an axis.
+enum class AxisEnd : std::uint8_t {
+  Begin,  ///< Where positions along it are smallest.
+  End,    ///< Where positions along it are largest.
+};
+
+/// The recess in an end of a mesh; of no drive if there is none, or it goes through.
+/// @param sections of the mesh about the axis
 DriveRecess drive_recess(const TriangleMesh& mesh, const FastenerAxis& axis, const std::vector<AxialSection>& sections,
                          AxisEnd end);
 
