@@ -200,6 +200,7 @@ std::vector<FastenerAxis> fastener_axes(const TriangleMesh& mesh) {
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<FastenerAxis> axes;
+  axes.reserve(found.size());
   for (const auto& [off, axis] : found) axes.push_back(axis);
   return axes;
 }

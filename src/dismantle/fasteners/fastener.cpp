@@ -28,9 +28,10 @@ std::string short_number(double value) {
 
 std::string designation_text(const Fastener& f) {
   if (!(f.diameter > 0)) return {};
-  const std::string diameter = short_number(f.diameter), length = short_number(f.length);
+  std::string diameter = short_number(f.diameter);
+  const std::string length = short_number(f.length);
   // Other diameters than those of ISO 261 are no metric thread.
-  const std::string thread = (thread_size(f.diameter) != nullptr ? "M" : "") + diameter;
+  std::string thread = (thread_size(f.diameter) != nullptr ? "M" : "") + diameter;
   switch (f.kind) {
     case Kind::Screw:
     case Kind::Standoff:
