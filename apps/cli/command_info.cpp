@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "dismantle/assembly/duplicates.h"
+#include "dismantle/assembly/equal_shapes.h"
+#include "dismantle/documents/fastener_json.h"
+#include "dismantle/fasteners/find_fasteners.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -61,9 +65,37 @@ SplitProducts split_products(const Assembly& assembly) {
   return split;
 }
 
+Json fasteners_json(const Assembly& a) {
+  Json list = Json::array();
+  for (const CountedFastener& counted : counted_fasteners(find_fasteners(a))) {
+    Json entry = fastener_json(counted.fastener), names = Json::array();
+    for (const ComponentId c : counted.components) names.push_back(a[c].name);
+    entry["count"] = counted.components.size();
+    entry["components"] = names;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+void print_fasteners(const Assembly& a) {
+  const std::vector<CountedFastener> list = counted_fasteners(find_fasteners(a));
+  if (list.empty()) return;
+  std::size_t width = 0;  // of names that a tool follows
+  for (const CountedFastener& f : list)
+    if (!tool_text(f.fastener).empty()) width = std::max(width, fastener_text(f.fastener).size());
+  fmt::print("\nfasteners\n");
+  for (const CountedFastener& f : list) {
+    const std::string name = fastener_text(f.fastener), tool = tool_text(f.fastener);
+    if (tool.empty())
+      fmt::print("{:>4}  {}\n", f.components.size(), name);
+    else
+      fmt::print("{:>4}  {:<{}}  {}\n", f.components.size(), name, width, tool);
+  }
+}
+
 Json to_json(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
-  const std::vector<ComponentId> duplicate_of = originals(a);
+  const std::vector<ComponentId> duplicate_of = originals(a), shapes = first_of_shape(a);
   Json components = Json::array();
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     const Component& c = a.components[i];
@@ -80,6 +112,7 @@ Json to_json(const Assembly& a) {
                           {"misoriented_edges", f.misoriented_edges},
                           {"open_edges", f.open_edges},
                           {"inside_out", f.inside_out},
+                          {"same_shape_as", shapes[i].value != i ? Json(a[shapes[i]].name) : Json(nullptr)},
                           {"duplicate_of", duplicate_of[i].valid() ? Json(a[duplicate_of[i]].name) : Json(nullptr)}});
   }
   return {{"format", "dismantle-info"},
@@ -89,18 +122,22 @@ Json to_json(const Assembly& a) {
             {"sha256", a.source_sha256},
             {"units", a.source_units},
             {"components", a.components.size()},
+            {"shapes", shape_count(shapes)},
             {"triangles", triangle_count(a)},
             {"bounds", {to_json(box.lower), to_json(box.upper)}},
             {"deflection_mm", a.deflection},
             {"simplification_error_mm", a.simplification_error},
             {"default_tolerance_mm", default_tolerance(a)}}},
+          {"fasteners", fasteners_json(a)},
           {"components", components}};
 }
 
 void print_text(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
   const Vec3 size = box.size();
-  fmt::print("{}: {} components, {} triangles\n", a.source_file, a.components.size(), triangle_count(a));
+  const std::vector<ComponentId> shapes = first_of_shape(a);
+  fmt::print("{}: {} components of {} different shapes, {} triangles\n", a.source_file, a.components.size(),
+             shape_count(shapes), triangle_count(a));
   fmt::print("units {}, size {:.6g} x {:.6g} x {:.6g} mm, default tolerance {:.4g} mm\n", a.source_units, size.x,
              size.y, size.z, default_tolerance(a));
   if (a.deflection > 0) fmt::print("tessellation deflection {:.4g} mm\n", a.deflection);
@@ -120,6 +157,7 @@ void print_text(const Assembly& a) {
       fmt::print("{:<{}}  identical and coincident with {}; probably placed twice (--drop-duplicates leaves it out)\n",
                  "", width, a[duplicate_of[i]].name);
   }
+  print_fasteners(a);
 }
 
 }  // namespace

@@ -70,6 +70,9 @@ TEST_F(Cli, DescribesAnAssembly) {
   const Json info = Json::parse(o.out);
   EXPECT_EQ(info["assembly"]["components"], 2);
   EXPECT_EQ(info["assembly"]["triangles"], 24);
+  EXPECT_EQ(info["assembly"]["shapes"], 2);
+  EXPECT_TRUE(info["components"][1]["same_shape_as"].is_null());
+  EXPECT_TRUE(info["fasteners"].empty());
   EXPECT_EQ(info["components"][0]["name"], "block");
   EXPECT_EQ(info["components"][0]["closed"], true);
   EXPECT_NE(run("info parts").out.find("block"), std::string::npos);

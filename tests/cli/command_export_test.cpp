@@ -94,7 +94,7 @@ TEST_F(CliExport, MeasuresTheClearanceOnRequest) {
 
 TEST_F(CliExport, WritesTheBillOfMaterials) {
   ASSERT_EQ(run("export parts -o parts-bom.csv").exit_code, 0);
-  EXPECT_NE(read_all(in("parts-bom.csv")).find("\r\n1,block,1,10,10,10,1000,600,12,"), std::string::npos);
+  EXPECT_NE(read_all(in("parts-bom.csv")).find("\r\n1,block,1,,,,10,10,10,1000,600,12,"), std::string::npos);
   ASSERT_EQ(run("export parts -o bom.json").exit_code, 0);
   EXPECT_EQ(Json::parse(read_all(in("bom.json")))["items"].size(), 2u);
 }

@@ -63,10 +63,10 @@ TEST(BillOfMaterials, GivesThePlacesOfComponentsInTheTree) {
 TEST(BillOfMaterials, IsATableThatSpreadsheetsRead) {
   const Assembly a = pinned();
   const std::string csv = bill_csv(a, bill_of_materials(a));
-  EXPECT_NE(csv.find("\r\n1,pin,3,2,3,10,60,112,12,#b3b3b8,pin; pin#2; pin#3,jaw/pin; jaw/pin#2; jaw/pin#3\r\n"),
+  EXPECT_NE(csv.find("\r\n1,pin,3,,,,2,3,10,60,112,12,#b3b3b8,pin; pin#2; pin#3,jaw/pin; jaw/pin#2; jaw/pin#3\r\n"),
             std::string::npos)
       << csv;
-  EXPECT_NE(csv.find("\r\n2,\"sheet, \"\"thin\"\"\",1,1,1,1,,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\r\n2,\"sheet, \"\"thin\"\"\",1,,,,1,1,1,,"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",#ff000080,pin#4,"), std::string::npos) << csv;
 }
 
@@ -80,6 +80,18 @@ TEST(BillOfMaterials, IsJsonThatProgramsRead) {
   EXPECT_NEAR(json["items"][0]["volume_mm3"].get<double>(), 60, 1e-12);
   EXPECT_TRUE(json["items"][1]["volume_mm3"].is_null());
   EXPECT_EQ(json["items"][2]["components"], nlohmann::json::array({"pin#4"}));
+}
+
+TEST(BillOfMaterials, NamesFastenersAndTheirTools) {
+  const Assembly a = scenes::assembly({scenes::component("part", scenes::tube(4, 0, 0, 20, 48)),
+                                       scenes::component("washer M5", scenes::tube(5, 2.65, 0, 1, 48))});
+  const std::string csv = bill_csv(a, bill_of_materials(a));
+  EXPECT_NE(csv.find("\r\n1,part,1,dowel,8x20,,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\r\n2,washer M5,1,washer,M5,,"), std::string::npos) << csv;
+  const nlohmann::json json = nlohmann::json::parse(bill_json(a, bill_of_materials(a)));
+  EXPECT_EQ(json["items"][0]["fastener"]["kind"], "dowel");
+  EXPECT_EQ(json["items"][0]["fastener"]["diameter_mm"], 8);
+  EXPECT_EQ(json["items"][1]["fastener"]["designation"], "M5");
 }
 
 TEST(BillOfMaterials, IsEmptyForAnEmptyAssembly) {

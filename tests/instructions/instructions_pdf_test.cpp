@@ -12,7 +12,7 @@ WorkInstructions grey_steps(std::size_t count) {
   WorkInstructions made;
   made.title = "Disassembly of \u9f7f\u8f6e <&> \xff";
   made.cover = grey;
-  made.parts = {{"bolt", count, {1, 2, 3}, {1}}};
+  made.parts = {{"bolt", count, {1, 2, 3}, {1}, {}}};
   for (std::size_t i = 0; i < count; ++i)
     made.steps.push_back({"Remove bolt", {{0, 1}}, {{InstructionNote::Kind::Warning, "Hold it."}}, grey, {}});
   return made;

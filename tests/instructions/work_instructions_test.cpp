@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/work_instructions.h"
 
+#include "tests/fasteners/turned_meshes.h"
 #include "tests/instructions/bolted_lid.h"
 
 #include <algorithm>
@@ -46,6 +47,26 @@ TEST(WorkInstructions, CountEqualComponentsNameToolsAndListTheParts) {
   EXPECT_EQ(made.parts[2].steps, std::vector<std::size_t>{1});
   EXPECT_EQ(part_text(made, made.steps[0].parts[0]), "2 \u00d7 bolt (item 3)");
   EXPECT_EQ(summary_text(made).substr(0, 55), "2 steps, 4 components of 3 kinds; 1 base part. Source: ");
+}
+
+TEST(WorkInstructions, NameFastenersTheirToolsAndThreads) {
+  Assembly a = scenes::bolted_lid();
+  TriangleMesh head = scenes::screw(5, 16, scenes::circle(4.25), 5, scenes::hexagon(4), 2.5);
+  for (Vec3& p : head.vertices) p.z += 5;
+  for (std::size_t c = 2; c < 4; ++c) a.components[c].mesh = std::make_shared<const TriangleMesh>(head);
+  a.components[2].name = "part 7";
+  a.components[3].name = "part 7#2";
+  Path path = scenes::bolted_lid_path();
+  path.components = {"base", "lid", "part 7", "part 7#2"};
+  path.moves[0].components = {"part 7"};
+  path.moves[1].components = {"part 7#2"};
+  const WorkInstructions made = written(a, scenes::bolted_lid_pairs(), path);
+  EXPECT_EQ(made.steps[0].title, "Unscrew 2 \u00d7 part 7 (socket head screw M5x16)");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "4 mm hex key\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning),
+            "Right-hand thread M5, pitch 0.8 mm. The rotation is not shown: unscrew first if engaged.\n");
+  EXPECT_EQ(made.tools, std::vector<std::string>{"4 mm hex key"});
+  EXPECT_EQ(part_name_text(made.parts[2]), "part 7, socket head screw M5x16");
 }
 
 TEST(WorkInstructions, AreReversedForAssembly) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/bill_of_materials.h"
 
+#include "dismantle/assembly/equal_shapes.h"
+#include "dismantle/documents/fastener_json.h"
 #include "dismantle/files/csv_text.h"
 #include "dismantle/files/json_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 namespace dismantle {
 
@@ -48,10 +53,6 @@ BillItem new_item(const Component& c) {
   return item;
 }
 
-bool are_alike(const Component& a, const Component& b) {
-  return a.color == b.color && (a.mesh == b.mesh || *a.mesh == *b.mesh);
-}
-
 /// "#aabbcc", or "#aabbccdd" with alpha if it is not opaque.
 std::string color_text(const Color& color) {
   const auto part = [](float value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); };
@@ -59,6 +60,11 @@ std::string color_text(const Color& color) {
   std::snprintf(text, sizeof text, "#%02x%02x%02x", part(color.r), part(color.g), part(color.b));
   if (part(color.a) < 255) std::snprintf(text + 7, sizeof text - 7, "%02x", part(color.a));
   return text;
+}
+
+/// A text about the fastener of an item as a field; empty if it is none.
+std::string of_fastener(const BillItem& item, std::string (*text)(const Fastener&)) {
+  return item.fastener ? csv_field(text(*item.fastener)) : std::string();
 }
 
 std::vector<std::string> component_names(const Assembly& assembly, const BillItem& item) {
@@ -69,29 +75,49 @@ std::vector<std::string> component_names(const Assembly& assembly, const BillIte
 
 }  // namespace
 
+std::vector<std::size_t> bill_lines(const Assembly& assembly) {
+  const std::vector<ComponentId> firsts = first_of_shape(assembly);
+  std::map<std::pair<ComponentId, std::array<float, 4>>, std::size_t> numbers;  // by shape and colour
+  std::vector<std::size_t> lines;
+  lines.reserve(firsts.size());
+  for (std::size_t c = 0; c < firsts.size(); ++c) {
+    const Color& color = assembly.components[c].color;
+    const std::size_t next = numbers.size();
+    lines.push_back(numbers.try_emplace({firsts[c], {color.r, color.g, color.b, color.a}}, next).first->second);
+  }
+  return lines;
+}
+
 std::vector<BillItem> bill_of_materials(const Assembly& assembly) {
+  return bill_of_materials(assembly, find_fasteners(assembly));
+}
+
+std::vector<BillItem> bill_of_materials(const Assembly& assembly,
+                                        const std::vector<std::optional<Fastener>>& fasteners) {
   std::vector<BillItem> bill;
-  for (std::uint32_t i = 0; i < assembly.components.size(); ++i) {
-    const Component& c = assembly.components[i];
-    auto line = std::find_if(bill.begin(), bill.end(),
-                             [&](const BillItem& item) { return are_alike(assembly[item.components.front()], c); });
-    if (line == bill.end()) line = bill.insert(line, new_item(c));
-    line->components.push_back(ComponentId(i));
-    line->places.push_back(place_of(assembly, c));
+  const std::vector<std::size_t> lines = bill_lines(assembly);
+  for (std::uint32_t c = 0; c < lines.size(); ++c) {
+    const Component& component = assembly.components[c];
+    if (lines[c] == bill.size()) bill.push_back(new_item(component));
+    BillItem& item = bill[lines[c]];
+    item.components.push_back(ComponentId(c));
+    item.places.push_back(place_of(assembly, component));
+    if (!item.fastener) item.fastener = fasteners[c];
   }
   return bill;
 }
 
 std::string bill_csv(const Assembly& assembly, const std::vector<BillItem>& bill) {
-  std::string text = csv_row({"item", "name", "count", "size_x_mm", "size_y_mm", "size_z_mm", "volume_mm3", "area_mm2",
-                              "triangles", "color", "components", "places"});
+  std::string text = csv_row({"item", "name", "count", "fastener", "designation", "tool", "size_x_mm", "size_y_mm",
+                              "size_z_mm", "volume_mm3", "area_mm2", "triangles", "color", "components", "places"});
   for (std::size_t i = 0; i < bill.size(); ++i) {
     const BillItem& item = bill[i];
-    text +=
-        csv_row({csv_field(i + 1), csv_field(item.name), csv_field(item.components.size()), csv_field(item.size.x),
-                 csv_field(item.size.y), csv_field(item.size.z), item.volume ? csv_field(*item.volume) : std::string(),
-                 csv_field(item.area), csv_field(item.triangles), color_text(item.color),
-                 csv_field(joined(component_names(assembly, item))), csv_field(joined(item.places))});
+    text += csv_row({csv_field(i + 1), csv_field(item.name), csv_field(item.components.size()),
+                     of_fastener(item, kind_text), of_fastener(item, designation_text), of_fastener(item, tool_text),
+                     csv_field(item.size.x), csv_field(item.size.y), csv_field(item.size.z),
+                     item.volume ? csv_field(*item.volume) : std::string(), csv_field(item.area),
+                     csv_field(item.triangles), color_text(item.color),
+                     csv_field(joined(component_names(assembly, item))), csv_field(joined(item.places))});
   }
   return text;
 }
@@ -101,6 +127,7 @@ std::string bill_json(const Assembly& assembly, const std::vector<BillItem>& bil
   for (const BillItem& item : bill) {
     const std::string values = json_line({{"name", item.name},
                                           {"count", item.components.size()},
+                                          {"fastener", item.fastener ? fastener_json(*item.fastener) : JsonValue()},
                                           {"size_mm", {item.size.x, item.size.y, item.size.z}},
                                           {"volume_mm3", item.volume ? JsonValue(*item.volume) : JsonValue()},
                                           {"area_mm2", item.area},

@@ -64,7 +64,7 @@ std::string parts_table(const WorkInstructions& instructions) {
       steps += "\">" + number;
       steps += "</a>";
     }
-    html += "<tr><td class=\"n\">" + std::to_string(i + 1) + "</td><td>" + html_escaped(line.name) +
+    html += "<tr><td class=\"n\">" + std::to_string(i + 1) + "</td><td>" + html_escaped(part_name_text(line)) +
             "</td><td class=\"n\">" + std::to_string(line.count) + "</td><td class=\"n\">" + size_text(line.size) +
             "</td><td>" + (steps.empty() ? "base" : steps) + "</td></tr>\n";
   }

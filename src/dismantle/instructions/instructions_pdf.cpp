@@ -93,8 +93,8 @@ class PdfWriter {
       const PartsLine& line = instructions_.parts[i];
       std::string steps;
       for (const std::size_t step : line.steps) steps += (steps.empty() ? "" : ", ") + std::to_string(step);
-      const std::string cells[] = {std::to_string(i + 1), line.name, std::to_string(line.count), size_text(line.size),
-                                   steps.empty() ? "base" : steps};
+      const std::string cells[] = {std::to_string(i + 1), part_name_text(line), std::to_string(line.count),
+                                   size_text(line.size), steps.empty() ? "base" : steps};
       double height = 0;
       for (std::size_t k = 0; k < std::size(kColumns); ++k)
         height = std::max(height, sheet_.text_height(cells[k], kColumns[k].width, kText));

@@ -2,15 +2,13 @@
 #include "dismantle/instructions/work_instructions.h"
 
 #include "dismantle/documents/bill_of_materials.h"
-#include "dismantle/features/thread_axes.h"
-#include "dismantle/instructions/hexagon_drives.h"
 #include "dismantle/instructions/motion_text.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
+#include "dismantle/instructions/tool_notes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace dismantle {
@@ -19,8 +17,6 @@ namespace {
 
 using Kind = InstructionNote::Kind;
 
-/// Maximum sine of the angle between a motion and the axis of a drive or a thread that it uses.
-constexpr double kAlong = 0.02;
 /// Maximum number of names in a list; the rest is counted.
 constexpr std::size_t kMaxNames = 6;
 /// Number of digits of the checksum on the cover.
@@ -38,10 +34,6 @@ std::string names_text(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string tool_text(const std::string& name, double size) {
-  return number_text(size) + " mm " + name;
-}
-
 /// "1 step", "2 steps".
 std::string count_text(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -53,6 +45,13 @@ constexpr const char* kTimes = " \u00d7 ";
 std::string counted_name(const WorkInstructions& instructions, const CountedPart& part) {
   const std::string& name = instructions.parts[part.item].name;
   return part.count > 1 ? std::to_string(part.count) + kTimes + name : name;
+}
+
+/// What fastener a part is; empty if its name says so, or it is none.
+std::string fastener_name(const std::string& name, const std::optional<Fastener>& fastener) {
+  if (!fastener) return {};
+  const std::string designation = designation_text(*fastener);
+  return designation.empty() || name.find(designation) != std::string::npos ? std::string() : fastener_text(*fastener);
 }
 
 /// Equal overlaps between components that a step moves and others, in the assembled state.
@@ -67,11 +66,6 @@ struct CountedOverlap {
   }
 };
 
-/// True if an axis is parallel to the direction or the axis of a leg.
-bool lies_along(const Vec3& axis, const Leg& leg) {
-  return length(cross(axis, leg.direction)) < kAlong;
-}
-
 /// Writes the texts of the steps and renders their pictures.
 class Writer {
  public:
@@ -82,7 +76,8 @@ class Writer {
         options_(options),
         is_forward_(options.direction == PathDirection::Forward),
         steps_(work_steps(assembly, timeline, options.direction)),
-        bill_(bill_of_materials(assembly)),
+        fasteners_(find_fasteners(assembly)),
+        bill_(bill_of_materials(assembly, fasteners_)),
         lines_(assembly.components.size()),
         facts_(assembly, pairs, options.engine),
         pictures_(assembly, options.picture_width, options.picture_height, options.engine.executor) {
@@ -99,15 +94,16 @@ class Writer {
     result_.assembly = assembly_.source_file;
     if (!assembly_.source_sha256.empty())
       result_.assembly += ", SHA-256 " + assembly_.source_sha256.substr(0, kChecksumDigits);
-    for (const BillItem& item : bill_) result_.parts.push_back({item.name, item.components.size(), item.size, {}});
+    for (const BillItem& item : bill_)
+      result_.parts.push_back(
+          {item.name, item.components.size(), item.size, {}, fastener_name(item.name, item.fastener)});
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (!report_progress(options_.progress, "writing instructions",
                            static_cast<double>(i) / static_cast<double>(steps_.size())))
         return Error{ErrorKind::Failed, "the instructions were not written (cancelled); run it again"};
       add(steps_[i]);
     }
-    for (const auto& [name, sizes] : tools_)
-      for (const double size : sizes) result_.tools.push_back(tool_text(name, size));
+    for (const Tool& tool : tools_) result_.tools.push_back(tool.text);
     result_.cover = pictures_.cover();
     report_progress(options_.progress, "writing instructions", 1);
     return std::move(result_);
@@ -153,20 +149,35 @@ class Writer {
     for (const ComponentId c : surroundings(step, removal))
       around.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
     if (overlaps(bounds_of(assembly_, removal.components, removal.poses.back()), around)) return "Move";
-    if (std::any_of(legs.begin(), legs.end(), is_screwing)) return is_forward_ ? "Unscrew" : "Screw in";
+    if (std::any_of(legs.begin(), legs.end(), is_screwing) || is_unscrewed(removal, legs))
+      return is_forward_ ? "Unscrew" : "Screw in";
     return is_forward_ ? "Remove" : "Mount";
+  }
+
+  /// True for a screw, a nut or a standoff that comes out along its axis.
+  bool is_unscrewed(const RemovalMove& removal, const std::vector<Leg>& legs) const {
+    if (removal.components.size() != 1 || legs.empty()) return false;
+    const ComponentId c = removal.components[0];
+    return fasteners_[c.value] && is_threaded(*fasteners_[c.value]) &&
+           comes_along_axis(assembly_[c], *fasteners_[c.value], removal, legs.front());
   }
 
   std::string subject(const WorkStep& step, const std::vector<CountedPart>& parts) const {
     if (step.removals.size() == 1 && step.removals[0].components.size() == 1)
-      return assembly_[step.removals[0].components[0]].name;
-    if (step.removals.size() > 1) return counted_name(result_, parts.front());
+      return with_fastener(assembly_[step.removals[0].components[0]].name, parts.front());
+    if (step.removals.size() > 1) return with_fastener(counted_name(result_, parts.front()), parts.front());
     if (const std::optional<std::string> name = name_of_body(step.removals[0].components)) return *name;
     std::vector<std::string> names;
     names.reserve(parts.size());
     for (const CountedPart& part : parts)
       names.push_back(part.count > 1 ? counted_name(result_, part) : name_of_one(step.removals[0], part.item));
     return names_text(names) + " together";
+  }
+
+  /// A name with what fastener the part is.
+  std::string with_fastener(const std::string& name, const CountedPart& part) const {
+    const std::string& fastener = result_.parts[part.item].fastener;
+    return fastener.empty() ? name : name + " (" + fastener + ")";
   }
 
   /// Name of the only component of a removal on a line of the bill of materials.
@@ -199,36 +210,11 @@ class Writer {
 
   void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
     if (removal.components.size() != 1 || legs.empty()) return;
-    const Component& c = assembly_[removal.components[0]];
-    const Mat3 turned = transform_from_pose(removal.poses.front()).rotation * c.assembly_from_mesh.rotation;
-    std::map<std::string, std::set<double>> tools;
-    for (const RevolutionAxis& axis : revolution_axes(c.mesh->vertices, c.mesh->faces)) {
-      if (!lies_along(turned * axis.direction, legs.front())) continue;
-      for (const HexagonDrive& drive : hexagon_drives(*c.mesh, axis)) {
-        const bool is_head = drive.kind == HexagonDrive::Kind::Head;
-        tools[is_head ? "spanner (wrench)" : "hex key"].insert(std::stod(number_text(drive.across_flats)));
-      }
-    }
-    for (const auto& [name, sizes] : tools) {
-      for (const double size : sizes) instruction.notes.push_back({Kind::Tool, tool_text(name, size)});
-      tools_[name].insert(sizes.begin(), sizes.end());
-    }
-    note_thread(c, turned, legs, instruction);
-  }
-
-  void note_thread(const Component& c, const Mat3& turned, const std::vector<Leg>& legs,
-                   Instruction& instruction) const {
-    const std::vector<RevolutionAxis> axes = revolution_axes(c.mesh->vertices, c.mesh->faces);
-    for (const ThreadAxis& thread : thread_axes(c.mesh->vertices, c.mesh->faces, axes)) {
-      if (!lies_along(turned * thread.direction, legs.front())) continue;
-      std::string text = std::string(thread.lead > 0 ? "Right" : "Left") + "-hand thread, diameter " +
-                         number_text(2 * thread.max_radius) + " mm, lead " + number_text(std::abs(thread.lead)) +
-                         " mm.";
-      if (std::none_of(legs.begin(), legs.end(), is_screwing))
-        text += is_forward_ ? " The rotation is not shown: unscrew first if engaged."
-                            : " The rotation is not shown: screw in.";
-      instruction.notes.push_back({Kind::Warning, text});
-    }
+    const ComponentId c = removal.components[0];
+    const ToolNotes notes = tool_notes(assembly_[c], fasteners_[c.value], removal, legs, options_.direction);
+    for (const Tool& tool : notes.tools) instruction.notes.push_back({Kind::Tool, tool.text});
+    for (const std::string& thread : notes.threads) instruction.notes.push_back({Kind::Warning, thread});
+    tools_.insert(notes.tools.begin(), notes.tools.end());
   }
 
   void note_warnings(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
@@ -326,12 +312,13 @@ class Writer {
   const WorkInstructionsOptions& options_;
   bool is_forward_;
   std::vector<WorkStep> steps_;
+  std::vector<std::optional<Fastener>> fasteners_;  // of each component
   std::vector<BillItem> bill_;
   std::vector<std::size_t> lines_;  // line of the bill of materials of each component
   RemovalFacts facts_;
   StepPictureRenderer pictures_;
   ComponentId ground_;
-  std::map<std::string, std::set<double>> tools_;  // sizes [mm] of the tools by name
+  std::set<Tool> tools_;  // of all steps
   WorkInstructions result_;
 };
 
@@ -362,6 +349,10 @@ const char* heading_of(InstructionNote::Kind kind) {
 
 std::string part_text(const WorkInstructions& instructions, const CountedPart& part) {
   return counted_name(instructions, part) + " (item " + std::to_string(part.item + 1) + ")";
+}
+
+std::string part_name_text(const PartsLine& line) {
+  return line.fastener.empty() ? line.name : line.name + ", " + line.fastener;
 }
 
 std::string size_text(const Vec3& size) {

@@ -26,6 +26,7 @@ struct PartsLine {
   std::size_t count = 0;           ///< Number of components.
   Vec3 size;                       ///< Of the bounding box [mm].
   std::vector<std::size_t> steps;  ///< Steps that handle some of them, from 1.
+  std::string fastener;            ///< "socket head screw M5x16"; empty if it is none, or its name says its size.
 };
 
 /// A note of a step.
@@ -78,6 +79,8 @@ const char* heading_of(InstructionNote::Kind kind);
 
 /// An entry of a step's list of parts: "4 x bolt (item 7)".
 std::string part_text(const WorkInstructions& instructions, const CountedPart& part);
+/// The name of a part, and what fastener it is: "bolt, socket head screw M5x16".
+std::string part_name_text(const PartsLine& line);
 /// The size of a box [mm]: "12 x 8 x 5".
 std::string size_text(const Vec3& size);
 /// The summary on the cover: numbers of steps, components and kinds, and the source file.

@@ -21,15 +21,6 @@ bool same_pose(const Pose& a, const Pose& b) {
   return max_abs(a.position - b.position) <= kSamePose && 1 - std::abs(dot(a.rotation, b.rotation)) <= kSamePose;
 }
 
-/// Line of the bill of materials of each component.
-std::vector<std::size_t> kinds_of(const Assembly& assembly) {
-  std::vector<std::size_t> kinds(assembly.components.size());
-  const std::vector<BillItem> bill = bill_of_materials(assembly);
-  for (std::size_t i = 0; i < bill.size(); ++i)
-    for (const ComponentId c : bill[i].components) kinds[c.value] = i;
-  return kinds;
-}
-
 /// Overall direction and rotation of a removal.
 struct Course {
   Vec3 direction;    ///< Of the displacement of the centre; unit vector, or zero.
@@ -62,7 +53,7 @@ std::vector<RemovalMove> removals_of(const Timeline& timeline) {
 }  // namespace
 
 std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timeline, PathDirection direction) {
-  const std::vector<std::size_t> kinds = kinds_of(assembly);
+  const std::vector<std::size_t> kinds = bill_lines(assembly);
   const auto are_equal = [&](const RemovalMove& a, const RemovalMove& b) {
     return a.components.size() == 1 && b.components.size() == 1 &&
            kinds[a.components[0].value] == kinds[b.components[0].value] &&

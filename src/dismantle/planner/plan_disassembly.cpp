@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/plan_disassembly.h"
 
+#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/least_overlap.h"
@@ -328,7 +329,7 @@ class Planner {
   std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying,
                                                FreeComponentSearch& search) {
     if (!options_.preferences.empty()) {
-      if (kinds_.empty()) kinds_ = component_kinds(assembly_);
+      if (kinds_.empty()) kinds_ = first_of_shape(assembly_);
       StepBefore before;
       if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
       return preferred_removals({table_, choice_.directions(), kinds_, options_.preferences}, body, staying, before);
@@ -394,7 +395,7 @@ class Planner {
   double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
   DirectionId last_direction_;
-  std::vector<std::uint32_t> kinds_;  // of components, if preferences need them
+  std::vector<ComponentId> kinds_;  // first_of_shape(), if preferences need it
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
   /// Components that are taken apart in one place.

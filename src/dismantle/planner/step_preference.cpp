@@ -98,16 +98,4 @@ std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, con
   return removals;
 }
 
-std::vector<std::uint32_t> component_kinds(const Assembly& assembly) {
-  std::vector<std::uint32_t> kinds;
-  kinds.reserve(assembly.components.size());
-  for (std::uint32_t c = 0; c < assembly.components.size(); ++c) {
-    const auto& mesh = assembly.components[c].mesh;
-    std::uint32_t kind = 0;
-    while (kind < c && assembly.components[kind].mesh != mesh && !(*assembly.components[kind].mesh == *mesh)) ++kind;
-    kinds.push_back(kind);
-  }
-  return kinds;
-}
-
 }  // namespace dismantle

@@ -23,7 +23,7 @@ struct StepBefore {
 struct RemovalChoice {
   BlockingTable& table;                            ///< Blocking relations.
   const DirectionLists& directions;                ///< Of each component.
-  const std::vector<std::uint32_t>& kinds;         ///< Equal for equal components, shape [component_count].
+  const std::vector<ComponentId>& kinds;           ///< What first_of_shape() returns.
   const std::vector<StepPreference>& preferences;  ///< The most important first.
 };
 
@@ -31,8 +31,5 @@ struct RemovalChoice {
 /// of preference; ties by size, small ones first.
 std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,
                                                 const ComponentSet& never, const StepBefore& before);
-
-/// A number for each component, equal for components with equal meshes. Shape [component_count].
-std::vector<std::uint32_t> component_kinds(const Assembly& assembly);
 
 }  // namespace dismantle

@@ -22,9 +22,8 @@ constexpr double kRaceReach = 1.6;
 /// A board is no thicker than this share of its width, and carries at least so many components.
 constexpr double kBoardThickness = 0.1;
 constexpr std::size_t kLeastOnBoard = 10;
-/// An O-ring's section, and the height of a circlip, are at most this share of the outer radius; a circlip's gap is
-/// between these angles [rad].
-constexpr double kMaxSection = 0.3, kMaxClipHeight = 0.3, kMaxClipWidth = 0.4, kLeastGap = 0.2, kMostGap = 2.2;
+/// An O-ring's section is at most this share of the outer radius.
+constexpr double kMaxSection = 0.3;
 
 std::string quoted(const std::string& text) {
   return "'" + text + "'";
@@ -216,8 +215,7 @@ class ProposalSearch {
         const double width = ring->outer - ring->inner;
         if (ring->is_torus && width <= 2 * kMaxSection * ring->outer)
           reason = "a torus, as O-rings are";
-        else if (ring->gap > kLeastGap && ring->gap < kMostGap && width <= kMaxClipWidth * ring->outer &&
-                 ring->height < kMaxClipHeight * ring->outer)
+        else if (is_circlip(*ring))
           reason = "an open ring, as circlips are";
       }
       if (reason.empty() && !word.empty()) reason = "its name says " + quoted(word);

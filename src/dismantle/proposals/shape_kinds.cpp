@@ -29,6 +29,11 @@ constexpr double kFacesOfBall = 0.75;
 constexpr double kLargestStep = 0.6;
 /// The inner radius of a ring is at least this share of the outer one.
 constexpr double kLeastInner = 0.5;
+/// The outer vertices of a ring are further out than this share of the farthest.
+constexpr double kFarOut = 0.85;
+/// The height and the width of a circlip are at most these shares of its outer radius, its gap is between these angles
+/// [rad].
+constexpr double kMaxClipHeight = 0.3, kMaxClipWidth = 0.4, kLeastGap = 0.2, kMostGap = 2.2;
 
 Obb box_of(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.faces.size());
@@ -43,6 +48,27 @@ std::pair<double, double> largest_gaps(std::vector<double> angles) {
   for (std::size_t i = 1; i < angles.size(); ++i) gaps.push_back(angles[i] - angles[i - 1]);
   std::partial_sort(gaps.begin(), gaps.begin() + 2, gaps.end(), std::greater<>());
   return {gaps[0], gaps[1]};
+}
+
+/// The center of the circle, across an axis, that fits best to the vertices that are far from another point of the axis
+/// (Kasa 1976): that of a ring, whose box is not centred on it if there is a gap.
+Vec3 center_of_circle(const TriangleMesh& mesh, Vec3 from, Vec3 first, Vec3 second) {
+  double farthest = 0;
+  for (const Vec3& p : mesh.vertices)
+    farthest = std::max(farthest, std::hypot(dot(p - from, first), dot(p - from, second)));
+  Vec3 rows[3], right;
+  for (const Vec3& p : mesh.vertices) {
+    const double x = dot(p - from, first), y = dot(p - from, second), square = x * x + y * y;
+    if (std::sqrt(square) < kFarOut * farthest) continue;
+    const Vec3 row{x, y, 1};
+    for (int i = 0; i < 3; ++i) rows[i] += row[i] * row;
+    right += square * row;
+  }
+  const double det = dot(rows[0], cross(rows[1], rows[2]));
+  if (!(std::abs(det) > 0)) return from;
+  // Cramer's rule; the matrix is symmetric.
+  const double x = dot(right, cross(rows[1], rows[2])) / det / 2, y = dot(rows[0], cross(right, rows[2])) / det / 2;
+  return from + x * first + y * second;
 }
 
 /// True if the outer or the inner radius is the same nearly all around: a ring, and no frame.
@@ -85,6 +111,8 @@ std::optional<RingShape> ring_shape(const TriangleMesh& mesh) {
   ring.axis = normalized(to_double(box.third_axis()));
   ring.center = to_double(box.center);
   const Vec3 across = normalized(to_double(box.axis[0])), third = cross(ring.axis, across);
+  // The second round is without the vertices of the inner circle that are far from the middle of the box.
+  for (int round = 0; round < 2; ++round) ring.center = center_of_circle(mesh, ring.center, across, third);
   ring.inner = std::numeric_limits<double>::infinity();
   double low = ring.inner, high = -low;
   std::vector<double> angles, radii;
@@ -114,6 +142,11 @@ std::optional<RingShape> ring_shape(const TriangleMesh& mesh) {
     return std::abs(off - section) <= 2 * kRound * section;
   });
   return ring;
+}
+
+bool is_circlip(const RingShape& ring) {
+  return ring.gap > kLeastGap && ring.gap < kMostGap && ring.outer - ring.inner <= kMaxClipWidth * ring.outer &&
+         ring.height < kMaxClipHeight * ring.outer;
 }
 
 std::optional<BallShape> ball_shape(const TriangleMesh& mesh) {

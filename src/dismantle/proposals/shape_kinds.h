@@ -22,6 +22,9 @@ struct RingShape {
 /// and its vertices go around it, but for one gap.
 std::optional<RingShape> ring_shape(const TriangleMesh& mesh);
 
+/// True if a ring is open and as flat and narrow as circlips are.
+bool is_circlip(const RingShape& ring);
+
 /// A ball by the places of its vertices.
 struct BallShape {
   Vec3 center;        ///< [mm]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/instructions/hexagon_drives.h"
+#include "dismantle/fasteners/hexagon_drives.h"
 
 #include "tests/support/meshes.h"
 
