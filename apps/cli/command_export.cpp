@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
 
@@ -53,10 +54,8 @@ struct ExportInput {
 Result<ExportFormat> check(const ExportCommand& command) {
   const std::optional<ExportFormat> format = command.format ? command.format : export_format_of(command.output);
   if (!format)
-    return Error{ErrorKind::Usage,
-                 command.output +
-                     " cannot be written (its extension is not a known format); use .glb, .html, .pdf, .png, "
-                     ".stl, .csv, bom.csv, bom.json or .path.json, or give --format"};
+    return Error{ErrorKind::Usage, command.output + " cannot be written (its ending names no format); use " +
+                                       export_endings() + ", or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
                  "there is no path to export (only an assembly is given, and this format needs "
@@ -238,8 +237,10 @@ Result<Done> run(const ExportCommand& command) {
                       {"moves", moves}};
     fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    fmt::print("wrote {}: {} components, {} moves, {} bytes\n", command.output, exported->assembly.components.size(),
-               moves, bytes->size());
+    const bool shows_moves = exported->path.has_value() && depends_on_direction(*format);
+    fmt::print("wrote {}: {}{}, {} bytes\n", command.output,
+               count_text(exported->assembly.components.size(), "component"),
+               shows_moves ? ", " + count_text(moves, "move") : "", bytes->size());
   }
   return Done{};
 }
@@ -281,19 +282,19 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("FILE");
   command->add_option("--format", options->format, "Format of the file (default: from its extension)")
-      ->transform(CLI::CheckedTransformer(kFormats))
+      ->transform(choice(kFormats))
       ->type_name("glb|html|png|swept|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
   command->add_flag("--reverse", options->reverse,
                     "Assembly instead of disassembly: moves reversed, last first (.path.json: both)");
   command->add_flag("--clearance", options->clearance, "Table of moves: add the minimum clearance of each");
   command->add_option("--step", options->step, "Picture or swept volume of step N")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--within", options->within,
                    "Swept volume: largest distance outside the exact one [mm] (default: 2% of its diagonal)")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--product", options->product, "Work instructions: name of the product (default: from the file)")
       ->type_name("NAME");
   add_picture_options(*command, options->picture);

@@ -132,7 +132,7 @@ TEST_F(CliExport, WritesWorkInstructions) {
 
 TEST_F(CliExport, TakesTheFormatByNameIfTheFileHasNoExtension) {
   ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
-  expect_error("export parts pull.path.json -o pull.xyz", 2, "its extension is not a known format");
+  expect_error("export parts pull.path.json -o pull.xyz", 2, "instructions.html, .html, .pdf");
 }
 
 TEST_F(CliExport, RefusesInvalidArguments) {
