@@ -46,7 +46,7 @@ std::string extra_text(const CLI::App& command, const std::string& what, const s
 
 /// What is wrong, without a full stop.
 std::string reason(const CLI::App& command, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-  const std::string what = error.what();
+  std::string what = error.what();
   // Not by get_name(), which is the command for some.
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return extra_text(command, what, arguments);
   if (dynamic_cast<const CLI::RequiredError*>(&error))

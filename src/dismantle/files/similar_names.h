@@ -11,7 +11,8 @@ namespace dismantle {
 
 /// The names that someone who typed `typed` may have meant, the likeliest first: those that contain it, those that are
 /// a few letters off (a quarter of its length, at least one; two letters that are exchanged count as one), and those
-/// whose beginning is. Upper and lower case of ASCII letters are the same. Bytes are compared, so that an accented letter counts as two.
+/// whose beginning is. Upper and lower case of ASCII letters are the same. Bytes are compared, so that an accented
+/// letter counts as two.
 /// @param most at most so many names are returned
 std::vector<std::string> similar_names(std::string_view typed, Span<const std::string> names, std::size_t most = 3);
 
