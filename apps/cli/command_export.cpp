@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/instructions.h"
 #include "apps/cli/option_checks.h"
 #include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
@@ -11,8 +12,6 @@
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/write_mesh.h"
-#include "dismantle/instructions/instructions_page.h"
-#include "dismantle/instructions/instructions_pdf.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
@@ -39,7 +38,7 @@ struct ExportCommand {
   bool clearance = false;
   std::size_t step = 0;  ///< From 1; 0: not given.
   double within = 0;     ///< [mm]; 0: default.
-  std::string product;   ///< For the title; empty: the file's name.
+  InstructionsCommand instructions;
   PictureOptions picture;
 };
 
@@ -72,10 +71,11 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  "--step does not apply here (only to a picture or a swept volume of a path); "
                  "leave it out, or write a .png or .stl of a path"};
-  if (!command.product.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
-    return Error{ErrorKind::Usage,
-                 "--product does not apply to this format (only to work instructions); "
-                 "leave it out, or write a .pdf or instructions.html"};
+  if (const std::string option = command.instructions.given();
+      !option.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
+    return Error{ErrorKind::Usage, option +
+                                       " does not apply to this format (only to work instructions); leave it out, "
+                                       "or write a .pdf or instructions.html"};
   if (command.within > 0 && !is_swept)
     return Error{ErrorKind::Usage,
                  "--within does not apply to this format (only to swept volumes); "
@@ -105,7 +105,8 @@ Result<ExportInput> read(ExportCommand command) {
     if (!beside) return beside.error();
     command.common.assembly_file = beside->string();
   }
-  exported.product = command.product.empty() ? product_name(command.common.assembly_file) : command.product;
+  exported.product =
+      command.instructions.product.empty() ? product_name(command.common.assembly_file) : command.instructions.product;
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   exported.assembly = std::move(*assembly);
@@ -153,23 +154,11 @@ Result<std::vector<MoveClearance>> clearances(const ExportInput& exported, const
   return std::move(*found);
 }
 
-Result<std::string> instructions(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
-  const Result<PairStates> states = classify(exported.assembly, command.common);
-  if (!states) return states.error();
-  WorkInstructionsOptions options;
-  options.direction = direction(command);
-  options.product = exported.product;
-  options.engine = {make_executor(command.common), widest_lanes()};
-  options.progress = progress_printer(command.common);
-  const Result<WorkInstructions> made = work_instructions(exported.assembly, *states, exported.timeline, options);
-  if (!made) return made.error();
-  if (format == ExportFormat::InstructionsPdf) return instructions_pdf(*made);
-  return instructions_page(*made);
-}
-
 Result<std::string> content(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
-  if (has_own_writer(format)) return instructions(format, exported, command);
+  if (has_own_writer(format))
+    return instructions_file(exported.assembly, exported.timeline, direction(command), exported.product, format,
+                             command.instructions, command.common);
   ExportOptions options;
   options.direction = direction(command);
   options.viewer = server::viewer_files();
@@ -295,8 +284,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
                    "Swept volume: largest distance outside the exact one [mm] (default: 2% of its diagonal)")
       ->type_name("MM")
       ->check(above_zero());
-  command->add_option("--product", options->product, "Work instructions: name of the product (default: from the file)")
-      ->type_name("NAME");
+  add_instructions_options(*command, options->instructions);
   add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {
