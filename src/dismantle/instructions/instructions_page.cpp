@@ -37,7 +37,7 @@ td.n, th.n { text-align: right; white-space: nowrap; }
 .overview { width: 55%; margin-top: 10px; }
 footer { margin-top: 24px; color: #5c6675; font-size: 13px; }
 @media (max-width: 700px) { .columns { grid-template-columns: 1fr; } }
-figure { position: relative; margin: 0; } figure svg { position: absolute; inset: 0; width: 100%; height: 100%; }
+figure { position: relative; width: fit-content; margin: 0; } .cover figure { margin: 16px 0; } .cover figure img { margin: 0; } figure svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 svg text { font-size: 13px; font-weight: bold; text-anchor: middle; dominant-baseline: central; }
 figure svg.axes { inset: auto auto 6px 6px; width: 76px; height: 76px; }
 .block { width: auto; margin: 8px 0; } .block th { padding-right: 2em; } .assembled { width: 42%; }
@@ -64,8 +64,9 @@ std::string balloon_layer(const ExplodedOverview& overview) {
   std::string lines, marks;
   for (const Balloon& balloon : overview.balloons) {
     const std::string x = number(balloon.place.x * width), y = number(balloon.place.y * height);
-    lines += "<line x1=\"" + x + "\" y1=\"" + y + "\" x2=\"" + number(balloon.anchor.x * width) + "\" y2=\"" +
-             number(balloon.anchor.y * height) + "\" stroke=\"#1c2430\"/>";
+    const std::string to_x = number(balloon.anchor.x * width), to_y = number(balloon.anchor.y * height);
+    lines += "<line x1=\"" + x + "\" y1=\"" + y + "\" x2=\"" + to_x + "\" y2=\"" + to_y +
+             "\" stroke=\"#1c2430\"/><circle cx=\"" + to_x + "\" cy=\"" + to_y + "\" r=\"2\"/>";
     marks += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"14\" fill=\"#fff\" stroke=\"#1c2430\"/><text x=\"" + x +
              "\" y=\"" + y + "\">" + std::to_string(balloon.item + 1) + "</text>";
   }
