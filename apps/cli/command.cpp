@@ -3,6 +3,7 @@
 
 #include "apps/cli/option_checks.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/files/number_text.h"
 #include "dismantle/files/user_folders.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
@@ -180,11 +181,26 @@ void note_cpu(const CommonOptions& options, const std::string& why) {
     std::fprintf(stderr, "dismantle: note: computing on the CPU (%s)\n", why.c_str());
 }
 
+/// Notes that the unit is probably wrong, if the assembly is larger or smaller than assemblies are.
+static void note_size(const Assembly& assembly) {
+  constexpr double kLeast = 1, kMost = 20000;  // [mm]
+  const Vec3 size = assembled_bounds(assembly).size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (longest <= 0 || (longest >= kLeast && longest <= kMost)) return;
+  const std::string text = longest < kLeast ? number_text(longest, 3) + " mm" : number_text(longest / 1000, 3) + " m";
+  std::fprintf(
+      stderr,
+      "dismantle: note: the assembly is %s long (read in %s); if that is wrong, give the unit of the file with "
+      "--units\n",
+      text.c_str(), assembly.source_units.c_str());
+}
+
 Result<Assembly> load(const CommonOptions& options) {
   if (!options.uses_device) note_cpu(options, "only move uses a CUDA device");
   ImportOptions import = options.import;
   import.progress = progress_printer(options);
   Result<Assembly> assembly = load_assembly(options.assembly_file, import);
+  if (assembly) note_size(*assembly);
   if (!assembly || options.simplify == 0) return assembly;
 
   SimplifyOptions simplify;

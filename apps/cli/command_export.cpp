@@ -10,6 +10,7 @@
 #include "dismantle/export/step_scene.h"
 #include "dismantle/export/swept_volume.h"
 #include "dismantle/files/atomic_file.h"
+#include "dismantle/files/display_name.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/write_mesh.h"
 #include "dismantle/render/assembly_scene.h"
@@ -83,15 +84,6 @@ Result<ExportFormat> check(const ExportCommand& command) {
   return *format;
 }
 
-/// The name of a file. For a folder, its path from the parent folder, because it may be called just "parts".
-std::string product_name(const fs::path& assembly_file) {
-  std::error_code error;
-  const fs::path full = fs::canonical(assembly_file, error);
-  if (error || !fs::is_directory(full, error) || !full.has_relative_path()) return assembly_file.filename().string();
-  const fs::path parent = full.parent_path().filename();
-  return (parent.empty() ? full.filename() : parent / full.filename()).generic_string();
-}
-
 /// Reads the input. For a path without an assembly, the assembly in its folder.
 Result<ExportInput> read(ExportCommand command) {
   ExportInput exported;
@@ -106,7 +98,7 @@ Result<ExportInput> read(ExportCommand command) {
     command.common.assembly_file = beside->string();
   }
   exported.product =
-      command.instructions.product.empty() ? product_name(command.common.assembly_file) : command.instructions.product;
+      command.instructions.product.empty() ? display_name(command.common.assembly_file) : command.instructions.product;
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   exported.assembly = std::move(*assembly);

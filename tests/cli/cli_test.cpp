@@ -113,6 +113,12 @@ TEST_F(Cli, ExitsWith3AndOneSentenceOnUnreadableInput) {
   EXPECT_FALSE(fs::exists(in("out.path.json")));
 }
 
+TEST_F(Cli, NotesSizesThatAssembliesDoNotHave) {
+  EXPECT_EQ(run("info parts").err, "");
+  EXPECT_NE(run("info parts --units m").err.find("note: the assembly is 100 m long (read in m)"), std::string::npos);
+  EXPECT_NE(run("info parts --units um").err.find("the assembly is 0.1 mm long (read in um)"), std::string::npos);
+}
+
 TEST_F(Cli, DescribesAnAssembly) {
   const Outcome o = run("info parts --json");
   ASSERT_EQ(o.exit_code, 0) << o.err;
