@@ -34,6 +34,7 @@ template <class T>
 CLI::Validator choice(const std::map<std::string, T>& values) {
   static_assert(std::is_enum_v<T>);
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& value : values) names.push_back(value.first);
   const CLI::Validator is_name = one_of(std::move(names));
   return CLI::Validator(

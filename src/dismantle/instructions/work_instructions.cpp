@@ -150,7 +150,7 @@ class Writer {
     if (step.removals.size() > 1)
       return std::to_string(parts.front().count) + kTimes + names_.item_in_title(parts.front().item);
     if (const std::optional<std::string> name = name_of_body(step.removals[0].components))
-      if (const std::string shown = names_.of_body(*name); !shown.empty()) return shown;
+      if (std::string shown = names_.of_body(*name); !shown.empty()) return shown;
     std::vector<std::string> names;
     names.reserve(parts.size());
     for (const CountedPart& part : parts)
