@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/command.h"
 
+#include "apps/cli/option_checks.h"
+#include "apps/cli/plan_text.h"
+#include "dismantle/files/number_text.h"
 #include "dismantle/files/user_folders.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
@@ -15,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace dismantle::cli {
@@ -22,6 +26,7 @@ namespace dismantle::cli {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
+bool g_errors_as_json = false;  // set once, by main()
 
 void interrupt(int) {
   if (g_interrupted) std::_Exit(static_cast<int>(ExitCode::Failed));  // a second Ctrl+C does not wait
@@ -35,24 +40,25 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   static const std::map<std::string, DeviceChoice> kDevices{
       {"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}, {"auto", DeviceChoice::Auto}};
   const std::string group = "Common options";
-  command.add_option("--units", o.import.units, "Unit of the input's coordinates (mm, cm, m, um, in, ft)")
-      ->check(CLI::IsMember({"mm", "cm", "m", "um", "in", "ft"}))
+  command.add_option("--units", o.import.units, "Unit of the input's coordinates")
+      ->type_name("mm|cm|m|um|in|ft")
+      ->check(one_of({"mm", "cm", "m", "um", "in", "ft"}))
       ->group(group);
   command.add_option("--deflection", o.import.deflection, "CAD files: largest distance of a triangle from its surface")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group(group);
   command
       .add_option("--angular-deflection", o.import.angular_deflection,
                   "CAD files: largest angle between neighbouring facets")
       ->type_name("RAD")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group(group);
   static const std::map<std::string, Solids> kSolids{{"split", Solids::Split}, {"join", Solids::Join}};
   command
       .add_option("--solids", o.import.solids,
                   "CAD files: a product with several solids gives a component of each (split) or one of all (join)")
-      ->transform(CLI::CheckedTransformer(kSolids))
+      ->transform(choice(kSolids))
       ->type_name("split|join")
       ->group(group);
   command
@@ -63,13 +69,13 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       .add_option("--tolerance", o.tolerance,
                   "Penetration that still counts as contact (default: from size and deflection)")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group(group);
   command
       .add_option("--pairs", o.pairs,
                   "What pairs that touch or overlap may do: auto (get no deeper) or paper (anything until they have "
                   "been apart)")
-      ->transform(CLI::CheckedTransformer(kRules))
+      ->transform(choice(kRules))
       ->type_name("auto|paper")
       ->group(group);
   // Of version 0.1, which took pairs that overlap by more for embedded: all pairs are treated alike now.
@@ -88,15 +94,15 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
       ->group(group);
   command.add_option("--simplify", o.simplify, "Simplify to about N triangles after loading")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group(group);
   command.add_option("--device", o.device, "Device: cpu, cuda, or auto (cuda if available and faster)")
-      ->transform(CLI::CheckedTransformer(kDevices))
+      ->transform(choice(kDevices))
       ->type_name("cpu|cuda|auto")
       ->group(group);
   command.add_option("--threads", o.threads, "Threads (default: all)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024))
+      ->check(between(1, 1024))
       ->group(group);
   command.add_flag("--json", o.json, "Print the result as JSON")->group(group);
   command.add_flag("--quiet", o.quiet, "Do not print progress")->group(group);
@@ -175,11 +181,26 @@ void note_cpu(const CommonOptions& options, const std::string& why) {
     std::fprintf(stderr, "dismantle: note: computing on the CPU (%s)\n", why.c_str());
 }
 
+/// Notes that the unit is probably wrong, if the assembly is larger or smaller than assemblies are.
+static void note_size(const Assembly& assembly) {
+  constexpr double kLeast = 1, kMost = 20000;  // [mm]
+  const Vec3 size = assembled_bounds(assembly).size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (longest <= 0 || (longest >= kLeast && longest <= kMost)) return;
+  const std::string text = longest < kLeast ? number_text(longest, 3) + " mm" : number_text(longest / 1000, 3) + " m";
+  std::fprintf(
+      stderr,
+      "dismantle: note: the assembly is %s long (read in %s); if that is wrong, give the unit of the file with "
+      "--units\n",
+      text.c_str(), assembly.source_units.c_str());
+}
+
 Result<Assembly> load(const CommonOptions& options) {
   if (!options.uses_device) note_cpu(options, "only move uses a CUDA device");
   ImportOptions import = options.import;
   import.progress = progress_printer(options);
   Result<Assembly> assembly = load_assembly(options.assembly_file, import);
+  if (assembly) note_size(*assembly);
   if (!assembly || options.simplify == 0) return assembly;
 
   SimplifyOptions simplify;
@@ -195,6 +216,9 @@ Result<PairStates> classify(const Assembly& assembly, const CommonOptions& optio
   classify.tolerance = options.tolerance;
   classify.clearance = clearance;
   classify.rule = options.pairs;
+  for (const DeclaredAllowance& own : options.allowed)
+    for (const std::string& name : {own.a, own.b})
+      if (const Result<ComponentId> id = find_component(assembly, name); !id) return id.error();
   classify.declared = options.allowed;
   classify.executor = make_executor(options);
   classify.progress = progress_printer(options);
@@ -210,17 +234,28 @@ Result<Clashes> clashes_of(const Assembly& assembly, const CommonOptions& option
   return find_clashes(assembly, clash);
 }
 
+std::string count_text(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void report_errors_as_json() {
+  g_errors_as_json = true;
+}
+
 ExitCode report(const Error& error) {
   std::fprintf(stderr, "dismantle: %s\n", error.message.c_str());
-  switch (error.kind) {
-    case ErrorKind::Usage:
-      return ExitCode::Usage;
-    case ErrorKind::Unreadable:
-      return ExitCode::Unreadable;
-    case ErrorKind::Failed:
-      return ExitCode::Failed;
+  const auto [code, kind] = error.kind == ErrorKind::Usage        ? std::pair(ExitCode::Usage, "usage")
+                            : error.kind == ErrorKind::Unreadable ? std::pair(ExitCode::Unreadable, "unreadable")
+                                                                  : std::pair(ExitCode::Failed, "failed");
+  if (g_errors_as_json) {
+    const nlohmann::ordered_json object{{"format", "dismantle-error"},
+                                        {"version", 1},
+                                        {"kind", kind},
+                                        {"exit_code", static_cast<int>(code)},
+                                        {"message", error.message}};
+    std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   }
-  return ExitCode::Failed;
+  return code;
 }
 
 }  // namespace dismantle::cli

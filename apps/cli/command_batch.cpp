@@ -3,6 +3,7 @@
 #include "apps/batch/run_batch.h"
 #include "apps/batch/stop_signal.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/plan_text.h"
 #include "dismantle/documents/check_report.h"
 #include "dismantle/documents/path_file.h"
@@ -149,10 +150,10 @@ void add_work_options(CLI::App& command, BatchCommand& options) {
   command.add_flag("--check-only", options.check_only, "Check only, do not plan");
   command.add_option("--clearance", options.clearance, "Also list pairs that are apart by at most this")
       ->type_name("MM")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command.add_option("--time-limit", options.time_limit, "Time limit of the search for a plan; keeps what was found")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 void add_batch_options(CLI::App& command, BatchCommand& options) {
@@ -163,27 +164,27 @@ void add_batch_options(CLI::App& command, BatchCommand& options) {
   command
       .add_option("--meshes", options.selection.meshes,
                   "Mesh files of a folder form one assembly (folder), or one each (file)")
-      ->transform(CLI::CheckedTransformer(kMeshes))
+      ->transform(choice(kMeshes))
       ->type_name("folder|file");
   command
       .add_option("--workers", options.workers,
                   "Assemblies processed in parallel on this machine (default: one per core)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4096));
+      ->check(between(1, 4096));
   command.add_flag("--retry", options.retry, "Retry assemblies that failed");
   command.add_option("--memory", options.limits.memory_gib, "Memory limit for one assembly")
       ->type_name("GIB")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option("--cpu-time", options.limits.cpu_seconds, "Processor time limit for one assembly")
       ->type_name("S")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command
       .add_option("--lease", options.lease_seconds,
                   "Time without a sign of life after which another machine takes over an assembly")
       ->type_name("S")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/part_options.h"
 #include "dismantle/documents/check_report.h"
 #include "dismantle/files/atomic_file.h"
@@ -63,7 +64,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   add_assembly_argument(*command, options->common);
   command->add_option("--clearance", options->clearance, "Also list pairs that are apart by at most this")
       ->type_name("MM")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->add_option("--html", options->html_file, "Also write the report as one HTML page with pictures")
       ->type_name("FILE");
   command->add_option("--pictures", options->pictures, "Maximum number of pictures of single overlaps in the HTML page")

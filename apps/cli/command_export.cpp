@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/instructions.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/picture.h"
 #include "apps/server/viewer_files.h"
 
@@ -8,10 +10,9 @@
 #include "dismantle/export/step_scene.h"
 #include "dismantle/export/swept_volume.h"
 #include "dismantle/files/atomic_file.h"
+#include "dismantle/files/display_name.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/write_mesh.h"
-#include "dismantle/instructions/instructions_page.h"
-#include "dismantle/instructions/instructions_pdf.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ struct ExportCommand {
   bool clearance = false;
   std::size_t step = 0;  ///< From 1; 0: not given.
   double within = 0;     ///< [mm]; 0: default.
-  std::string product;   ///< For the title; empty: the file's name.
+  InstructionsCommand instructions;
   PictureOptions picture;
 };
 
@@ -53,10 +54,8 @@ struct ExportInput {
 Result<ExportFormat> check(const ExportCommand& command) {
   const std::optional<ExportFormat> format = command.format ? command.format : export_format_of(command.output);
   if (!format)
-    return Error{ErrorKind::Usage,
-                 command.output +
-                     " cannot be written (its extension is not a known format); use .glb, .html, .pdf, .png, "
-                     ".stl, .csv, bom.csv, bom.json or .path.json, or give --format"};
+    return Error{ErrorKind::Usage, command.output + " cannot be written (its ending names no format); use " +
+                                       export_endings() + ", or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,
                  "there is no path to export (only an assembly is given, and this format needs "
@@ -73,24 +72,16 @@ Result<ExportFormat> check(const ExportCommand& command) {
     return Error{ErrorKind::Usage,
                  "--step does not apply here (only to a picture or a swept volume of a path); "
                  "leave it out, or write a .png or .stl of a path"};
-  if (!command.product.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
-    return Error{ErrorKind::Usage,
-                 "--product does not apply to this format (only to work instructions); "
-                 "leave it out, or write a .pdf or instructions.html"};
+  if (const std::string option = command.instructions.given();
+      !option.empty() && *format != ExportFormat::InstructionsHtml && *format != ExportFormat::InstructionsPdf)
+    return Error{ErrorKind::Usage, option +
+                                       " does not apply to this format (only to work instructions); leave it out, "
+                                       "or write a .pdf or instructions.html"};
   if (command.within > 0 && !is_swept)
     return Error{ErrorKind::Usage,
                  "--within does not apply to this format (only to swept volumes); "
                  "leave it out, or write an .stl"};
   return *format;
-}
-
-/// The name of a file. For a folder, its path from the parent folder, because it may be called just "parts".
-std::string product_name(const fs::path& assembly_file) {
-  std::error_code error;
-  const fs::path full = fs::canonical(assembly_file, error);
-  if (error || !fs::is_directory(full, error) || !full.has_relative_path()) return assembly_file.filename().string();
-  const fs::path parent = full.parent_path().filename();
-  return (parent.empty() ? full.filename() : parent / full.filename()).generic_string();
 }
 
 /// Reads the input. For a path without an assembly, the assembly in its folder.
@@ -106,7 +97,8 @@ Result<ExportInput> read(ExportCommand command) {
     if (!beside) return beside.error();
     command.common.assembly_file = beside->string();
   }
-  exported.product = command.product.empty() ? product_name(command.common.assembly_file) : command.product;
+  exported.product =
+      command.instructions.product.empty() ? display_name(command.common.assembly_file) : command.instructions.product;
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   exported.assembly = std::move(*assembly);
@@ -154,23 +146,11 @@ Result<std::vector<MoveClearance>> clearances(const ExportInput& exported, const
   return std::move(*found);
 }
 
-Result<std::string> instructions(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
-  const Result<PairStates> states = classify(exported.assembly, command.common);
-  if (!states) return states.error();
-  WorkInstructionsOptions options;
-  options.direction = direction(command);
-  options.product = exported.product;
-  options.engine = {make_executor(command.common), widest_lanes()};
-  options.progress = progress_printer(command.common);
-  const Result<WorkInstructions> made = work_instructions(exported.assembly, *states, exported.timeline, options);
-  if (!made) return made.error();
-  if (format == ExportFormat::InstructionsPdf) return instructions_pdf(*made);
-  return instructions_page(*made);
-}
-
 Result<std::string> content(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
-  if (has_own_writer(format)) return instructions(format, exported, command);
+  if (has_own_writer(format))
+    return instructions_file(exported.assembly, exported.timeline, direction(command), exported.product, format,
+                             command.instructions, command.common);
   ExportOptions options;
   options.direction = direction(command);
   options.viewer = server::viewer_files();
@@ -238,8 +218,10 @@ Result<Done> run(const ExportCommand& command) {
                       {"moves", moves}};
     fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    fmt::print("wrote {}: {} components, {} moves, {} bytes\n", command.output, exported->assembly.components.size(),
-               moves, bytes->size());
+    const bool shows_moves = exported->path.has_value() && depends_on_direction(*format);
+    fmt::print("wrote {}: {}{}, {} bytes\n", command.output,
+               count_text(exported->assembly.components.size(), "component"),
+               shows_moves ? ", " + count_text(moves, "move") : "", bytes->size());
   }
   return Done{};
 }
@@ -281,21 +263,20 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("FILE");
   command->add_option("--format", options->format, "Format of the file (default: from its extension)")
-      ->transform(CLI::CheckedTransformer(kFormats))
+      ->transform(choice(kFormats))
       ->type_name("glb|html|png|swept|moves|bom-csv|bom-json|path|instructions|instructions-pdf");
   command->add_flag("--reverse", options->reverse,
                     "Assembly instead of disassembly: moves reversed, last first (.path.json: both)");
   command->add_flag("--clearance", options->clearance, "Table of moves: add the minimum clearance of each");
   command->add_option("--step", options->step, "Picture or swept volume of step N")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--within", options->within,
                    "Swept volume: largest distance outside the exact one [mm] (default: 2% of its diagonal)")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--product", options->product, "Work instructions: name of the product (default: from the file)")
-      ->type_name("NAME");
+      ->check(above_zero());
+  add_instructions_options(*command, options->instructions);
   add_picture_options(*command, options->picture);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {

@@ -4,6 +4,7 @@
 #include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/documents/fastener_json.h"
 #include "dismantle/fasteners/find_fasteners.h"
+#include "dismantle/files/number_text.h"
 
 #include <fmt/format.h>
 
@@ -19,13 +20,13 @@ using Json = nlohmann::ordered_json;
 
 std::string describe_faults(const MeshFaults& f) {
   std::string text;
-  const auto add = [&text](std::size_t count, const char* what) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  const auto add = [&text](std::size_t count, const char* what, const char* then = "") {
+    if (count > 0) text += (text.empty() ? "" : ", ") + count_text(count, what) + then;
   };
-  add(f.degenerate_faces, "degenerate triangles dropped");
-  add(f.boundary_edges, "boundary edges");
-  add(f.nonmanifold_edges, "non-manifold edges");
-  add(f.misoriented_edges, "misoriented edges");
+  add(f.degenerate_faces, "degenerate triangle", " dropped");
+  add(f.boundary_edges, "boundary edge");
+  add(f.nonmanifold_edges, "non-manifold edge");
+  add(f.misoriented_edges, "misoriented edge");
   if (!text.empty() && !f.closed() && f.open_edges == 0) text += ": cracks of zero width";
   if (f.inside_out) text += fmt::format("{}inside out", text.empty() ? "" : ", ");
   return text.empty() ? "closed" : text;
@@ -136,13 +137,14 @@ void print_text(const Assembly& a) {
   const Aabb box = assembled_bounds(a);
   const Vec3 size = box.size();
   const std::vector<ComponentId> shapes = first_of_shape(a);
-  fmt::print("{}: {} components of {} different shapes, {} triangles\n", a.source_file, a.components.size(),
-             shape_count(shapes), triangle_count(a));
-  fmt::print("units {}, size {:.6g} x {:.6g} x {:.6g} mm, default tolerance {:.4g} mm\n", a.source_units, size.x,
-             size.y, size.z, default_tolerance(a));
-  if (a.deflection > 0) fmt::print("tessellation deflection {:.4g} mm\n", a.deflection);
+  fmt::print("{}: {} of {}, {}\n", a.source_file, count_text(a.components.size(), "component"),
+             count_text(shape_count(shapes), "different shape"), count_text(triangle_count(a), "triangle"));
+  const auto length = [](double mm) { return number_text(mm, 6); };
+  fmt::print("units {}, size {} x {} x {} mm, default tolerance {} mm\n", a.source_units, length(size.x),
+             length(size.y), length(size.z), number_text(default_tolerance(a), 4));
+  if (a.deflection > 0) fmt::print("tessellation deflection {} mm\n", number_text(a.deflection, 4));
   if (a.simplification_error > 0)
-    fmt::print("simplification moved the surface by at most {:.4g} mm\n", a.simplification_error);
+    fmt::print("simplification moved the surface by at most {} mm\n", number_text(a.simplification_error, 4));
   if (const SplitProducts split = split_products(a); split.products > 0)
     fmt::print("{} with several solids: {} components, one for each solid (--solids join: one for each product)\n",
                split.products == 1 ? "1 product" : fmt::format("{} products", split.products), split.components);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/part_options.h"
 #include "dismantle/certificates/choose_certificate_device.h"
 #include "dismantle/documents/motion_file.h"
@@ -259,20 +260,23 @@ void add_move_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<MoveOptions>();
   add_assembly_argument(*command, options->common);
   command->add_option("MOTION", options->motion_file, "Motion to play (*.motion.json)")->required();
-  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")->required();
+  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--method", options->method, "Collision method")
-      ->check(CLI::IsMember({"certificates", "streams"}))
+      ->type_name("certificates|streams")
+      ->check(one_of({"certificates", "streams"}))
       ->capture_default_str();
   command
       ->add_option("--ccd", options->test,
                    "Continuous test of method streams: certified (no false negatives) or elementary (cubic roots, as "
                    "in the paper)")
-      ->transform(CLI::CheckedTransformer(kTests))
+      ->transform(choice(kTests))
       ->type_name("certified|elementary");
   command
       ->add_option("--response", options->response,
                    "Response to contact: stop before the step, touch, or slide (default: as in the motion file)")
-      ->transform(CLI::CheckedTransformer(kResponses))
+      ->transform(choice(kResponses))
       ->type_name("stop|touch|slide");
   add_flexible_option(*command, options->common);
   add_together_option(*command, options->common);

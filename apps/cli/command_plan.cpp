@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/part_options.h"
 #include "apps/cli/plan_text.h"
 #include "dismantle/documents/path_file.h"
@@ -177,7 +178,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "plan", "Find a disassembly sequence, of the whole assembly or down to a component, and write its path");
   auto options = std::make_shared<PlanCommand>();
   add_assembly_argument(*command, options->common);
-  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")->required();
+  command->add_option("-o,--output", options->output, "Path file to write (*.path.json)")
+      ->required()
+      ->type_name("FILE");
   command
       ->add_option("--target", options->targets, "Components to remove, with as few others as possible (default: all)")
       ->type_name("NAME");
@@ -192,7 +195,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--time-limit", options->time_limit,
                    "Time limit, from the start of the command; keeps what was found")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_flag("--margins", options->margins,
                     "For each step, by how much all surfaces could grow before it would not be free: half the smallest "
                     "distance to what the moving components do not touch in the assembled state");
@@ -200,19 +203,19 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--prefer", options->preferences,
                    "Among components that can be removed next, prefer the same direction, not downwards (z "
                    "is up), equal components in a row, or keeping all supported; the first counts most")
-      ->transform(CLI::CheckedTransformer(step_preferences()))
+      ->transform(choice(step_preferences()))
       ->type_name("direction|upright|groups|support");
   command
       ->add_option("--allow-overlap", options->allow_overlap,
                    "Where a component stays otherwise, let it overlap what it touches by up to this much more than in "
                    "the assembled state until they are apart; the path says which pairs, and by how much")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--effort", options->effort,
                    "Effort of the search for paths that are not straight, as a factor (default: 1, some seconds)")
       ->type_name("TIMES")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   add_allow_option(*command, options->common);
   add_flexible_option(*command, options->common);
   add_together_option(*command, options->common);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/picture.h"
+#include "apps/cli/plan_text.h"
 #include "dismantle/render/assembly_scene.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 namespace dismantle::cli {
 
@@ -26,11 +27,8 @@ Result<RenderScene> compose_scene(const Assembly& assembly, const RenderCommand&
   options.explode = command.explode;
   RenderScene scene = make_scene(assembly, options);
   for (const std::string& name : command.ghosts) {
-    const std::optional<ComponentId> id = assembly.find(name);
-    if (!id)
-      return Error{ErrorKind::Usage, fmt::format("there is no component {} (--ghost takes component names); "
-                                                 "'dismantle info' lists them",
-                                                 name)};
+    const Result<ComponentId> id = find_component(assembly, name);
+    if (!id) return id.error();
     make_ghost(scene.items[id->value]);
   }
   return scene;
@@ -59,7 +57,7 @@ void add_render_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--explode", options->explode,
                    "Explode: move components away from the center by this factor of their distance")
       ->type_name("FACTOR")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->add_option("--ghost", options->ghosts, "Components to draw transparent")->type_name("NAME...");
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {

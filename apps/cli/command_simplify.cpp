@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
+#include "dismantle/files/number_text.h"
 #include "dismantle/loading/write_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 
@@ -43,15 +45,15 @@ std::size_t count_before(const SimplifiedAssembly& simplified) {
 
 void print_text(const SimplifiedAssembly& simplified, const std::string& output) {
   const Assembly& assembly = simplified.assembly;
-  fmt::print("{}: {} triangles, of {} before; largest deviation of a surface {:.4g} mm\n\n", output,
-             triangle_count(assembly), count_before(simplified), assembly.simplification_error);
+  fmt::print("{}: {} triangles, of {} before; largest deviation of a surface {} mm\n\n", output,
+             triangle_count(assembly), count_before(simplified), number_text(assembly.simplification_error, 4));
   std::size_t width = 9;
   for (const Component& c : assembly.components) width = std::max(width, c.name.size());
   fmt::print("{:<{}}  {:>9}  {:>9}  {:>9}\n", "component", width, "before", "after", "error mm");
   for (std::size_t i = 0; i < assembly.components.size(); ++i) {
     const ComponentSimplification& c = simplified.components[i];
-    fmt::print("{:<{}}  {:>9}  {:>9}  {:>9.4g}\n", assembly.components[i].name, width, c.triangles_before,
-               c.triangles_after, c.error.upper);
+    fmt::print("{:<{}}  {:>9}  {:>9}  {:>9}\n", assembly.components[i].name, width, c.triangles_before,
+               c.triangles_after, number_text(c.error.upper, 4));
   }
 }
 
@@ -84,7 +86,7 @@ void add_simplify_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--triangles", options->triangles, "Approximate number of triangles of the result")
       ->required()
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("-o,--output", options->output, "File or folder to write, as for 'convert'")
       ->required()
       ->type_name("FILE");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "apps/cli/option_checks.h"
 #include "apps/server/server.h"
 #include "dismantle/documents/path_file.h"
 #include "dismantle/files/user_folders.h"
@@ -145,12 +146,12 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--root", options->roots, "A folder whose files the page may open (default: the assembly's)")
       ->type_name("DIR");
   command->add_option("--port", options->port, "Port on 127.0.0.1 and ::1 (default: a free one)")
-      ->check(CLI::Range(1, 65535));
+      ->check(between(1, 65535));
   command->add_flag("--no-browser", options->no_browser, "Only print the URL");
   command->add_flag("--no-journal", options->no_journal, "Do not keep the session on disk or resume one");
   command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
       ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   add_allow_option(*command, options->common);
   add_common_options(*command, options->common);
   command->callback([options, &exit_code] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/picture.h"
 
+#include "apps/cli/option_checks.h"
 #include "dismantle/render/assembly_scene.h"
 #include "dismantle/render/render.h"
 
@@ -50,7 +51,8 @@ Result<SectionPlane> parse_section(std::string_view text, const Camera& camera, 
 
 void add_picture_options(CLI::App& command, PictureOptions& options) {
   command.add_option("--view", options.view, "Direction of view")
-      ->check(CLI::IsMember({"iso", "front", "back", "left", "right", "top", "bottom"}))
+      ->type_name("iso|front|back|left|right|top|bottom")
+      ->check(one_of({"iso", "front", "back", "left", "right", "top", "bottom"}))
       ->capture_default_str();
   command.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH")->capture_default_str();
   command

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/plan_text.h"
 
+#include "dismantle/files/similar_names.h"
+
 namespace dismantle::cli {
 
 namespace {
@@ -10,11 +12,12 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name) {
-  const std::optional<ComponentId> id = assembly.find(name);
-  if (!id)
-    return Error{ErrorKind::Usage,
-                 "'" + name + "' is unknown (the assembly has no component of that name); 'dismantle info' lists them"};
-  return *id;
+  if (const std::optional<ComponentId> id = assembly.find(name)) return *id;
+  std::vector<std::string> names;
+  for (const Component& c : assembly.components) names.push_back(c.name);
+  const std::string meant = did_you_mean(name, names);
+  return Error{ErrorKind::Usage, "'" + name + "' is unknown (the assembly has no component of that name)" + meant +
+                                     (meant.empty() ? "; " : " ") + "'dismantle info' lists them"};
 }
 
 Json names_json(const Assembly& assembly, const std::vector<ComponentId>& components) {

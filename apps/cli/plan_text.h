@@ -13,7 +13,7 @@
 /// Output that the commands plan, why and batch share.
 namespace dismantle::cli {
 
-/// The component of a name. Errors: Usage if there is none.
+/// The component of a name. Errors: Usage if there is none, with names that may have been meant.
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name);
 
 /// The names as a JSON array.

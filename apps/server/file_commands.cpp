@@ -2,6 +2,8 @@
 #include "apps/server/file_commands.h"
 
 #include "dismantle/files/atomic_file.h"
+#include "dismantle/files/display_name.h"
+#include "dismantle/formats/import/units.h"
 #include "samples/bundled/bundled_sample.h"
 
 #include <stdlib.h>
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kCommands = {"samples", "files", "recent", "open", "cancel"};
+constexpr std::array<std::string_view, 6> kCommands = {"samples", "files", "recent", "open", "open_again", "cancel"};
 
 std::string_view name_of(RootEntry::Kind kind) {
   switch (kind) {
@@ -66,7 +68,7 @@ bool FileCommands::knows(std::string_view command) const {
 }
 
 bool FileCommands::needs_control(std::string_view command) const {
-  return command == "open";
+  return command == "open" || command == "open_again";
 }
 
 Result<Json> FileCommands::execute(const Json& command) {
@@ -75,6 +77,7 @@ Result<Json> FileCommands::execute(const Json& command) {
   if (name == "files") return files(command);
   if (name == "recent") return recent();
   if (name == "open") return open(command);
+  if (name == "open_again") return open_again(command);
   return cancel(command);
 }
 
@@ -101,7 +104,7 @@ std::vector<fs::path> FileCommands::recent_in_roots() const {
 Result<Json> FileCommands::recent() const {
   Json list = Json::array();
   for (const fs::path& file : recent_in_roots())
-    list.push_back({{"name", file.filename().string()}, {"folder", file.parent_path().filename().string()}});
+    list.push_back({{"name", display_name(file)}, {"folder", file.parent_path().filename().string()}});
   return Json{{"recent", std::move(list)}};
 }
 
@@ -125,29 +128,44 @@ Result<Json> FileCommands::cancel(const Json& command) {
   return Json::object();
 }
 
-Result<Jobs::Finish> FileCommands::load(const fs::path& file, const ProgressCallback& progress) const {
-  Result<Model> model = load_model(file, options_, progress);
-  if (!model) return model.error();
-  // std::function requires copyable captures.
-  return Jobs::Finish([this, shared = std::make_shared<Model>(std::move(*model))] { on_model_(std::move(*shared)); });
+Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file, const std::string& units) {
+  const std::string name = display_name(file->path);
+  return jobs_.start(name, [this, file = std::move(file), units](const ProgressCallback& progress) {
+    ModelOptions options = options_;
+    if (!units.empty()) options.import.units = units;
+    Result<Model> model = load_model(file->path, options, progress);
+    if (!model) return Result<Jobs::Finish>(model.error());
+    if (!file->is_temporary) recent_.add(file->path);
+    // std::function requires copyable captures.
+    return Result<Jobs::Finish>([this, file, shared = std::make_shared<Model>(std::move(*model))] {
+      {
+        const std::lock_guard lock(mutex_);
+        opened_ = file;
+      }
+      on_model_(std::move(*shared));
+    });
+  });
 }
 
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
-  return jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
-    Result<Jobs::Finish> loaded = load(file, progress);
-    if (loaded) recent_.add(file);
-    return loaded;
-  });
+  return start(std::make_shared<OpenedFile>(file, false), {});
 }
 
 Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {
-  Result<std::uint32_t> job = jobs_.start(file.filename().string(), [this, file](const ProgressCallback& progress) {
-    Result<Jobs::Finish> loaded = load(file, progress);
-    remove_with_folder(file);
-    return loaded;
-  });
-  if (!job) remove_with_folder(file);
-  return job;
+  return start(std::make_shared<OpenedFile>(file, true), {});
+}
+
+Result<Json> FileCommands::open_again(const Json& command) {
+  const std::string units = text_member(command, "units");
+  if (const Result<double> known = millimetres_per_unit(units); !known) return known.error();
+  std::shared_ptr<const OpenedFile> file;
+  {
+    const std::lock_guard lock(mutex_);
+    file = opened_;
+  }
+  if (!file)
+    return Error{ErrorKind::Usage, "there is nothing to open again (no assembly is open); open one with 'open'"};
+  return job_json(start(std::move(file), units));
 }
 
 Result<std::uint32_t> FileCommands::open_sample(const std::string& name) {

@@ -9,10 +9,30 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
 
 namespace dismantle::server {
 
-/// The file commands of docs/wire.md: samples, files, recent, open, cancel. For the network's thread.
+/// Removes a file and then its folder, if that is empty. Errors are ignored.
+void remove_with_folder(const std::filesystem::path& file);
+
+/// A file that is or was opened.
+struct OpenedFile {
+  std::filesystem::path path;  ///< Where it is.
+  bool is_temporary = false;   ///< Removed with its folder at the end of this.
+
+  /// Of a file that exists.
+  OpenedFile(std::filesystem::path file, bool temporary) : path(std::move(file)), is_temporary(temporary) {}
+  OpenedFile(const OpenedFile&) = delete;
+  OpenedFile& operator=(const OpenedFile&) = delete;
+  ~OpenedFile() {
+    if (is_temporary) remove_with_folder(path);
+  }
+};
+
+/// The file commands of docs/wire.md: samples, files, recent, open, open_again, cancel. For the network's thread.
 class FileCommands final : public ServerCommands {
  public:
   /// @param roots the folders that clients may read
@@ -34,7 +54,8 @@ class FileCommands final : public ServerCommands {
   const Roots& roots() const { return roots_; }
   /// Starts a job that loads a file, below a root or not. @return the job's number. Errors: Usage if a job is running.
   Result<std::uint32_t> open_file(const std::filesystem::path& file);
-  /// As open_file(), and removes the file and its folder in any case.
+  /// As open_file(), and removes the file and its folder: where it cannot be loaded, when another file has been loaded,
+  /// and at the end.
   Result<std::uint32_t> open_upload(const std::filesystem::path& file);
   /// As open_file(), for a bundled sample. Errors: also Usage if there is no such sample, Failed if no temporary file
   /// can be written.
@@ -47,17 +68,17 @@ class FileCommands final : public ServerCommands {
   std::vector<std::filesystem::path> recent_in_roots() const;
   Result<Json> open(const Json& command);
   Result<Json> cancel(const Json& command);
-  Result<Jobs::Finish> load(const std::filesystem::path& file, const ProgressCallback& progress) const;
+  Result<Json> open_again(const Json& command);
+  Result<std::uint32_t> start(std::shared_ptr<const OpenedFile> file, const std::string& units);
 
   Roots roots_;
   ModelOptions options_;
   RecentFiles recent_;
   Jobs& jobs_;
   std::function<void(Model)> on_model_;
+  std::mutex mutex_;                          // of opened_, which jobs set
+  std::shared_ptr<const OpenedFile> opened_;  // that of the present model; null: none
 };
-
-/// Removes a file and then its folder, if that is empty. Errors are ignored.
-void remove_with_folder(const std::filesystem::path& file);
 
 /// Creates a folder with a unique name in the system's folder for temporary files. Errors: Failed.
 Result<std::filesystem::path> new_temporary_folder();

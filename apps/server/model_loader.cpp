@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/model_loader.h"
 
+#include "dismantle/files/display_name.h"
+#include "dismantle/files/text_name.h"
 #include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/loading/load_isolated.h"
 #include "dismantle/simplify/simplify_assembly.h"
@@ -33,6 +35,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   Model model;
   const auto assembly = std::make_shared<const Assembly>(std::move(*ready));
   model.assembly = assembly;
+  model.name = clean_name(display_name(file));
 
   const ClassifyOptions& classify = options.classify;
   Result<Clashes> clashes =

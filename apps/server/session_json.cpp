@@ -80,6 +80,7 @@ Json model_json(const Model& model) {
   Json json = Json::parse(viewer_model_json(*model.assembly, model.session->pairs().tolerance));
   json["event"] = "model";
   json["number"] = model.number;
+  if (!model.name.empty()) json["name"] = model.name;
   return json;
 }
 

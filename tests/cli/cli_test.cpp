@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 
 namespace dismantle {
 namespace {
@@ -30,6 +31,54 @@ TEST_F(Cli, ExitsWith2OnWrongUsage) {
   EXPECT_EQ(run("info parts --units parsec").exit_code, 2);
   EXPECT_EQ(run("info parts --tolerance -1").exit_code, 2);
   EXPECT_EQ(run("check parts --device abacus").exit_code, 2);
+}
+
+TEST_F(Cli, ListsItsCommandsWithoutACommand) {
+  const Outcome o = run("");
+  EXPECT_EQ(o.exit_code, 2);
+  EXPECT_EQ(o.out, "");
+  for (const char* text : {"Usage: dismantle", "info", "check", "view"})
+    EXPECT_NE(o.err.find(text), std::string::npos) << text;
+}
+
+TEST_F(Cli, SuggestsCommandsOptionsAndComponents) {
+  expect_error("inf parts", 2, "did you mean 'info'?");
+  expect_error("parts", 2, "'dismantle view parts' opens it");
+  expect_error("info parts --tolerence 3", 2, "there is no option '--tolerence'; did you mean '--tolerance'?");
+  expect_error("why parts blok", 2, "did you mean 'block'?");
+  expect_error("render parts -o x.png --ghost wal", 2, "did you mean 'wall'?");
+}
+
+TEST_F(Cli, SaysWhatIsWrongWithArgumentsWithoutBraces) {
+  expect_error("info", 2, "ASSEMBLY is missing");
+  expect_error("info parts extra", 2, "too many arguments: extra");
+  expect_error("info parts --units parsec", 2, "'parsec' is not one of mm, cm, m, um, in or ft");
+  expect_error("plan parts -o x.path.json --prefer gravity", 2, "'gravity' is not one of");
+  expect_error("plan parts -o", 2, "--output needs FILE");
+  expect_error("check parts --tolerance -1", 2, "'-1' is not a number above 0");
+  expect_error("check parts --threads 0", 2, "'0' is not a number from 1 to 1024");
+  for (const char* command : {"info", "check", "move", "audit", "convert", "simplify", "render", "plan", "why",
+                              "export", "sample", "batch", "view"}) {
+    const Outcome help = run(std::string(command) + " --help");
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.out.find('{'), std::string::npos) << help.out;
+  }
+}
+
+TEST_F(Cli, PrintsErrorsAsOneObjectWithJson) {
+  for (const auto& [arguments, kind, code] :
+       {std::tuple("info missing.step --json", "unreadable", 3), std::tuple("why parts blok --json", "usage", 2),
+        std::tuple("inf parts --json", "usage", 2), std::tuple("info parts --units parsec --json", "usage", 2),
+        std::tuple("convert parts --json -o nowhere/x.stl", "failed", 4)}) {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.exit_code, code) << arguments;
+    const Json error = Json::parse(o.out);
+    EXPECT_EQ(error["format"], "dismantle-error");
+    EXPECT_EQ(error["version"], 1);
+    EXPECT_EQ(error["kind"], kind);
+    EXPECT_EQ(error["exit_code"], code);
+    EXPECT_EQ("dismantle: " + error["message"].get<std::string>() + "\n", o.err);
+  }
 }
 
 TEST_F(Cli, ComputesOnTheCpuAndSaysWhyWithoutADeviceOrAUseForOne) {
@@ -62,6 +111,12 @@ TEST_F(Cli, ExitsWith3AndOneSentenceOnUnreadableInput) {
   write("bad.motion.json", "{\"format\": \"dismantle-motion\", \"version\": 7}");
   expect_error("move parts bad.motion.json -o out.path.json", 3, "version");
   EXPECT_FALSE(fs::exists(in("out.path.json")));
+}
+
+TEST_F(Cli, NotesSizesThatAssembliesDoNotHave) {
+  EXPECT_EQ(run("info parts").err, "");
+  EXPECT_NE(run("info parts --units m").err.find("note: the assembly is 100 m long (read in m)"), std::string::npos);
+  EXPECT_NE(run("info parts --units um").err.find("the assembly is 0.1 mm long (read in um)"), std::string::npos);
 }
 
 TEST_F(Cli, DescribesAnAssembly) {
@@ -214,7 +269,8 @@ TEST_F(CliOverlap, LetsDeclaredPairsGetDeeperAndTellsTheAudit) {
   EXPECT_LE(declared, 1.5);
   EXPECT_EQ(read_json("deeper.path.json")["pairs"][0]["state"], "declared");
   EXPECT_EQ(read_json("deeper.path.json")["pairs"][0]["allowed_depth_mm"], 1.5);
-  expect_error("move overlap deeper.motion.json -o no.path.json --allow lower nothing 1", 2, "no such component");
+  expect_error("move overlap deeper.motion.json -o no.path.json --allow lower nothing 1", 2,
+               "no component of that name");
   expect_error("move parts pull.motion.json -o no.path.json --allow block wall 1", 2, "do not touch");
   EXPECT_EQ(run("move overlap deeper.motion.json -o no.path.json --allow lower upper deep").exit_code, 2);
 }

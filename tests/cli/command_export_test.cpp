@@ -130,9 +130,37 @@ TEST_F(CliExport, WritesWorkInstructions) {
   expect_error("export parts -o parts.pdf", 2, "there is no path to export");
 }
 
+TEST_F(CliExport, WritesPdfInstructionsWithPaperTitleBlockAndTime) {
+  setenv("SOURCE_DATE_EPOCH", "1764072000", 1);
+  const Outcome letter = export_to("vice.pdf --paper letter --revision B --author Smith --document-number 4711");
+  const std::string once = read_all(in("vice.pdf"));
+  ASSERT_EQ(export_to("vice.pdf --paper letter --revision B --author Smith --document-number 4711").exit_code, 0);
+  ASSERT_EQ(export_to("vice-instructions.html --revision B --paper letter").exit_code, 0);
+  unsetenv("SOURCE_DATE_EPOCH");
+  ASSERT_EQ(letter.exit_code, 0) << letter.err;
+  EXPECT_EQ(letter.err, "");
+  EXPECT_NE(once.find("/MediaBox [ 0 0 612 792 ]"), std::string::npos);
+  EXPECT_NE(once.find("20251125120000Z)"), std::string::npos);
+  EXPECT_EQ(read_all(in("vice.pdf")), once);
+  const std::string page = read_all(in("vice-instructions.html"));
+  EXPECT_NE(page.find("<th>Date</th><td>2025-11-25</td>"), std::string::npos);
+  EXPECT_NE(page.find("<th>Revision</th><td>B</td>"), std::string::npos);
+  EXPECT_NE(page.find("size: letter"), std::string::npos);
+  expect_error("export parts pull.path.json -o x.glb --author Smith", 2, "--author does not apply");
+  expect_error("export parts pull.path.json -o x.pdf --paper a5", 2, "'a5' is not one of a4 or letter");
+}
+
+TEST_F(CliExport, NumbersPartsWhoseNamesNoFontHas) {
+  fs::rename(in("parts/wall.obj"), in("parts/wall\U0010FFFD.obj"));
+  const Outcome o = run("export parts pull.path.json -o pull.pdf --product \U0010FFFC");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_NE(o.err.find("\U0010FFFD of component names, whose item numbers are printed"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("\U0010FFFC of the cover"), std::string::npos) << o.err;
+}
+
 TEST_F(CliExport, TakesTheFormatByNameIfTheFileHasNoExtension) {
   ASSERT_EQ(export_to("/dev/stdout --format bom-json").exit_code, 0);
-  expect_error("export parts pull.path.json -o pull.xyz", 2, "its extension is not a known format");
+  expect_error("export parts pull.path.json -o pull.xyz", 2, "instructions.html, .html, .pdf");
 }
 
 TEST_F(CliExport, RefusesInvalidArguments) {

@@ -99,6 +99,16 @@ TEST(DepthText, IsZeroWhereNothingIsDeeperThanTheBoundIsAccurate) {
   EXPECT_EQ(depth_text(clash, 0.001), "up to 0.0009");
 }
 
+TEST(CheckReportText, HasNoDigitsThatMeanNothing) {
+  Clashes clashes = five_clashes();
+  clashes.pairs[0].distance = 1.243e-14;
+  clashes.pairs[1].volume = 3.1e-13;
+  clashes.pairs[2].distance = 0.0512345;
+  const std::string text = check_report_text(four_boxes(), clashes);
+  EXPECT_EQ(text.find("e-"), std::string::npos) << text;
+  EXPECT_NE(text.find(" 0.051 "), std::string::npos) << text;
+}
+
 TEST(CheckReportText, ColumnsLineUpDespiteUmlauts) {
   Assembly assembly = four_boxes();
   const std::string text = check_report_text(assembly, five_clashes());

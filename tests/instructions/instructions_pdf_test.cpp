@@ -40,6 +40,27 @@ TEST(InstructionsPdf, BreaksLongPartsListsOverPages) {
   EXPECT_GE(pages_of(*pdf), 4u);
 }
 
+TEST(InstructionsPdf, StatesItsPaperAuthorAndTime) {
+  WorkInstructions instructions = grey_steps(1);
+  instructions.title_block = {"4711", "B", "A. Smith", "2026-11-25"};
+  const std::string a4 = *instructions_pdf(instructions, {kPaperA4, 1764072000});
+  EXPECT_NE(a4.find("/MediaBox [ 0 0 595 842 ]"), std::string::npos);
+  EXPECT_NE(a4.find("/Author (A. Smith)"), std::string::npos);
+  EXPECT_NE(a4.find("20251125120000Z)"), std::string::npos) << a4.substr(a4.find("/CreationDate"), 50);
+  EXPECT_NE(instructions_pdf(instructions, {kPaperLetter})->find("/MediaBox [ 0 0 612 792 ]"), std::string::npos);
+}
+
+TEST(InstructionsPdf, EmbedsItsFonts) {
+  const std::string pdf = *instructions_pdf(grey_steps(1));
+  const auto count = [&](const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = pdf.find(word); at != std::string::npos; at = pdf.find(word, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_GT(count("/FontDescriptor "), 0u);
+  EXPECT_EQ(count("/Type /FontDescriptor"), count("/FontFile"));
+}
+
 TEST(InstructionsPdf, IsTheSameForTheSameInput) {
   EXPECT_EQ(*instructions_pdf(grey_steps(2)), *instructions_pdf(grey_steps(2)));
 }

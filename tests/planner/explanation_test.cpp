@@ -85,8 +85,8 @@ TEST(Explanation, SaysThatNothingBlocks) {
 TEST(DirectionText, NamesTheAxes) {
   EXPECT_EQ(direction_text({0, 0, 1}), "+Z");
   EXPECT_EQ(direction_text({-1, 1e-9, 0}), "-X");
-  EXPECT_EQ(direction_text({0.6, 0, -0.8}), "(0.600, 0.000, -0.800)");
-  EXPECT_EQ(direction_text({-1e-12, -0.6, 0.8}), "(0.000, -0.600, 0.800)");
+  EXPECT_EQ(direction_text({0.6, 0, -0.8}), "(0.6, 0, -0.8)");
+  EXPECT_EQ(direction_text({-1e-12, -0.6, 0.8}), "(0, -0.6, 0.8)");
 }
 
 }  // namespace

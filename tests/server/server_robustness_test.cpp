@@ -214,8 +214,24 @@ TEST_F(ServerRobustness, OpensAnUploadAndCleansUpBehindIt) {
   const std::string obj = *read_file(root() / "block.obj", 1 << 20);
   EXPECT_EQ(upload(client, "uploaded%20parts.obj", obj)["status"], "done");
   EXPECT_EQ(client.event_where("model", [](const Json& m) { return m["number"] == 2; })["name"], "uploaded parts.obj");
+  // It stays for as long as it may be opened again.
+  EXPECT_EQ(open(client, {{"root", 0}, {"file", "block.obj"}})["status"], "done");
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path()))
     EXPECT_FALSE(fs::exists(entry.path() / "uploaded parts.obj"));
+}
+
+TEST_F(ServerRobustness, OpensTheAssemblyAgainInAnotherUnit) {
+  Client client(address(), kClientKey);
+  client.state();
+  EXPECT_EQ(upload(client, "again.obj", *read_file(root() / "block.obj", 1 << 20))["status"], "done");
+  const Json before = client.event_where("model", [](const Json& m) { return m["name"] == "again.obj"; });
+  EXPECT_FALSE(client.command("open_again", {{"units", "parsec"}})["ok"]);
+  const Json again = client.command("open_again", {{"units", "m"}});
+  ASSERT_TRUE(again["ok"]) << again;
+  EXPECT_EQ(end_of_job(client, again["job"])["status"], "done");
+  const Json after = client.event_where("model", [](const Json& m) { return m["units"] == "m"; });
+  EXPECT_EQ(after["name"], "again.obj");
+  EXPECT_DOUBLE_EQ(after["bounds"][1][0].get<double>(), 1000 * before["bounds"][1][0].get<double>());
 }
 
 TEST_F(ServerRobustness, TakesAnUploadOfMegabytes) {

@@ -104,9 +104,9 @@ export class Session {
     return directions?.components.join() === components.join() ? directions.directions : null;
   }
 
-  /// File name of the model without its extension.
+  /// File name of the model without its extension; "vice-parts" for the folder vice/parts.
   get fileStem(): string {
-    return (this.store.model?.name ?? "dismantle").replace(/\.\w+$/, "");
+    return (this.store.model?.name ?? "dismantle").replace(/\.\w+$/, "").replaceAll("/", "-");
   }
 
   /// Bounding box of the assembled model [mm]; a point if there is no model.

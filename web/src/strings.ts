@@ -60,7 +60,7 @@ const kEnglish = {
   "guide.skip": "Skip",
   "guide.play": "Play all",
   "guide.practice": "Practice",
-  "guide.score": "{points} points: {wrong} out of order, {contacts} contacts, {hints} hints",
+  "guide.score": "{points}: {wrong} out of order, {contacts}, {hints}",
   "guide.close": "Close the guide",
   export: "Export",
   "export.reverse": "Reverse: assembly instead of disassembly",
@@ -95,6 +95,7 @@ const kEnglish = {
   "tree.hide": "Hide {name}",
   "tree.show": "Show {name}",
   "tree.xray": "X-ray {name}",
+  "tree.empty": "{name}: without solids",
   "tree.none": "No matching component.",
   "tree.count": "{shown} of {all}",
   selection: "Selection",
@@ -128,9 +129,9 @@ const kEnglish = {
   "plan.prefer.groups": "Equal fasteners together",
   "plan.prefer.support": "Nothing left unsupported",
   "plan.find": "Find the sequence",
-  "plan.complete": "{steps} steps found in {seconds} s. See the guide below.",
-  "plan.partly": "{steps} steps found in {seconds} s. These components remain:",
-  "plan.ended": "{steps} steps found in {seconds} s. The search stopped at its time limit.",
+  "plan.complete": "{steps} found in {seconds} s. See the guide below.",
+  "plan.partly": "{steps} found in {seconds} s. These components remain:",
+  "plan.ended": "{steps} found in {seconds} s. The search stopped at its time limit.",
   takeOut: "Take out",
   putBack: "Put back",
   isolate: "Isolate",
@@ -194,6 +195,9 @@ const kEnglish = {
   "banner.take": "Take control",
   "banner.lost": "Connection lost: the view may be out of date.",
   "banner.section": "Section view: parts of the model are cut away.",
+  "banner.size": "The assembly is {size} long, read in {units}. Is the unit right?",
+  "banner.size.units": "Unit of the file",
+  "banner.size.keep": "Keep",
   "banner.resume": "An earlier session of this assembly can be resumed.",
   "banner.resume.do": "Resume",
   stuck: "Blocked by {name}",
@@ -321,6 +325,11 @@ export function text(key: TextKey, members: Record<string, string | number> = {}
   return kEnglish[key].replace(/\{(\w+)\}/g, (_, name: string) => String(members[name] ?? ""));
 }
 
+/// "1 step", "2 steps".
+export function countText(count: number, noun: string): string {
+  return `${count} ${noun}${count === 1 ? "" : "s"}`;
+}
+
 /// A length as text: about three significant digits, in millimetres or micrometres.
 export function lengthText(millimetres: number): string {
   const size = Math.abs(millimetres);
@@ -328,6 +337,11 @@ export function lengthText(millimetres: number): string {
   const sign = millimetres < 0 ? "−" : "";
   if (size < 0.1) return `${sign}${(size * 1000).toFixed(size < 0.01 ? 1 : 0)} µm`;
   return `${sign}${size.toFixed(size < 10 ? 2 : size < 100 ? 1 : 0)} mm`;
+}
+
+/// The size of an assembly as text: three significant digits, in metres above 1 m.
+export function sizeText(millimetres: number): string {
+  return millimetres < 1000 ? lengthText(millimetres) : `${Number((millimetres / 1000).toPrecision(3))} m`;
 }
 
 /// A unit vector as text: +Z for an axis, else its three components.

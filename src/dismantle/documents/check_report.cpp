@@ -2,6 +2,7 @@
 #include "dismantle/documents/check_report.h"
 
 #include "dismantle/files/json_text.h"
+#include "dismantle/files/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +19,16 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
-/// A length with four digits; "0" for zero.
-std::string millimetres(double length) {
-  return length == 0 ? "0" : formatted("%.4g", length);
-}
-
 /// Depths that differ by less than this part of the tolerance are not told apart.
 constexpr double kDepthAccuracy = 0.1;
+/// Lengths and volumes are estimates: no digits below this [mm], [mm3], and so many digits of a volume.
+constexpr double kLeastLength = 1e-6, kLeastVolume = 1e-6;
+constexpr int kVolumeDigits = 3;
+
+/// A length [mm]: four digits, none below what the tolerance tells apart.
+std::string length_text(double length, double tolerance) {
+  return number_text(length, 4, std::max(kLeastLength, kDepthAccuracy * tolerance));
+}
 
 /// A point to the hundredth of a millimetre, as far as a table needs it.
 std::string place_text(Vec3 p) {
@@ -96,7 +100,7 @@ std::string_view explanation_of(ClashState state) {
 
 std::string depth_text(const Clash& clash, double tolerance) {
   if (clash.depth <= kDepthAccuracy * tolerance) return "0";
-  return (clash.depth_loose ? "up to " : "") + millimetres(clash.depth);
+  return (clash.depth_loose ? "up to " : "") + length_text(clash.depth, tolerance);
 }
 
 std::string check_report_json(const Assembly& assembly, const Clashes& clashes) {
@@ -123,7 +127,7 @@ std::string check_report_text(const Assembly& assembly, const Clashes& clashes) 
   const ClashCounts counts = count_clashes(clashes);
   std::string text = assembly.source_file + ": " + std::to_string(assembly.components.size()) + " components, " +
                      std::to_string(triangle_count(assembly)) + " triangles, tolerance " +
-                     millimetres(clashes.tolerance) + " mm\n";
+                     number_text(clashes.tolerance, 4) + " mm\n";
   text += std::to_string(counts.overlapping) + " overlapping, ";
   if (counts.contained > 0) text += std::to_string(counts.contained) + " of them one inside the other, ";
   text += std::to_string(counts.contact) + " contact, " + std::to_string(counts.near) + " near\n";
@@ -133,8 +137,8 @@ std::string check_report_text(const Assembly& assembly, const Clashes& clashes) 
       {"state", "depth mm", "deepest at", "volume mm3", "distance mm", "a", "b"}};
   for (const Clash& c : worst_first(clashes))
     rows.push_back({std::string(name_of(c.state)), depth_text(c, clashes.tolerance), place_text(c.deepest_at),
-                    millimetres(c.volume), millimetres(c.distance), name_in_table(assembly, c, c.a),
-                    name_in_table(assembly, c, c.b)});
+                    number_text(c.volume, kVolumeDigits, kLeastVolume), length_text(c.distance, clashes.tolerance),
+                    name_in_table(assembly, c, c.a), name_in_table(assembly, c, c.b)});
   text += "\n" + table_text(rows) + "\n";
   for (const ClashState state : {ClashState::Overlapping, ClashState::Contact, ClashState::Near})
     text += std::string(name_of(state)) + ": " + std::string(explanation_of(state)) + "\n";

@@ -4,6 +4,7 @@
 #include "dismantle/documents/bill_of_materials.h"
 #include "dismantle/documents/path_file.h"
 
+#include <iterator>
 #include <utility>
 
 namespace dismantle {
@@ -19,15 +20,24 @@ Result<std::string> animated_glb(const Assembly& assembly, const Timeline& timel
   return glb_from_assembly(assembly, glb);
 }
 
+/// Endings of file names; one that ends with another one comes before it.
+constexpr std::pair<std::string_view, ExportFormat> kEndings[] = {
+    {".glb", ExportFormat::Glb},          {"instructions.html", ExportFormat::InstructionsHtml},
+    {".html", ExportFormat::Html},        {".pdf", ExportFormat::InstructionsPdf},
+    {".png", ExportFormat::Png},          {".stl", ExportFormat::SweptStl},
+    {"bom.csv", ExportFormat::BillCsv},   {".csv", ExportFormat::Moves},
+    {"bom.json", ExportFormat::BillJson}, {".path.json", ExportFormat::Path}};
+
 }  // namespace
 
+std::string export_endings() {
+  std::string text;
+  for (std::size_t i = 0; i < std::size(kEndings); ++i)
+    text.append(i == 0 ? "" : i + 1 < std::size(kEndings) ? ", " : " or ").append(kEndings[i].first);
+  return text;
+}
+
 std::optional<ExportFormat> export_format_of(std::string_view file) {
-  static constexpr std::pair<std::string_view, ExportFormat> kEndings[] = {
-      {".path.json", ExportFormat::Path}, {"bom.json", ExportFormat::BillJson},
-      {"bom.csv", ExportFormat::BillCsv}, {".csv", ExportFormat::Moves},
-      {".glb", ExportFormat::Glb},        {"instructions.html", ExportFormat::InstructionsHtml},
-      {".html", ExportFormat::Html},      {".pdf", ExportFormat::InstructionsPdf},
-      {".png", ExportFormat::Png},        {".stl", ExportFormat::SweptStl}};
   for (const auto& [ending, format] : kEndings)
     if (file.size() >= ending.size() && file.substr(file.size() - ending.size()) == ending) return format;
   return {};

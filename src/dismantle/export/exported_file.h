@@ -19,6 +19,8 @@ bool has_own_writer(ExportFormat format);
 
 /// The format selected by the ending of a file name; nothing if the ending is unknown.
 std::optional<ExportFormat> export_format_of(std::string_view file);
+/// All endings that export_format_of() knows, for a sentence: ".glb, instructions.html, ... or .path.json".
+std::string export_endings();
 
 /// True if a format describes moves and therefore requires a path.
 bool needs_path(ExportFormat format);

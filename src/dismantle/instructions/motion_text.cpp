@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/motion_text.h"
 
+#include "dismantle/files/number_text.h"
 #include "dismantle/math/angle.h"
 #include "dismantle/math/screw.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dismantle {
 
@@ -18,6 +18,9 @@ constexpr double kSameDirection = 0.02;
 constexpr double kMinTurn = 1e-4;
 /// Maximum number of legs that are described one by one.
 constexpr std::size_t kMaxLegs = 4;
+/// Digits of numbers below 1000; larger ones are whole. No digits below the resolution.
+constexpr int kDigits = 3, kMaxDigits = 17;
+constexpr double kResolution = 1e-4;
 
 Leg leg_of(const Pose& from, const Pose& to, const Vec3& center) {
   const Screw screw = screw_between(from, to);
@@ -109,12 +112,8 @@ std::string motion_text(const std::vector<Leg>& legs, PathDirection direction) {
 }
 
 std::string number_text(double value) {
-  char text[32];
-  if (std::abs(value) >= 1000)
-    std::snprintf(text, sizeof text, "%.0f", value);
-  else
-    std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  const double whole = std::abs(value) >= 1000 ? 1 : kResolution;
+  return number_text(value, std::abs(value) >= 1000 ? kMaxDigits : kDigits, whole);
 }
 
 }  // namespace dismantle

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/instructions/pdf_sheet.h"
 
+#include "dismantle/instructions/font_coverage.h"
+#include "dismantle/instructions/pango_text.h"
+#include "dismantle/math/angle.h"
+
 #include <cairo-pdf.h>
-#include <pango/pangocairo.h>
 
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <vector>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -19,30 +23,19 @@ namespace dismantle {
 
 namespace {
 
-/// A constant creation time, so that the same input gives the same bytes.
-constexpr const char* kCreationTime = "2000-01-01T00:00:00Z";
-
-struct Release {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
-  void operator()(PangoFontMap* fonts) const { g_object_unref(fonts); }
-  void operator()(PangoContext* context) const { g_object_unref(context); }
-  void operator()(PangoLayout* layout) const { g_object_unref(layout); }
-  void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Release>;
-
 cairo_status_t append(void* file, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(file)->append(reinterpret_cast<const char*>(bytes), count);
   return CAIRO_STATUS_SUCCESS;
 }
 
-std::string valid_utf8(const std::string& text) {
-  gchar* made = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
-  std::string valid(made);
-  g_free(made);
-  return valid;
+/// A time as cairo wants it: "2026-11-25T22:10:00Z".
+std::string time_text(std::int64_t time) {
+  const auto seconds = static_cast<std::time_t>(time);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
 }
 
 }  // namespace
@@ -53,27 +46,33 @@ struct PdfSheet::Impl {
   Owned<cairo_t> cairo;
   Owned<PangoFontMap> fonts{pango_cairo_font_map_new()};
   Owned<PangoContext> context{pango_font_map_create_context(fonts.get())};
+  FontCoverage coverage;
 
   Owned<PangoLayout> layout(const std::string& text, double width, const TextStyle& style) const {
     Owned<PangoLayout> made(pango_layout_new(context.get()));
-    const Owned<PangoFontDescription> font(pango_font_description_from_string("Sans"));
+    const Owned<PangoFontDescription> font(pango_font_description_from_string(kFontFamily));
     pango_font_description_set_absolute_size(font.get(), style.size * PANGO_SCALE);
     if (style.bold) pango_font_description_set_weight(font.get(), PANGO_WEIGHT_BOLD);
     pango_layout_set_font_description(made.get(), font.get());
     pango_layout_set_width(made.get(), static_cast<int>(std::lround(width * PANGO_SCALE)));
     pango_layout_set_wrap(made.get(), PANGO_WRAP_WORD_CHAR);
     if (style.right) pango_layout_set_alignment(made.get(), PANGO_ALIGN_RIGHT);
-    const std::string valid = valid_utf8(text);
+    const std::string valid = coverage.drawable(text);
     pango_layout_set_text(made.get(), valid.data(), static_cast<int>(valid.size()));
     return made;
   }
 };
 
-PdfSheet::PdfSheet(const std::string& title) : impl_(std::make_unique<Impl>()) {
-  impl_->surface.reset(cairo_pdf_surface_create_for_stream(append, &impl_->file, kWidth, kHeight));
-  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_TITLE, valid_utf8(title).c_str());
-  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_CREATOR, "dismantle");
-  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, kCreationTime);
+PdfSheet::PdfSheet(const PdfMetadata& metadata, const PaperSize& paper) : impl_(std::make_unique<Impl>()) {
+  impl_->surface.reset(cairo_pdf_surface_create_for_stream(append, &impl_->file, paper.width, paper.height));
+  const auto set = [&](cairo_pdf_metadata_t entry, const std::string& text) {
+    const std::string valid = valid_utf8(text);
+    cairo_pdf_surface_set_metadata(impl_->surface.get(), entry, valid.c_str());
+  };
+  set(CAIRO_PDF_METADATA_TITLE, metadata.title);
+  if (!metadata.author.empty()) set(CAIRO_PDF_METADATA_AUTHOR, metadata.author);
+  set(CAIRO_PDF_METADATA_CREATOR, "dismantle");
+  set(CAIRO_PDF_METADATA_CREATE_DATE, time_text(metadata.time));
   impl_->cairo.reset(cairo_create(impl_->surface.get()));
 }
 
@@ -91,7 +90,7 @@ double PdfSheet::text_height(const std::string& text, double width, const TextSt
 
 double PdfSheet::draw_text(const std::string& text, double x, double y, double width, const TextStyle& style) {
   const Owned<PangoLayout> layout = impl_->layout(text, width, style);
-  cairo_set_source_rgb(impl_->cairo.get(), 0.1, 0.13, 0.18);
+  cairo_set_source_rgb(impl_->cairo.get(), kInk.r, kInk.g, kInk.b);
   cairo_move_to(impl_->cairo.get(), x, y);
   pango_cairo_show_layout(impl_->cairo.get(), layout.get());
   int height = 0;
@@ -129,9 +128,26 @@ double PdfSheet::draw_image(const Image& image, double x, double y, double width
   return height;
 }
 
-void PdfSheet::draw_line(double x0, double y0, double x1, double y1, double line_width) {
+void PdfSheet::draw_balloon(const std::string& text, double x, double y, double radius) {
   cairo_t* const cairo = impl_->cairo.get();
-  cairo_set_source_rgb(cairo, 0.1, 0.13, 0.18);
+  cairo_new_path(cairo);
+  cairo_arc(cairo, x, y, radius, 0, kTurn);
+  cairo_set_source_rgb(cairo, 1, 1, 1);
+  cairo_fill_preserve(cairo);
+  cairo_set_source_rgb(cairo, kInk.r, kInk.g, kInk.b);
+  cairo_set_line_width(cairo, 0.7);
+  cairo_stroke(cairo);
+  const Owned<PangoLayout> layout = impl_->layout(text, 4 * radius, {1.15 * radius, true});
+  pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
+  int height = 0;
+  pango_layout_get_size(layout.get(), nullptr, &height);
+  cairo_move_to(cairo, x - 2 * radius, y - 0.5 * height / PANGO_SCALE);
+  pango_cairo_show_layout(cairo, layout.get());
+}
+
+void PdfSheet::draw_line(double x0, double y0, double x1, double y1, double line_width, const Color& color) {
+  cairo_t* const cairo = impl_->cairo.get();
+  cairo_set_source_rgb(cairo, color.r, color.g, color.b);
   cairo_set_line_width(cairo, line_width);
   cairo_move_to(cairo, x0, y0);
   cairo_line_to(cairo, x1, y1);

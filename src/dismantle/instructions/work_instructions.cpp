@@ -17,35 +17,12 @@ namespace {
 
 using Kind = InstructionNote::Kind;
 
-/// Maximum number of names in a list; the rest is counted.
-constexpr std::size_t kMaxNames = 6;
+/// Minimum cosine of the angle between a motion and the line of sight that is said.
+constexpr double kEndOn = 0.8;
+/// Maximum number of overlaps in a list; the rest is counted.
+constexpr std::size_t kMaxOverlaps = 6;
 /// Number of digits of the checksum on the cover.
 constexpr std::size_t kChecksumDigits = 12;
-
-/// "a, b and c"; a long list ends with "and 3 more".
-std::string names_text(const std::vector<std::string>& names) {
-  const std::size_t named = names.size() <= kMaxNames ? names.size() : kMaxNames - 1;
-  std::string text;
-  for (std::size_t i = 0; i < named; ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
-    text += names[i];
-  }
-  if (named < names.size()) text += " and " + std::to_string(names.size() - named) + " more";
-  return text;
-}
-
-/// "1 step", "2 steps".
-std::string count_text(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-constexpr const char* kTimes = " \u00d7 ";
-
-/// "4 x bolt", or "bolt" for a single one.
-std::string counted_name(const WorkInstructions& instructions, const CountedPart& part) {
-  const std::string& name = instructions.parts[part.item].name;
-  return part.count > 1 ? std::to_string(part.count) + kTimes + name : name;
-}
 
 /// What fastener a part is; empty if its name says so, or it is none.
 std::string fastener_name(const std::string& name, const std::optional<Fastener>& fastener) {
@@ -53,6 +30,8 @@ std::string fastener_name(const std::string& name, const std::optional<Fastener>
   const std::string designation = designation_text(*fastener);
   return designation.empty() || name.find(designation) != std::string::npos ? std::string() : fastener_text(*fastener);
 }
+
+constexpr const char* kTimes = " \u00d7 ";
 
 /// Equal overlaps between components that a step moves and others, in the assembled state.
 struct CountedOverlap {
@@ -78,6 +57,7 @@ class Writer {
         steps_(work_steps(assembly, timeline, options.direction)),
         fasteners_(find_fasteners(assembly)),
         bill_(bill_of_materials(assembly, fasteners_)),
+        names_(assembly, bill_, options.missing_glyphs),
         lines_(assembly.components.size()),
         facts_(assembly, pairs, options.engine),
         pictures_(assembly, options.picture_width, options.picture_height, options.engine.executor) {
@@ -94,9 +74,15 @@ class Writer {
     result_.assembly = assembly_.source_file;
     if (!assembly_.source_sha256.empty())
       result_.assembly += ", SHA-256 " + assembly_.source_sha256.substr(0, kChecksumDigits);
-    for (const BillItem& item : bill_)
-      result_.parts.push_back(
-          {item.name, item.components.size(), item.size, {}, fastener_name(item.name, item.fastener)});
+    result_.title_block = options_.title_block;
+    result_.missing_glyphs = names_.missing();
+    for (std::size_t i = 0; i < bill_.size(); ++i)
+      result_.parts.push_back({names_.in_list(i),
+                               bill_[i].components.size(),
+                               bill_[i].size,
+                               {},
+                               names_.of_item(i),
+                               fastener_name(bill_[i].name, bill_[i].fastener)});
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (!report_progress(options_.progress, "writing instructions",
                            static_cast<double>(i) / static_cast<double>(steps_.size())))
@@ -105,6 +91,8 @@ class Writer {
     }
     for (const Tool& tool : tools_) result_.tools.push_back(tool.text);
     result_.cover = pictures_.cover();
+    result_.exploded =
+        exploded_overview(assembly_, bill_, options_.picture_width, options_.picture_height, options_.engine.executor);
     report_progress(options_.progress, "writing instructions", 1);
     return std::move(result_);
   }
@@ -122,6 +110,8 @@ class Writer {
     note_clearance(step, instruction);
     note_overlaps(step, instruction);
     StepPictures pictures = pictures_.render_step(step, options_.direction);
+    note_view(legs, pictures.view, instruction);
+    instruction.view = pictures.view;
     instruction.picture = std::move(pictures.close);
     instruction.overview = std::move(pictures.overview);
     result_.steps.push_back(std::move(instruction));
@@ -164,14 +154,17 @@ class Writer {
 
   std::string subject(const WorkStep& step, const std::vector<CountedPart>& parts) const {
     if (step.removals.size() == 1 && step.removals[0].components.size() == 1)
-      return with_fastener(assembly_[step.removals[0].components[0]].name, parts.front());
-    if (step.removals.size() > 1) return with_fastener(counted_name(result_, parts.front()), parts.front());
-    if (const std::optional<std::string> name = name_of_body(step.removals[0].components)) return *name;
+      return with_fastener(names_.in_title(step.removals[0].components[0]), parts.front());
+    if (step.removals.size() > 1)
+      return with_fastener(std::to_string(parts.front().count) + kTimes + names_.item_in_title(parts.front().item),
+                           parts.front());
+    if (const std::optional<std::string> name = name_of_body(step.removals[0].components))
+      if (std::string shown = names_.of_body(*name); !shown.empty()) return shown;
     std::vector<std::string> names;
     names.reserve(parts.size());
     for (const CountedPart& part : parts)
       names.push_back(part.count > 1 ? counted_name(result_, part) : name_of_one(step.removals[0], part.item));
-    return names_text(names) + " together";
+    return list_text(names) + " together";
   }
 
   /// A name with what fastener the part is.
@@ -181,10 +174,9 @@ class Writer {
   }
 
   /// Name of the only component of a removal on a line of the bill of materials.
-  const std::string& name_of_one(const RemovalMove& removal, std::size_t line) const {
-    return assembly_[*std::find_if(removal.components.begin(), removal.components.end(),
-                                   [&](ComponentId c) { return lines_[c.value] == line; })]
-        .name;
+  std::string name_of_one(const RemovalMove& removal, std::size_t line) const {
+    return names_.of(*std::find_if(removal.components.begin(), removal.components.end(),
+                                   [&](ComponentId c) { return lines_[c.value] == line; }));
   }
 
   /// Name of the node of the product tree that contains exactly these components, if there is one.
@@ -208,6 +200,16 @@ class Writer {
     instruction.notes.push_back({Kind::Motion, text});
   }
 
+  /// Says it where the picture shows the motion nearly end on.
+  void note_view(const std::vector<Leg>& legs, const Vec3& view, Instruction& instruction) const {
+    if (legs.empty()) return;
+    const double away = dot(legs.front().direction, view) * (legs.front().length < 0 ? -1 : 1) * (is_forward_ ? 1 : -1);
+    if (std::abs(away) < kEndOn) return;
+    for (InstructionNote& note : instruction.notes)
+      if (note.kind == Kind::Motion)
+        note.text += away < 0 ? " In the picture: towards you." : " In the picture: away from you.";
+  }
+
   void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
     if (removal.components.size() != 1 || legs.empty()) return;
     const ComponentId c = removal.components[0];
@@ -227,9 +229,9 @@ class Writer {
     if (falling.empty()) return;
     std::vector<std::string> each;
     each.reserve(falling.size());
-    for (const ComponentId c : falling) each.push_back(assembly_[c].name);
+    for (const ComponentId c : falling) each.push_back(names_.of(c));
     const std::string are = each.size() == 1 ? " is" : " are", them = each.size() == 1 ? "it" : "them";
-    warn(names_text(each) + are +
+    warn(list_text(each) + are +
          (is_forward_ ? " unsupported after this step. Support " + them + " first."
                       : " unsupported before this step. Support " + them + " until the step is complete."));
   }
@@ -249,21 +251,21 @@ class Writer {
     }
     std::string text;
     if (closest.last_contact.valid() && closest.contact_length > 0) {
-      text = "Slides along " + assembly_[closest.last_contact].name +
+      text = "Slides along " + names_.of(closest.last_contact) +
              (is_forward_ ? " for about the first " : " for about the last ") + number_text(closest.contact_length) +
              " mm.";
     } else if (closest.last_contact.valid()) {
-      text = "Touches " + assembly_[closest.last_contact].name + (is_forward_ ? " at the start." : " at the end.");
+      text = "Touches " + names_.of(closest.last_contact) + (is_forward_ ? " at the start." : " at the end.");
     }
     if (closest.nearest.valid())
-      text += std::string(text.empty() ? "" : " ") + "Minimum clearance to " + assembly_[closest.nearest].name + ": " +
+      text += std::string(text.empty() ? "" : " ") + "Minimum clearance to " + names_.of(closest.nearest) + ": " +
               number_text(closest.min_distance) + " mm.";
     if (!text.empty()) instruction.notes.push_back({Kind::Clearance, text});
   }
 
   void note_overlaps(const WorkStep& step, Instruction& instruction) const {
     const std::vector<CountedOverlap> overlaps = overlaps_of(step);
-    const std::size_t listed = overlaps.size() <= kMaxNames ? overlaps.size() : kMaxNames - 1;
+    const std::size_t listed = overlaps.size() <= kMaxOverlaps ? overlaps.size() : kMaxOverlaps - 1;
     for (std::size_t i = 0; i < listed; ++i) {
       const CountedOverlap& o = overlaps[i];
       const std::string names =
@@ -280,7 +282,7 @@ class Writer {
   }
 
   std::string overlapping_name(const std::vector<ComponentId>& components, std::size_t line) const {
-    return components.size() == 1 ? assembly_[components[0]].name : counted_name(result_, {line, components.size()});
+    return components.size() == 1 ? names_.of(components[0]) : counted_name(result_, {line, components.size()});
   }
 
   /// The overlapping pairs that a step separates; equal ones are counted.
@@ -314,6 +316,7 @@ class Writer {
   std::vector<WorkStep> steps_;
   std::vector<std::optional<Fastener>> fasteners_;  // of each component
   std::vector<BillItem> bill_;
+  InstructionNames names_;
   std::vector<std::size_t> lines_;  // line of the bill of materials of each component
   RemovalFacts facts_;
   StepPictureRenderer pictures_;
@@ -329,42 +332,6 @@ Result<WorkInstructions> work_instructions(const Assembly& assembly, const PairS
   if (timeline.moves().empty())
     return Error{ErrorKind::Usage, "there are no steps to describe (the path has no moves); give a path with moves"};
   return Writer(assembly, pairs, timeline, options).write();
-}
-
-const char* heading_of(InstructionNote::Kind kind) {
-  switch (kind) {
-    case Kind::Motion:
-      return "Motion";
-    case Kind::Tool:
-      return "Tools";
-    case Kind::Warning:
-      return "Caution";
-    case Kind::Clearance:
-      return "Clearance";
-    case Kind::Overlap:
-      return "Interference in the CAD models";
-  }
-  return "";
-}
-
-std::string part_text(const WorkInstructions& instructions, const CountedPart& part) {
-  return counted_name(instructions, part) + " (item " + std::to_string(part.item + 1) + ")";
-}
-
-std::string part_name_text(const PartsLine& line) {
-  return line.fastener.empty() ? line.name : line.name + ", " + line.fastener;
-}
-
-std::string size_text(const Vec3& size) {
-  return number_text(size.x) + kTimes + number_text(size.y) + kTimes + number_text(size.z);
-}
-
-std::string summary_text(const WorkInstructions& instructions) {
-  std::size_t components = 0;
-  for (const PartsLine& line : instructions.parts) components += line.count;
-  return count_text(instructions.steps.size(), "step") + ", " + count_text(components, "component") + " of " +
-         count_text(instructions.parts.size(), "kind") + "; " +
-         count_text(instructions.stationary.size(), "base part") + ". Source: " + instructions.assembly + ".";
 }
 
 }  // namespace dismantle

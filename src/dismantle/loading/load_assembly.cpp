@@ -31,10 +31,13 @@ Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
     return Error{ErrorKind::Unreadable, file.string() + " cannot be read (no such file); check the path"};
 
   const FormatEntry* entry = format_of(file);
+  const std::string extension = lower_case(file.extension().string());
   if (entry == nullptr)
-    return Error{ErrorKind::Unreadable, file.string() + " is no assembly that dismantle reads (extension " +
-                                            in_quotes(lower_case(file.extension().string())) + "); convert it to " +
-                                            format_names() + ", or give a folder of meshes"};
+    return Error{ErrorKind::Unreadable,
+                 file.string() + " cannot be read (" +
+                     (extension.empty() ? "it has no file extension"
+                                        : "dismantle cannot read files with the extension " + in_quotes(extension)) +
+                     "); convert it to " + format_names() + ", or give a folder of meshes"};
   switch (entry->format) {
     case FileFormat::Gltf:
       return read_gltf(file, options);

@@ -2,10 +2,10 @@
 #include "dismantle/planner/explanation.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/files/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace dismantle {
@@ -14,15 +14,18 @@ namespace {
 
 /// Names that a sentence lists before it counts the rest.
 constexpr std::size_t kMaxNames = 4, kMaxBlockers = 3;
+/// Of places [mm].
+constexpr int kPlaceDigits = 4;
+constexpr double kPlaceResolution = 0.01;
 constexpr double kAxisCosine = 1 - 5e-7;
 /// Of two directions with equally many blockers, the later one is preferred only if the component gets this many times
 /// further.
 constexpr double kClearlyFurther = 2;
 
-std::string point_text(const Vec3& p, const char* format) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, p.x, p.y, p.z);
-  return text;
+/// A point or direction: "(2.5, 0, 1)". @param digits significant digits @param resolution no digits below this
+std::string point_text(const Vec3& p, int digits, double resolution) {
+  const auto text = [&](double x) { return number_text(x, digits, resolution); };
+  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
 }
 
 /// The components outside a group that block one of its members, ascending; at most `enough` of them.
@@ -98,9 +101,7 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
 std::string direction_text(const Vec3& unit) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(unit[k]) > kAxisCosine) return std::string(unit[k] > 0 ? "+" : "-") + "XYZ"[k];
-  // Avoids "-0.000".
-  const auto rounded = [](double x) { return std::abs(x) < 5e-4 ? 0 : x; };
-  return point_text({rounded(unit.x), rounded(unit.y), rounded(unit.z)}, "(%.3f, %.3f, %.3f)");
+  return point_text(unit, 3, 1e-3);
 }
 
 std::string names_text(const Assembly& assembly, Span<const ComponentId> components) {
@@ -115,10 +116,8 @@ std::string overlap_text(const Assembly& assembly, const LeastOverlap& overlap) 
   std::string text = "comes out along " + direction_text(overlap.direction) + " if ";
   for (std::size_t i = 0; i < overlap.pairs.size(); ++i) {
     const NeededOverlap& pair = overlap.pairs[i];
-    char more[32];
-    std::snprintf(more, sizeof more, "%.2g", pair.more);
-    text += (i > 0 ? ", and " : "") + std::string(more) + " mm more overlap with " + assembly[pair.fixed].name +
-            " (at " + point_text(pair.at, "(%.4g, %.4g, %.4g)") + ")";
+    text += (i > 0 ? ", and " : "") + number_text(pair.more, 2) + " mm more overlap with " + assembly[pair.fixed].name +
+            " (at " + point_text(pair.at, kPlaceDigits, kPlaceResolution) + ")";
   }
   return text + (overlap.pairs.size() > 1 ? " were allowed" : " was allowed");
 }
@@ -131,7 +130,7 @@ std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   for (std::size_t i = 0; i < e.blockers.size() && i < kMaxBlockers; ++i) {
     const Blocker& b = e.blockers[i];
     text += (i > 0 ? ", " : "") + assembly[b.component].name + " (contact at " +
-            point_text(b.contact.point, "(%.4g, %.4g, %.4g)") + ")";
+            point_text(b.contact.point, kPlaceDigits, kPlaceResolution) + ")";
   }
   if (e.blockers.size() > kMaxBlockers) text += " and " + std::to_string(e.blockers.size() - kMaxBlockers) + " more";
   text += " along " + direction_text(e.direction);

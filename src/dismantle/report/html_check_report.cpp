@@ -2,6 +2,7 @@
 #include "dismantle/report/html_check_report.h"
 
 #include "dismantle/documents/check_report.h"
+#include "dismantle/files/number_text.h"
 #include "dismantle/report/check_page.h"
 #include "dismantle/report/check_pictures.h"
 #include "dismantle/report/html_text.h"
@@ -13,24 +14,18 @@ namespace dismantle {
 
 namespace {
 
-std::string number(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// A table cell that sorts by its exact value; a dash that sorts last if the value does not apply to the pair.
 std::string number_cell(double value, bool applies) {
   char exact[64];
   std::snprintf(exact, sizeof exact, "%.17g", value);
-  return applies ? std::string("<td class=\"n\" data-v=\"") + exact + "\">" + number(value) + "</td>"
+  return applies ? std::string("<td class=\"n\" data-v=\"") + exact + "\">" + number_text(value, 4) + "</td>"
                  : "<td class=\"n\" data-v=\"-1\">–</td>";
 }
 
 std::string place_text(Vec3 p) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f", p.x, p.y, p.z);
-  return text;
+  constexpr double kResolution = 0.01;  // [mm]
+  const auto text = [](double x) { return number_text(x, 9, kResolution); };
+  return text(p.x) + ", " + text(p.y) + ", " + text(p.z);
 }
 
 std::string place_cell(Vec3 p) {
@@ -97,7 +92,7 @@ class PageWriter {
     page_ += "<div class=\"cards\">";
     card(std::to_string(assembly_.components.size()), "components", "");
     card(std::to_string(triangle_count(assembly_)), "triangles", "");
-    card(number(clashes_.tolerance) + " mm", "tolerance", "");
+    card(number_text(clashes_.tolerance, 4) + " mm", "tolerance", "");
     card(std::to_string(counts.overlapping), "overlapping", "overlapping");
     if (counts.contained > 0) card(std::to_string(counts.contained), "one inside the other", "overlapping");
     card(std::to_string(counts.contact), "contact", "contact");

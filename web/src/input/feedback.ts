@@ -15,6 +15,7 @@ const kArrowLength = 30;
 /// when stuck, the free directions. Driven by the server's frames, so a watching page shows the same.
 export class Feedback {
   private grip: number | null = null;
+  private moves = 0;
   private stuckSince = 0;
   private stuckReported = false;
 
@@ -48,6 +49,13 @@ export class Feedback {
           Object.assign(this.session.store, { minClearance: Number.NaN, stuck: null });
         });
     }
+    // The minimum of a drag that was undone says nothing any more.
+    const moves = state?.moves.length ?? 0;
+    if (moves < this.moves && grip === null)
+      this.session.change(() => {
+        this.session.store.minClearance = Number.NaN;
+      });
+    this.moves = moves;
     if (grip === null && !state?.automatic && !state?.playback) this.session.viewport.contacts.arrows = [];
   }
 

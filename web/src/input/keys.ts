@@ -55,6 +55,18 @@ export function listenForKeys(app: KeyTarget): void {
   const byKeyboard = (yes: boolean) => document.documentElement.toggleAttribute("data-keyboard", yes);
   window.addEventListener("keydown", ({ key }) => key === "Tab" && byKeyboard(true));
   window.addEventListener("pointerdown", () => byKeyboard(false), true);
+  // A button that was clicked does not keep the focus: the space key means Hide again, and not the button.
+  window.addEventListener("click", ({ detail, target }) => {
+    const focused = document.activeElement;
+    const isPointer = detail > 0;
+    if (
+      isPointer &&
+      focused instanceof HTMLButtonElement &&
+      focused.contains(target as Node) &&
+      !focused.closest("dialog")
+    )
+      focused.blur();
+  });
   // Alt alone would open the browser's menu while a component is rotated.
   window.addEventListener("keyup", (event) => {
     if (event.key === "Alt" && app.drag.active) event.preventDefault();

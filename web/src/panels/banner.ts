@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from "three";
 import { button, element } from "../dom.ts";
 import { freeOf, type Session } from "../session.ts";
-import { directionText, text } from "../strings.ts";
+import { directionText, sizeText, text } from "../strings.ts";
 
+/// Units of files, and the sizes beyond which the unit is probably wrong [mm].
+const kUnits = ["mm", "cm", "m", "um", "in", "ft"];
+const kLeastSize = 1;
+const kMostSize = 20_000;
 /// Free directions named in the notice of a blocked drag.
 const kMaxDirections = 3;
 /// Number of toasts shown at a time; how long each stays, in total and in addition for a character [ms].
@@ -15,6 +20,7 @@ export interface Notice {
   key: string;
   message: string;
   action?: { label: string; press: () => void };
+  choice?: { label: string; options: readonly string[]; value: string; pick: (option: string) => void };
 }
 
 /// Notices over the 3D view: everything that makes the view differ from the real state, questions to the user, and
@@ -22,6 +28,7 @@ export interface Notice {
 export class Banner {
   readonly node = element("div", { id: "banners", role: "status" });
   private shown = "";
+  private keptSize = -1; // number of the model whose size was accepted
 
   constructor(protected readonly session: Session) {
     session.notifier.subscribe(() => this.update());
@@ -33,11 +40,12 @@ export class Banner {
     if (signature === this.shown) return;
     this.shown = signature;
     this.node.replaceChildren(
-      ...notices.map(({ key, message, action }) =>
+      ...notices.map(({ key, message, action, choice }) =>
         element(
           "div",
           { class: "banner", "data-banner": key },
           element("span", {}, message),
+          choice ? chooser(choice) : null,
           action ? button({ label: action.label, wide: true, press: action.press }) : null,
         ),
       ),
@@ -93,10 +101,39 @@ export class Banner {
         action: { label: text("restore"), press: send("restore") },
       });
     else this.addHidden(notices);
+    this.addSize(notices);
     if (store.planes.length > 0) notices.push({ key: "section", message: text("banner.section") });
     this.addStuck(notices);
     this.addWasStuck(notices);
     return notices;
+  }
+
+  /// Asks whether the unit is right where the assembly is larger or smaller than assemblies are.
+  private addSize(notices: Notice[]): void {
+    const { model, control } = this.session.store;
+    if (!model || model.number === this.keptSize) return;
+    const size = this.session.modelBox.getSize(new Vector3());
+    const longest = Math.max(size.x, size.y, size.z);
+    if (longest <= 0 || (longest >= kLeastSize && longest <= kMostSize)) return;
+    notices.push({
+      key: "size",
+      message: text("banner.size", { size: sizeText(longest), units: model.units }),
+      choice: control
+        ? {
+            label: text("banner.size.units"),
+            options: kUnits.includes(model.units) ? kUnits : [model.units, ...kUnits],
+            value: model.units,
+            pick: (units) => void this.session.send("open_again", { units }),
+          }
+        : undefined,
+      action: {
+        label: text("banner.size.keep"),
+        press: () => {
+          this.keptSize = model.number;
+          this.update();
+        },
+      },
+    });
   }
 
   private addHidden(notices: Notice[]): void {
@@ -128,6 +165,14 @@ export class Banner {
       action: { label: text("findPath"), press: () => void this.session.findPath() },
     });
   }
+}
+
+function chooser(choice: NonNullable<Notice["choice"]>): HTMLElement {
+  const options = choice.options.map((option) => element("option", { value: option }, option));
+  const select = element("select", { "aria-label": choice.label, title: choice.label }, ...options);
+  select.value = choice.value;
+  select.onchange = () => choice.pick(select.value);
+  return select;
 }
 
 /// Short-lived messages, announced by screen readers.

@@ -4,7 +4,7 @@ import { type ComponentStatus, type GuideStep, nextStep, poseAt, type Score, sco
 import { matrixOf } from "../pose.ts";
 import { Ghost } from "../scene/ghost.ts";
 import type { Session } from "../session.ts";
-import { text } from "../strings.ts";
+import { countText, text } from "../strings.ts";
 
 /// Duration of the ghost's motion, and its pause at the end [ms].
 const kGhostTime = 2200;
@@ -146,10 +146,7 @@ export class GuidePanel {
       ? text("guide.practice.step", { step: this.step + 1, count })
       : text("guide.step", { step: this.step + 1, count, names });
     setText(this.instruction, step ? known : text("guide.done"));
-    setText(
-      this.score,
-      this.practice.checked ? text("guide.score", { points: scoreOf(this.faults), ...this.faults }) : "",
-    );
+    setText(this.score, this.practice.checked ? scoreText(this.faults) : "");
     relabel(this.showButton, text(this.practice.checked ? "guide.hint" : "guide.show"));
     this.showButton.disabled = this.skipButton.disabled = !step;
   }
@@ -204,4 +201,13 @@ export class GuidePanel {
     const removed = this.session.store.state?.components[component]?.removed === true;
     return { pose: this.session.poseOf(component), removed };
   }
+}
+
+function scoreText(faults: Score): string {
+  return text("guide.score", {
+    points: countText(scoreOf(faults), "point"),
+    wrong: faults.wrong,
+    contacts: countText(faults.contacts, "contact"),
+    hints: countText(faults.hints, "hint"),
+  });
 }

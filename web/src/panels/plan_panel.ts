@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, linkButton, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
-import { directionText, text } from "../strings.ts";
+import { countText, directionText, text } from "../strings.ts";
 import { kPreferences, type Preference, type Search } from "../wire/messages.ts";
 
 /// Plans the disassembly of everything or of the selection. The sequence becomes the guide; what blocks the remaining
@@ -103,7 +103,7 @@ export class PlanPanel {
     this.shownSearch = search;
     const key = !search ? "" : search.complete ? "plan.complete" : search.out_of_time ? "plan.ended" : "plan.partly";
     const seconds = search && (search.seconds < 10 ? search.seconds.toFixed(1) : search.seconds.toFixed(0));
-    setText(this.summary, key === "" ? "" : text(key, { steps: search!.steps, seconds: seconds! }));
+    setText(this.summary, key === "" ? "" : text(key, { steps: countText(search!.steps, "step"), seconds: seconds! }));
     this.reasons.replaceChildren(
       ...(search?.reasons ?? []).map(({ component, direction, blockers }) => {
         const name = this.session.nameOf(component);

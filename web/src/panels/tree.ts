@@ -68,9 +68,12 @@ export class TreePanel {
     if (now.every((value, i) => value === this.shown[i])) return;
     this.shown = now;
     for (const row of this.rows) {
-      const gone = row.components.every((c) => state?.components[c]?.hidden || state?.components[c]?.removed);
-      const seeThrough = row.components.every((c) => xray.has(c));
-      row.item.setAttribute("aria-selected", String(row.components.every((c) => selection.includes(c))));
+      // A group without components, such as one of sketches, is neither gone nor selected.
+      const all = (holds: (component: number) => boolean | undefined) =>
+        row.components.length > 0 && row.components.every(holds);
+      const gone = all((c) => state?.components[c]?.hidden || state?.components[c]?.removed);
+      const seeThrough = all((c) => xray.has(c));
+      row.item.setAttribute("aria-selected", String(all((c) => selection.includes(c))));
       row.item.classList.toggle("hovered", row.component !== null && row.component === hovered);
       row.item.classList.toggle("gone", gone);
       row.xray.setAttribute("aria-pressed", String(seeThrough));
@@ -133,6 +136,11 @@ export class TreePanel {
     const inside = [row, ...parents];
     for (const component of own) this.addRow(tree.model.components[component].name, inside, component);
     row.components = [...own, ...below.flatMap((child) => this.addNode(child, inside, tree))];
+    if (row.components.length === 0) {
+      row.item.classList.add("empty");
+      row.item.title = text("tree.empty", { name: row.name });
+      row.eye.disabled = row.xray.disabled = true;
+    }
     return row.components;
   }
 

@@ -23,6 +23,7 @@ import { ComponentBatch } from "./component_batch.ts";
 import type { RawAssembly, RawComponent } from "./glb.ts";
 import { bodyMaterial, cutMaterial, edgeMaterial } from "./materials.ts";
 import type { Palette } from "./palette.ts";
+import { partColors } from "./part_colors.ts";
 import { RayTree } from "./ray_tree.ts";
 import { type Surface, surfaceFromMesh } from "./surface.ts";
 
@@ -260,7 +261,9 @@ export class ModelView {
       raw.components.map(({ surface }) => this.shapes[surface]),
     );
     this.root.add(this.batch.object);
-    for (const component of raw.components) {
+    const colors = partColors(raw.components.map(({ color }) => color));
+    for (const [i, uncolored] of raw.components.entries()) {
+      const component = { ...uncolored, color: colors[i] };
       const view = new ComponentView(component, this.shapes[component.surface], this.batch, palette);
       this.components.push(view);
       this.root.add(view.object);

@@ -191,6 +191,7 @@ export interface Commands {
   save: [{ root: number; file: string }, { bytes: number }];
   open_path: [{ root: number; file: string }, object];
   close_guide: [object, object];
+  open_again: [{ units: string }, { job: number }];
   open: [{ sample: string } | { root: number; file: string } | { recent: number }, { job: number }];
   cancel: [{ job: number }, object];
   resume: [object, object];

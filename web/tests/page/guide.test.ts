@@ -53,9 +53,9 @@ test("practice counts components out of order, contacts and hints", async () => 
   await viewer.press("1");
   await viewer.grab(kSlide, 0, 40);
   await viewer.release();
-  assert.match(await score(), /[1-9]\d* contacts/);
+  assert.match(await score(), /[1-9]\d* contacts?,/);
   await viewer.click("#guide-show");
-  assert.match(await score(), /1 hints/);
+  assert.match(await score(), /1 hint$/);
 });
 
 test("the guide can be played", async () => {

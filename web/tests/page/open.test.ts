@@ -106,6 +106,22 @@ test("the import of a third-party assembly can be cancelled", {
   await cancelImport("fixture_diagonal.step");
 });
 
+test("a size that assemblies do not have is questioned, and the unit can be changed", async () => {
+  const huge = kCube.replaceAll("10", "50000");
+  await viewer.page.setInputFiles("#file-picker", {
+    name: "huge.obj",
+    mimeType: "text/plain",
+    buffer: Buffer.from(huge),
+  });
+  const banner = viewer.page.locator("[data-banner=size]", { hasText: "50 m long, read in mm" });
+  await banner.waitFor();
+  await banner.locator("select").selectOption("um");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.units === "um");
+  await banner.waitFor({ state: "detached" });
+  assert.equal(await modelName(), "huge.obj");
+  assert.equal(await viewer.page.evaluate(() => window.dismantle!.app.session.store.model!.bounds[1][0]), 50);
+});
+
 test("the page had no errors", () => {
   assert.deepEqual(viewer.problems, []);
 });

@@ -68,6 +68,17 @@ test("Space hides the selection and shows it again", async () => {
   assert.equal(await drawn("tube"), true);
 });
 
+test("Space hides also after a button was clicked", async () => {
+  await row("tube").click();
+  await viewer.click("#xray");
+  await viewer.press(" ");
+  assert.equal(await drawn("tube"), false);
+  assert.equal(await viewer.page.getAttribute("#xray", "aria-pressed"), "true");
+  await viewer.press(" ");
+  assert.equal(await drawn("tube"), true);
+  await viewer.click("#xray");
+});
+
 test("isolate shows one component alone, and can be undone", async () => {
   await row("condenser").click();
   await viewer.click("#isolate");

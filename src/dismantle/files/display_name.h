@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace dismantle {
+
+/// How users know a file: its name. For a folder, the name of its parent, too, as many are called just "parts":
+/// "vice/parts".
+std::string display_name(const std::filesystem::path& file);
+
+}  // namespace dismantle
