@@ -8,6 +8,7 @@
 #include "dismantle/planner/search/component_axes.h"
 #include "dismantle/planner/search/direction_choice.h"
 #include "dismantle/planner/search/free_component_search.h"
+#include "dismantle/planner/search/long_searches.h"
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
 #include "dismantle/planner/search/sample_search.h"
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -30,11 +30,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Effort of the first search for a path that is not straight, for each component, and its growth from one round over
-/// all components to the next.
-constexpr std::size_t kFirstEffort = 40'000, kEffortGrowth = 4;
-/// A component is searched for no longer once a longer search gets less than this many times as far as the one before.
-constexpr double kFurther = 1.1;
 /// No longer random search is made for a component whose best excursion was below this [radii]: it only rattles in its
 /// seat.
 constexpr double kRoom = 0.5;
@@ -69,8 +64,8 @@ class Planner {
         margins_(assembly, pairs, validator_),
         size_(diagonal(assembled_bounds(assembly))),
         overlaps_(assembly, pairs, table_, engine_options()),
-        sliding_{options.slide_effort, 0, {}},
-        sampling_{options.sample_effort, 0, {}} {
+        sliding_(options.slide_effort),
+        sampling_(options.sample_effort) {
     plan_.allowances = validator_.engine().overlapping_pairs();
     for (const FlexiblePart& part : options.flexible)
       for (const ComponentPair& pair : pairs.pairs)
@@ -246,45 +241,8 @@ class Planner {
     return std::nullopt;
   }
 
-  /// The state of expensive searches over all components.
-  struct LongSearches {
-    struct InVain {
-      std::size_t effort = 0;
-      std::vector<ComponentId> met;
-      std::optional<double> furthest;  // see PathSearch
-    };
-    std::size_t most;                       ///< That all of them may cost,
-    std::size_t spent = 0;                  ///< and have cost.
-    std::map<ComponentId, InVain> in_vain;  ///< As long as what a component met is there, no less effort helps it.
-  };
-
-  /// A step for one component for which `search` finds a path, the smallest first; the effort grows from round to
-  /// round.
-  /// @param search (component, effort) -> PathSearch
-  template <class Search>
-  std::optional<PlanStep> search_by_effort(const ComponentSet& body, const ComponentSet& staying,
-                                           LongSearches& searches, const Search& search) {
-    for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * searches.most; effort *= kEffortGrowth)
-      for (const ComponentId c : smallest_first(body, staying)) {
-        if (!leads(c)) continue;
-        LongSearches::InVain& before = searches.in_vain[c];
-        if (before.effort >= effort && body.has_all(before.met)) continue;
-        const std::size_t left = searches.most - std::min(searches.spent, searches.most);
-        if (left == 0 || !keep_going()) return std::nullopt;
-        const std::size_t begun = validator_.effort();
-        PathSearch found = search(c, std::min(effort, left));
-        searches.spent += validator_.effort() - begun;
-        if (found.step) return with_group(std::move(*found.step));
-        const bool no_further =
-            before.effort > 0 && body.has_all(before.met) && found.furthest <= kFurther * before.furthest.value_or(0);
-        before = {found.exhausted || no_further ? std::numeric_limits<std::size_t>::max() : effort,
-                  std::move(found.met), found.furthest};
-      }
-    return std::nullopt;
-  }
-
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
-    return search_by_effort(body, staying, sliding_, [&](ComponentId c, std::size_t effort) {
+    return find_long(sliding_, body, staying, [&](ComponentId c, std::size_t effort) {
       SlideMoves moves = axes_.slide_moves(c, body, choice_, table_);
       moves.max_effort = effort;
       return slide_out(validator_, table_, c, moves, [this] { return keep_going(); });
@@ -292,13 +250,25 @@ class Planner {
   }
 
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying) {
-    return search_by_effort(body, staying, sampling_, [&](ComponentId c, std::size_t effort) {
-      const LongSearches::InVain& slid = sliding_.in_vain[c];
-      const double room = std::max(slid.furthest.value_or(0), sampling_.in_vain[c].furthest.value_or(0));
-      const bool held_fast = slid.effort > 0 && !slid.furthest, rattles = effort > kFirstEffort && room < kRoom;
+    return find_long(sampling_, body, staying, [&](ComponentId c, std::size_t effort) {
+      const LongSearches::InVain& slid = sliding_.last(c);
+      const double room = std::max(slid.furthest.value_or(0), sampling_.last(c).furthest.value_or(0));
+      const bool held_fast = slid.effort > 0 && !slid.furthest;
+      const bool rattles = effort > LongSearches::kFirstEffort && room < kRoom;
       if (held_fast || rattles) return PathSearch{std::nullopt, slid.met, slid.furthest, true};
       return sample_out(validator_, table_, c, effort, [this] { return keep_going(); });
     });
+  }
+
+  /// A step by LongSearches for one component, with its group; the smallest first.
+  template <class Search>
+  std::optional<PlanStep> find_long(LongSearches& searches, const ComponentSet& body, const ComponentSet& staying,
+                                    const Search& search) {
+    std::vector<ComponentId> components = smallest_first(body, staying);
+    std::erase_if(components, [this](ComponentId c) { return !leads(c); });
+    auto step = searches.find(
+        components, body, validator_, [this] { return keep_going(); }, search);
+    return step ? std::optional(with_group(std::move(*step))) : std::nullopt;
   }
 
   /// True for the largest component of a group, for which the whole group is searched for and explained.

@@ -19,8 +19,7 @@ constexpr double kSphere = 2 * kTurn;
 /// Far holes are left out of a winding number where all of them together change it by less, unless that decides.
 constexpr double kNegligible = 1e-4;
 
-/// The solid angle of a triangle seen from the origin, over that of the sphere; positive seen from behind, where its
-/// normal points away (Van Oosterom, Strackee 1983).
+/// As winding_of(), from the origin.
 double winding_of(Vec3 a, Vec3 b, Vec3 c) {
   const double la = length(a), lb = length(b), lc = length(c);
   const double y = dot(a, cross(b, c));
@@ -96,6 +95,10 @@ bool outside(const Aabb& box, Vec3 p) {
 }
 
 }  // namespace
+
+double winding_of(const Triangle& triangle, const Vec3& from) {
+  return winding_of(triangle[0] - from, triangle[1] - from, triangle[2] - from);
+}
 
 WindingNumber::WindingNumber(const TriangleMesh& mesh, const SurfaceTree& surface)
     : surface_(surface), diagonal_(diagonal(surface.bounds())) {

@@ -15,6 +15,10 @@ struct SurfaceCrossing {
   int winding = 0;      ///< By how much the winding number falls there: 1 where the ray leaves a solid.
 };
 
+/// The solid angle of a triangle seen from a point, over that of the sphere; positive seen from behind, where its
+/// normal points away (Van Oosterom, Strackee 1983).
+double winding_of(const Triangle& triangle, const Vec3& from);
+
 /// The generalised winding number of a mesh: its solid angle seen from a point, over that of the whole sphere
 /// (Jacobson, Kavan, Sorkine-Hornung 2013). 1 inside a closed mesh, -1 inside one that is inside out, 0 outside and in
 /// a void bounded by a shell of its own; in between where the mesh has holes, and continuous off the surface.

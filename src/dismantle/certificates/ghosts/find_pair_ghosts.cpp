@@ -4,16 +4,15 @@
 #include "dismantle/certificates/front/certificate_front.h"
 #include "dismantle/certificates/ghosts/separating_ghost.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
-#include "dismantle/math/angle.h"
 #include "dismantle/narrowphase/closest_points.h"
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/surface/depth/moving_part_search.h"
 #include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/ghost_surface.h"
+#include "dismantle/surface/winding_number.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace dismantle {
@@ -27,17 +26,15 @@ constexpr double kFactors[] = {1, 1.1, 1.25, 1.6, kMaxGhostFactor};
 constexpr double kRounding = 1e-9;
 /// Up to this one, corners are displaced one by one as well, and sheets, in which nothing is deep.
 constexpr double kMaxFactorForCorners = 1.25;
-/// Faces are retracted by these multiples of what the samples need, as far as the depth of the pair lets them: between
-/// the samples more may be needed, and where one patch lies on two others less may be had.
+/// Faces are retracted by these multiples of what the samples need, as far as the depth of the pair lets them: more may
+/// be needed between the samples, and less may be had where one patch lies on two others.
 constexpr double kMargins[] = {1.6, 1};
 /// Ghosts are made to be apart by these shares of the tolerance, the larger ones if they can be.
 constexpr double kGaps[] = {0.62, 0.3, 0.1};
 /// Depths and retractions below this share of the tolerance are within the play of the ghosts that components have.
 constexpr double kPlay = 0.3;
-/// Shallower pairs do not overlap, as a share of the tolerance.
-constexpr double kOverlap = 0.1;
-/// The same where one of the two is a sheet.
-constexpr double kSheetOverlap = 1e-3;
+/// Shallower pairs do not overlap, as a share of the tolerance; the second one where one of the two is a sheet.
+constexpr double kOverlap = 0.1, kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 100000;
 /// Where still more are, as in parts that are modelled in the place of each other, the search for ghosts ends.
@@ -55,13 +52,6 @@ constexpr std::size_t kMaxTests = 500000;
 constexpr std::size_t kMaxPieces = 100000;
 /// So many vertices of each surface are looked at.
 constexpr std::size_t kContainmentSamples = 8;
-
-/// The solid angle of a triangle seen from a point, signed (Van Oosterom, Strackee 1983).
-double solid_angle(const Triangle& t, Vec3 p) {
-  const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
-  const double x = length(a), y = length(b), z = length(c);
-  return 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
-}
 
 /// The depth from which a pair counts as overlapping [mm]. Solids that are shallower have room within their usual
 /// ghosts; the ghost of a sheet is the sheet itself, so a sheet that is inside at all needs one of its own.
@@ -246,7 +236,7 @@ class GhostSide {
       if (retraction().patch[f] == patch) retractions[f] = by;
   }
 
-  /// How many pairs of faces meet; at least `enough` where that is reached.
+  /// Number of pairs of faces that meet, or `enough`.
   std::size_t count_meeting(const SolidTree& surface, const FacePairs& near, std::size_t enough) const {
     const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, request_.tolerance);
     std::size_t meeting = 0;
@@ -309,9 +299,9 @@ class GhostSide {
       return false;
     };
     const auto inside_surface = [&](Vec3 p) {
-      double angle = 0;
-      for (std::uint32_t f = 0; f < surface.faces.size(); ++f) angle += solid_angle(surface.triangle(f), p);
-      return std::abs(angle) > kTurn;
+      double winding = 0;
+      for (std::uint32_t f = 0; f < surface.faces.size(); ++f) winding += winding_of(surface.triangle(f), p);
+      return std::abs(winding) > 0.5;
     };
     return some(surface.vertices, [&](Vec3 p) { return other_.shape().winding().inside(p); }) ||
            some(other_.tree->vertices, inside_surface);

@@ -7,21 +7,34 @@
 
 namespace dismantle {
 
-FrontStore::FrontStore(const Assembly& assembly, double ghost_length, const Executor& executor) {
-  for (const Component& c : assembly.components) {
-    solids_.push_back(make_solid_tree(c, executor));
-    const SolidTree& solid = solids_.back();
+FrontStore::FrontStore(const Assembly& assembly, double ghost_length, const Executor& executor)
+    : solids_(assembly.components.size()), ghosts_(assembly.components.size()) {
+  std::vector<double> radii(solids_.size());
+  std::vector<Vec3> centers(solids_.size());
+  std::size_t all_faces = 0;
+  for (const Component& c : assembly.components) all_faces += c.mesh->faces.size();
+  // Components that are more than a thread's share are built on all threads, the others side by side.
+  const auto is_large = [&](const Component& c) {
+    return c.mesh->faces.size() * static_cast<std::size_t>(executor.thread_count()) > all_faces;
+  };
+  const auto build = [&](std::size_t c, const Executor& on) {
+    const Component& component = assembly.components[c];
+    SolidTree& solid = solids_[c] = make_solid_tree(component, on);
     // Sheets have no inside to retreat to.
     std::vector<Vec3> displaced = solid.vertices;
     if (solid.has_outside || solid.inside_out)
       displaced = ghost_vertices(displaced, outward_faces(solid.faces, solid.inside_out), ghost_length);
-    ghosts_.push_back(make_displaced_tree(solid, std::move(displaced), executor));
-    const Aabb box = assembled_bounds(c);
-    const Vec3 center = box.empty() ? Vec3{} : box.center();
-    double radius = 0;
-    for (const Vec3& p : solid.vertices) radius = std::max(radius, length(p - center));
-    spheres_.add(center, radius);
-  }
+    ghosts_[c] = make_displaced_tree(solid, std::move(displaced), on);
+    const Aabb box = assembled_bounds(component);
+    centers[c] = box.empty() ? Vec3{} : box.center();
+    for (const Vec3& p : solid.vertices) radii[c] = std::max(radii[c], length(p - centers[c]));
+  };
+  for (std::size_t c = 0; c < solids_.size(); ++c)
+    if (is_large(assembly.components[c])) build(c, executor);
+  executor.for_each_heavy(solids_.size(), [&](std::size_t c) {
+    if (!is_large(assembly.components[c])) build(c, Executor{});
+  });
+  for (std::size_t c = 0; c < solids_.size(); ++c) spheres_.add(centers[c], radii[c]);
   prepare_radial(executor);
 }
 
@@ -30,11 +43,16 @@ const SolidTree& FrontStore::ghost(ComponentId c, ComponentId other) const {
   return own == pair_ghosts_.end() || !own->second.in_use ? ghosts_[c.value] : own->second.ghosts[c < other ? 0 : 1];
 }
 
-void FrontStore::set_ghosts(ComponentId a, ComponentId b, const std::array<std::vector<Vec3>, 2>& vertices,
-                            const Executor& executor) {
-  PairTrees& trees = pair_ghosts_[{a, b}];
-  trees.ghosts[0] = make_displaced_tree(solid(a), vertices[0], executor);
-  trees.ghosts[1] = make_displaced_tree(solid(b), vertices[1], executor);
+void FrontStore::set_ghosts(Span<const FoundGuard> guards, const Executor& executor) {
+  std::vector<const FoundGuard*> own;
+  for (const FoundGuard& guard : guards)
+    if (!guard.ghosts[0].empty()) own.push_back(&guard);
+  std::vector<PairTrees> trees(own.size());
+  executor.for_each_heavy(own.size(), [&](std::size_t i) {
+    trees[i].ghosts[0] = make_displaced_tree(solid(own[i]->a), own[i]->ghosts[0], Executor{});
+    trees[i].ghosts[1] = make_displaced_tree(solid(own[i]->b), own[i]->ghosts[1], Executor{});
+  });
+  for (std::size_t i = 0; i < own.size(); ++i) pair_ghosts_[{own[i]->a, own[i]->b}] = std::move(trees[i]);
 }
 
 void FrontStore::use_own_ghosts(ComponentId a, ComponentId b, bool own) {

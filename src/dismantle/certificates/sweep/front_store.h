@@ -3,11 +3,11 @@
 
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/certificates/front/certificate_front.h"
+#include "dismantle/certificates/ghosts/find_guards.h"
 #include "dismantle/certificates/sweep/bounding_spheres.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/surface/solid_tree.h"
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -31,9 +31,8 @@ class FrontStore {
   /// The tree of a component's ghost surface with respect to another component: its own, unless the two have a pair of
   /// their own.
   const SolidTree& ghost(ComponentId c, ComponentId other) const;
-  /// Gives two components a < b ghost surfaces of their own: displaced vertices of either.
-  void set_ghosts(ComponentId a, ComponentId b, const std::array<std::vector<Vec3>, 2>& vertices,
-                  const Executor& executor);
+  /// Gives pairs of components the ghost surfaces of their own that were found for them.
+  void set_ghosts(Span<const FoundGuard> guards, const Executor& executor);
   /// Uses the ghosts that two components have of their own, or those that they have against all others.
   void use_own_ghosts(ComponentId a, ComponentId b, bool own);
   /// The bounding spheres of all components.

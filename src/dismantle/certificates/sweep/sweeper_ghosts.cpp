@@ -11,10 +11,11 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
   std::vector<ComponentTrees> trees;
   for (std::uint32_t c = 0; c < poses_.size(); ++c)
     trees.push_back({&solid(ComponentId(c)), &store_.ghost(ComponentId(c), ComponentId(c))});
-  for (const FoundGuard& found :
-       find_guards({assembly_, &pairs, trees, options_.executor, kernels_, options_.keep_going})) {
+  const std::vector<FoundGuard> guards =
+      find_guards({assembly_, &pairs, trees, options_.executor, kernels_, options_.keep_going});
+  store_.set_ghosts(guards, options_.executor);
+  for (const FoundGuard& found : guards) {
     guarded_[{found.a, found.b}] = found.guard;
-    if (!found.ghosts[0].empty()) store_.set_ghosts(found.a, found.b, found.ghosts, options_.executor);
     if (found.guard.guard != PairGuard::Depth) continue;
     shape(found.a);
     shape(found.b);
