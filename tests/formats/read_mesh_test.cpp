@@ -109,7 +109,7 @@ TEST(ReadMesh, SaysWhatIsWrong) {
                     "holds no component");
   expect_unreadable(load_assembly(folder.put("far.obj", "v 0 0 0\nv 1 0 0\nv 2 2e9 0\nf 1 2 3\n")), "check the units");
   expect_unreadable(load_assembly(folder.put("scan.e57", "x")), "extension \".e57\"");
-  expect_unreadable(load_assembly(folder.put("noext", "x")), "extension \"\"");
+  expect_unreadable(load_assembly(folder.put("noext", "x")), "no file extension");
   fs::create_directory(folder / "hollow");
   expect_unreadable(load_assembly(folder / "hollow"), "holds no mesh");
   folder.put("bad/a.obj", kTetrahedra);
