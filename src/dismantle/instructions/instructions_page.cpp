@@ -5,6 +5,10 @@
 #include "dismantle/render/camera.h"
 #include "dismantle/report/html_text.h"
 
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
 namespace dismantle {
 
 namespace {
@@ -58,6 +62,10 @@ std::string figure(const std::string& image, const std::string& layer) {
   return "<figure>" + image + layer + "</figure>";
 }
 
+void append(std::string& text, std::initializer_list<std::string_view> parts) {
+  for (const std::string_view part : parts) text += part;
+}
+
 /// Balloons over a picture and their leaders.
 std::string balloon_layer(const ExplodedOverview& overview) {
   const double width = overview.picture.width, height = overview.picture.height;
@@ -65,10 +73,11 @@ std::string balloon_layer(const ExplodedOverview& overview) {
   for (const Balloon& balloon : overview.balloons) {
     const std::string x = number(balloon.place.x * width), y = number(balloon.place.y * height);
     const std::string to_x = number(balloon.anchor.x * width), to_y = number(balloon.anchor.y * height);
-    lines += "<line x1=\"" + x + "\" y1=\"" + y + "\" x2=\"" + to_x + "\" y2=\"" + to_y +
-             "\" stroke=\"#1c2430\"/><circle cx=\"" + to_x + "\" cy=\"" + to_y + "\" r=\"2\"/>";
-    marks += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"14\" fill=\"#fff\" stroke=\"#1c2430\"/><text x=\"" + x +
-             "\" y=\"" + y + "\">" + std::to_string(balloon.item + 1) + "</text>";
+    const std::string item = std::to_string(balloon.item + 1);
+    append(lines, {"<line x1=\"", x, "\" y1=\"", y, "\" x2=\"", to_x, "\" y2=\"", to_y,
+                   "\" stroke=\"#1c2430\"/><circle cx=\"", to_x, "\" cy=\"", to_y, "\" r=\"2\"/>"});
+    append(marks, {"<circle cx=\"", x, "\" cy=\"", y, "\" r=\"14\" fill=\"#fff\" stroke=\"#1c2430\"/><text x=\"", x,
+                   "\" y=\"", y, "\">", item, "</text>"});
   }
   return "<svg viewBox=\"0 0 " + number(width) + " " + number(height) + "\" aria-hidden=\"true\">" + lines + marks +
          "</svg>";
