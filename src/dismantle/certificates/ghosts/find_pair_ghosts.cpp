@@ -36,9 +36,9 @@ constexpr double kPlay = 0.3;
 /// Shallower pairs do not overlap, as a share of the tolerance; the second one where one of the two is a sheet.
 constexpr double kOverlap = 0.1, kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
-constexpr std::size_t kMaxNear = 100000;
+constexpr std::size_t kMaxNear = 200000;
 /// Where still more are, as in parts that are modelled in the place of each other, the search for ghosts ends.
-constexpr std::size_t kTooManyNear = 300000;
+constexpr std::size_t kTooManyNear = 1000000;
 /// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
 constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
@@ -47,7 +47,7 @@ constexpr double kSameSide = 0.05;
 /// Patches are left out of the retraction one by one only where no more than this number overlap.
 constexpr std::size_t kMaxPatches = 24;
 /// Largest number of tests of pairs of faces in that search.
-constexpr std::size_t kMaxTests = 500000;
+constexpr std::size_t kMaxTests = 2000000;
 /// Largest number of pieces examined to bound the depth of displaced faces.
 constexpr std::size_t kMaxPieces = 100000;
 /// So many vertices of each surface are looked at.
