@@ -33,6 +33,20 @@ void interrupt(int) {
   g_interrupted = 1;
 }
 
+/// Notes that the unit is probably wrong, if the assembly is larger or smaller than assemblies are.
+void note_size(const Assembly& assembly) {
+  constexpr double kMin = 1, kMax = 20000;  // [mm]
+  const Vec3 size = assembled_bounds(assembly).size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (longest <= 0 || (longest >= kMin && longest <= kMax)) return;
+  const std::string text = longest < kMin ? number_text(longest, 3) + " mm" : number_text(longest / 1000, 3) + " m";
+  std::fprintf(
+      stderr,
+      "dismantle: note: the assembly is %s long (read in %s); if that is wrong, give the unit of the file with "
+      "--units\n",
+      text.c_str(), assembly.source_units.c_str());
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& command, CommonOptions& o) {
@@ -181,20 +195,6 @@ void note_cpu(const CommonOptions& options, const std::string& why) {
     std::fprintf(stderr, "dismantle: note: computing on the CPU (%s)\n", why.c_str());
 }
 
-/// Notes that the unit is probably wrong, if the assembly is larger or smaller than assemblies are.
-static void note_size(const Assembly& assembly) {
-  constexpr double kLeast = 1, kMost = 20000;  // [mm]
-  const Vec3 size = assembled_bounds(assembly).size();
-  const double longest = std::max({size.x, size.y, size.z});
-  if (longest <= 0 || (longest >= kLeast && longest <= kMost)) return;
-  const std::string text = longest < kLeast ? number_text(longest, 3) + " mm" : number_text(longest / 1000, 3) + " m";
-  std::fprintf(
-      stderr,
-      "dismantle: note: the assembly is %s long (read in %s); if that is wrong, give the unit of the file with "
-      "--units\n",
-      text.c_str(), assembly.source_units.c_str());
-}
-
 Result<Assembly> load(const CommonOptions& options) {
   if (!options.uses_device) note_cpu(options, "only move uses a CUDA device");
   ImportOptions import = options.import;
@@ -232,10 +232,6 @@ Result<Clashes> clashes_of(const Assembly& assembly, const CommonOptions& option
   clash.executor = make_executor(options);
   clash.progress = progress_printer(options);
   return find_clashes(assembly, clash);
-}
-
-std::string count_text(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 void report_errors_as_json() {

@@ -86,9 +86,6 @@ Result<PairStates> classify(const Assembly& assembly, const CommonOptions& optio
 /// Finds the clashes with --tolerance. Pairs within `clearance` [mm] are near. Errors: of find_clashes.
 Result<Clashes> clashes_of(const Assembly& assembly, const CommonOptions& options, double clearance);
 
-/// "1 move", "2 moves".
-std::string count_text(std::size_t count, const std::string& noun);
-
 /// Makes report() also print errors as one JSON object on stdout (docs/formats.md), for --json.
 void report_errors_as_json();
 

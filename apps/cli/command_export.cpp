@@ -11,6 +11,7 @@
 #include "dismantle/export/swept_volume.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/files/display_name.h"
+#include "dismantle/files/number_text.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/write_mesh.h"
 #include "dismantle/render/assembly_scene.h"

@@ -26,12 +26,6 @@ CLI::Validator number_that(std::function<bool(double)> holds, const std::string&
 
 }  // namespace
 
-std::string alternatives(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "|") + word;
-  return text;
-}
-
 std::string list_of(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -57,9 +51,9 @@ CLI::Validator not_negative() {
   return number_that([](double x) { return x >= 0; }, "from 0");
 }
 
-CLI::Validator between(double least, double most) {
-  return number_that([least, most](double x) { return x >= least && x <= most; },
-                     "from " + number_text(least, 17) + " to " + number_text(most, 17));
+CLI::Validator between(double min, double max) {
+  return number_that([min, max](double x) { return x >= min && x <= max; },
+                     "from " + number_text(min, 17) + " to " + number_text(max, 17));
 }
 
 CLI::Validator existing_folder() {

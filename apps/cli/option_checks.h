@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// What options accept. Unlike those of CLI11, these checks add nothing to the list of options (the type's name says
-/// it), and their messages are parts of sentences: "'parsec' is not one of mm, cm or m".
+/// Validators of option values. Unlike those of CLI11, they add nothing to the help (the type's name lists the values),
+/// and their messages are parts of sentences: "'parsec' is not one of mm, cm or m".
 namespace dismantle::cli {
 
 /// Accepts one of these words.
@@ -19,13 +19,11 @@ CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator above_zero();
 /// Accepts numbers from 0.
 CLI::Validator not_negative();
-/// Accepts numbers from `least` to `most`.
-CLI::Validator between(double least, double most);
+/// Accepts numbers from `min` to `max`.
+CLI::Validator between(double min, double max);
 /// Accepts folders that exist.
 CLI::Validator existing_folder();
 
-/// The words for a type's name: "mm|cm|m".
-std::string alternatives(const std::vector<std::string>& words);
 /// The words for a sentence: "mm, cm or m".
 std::string list_of(const std::vector<std::string>& words);
 

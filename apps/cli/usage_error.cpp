@@ -44,7 +44,7 @@ std::string extra_text(const CLI::App& command, const std::string& what, const s
   return "too many arguments: " + (colon == std::string::npos ? what : what.substr(colon + 2));
 }
 
-/// What is wrong, without a full stop.
+/// The reason of the error, without a full stop.
 std::string reason(const CLI::App& command, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   std::string what = error.what();
   // Not by get_name(), which is the command for some.

@@ -15,7 +15,7 @@ namespace dismantle::cli {
 /// an option of the program. @param arguments without the program's name
 std::optional<Error> unknown_command(const CLI::App& app, const std::vector<std::string>& arguments);
 
-/// What CLI11 found wrong with the arguments as one sentence in the form of all errors. @pre app.parse() threw `error`
+/// An error of CLI11 as one sentence in the form of all errors. @pre app.parse() threw `error`
 /// @param arguments without the program's name
 Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments);
 

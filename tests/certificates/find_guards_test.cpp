@@ -6,6 +6,7 @@
 #include "dismantle/certificates/sweep/front_store.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
+#include "tests/support/large_scenes.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/swept_meshes.h"
 
@@ -25,6 +26,12 @@ std::vector<FoundGuard> guards_of(const Assembly& assembly, const PairStates& st
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
     trees.push_back({&store.solid(ComponentId(c)), &store.ghost(ComponentId(c), ComponentId(c))});
   return find_guards({&assembly, &states, trees, executor, front_kernels(CertificateOptions{}.lanes)});
+}
+
+TEST(FindGuards, FindsGhostsOfFineCylindersThatTouchEverywhere) {
+  const scenes::SlideScene scene = scenes::shaft_in_hole(120000, 0);
+  const PairStates states{kTolerance, {{ComponentId(0), ComponentId(1), PairState::Contact, 0, 0, kTolerance}}};
+  for (const FoundGuard& found : guards_of(scene.assembly, states)) EXPECT_EQ(found.guard.guard, PairGuard::Ghosts);
 }
 
 /// The mesh leaning along x.

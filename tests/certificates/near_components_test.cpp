@@ -28,7 +28,7 @@ TEST(NearComponents, FindsTheSameAsAllGapsWhereverComponentsWerePlaced) {
       poses[c] = random_pose();
       near.place(ComponentId(c), poses[c]);
     }
-    if (round % 3 == 0) near.arrange();
+    if (round % 3 == 0) near.rebuild_if_due();
 
     const ComponentId moving(static_cast<std::uint32_t>(random() % kCount));
     const RigidTransform from = transform_from_pose(poses[moving.value]);

@@ -79,8 +79,7 @@ class CertificateEngine final : public MotionEngine {
   /// The contacts of the moving set at its pose: all triangle pairs nearer than `reach` [mm], by components and faces.
   /// Empty without a moving set.
   std::vector<ContactPoint> contacts(double reach) const;
-  /// As contacts() for a component at its pose, whatever the moving set is. May be called by many threads at the same
-  /// time.
+  /// The contacts of one component at its pose, independent of the moving set. Thread-safe.
   std::vector<ContactPoint> contacts(ComponentId component, double reach) const;
   /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
   /// components that are equally near, the first. Infinite without a moving set.

@@ -22,12 +22,12 @@ std::string formatted(const char* format, double value) {
 /// Depths that differ by less than this part of the tolerance are not told apart.
 constexpr double kDepthAccuracy = 0.1;
 /// Lengths and volumes are estimates: no digits below this [mm], [mm3], and so many digits of a volume.
-constexpr double kLeastLength = 1e-6, kLeastVolume = 1e-6;
+constexpr double kMinLength = 1e-6, kMinVolume = 1e-6;
 constexpr int kVolumeDigits = 3;
 
 /// A length [mm]: four digits, none below what the tolerance tells apart.
 std::string length_text(double length, double tolerance) {
-  return number_text(length, 4, std::max(kLeastLength, kDepthAccuracy * tolerance));
+  return number_text(length, 4, std::max(kMinLength, kDepthAccuracy * tolerance));
 }
 
 /// A point to the hundredth of a millimetre, as far as a table needs it.
@@ -137,7 +137,7 @@ std::string check_report_text(const Assembly& assembly, const Clashes& clashes) 
       {"state", "depth mm", "deepest at", "volume mm3", "distance mm", "a", "b"}};
   for (const Clash& c : worst_first(clashes))
     rows.push_back({std::string(name_of(c.state)), depth_text(c, clashes.tolerance), place_text(c.deepest_at),
-                    number_text(c.volume, kVolumeDigits, kLeastVolume), length_text(c.distance, clashes.tolerance),
+                    number_text(c.volume, kVolumeDigits, kMinVolume), length_text(c.distance, clashes.tolerance),
                     name_in_table(assembly, c, c.a), name_in_table(assembly, c, c.b)});
   text += "\n" + table_text(rows) + "\n";
   for (const ClashState state : {ClashState::Overlapping, ClashState::Contact, ClashState::Near})

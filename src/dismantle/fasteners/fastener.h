@@ -9,7 +9,7 @@ namespace dismantle {
 
 /// A fastener as its shape and its name tell: what it is, its size, and the tool that turns it.
 struct Fastener {
-  /// What it is.
+  /// The kind of a fastener.
   enum class Kind {
     Screw,     ///< Screw or bolt with a head, or a set screw.
     Nut,       ///< Hexagon nut, also with flange or locking insert; ring nut.
@@ -29,7 +29,7 @@ struct Fastener {
     Countersunk,  ///< Conical below.
     Other,        ///< Thumb screws, eye bolts.
   };
-  /// What the tool grips.
+  /// The form that the tool grips.
   enum class Drive {
     None,       ///< None that was modelled.
     Hexagon,    ///< Outer hexagon: a spanner (wrench).
@@ -39,7 +39,7 @@ struct Fastener {
     Torx,       ///< Hexalobular socket: a Torx key.
   };
 
-  Kind kind = Kind::Screw;    ///< What it is.
+  Kind kind = Kind::Screw;    ///< The kind.
   Head head = Head::None;     ///< Of a screw.
   Drive drive = Drive::None;  ///< Of a screw or a nut.
   /// Nominal diameter: of the thread of screws, nuts, inserts and standoffs and of the screw that a washer is for; of

@@ -8,9 +8,9 @@
 
 namespace dismantle {
 
-/// What the name of a component says of it as a fastener.
+/// The kind and sizes of a fastener in the name of a component.
 struct FastenerName {
-  std::optional<Fastener::Kind> kind;             ///< What it is called, or its standard is for.
+  std::optional<Fastener::Kind> kind;             ///< By a word, or by the number of a standard.
   Fastener::Head head = Fastener::Head::None;     ///< None where the name does not say.
   Fastener::Drive drive = Fastener::Drive::None;  ///< None where the name does not say.
   double diameter = 0;                            ///< Of "M5x16" [mm]; 0 where the name does not say.

@@ -33,9 +33,9 @@ constexpr double kThinnestPin = 1.5, kThickestPin = 20, kWidestWasher = 36;
 /// The largest set screw with a slot or cross by its shape alone [mm], and the least length in diameters.
 constexpr double kWidestSlotted = 20, kShortestScrew = 0.6;
 /// Teeth of a knurl around.
-constexpr std::size_t kLeastTeeth = 5;
+constexpr std::size_t kMinTeeth = 5;
 /// Sections of a head, at least, by which its form is read; and sections in all, at most.
-constexpr double kHeadSections = 24, kMostSections = 1024;
+constexpr double kHeadSections = 24, kMaxSections = 1024;
 /// A hole goes through if it is in this share of the sections; rounded edges may close the others.
 constexpr double kThrough = 0.95;
 
@@ -109,7 +109,7 @@ class AxisReader {
   HeadedShape finer(const HeadedShape& shape) const {
     const double wanted = kHeadSections * shape.total_length / shape.head_height;
     if (!(wanted > kSections)) return shape;
-    const auto count = static_cast<std::size_t>(std::min(wanted, kMostSections));
+    const auto count = static_cast<std::size_t>(std::min(wanted, kMaxSections));
     return headed_shape(mesh_, axis_, axial_sections(mesh_, axis_.frame, count)).value_or(shape);
   }
 
@@ -284,7 +284,7 @@ class AxisReader {
       std::size_t teeth = 0;
       for (std::size_t k = 0; k < kSectionRays; ++k)
         teeth += s.outer[k] < middle && s.outer[(k + 1) % kSectionRays] >= middle;
-      toothed += teeth >= kLeastTeeth;
+      toothed += teeth >= kMinTeeth;
     }
     return 8 * toothed > kSections && 20 * narrow > kSections;
   }

@@ -20,8 +20,8 @@ struct FastenerShape {
   Certainty certainty = Certainty::Possible;  ///< How much the shape says.
 };
 
-/// What fasteners a mesh may be by its shape, the most certain first: by its sections about its axis (head and shank,
-/// ring, hexagon), drives, thread, and sizes of standards. Empty for all other shapes.
+/// The fasteners that a mesh may be by its shape, the most certain first: by its sections about its axis (head and
+/// shank, ring, hexagon), drives, thread, and sizes of standards. Empty for all other shapes.
 std::vector<FastenerShape> fastener_shapes(const TriangleMesh& mesh);
 
 }  // namespace dismantle

@@ -106,7 +106,7 @@ std::size_t common_beginning(const Assembly& assembly) {
 
 std::optional<Fastener> judged(const std::vector<FastenerShape>& shapes, const FastenerName& name) {
   const bool is_named_size = name.diameter > 0 && name.length > 0;
-  // What the name says, if the shape admits it.
+  // The kind in the name, if the shape admits it.
   if (name.kind && (!name.is_other || is_named_size))
     for (const FastenerShape& shape : shapes) {
       if (shape.fastener.kind != *name.kind) continue;

@@ -10,7 +10,7 @@
 
 namespace dismantle {
 
-/// What the recognition of fasteners goes by.
+/// The evidence by which fasteners are recognised.
 enum class FastenerEvidence : std::uint8_t {
   ShapeAndName,  ///< The shape first; a name decides where shapes are ambiguous, and vetoes: "roller", "lead screw".
   ShapeOnly,     ///< The shape alone.

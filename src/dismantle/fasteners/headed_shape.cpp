@@ -16,7 +16,7 @@ using Head = Fastener::Head;
 using Drive = Fastener::Drive;
 
 /// A head is wider than its shank by at least this factor, and by no more than the other.
-constexpr double kLeastHead = 1.12, kMostHead = 3.2;
+constexpr double kMinHead = 1.12, kMaxHead = 3.2;
 /// Sections of one radius differ by no more than this share.
 constexpr double kSameRadius = 0.03;
 /// A shank gets nowhere wider than this share beyond its usual radius.
@@ -32,7 +32,7 @@ constexpr double kFlatBelow = 0.45;
 /// A recess leaves a wall around it: it is no wider than this share of the end.
 constexpr double kWidestRecess = 0.8;
 /// Lobes of a recess, relative to its mean radius: of slots and crosses at least, of hexalobular sockets at least.
-constexpr double kLeastLobes = 0.18, kLeastTorx = 0.07;
+constexpr double kMinLobes = 0.18, kMinTorx = 0.07;
 
 /// The sections, and which way the head is.
 struct HeadRange {
@@ -45,7 +45,7 @@ struct HeadRange {
 double usual_radius(const std::vector<AxialSection>& sections, double widest) {
   std::vector<double> radii;
   for (const AxialSection& s : sections)
-    if (const double r = s.outer_max(); r > 0 && r * kLeastHead <= widest) radii.push_back(r);
+    if (const double r = s.outer_max(); r > 0 && r * kMinHead <= widest) radii.push_back(r);
   double best = 0;
   std::size_t most = 0;
   for (const double r : radii) {
@@ -63,8 +63,8 @@ std::optional<HeadRange> head_range(const std::vector<AxialSection>& sections) {
   for (const AxialSection& s : sections) widest = std::max(widest, s.outer_max());
   HeadRange range;
   range.shank = usual_radius(sections, widest);
-  if (!(range.shank > 0) || widest > kMostHead * range.shank) return std::nullopt;
-  const auto is_wide = [&](const AxialSection& s) { return s.outer_max() > kLeastHead * range.shank; };
+  if (!(range.shank > 0) || widest > kMaxHead * range.shank) return std::nullopt;
+  const auto is_wide = [&](const AxialSection& s) { return s.outer_max() > kMinHead * range.shank; };
   const auto first = std::find_if(sections.begin(), sections.end(), is_wide);
   const auto last = std::find_if(sections.rbegin(), sections.rend(), is_wide).base() - 1;
   range.first = static_cast<std::size_t>(first - sections.begin());
@@ -151,7 +151,7 @@ Head form_of(const std::vector<AxialSection>& sections, const HeadRange& range, 
 double hexagon_of(const TriangleMesh& mesh, const FastenerAxis& axis, double shank) {
   double best = 0;
   for (const HexagonDrive& drive : hexagon_drives(mesh, {axis.frame.point, axis.frame.direction, 0}))
-    if (drive.kind == HexagonDrive::Kind::Head && drive.across_flats > 2 * kLeastHead * shank * 0.9)
+    if (drive.kind == HexagonDrive::Kind::Head && drive.across_flats > 2 * kMinHead * shank * 0.9)
       best = std::max(best, drive.across_flats);
   return best;
 }
@@ -188,11 +188,11 @@ DriveRecess drive_recess(const TriangleMesh& mesh, const FastenerAxis& axis, con
     const double smallest = *std::min_element(hole.begin(), hole.end());
     const double strength = std::max({two, four, six});
     if (strength <= strongest) continue;
-    if (two == strength && two > kLeastLobes) {
+    if (two == strength && two > kMinLobes) {
       best = {Drive::Slot, 0};
-    } else if (four == strength && four > kLeastLobes) {
+    } else if (four == strength && four > kMinLobes) {
       best = {Drive::Cross, 0};
-    } else if (six == strength && six > kLeastTorx && largest > 1.22 * smallest && smallest > 0 &&
+    } else if (six == strength && six > kMinTorx && largest > 1.22 * smallest && smallest > 0 &&
                largest < kWidestRecess * reach) {
       best = {Drive::Torx, 2 * largest};
     } else {

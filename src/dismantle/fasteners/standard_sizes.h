@@ -8,7 +8,8 @@
 
 namespace dismantle {
 
-/// What the standards say of one nominal size of metric threads. 0 where a standard does not have the size. All in mm.
+/// The standard dimensions for one nominal size of metric threads. 0 where a standard does not have the size. All in
+/// mm.
 struct ThreadSize {
   double diameter = 0;       ///< Nominal: M3 is 3.
   double pitch = 0;          ///< ISO 261, coarse.

@@ -31,4 +31,8 @@ std::string number_text(double value, int digits, double resolution) {
   return result == "-0" ? "0" : result;
 }
 
+std::string count_text(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 }  // namespace dismantle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace dismantle {
@@ -11,5 +12,8 @@ namespace dismantle {
 /// @param resolution in the unit of the number: the last place that means something; rounded to a power of ten
 /// @pre value is finite, digits > 0, resolution > 0
 std::string number_text(double value, int digits, double resolution = 1e-6);
+
+/// "1 step", "2 steps".
+std::string count_text(std::size_t count, const std::string& noun);
 
 }  // namespace dismantle

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dismantle/files/number_text.h"
 #include "dismantle/instructions/motion_text.h"
 #include "dismantle/instructions/work_instructions.h"
 
@@ -7,11 +8,6 @@ namespace dismantle {
 namespace {
 
 using Kind = InstructionNote::Kind;
-
-/// "1 step", "2 steps".
-std::string count_text(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 constexpr const char* kTimes = " \u00d7 ";
 

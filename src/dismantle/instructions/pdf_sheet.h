@@ -31,7 +31,7 @@ struct PaperSize {
 inline constexpr PaperSize kPaperA4{595, 842};      ///< 210 mm x 297 mm.
 inline constexpr PaperSize kPaperLetter{612, 792};  ///< 8.5 in x 11 in.
 
-/// What a PDF document says about itself.
+/// The metadata of a PDF document.
 struct PdfMetadata {
   std::string title;      ///< UTF-8.
   std::string author;     ///< UTF-8; empty: none.

@@ -12,9 +12,9 @@
 
 namespace dismantle {
 
-/// A tool, in the order of lists: by what it grips, then by size.
+/// A tool, in the order of lists: by the form that it grips, then by size.
 struct Tool {
-  Fastener::Drive drive = Fastener::Drive::None;  ///< What it grips.
+  Fastener::Drive drive = Fastener::Drive::None;  ///< The form that it grips.
   double size = 0;                                ///< As Fastener::drive_size.
   std::string text;                               ///< "4 mm hex key".
   friend auto operator<=>(const Tool&, const Tool&) = default;

@@ -24,7 +24,7 @@ constexpr std::size_t kMaxOverlaps = 6;
 /// Number of digits of the checksum on the cover.
 constexpr std::size_t kChecksumDigits = 12;
 
-/// What fastener a part is; empty if its name says so, or it is none.
+/// The fastener that a part is, as text; empty if its name says so, or it is none.
 std::string fastener_name(const std::string& name, const std::optional<Fastener>& fastener) {
   if (!fastener) return {};
   const std::string designation = designation_text(*fastener);

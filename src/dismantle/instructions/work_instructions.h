@@ -41,7 +41,7 @@ struct InstructionNote {
   std::string text;          ///< One or more sentences.
 };
 
-/// What identifies a document; empty members are left out.
+/// The identification of a document; empty members are left out.
 struct TitleBlock {
   std::string number;    ///< Of the document or the part.
   std::string revision;  ///< "B".

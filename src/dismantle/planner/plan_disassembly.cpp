@@ -135,14 +135,14 @@ class Planner {
     return staying;
   }
 
-  /// What a plan tries to remove the next component.
+  /// The searches that a plan makes for the next step.
   enum class Effort {
     Simple,  ///< Straight motions and threads.
     Any,     ///< Sliding and random motions as well, which may take long.
   };
 
   /// Removes everything that can be removed from the bodies to be taken apart, and from those that are removed in one
-  /// piece meanwhile. What takes long in one of them waits until nothing simple is left in any.
+  /// piece meanwhile. Long searches in one of them wait until no simple step is left in any.
   void take_apart_bodies() {
     for (const Effort effort : {Effort::Simple, Effort::Any})
       for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -23,7 +23,7 @@ struct StepBefore {
 struct RemovalChoice {
   BlockingTable& table;                            ///< Blocking relations.
   const DirectionLists& directions;                ///< Of each component.
-  const std::vector<ComponentId>& kinds;           ///< What first_of_shape() returns.
+  const std::vector<ComponentId>& kinds;           ///< As first_of_shape().
   const std::vector<StepPreference>& preferences;  ///< The most important first.
 };
 

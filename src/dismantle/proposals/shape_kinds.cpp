@@ -33,7 +33,7 @@ constexpr double kLeastInner = 0.5;
 constexpr double kFarOut = 0.85;
 /// The height and the width of a circlip are at most these shares of its outer radius, its gap is between these angles
 /// [rad].
-constexpr double kMaxClipHeight = 0.3, kMaxClipWidth = 0.4, kLeastGap = 0.2, kMostGap = 2.2;
+constexpr double kMaxClipHeight = 0.3, kMaxClipWidth = 0.4, kMinGap = 0.2, kMaxGap = 2.2;
 
 Obb box_of(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.faces.size());
@@ -145,7 +145,7 @@ std::optional<RingShape> ring_shape(const TriangleMesh& mesh) {
 }
 
 bool is_circlip(const RingShape& ring) {
-  return ring.gap > kLeastGap && ring.gap < kMostGap && ring.outer - ring.inner <= kMaxClipWidth * ring.outer &&
+  return ring.gap > kMinGap && ring.gap < kMaxGap && ring.outer - ring.inner <= kMaxClipWidth * ring.outer &&
          ring.height < kMaxClipHeight * ring.outer;
 }
 

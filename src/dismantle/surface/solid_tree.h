@@ -26,7 +26,7 @@ struct SolidTree {
   Span<const std::uint32_t> around;        ///< Faces at each vertex.
   ObbTree tree;                            ///< Boxes over the faces.
   std::unique_ptr<const RevolutionSurface> revolution;  ///< Its surfaces of revolution; null where it has no faces.
-  /// What the spans above refer to; ghost surfaces share it with their component.
+  /// The arrays that the spans above refer to; ghost surfaces share them with their component.
   struct FaceNormals;
   std::shared_ptr<const FaceNormals> face_normals;  ///< Null where the spans are empty.
 

@@ -88,7 +88,7 @@ void CertificateSweeper::for_each_near(const ScrewMotion& motion, double reach, 
   for (const ComponentId moving : moving_) {
     if (solid(moving).tree.empty()) continue;
     near.clear();
-    // What is further away than the clearance that is known changes nothing.
+    // Components that are further away than the clearance found so far cannot lower it.
     const auto limit = [&] { return std::max(reach, result.clearance); };
     near_.for_each(store_.spheres().swept(moving, from, to, motion.deviation), limit,
                    [&](ComponentId fixed, double gap) {

@@ -7,8 +7,8 @@ namespace dismantle {
 
 namespace {
 
-/// The tree is built anew when so many times the root of the number of components are outside it: all trees and all
-/// looks at what is outside then cost about the same.
+/// The tree is rebuilt when more components than this multiple of the square root of their number are outside it: that
+/// balances the cost of rebuilding with that of testing those outside.
 constexpr double kOutsideShare = 2;
 
 }  // namespace
@@ -42,7 +42,7 @@ void NearComponents::place(ComponentId c, const Pose& pose) {
   place = 0;
 }
 
-void NearComponents::arrange() {
+void NearComponents::rebuild_if_due() {
   if (static_cast<double>(outside_.size()) <= kOutsideShare * std::sqrt(static_cast<double>(at_.size()))) return;
   for (std::size_t i = 0; i < outside_.size(); ++i) {
     poses_in_tree_[outside_[i].value] = pose_outside_[i];

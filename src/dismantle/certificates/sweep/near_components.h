@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// The bounding spheres of components at their present poses, arranged so that what is near a motion is found without
-/// looking at all of them.
+/// The bounding spheres of components at their present poses, in a tree, so that those near a motion are found without
+/// testing all of them.
 class NearComponents {
  public:
   /// All components in the assembled state. @param spheres must outlive this
@@ -18,8 +18,8 @@ class NearComponents {
 
   /// Puts a component at a pose.
   void place(ComponentId c, const Pose& pose);
-  /// Arranges the components anew if many were placed since that was last done.
-  void arrange();
+  /// Rebuilds the tree if many components were placed elsewhere since it was built.
+  void rebuild_if_due();
 
   /// Calls visit(component, gap) for the components whose gap (SweptSphere::gap) from a moving sphere is at most
   /// `limit()`, and for some others, in no particular order. @param limit () -> double; `visit` may lower it

@@ -48,7 +48,7 @@ void CertificateSweeper::jump(Span<const Pose> poses) {
   }
   for (std::uint32_t c = 0; c < poses.size(); ++c)
     if (moved(ComponentId(c))) place(ComponentId(c), poses[c]);
-  near_.arrange();
+  near_.rebuild_if_due();
   find_parted();
 }
 

@@ -61,7 +61,7 @@ void FreeComponentSearch::remove(Span<const ComponentId> components) {
   }
 }
 
-FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Hope hope, const KeepGoing& keep_going) const {
+FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Pass pass, const KeepGoing& keep_going) const {
   Found found;
   for (const DirectionId d : directions_[c.value]) {
     if (!keep_going()) {
@@ -69,7 +69,7 @@ FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Hope hope, c
       break;
     }
     std::optional<ComponentId> blocker;
-    if (hope == Hope::Good) blocker = table_.expected_blocker(c, d, present_);
+    if (pass == Pass::Unpredicted) blocker = table_.expected_blocker(c, d, present_);
     if (!blocker) blocker = table_.any_blocker(c, d, present_);
     if (!blocker) {
       found.free = d;
@@ -80,19 +80,19 @@ FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Hope hope, c
   return found;
 }
 
-std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uint32_t> places, Hope hope,
+std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uint32_t> places, Pass pass,
                                                              const Executor& executor, const KeepGoing& keep_going) {
   std::vector<Found> tested(places.size());
-  executor.for_each_heavy(places.size(), [&](std::size_t i) { tested[i] = test(order_[places[i]], hope, keep_going); });
+  executor.for_each_heavy(places.size(), [&](std::size_t i) { tested[i] = test(order_[places[i]], pass, keep_going); });
   std::vector<StraightRemoval> removals;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const ComponentId c = order_[places[i]];
     if (tested[i].free.valid()) {
       removals.push_back({{c}, tested[i].free});
-      // No prediction held, or the component would have been found with good hope.
-      waiting(Hope::Good).insert(places[i]);
+      // Its predictions did not hold: the next time it is tested in the first pass.
+      waiting(Pass::Unpredicted).insert(places[i]);
     } else if (tested[i].finished) {
-      waiting(hope).erase(places[i]);
+      waiting(pass).erase(places[i]);
       for (const ComponentId blocker : tested[i].blockers) blocked_by_[blocker.value].push_back(c);
     }
   }
@@ -100,14 +100,14 @@ std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uin
 }
 
 std::vector<StraightRemoval> FreeComponentSearch::find(const Executor& executor, const KeepGoing& keep_going) {
-  for (const Hope hope : {Hope::Good, Hope::Little}) {
+  for (const Pass pass : {Pass::Unpredicted, Pass::All}) {
     std::uint32_t from = 0;
-    for (auto next = waiting(hope).begin(); next != waiting(hope).end() && keep_going();
-         next = waiting(hope).lower_bound(from)) {
+    for (auto next = waiting(pass).begin(); next != waiting(pass).end() && keep_going();
+         next = waiting(pass).lower_bound(from)) {
       const std::uint32_t batch = rank(*next) / kFewComponents;
       std::vector<std::uint32_t> places;
-      for (; next != waiting(hope).end() && rank(*next) / kFewComponents == batch; ++next) places.push_back(*next);
-      std::vector<StraightRemoval> found = test_batch(places, hope, executor, keep_going);
+      for (; next != waiting(pass).end() && rank(*next) / kFewComponents == batch; ++next) places.push_back(*next);
+      std::vector<StraightRemoval> found = test_batch(places, pass, executor, keep_going);
       if (!found.empty()) return found;
       from = places.back() + 1;
     }

@@ -24,22 +24,22 @@ class FreeComponentSearch {
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going);
 
  private:
-  /// The directions to test: those without a predicted blocker, or all.
-  enum class Hope : std::uint8_t { Good, Little };
+  /// The directions that a pass tests: those without a predicted blocker, or all.
+  enum class Pass : std::uint8_t { Unpredicted, All };
   /// The first free direction of a component, or what blocks all of them.
   struct Found {
     DirectionId free;
     std::vector<ComponentId> blockers;
     bool finished = true;  ///< False if the search was ended.
   };
-  Found test(ComponentId c, Hope hope, const KeepGoing& keep_going) const;
+  Found test(ComponentId c, Pass pass, const KeepGoing& keep_going) const;
   /// Tests those of a batch that wait.
-  std::vector<StraightRemoval> test_batch(Span<const std::uint32_t> places, Hope hope, const Executor& executor,
+  std::vector<StraightRemoval> test_batch(Span<const std::uint32_t> places, Pass pass, const Executor& executor,
                                           const KeepGoing& keep_going);
   /// The number of components that are there before a place in `order_`.
   std::uint32_t rank(std::uint32_t place) const;
   void count_down(std::uint32_t place);
-  std::set<std::uint32_t>& waiting(Hope hope) { return waiting_[static_cast<std::size_t>(hope)]; }
+  std::set<std::uint32_t>& waiting(Pass pass) { return waiting_[static_cast<std::size_t>(pass)]; }
 
   BlockingTable& table_;
   const DirectionLists& directions_;
@@ -47,7 +47,7 @@ class FreeComponentSearch {
   std::vector<ComponentId> order_;                    ///< Those that may be removed, the smallest first.
   std::vector<std::uint32_t> place_;                  ///< Of each component in `order_`; kNowhere for those that stay.
   std::vector<std::uint32_t> counts_;                 ///< Fenwick tree over `order_` of those that are there.
-  std::array<std::set<std::uint32_t>, 2> waiting_;    ///< By hope: places of those that are not known to be blocked.
+  std::array<std::set<std::uint32_t>, 2> waiting_;    ///< By pass: places of those that are not known to be blocked.
   std::vector<std::vector<ComponentId>> blocked_by_;  ///< By blocker: those to test again without it.
 };
 

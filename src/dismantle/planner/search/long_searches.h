@@ -29,8 +29,8 @@ class LongSearches {
   /// Effort of the first search for each component.
   static constexpr std::size_t kFirstEffort = 40'000;
 
-  /// @param most effort that all searches may cost
-  explicit LongSearches(std::size_t most) : most_(most) {}
+  /// @param max_effort of all searches together
+  explicit LongSearches(std::size_t max_effort) : max_effort_(max_effort) {}
 
   /// The last search for a component.
   const InVain& last(ComponentId c) { return in_vain_[c]; }
@@ -41,11 +41,11 @@ class LongSearches {
   template <class Search>
   std::optional<PlanStep> find(Span<const ComponentId> components, const ComponentSet& body,
                                const MotionValidator& validator, const KeepGoing& keep_going, const Search& search) {
-    for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * most_; effort *= kEffortGrowth)
+    for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * max_effort_; effort *= kEffortGrowth)
       for (const ComponentId c : components) {
         InVain& before = in_vain_[c];
         if (before.effort >= effort && body.has_all(before.met)) continue;
-        const std::size_t left = most_ - std::min(spent_, most_);
+        const std::size_t left = max_effort_ - std::min(spent_, max_effort_);
         if (left == 0 || !keep_going()) return std::nullopt;
         const std::size_t begun = validator.effort();
         PathSearch found = search(c, std::min(effort, left));
@@ -66,7 +66,7 @@ class LongSearches {
   /// before.
   static constexpr double kFurther = 1.1;
 
-  std::size_t most_, spent_ = 0;
+  std::size_t max_effort_, spent_ = 0;
   std::map<ComponentId, InVain> in_vain_;
 };
 
