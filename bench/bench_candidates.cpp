@@ -3,10 +3,10 @@
 // straight motions and screws in random directions.
 //   bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]
 // Two rows a component, tab-separated: --count straight motions of up to 50 mm, and a tenth as many screws. Wall time.
+#include "bench/assembly_input.h"
 #include "bench/command_line.h"
 #include "dismantle/candidates/motion_batch.h"
 #include "dismantle/engine/classify_pairs.h"
-#include "dismantle/loading/load_assembly.h"
 #include "dismantle/streams/stage_clock.h"
 
 #include <algorithm>
@@ -77,21 +77,22 @@ bool parse(int argc, char** argv, Settings& settings) {
 }
 
 int measure(const Settings& settings) {
-  const std::string file =
-      settings.assemblies.empty() ? DISMANTLE_SOURCE_DIR "/samples/lathe.step" : settings.assemblies.front();
-  const Result<Assembly> assembly = load_assembly(file, {});
-  if (!assembly) {
-    std::fprintf(stderr, "bench_candidates: %s\n", assembly.error().message.c_str());
+  const Result<AssemblyFile> input = settings.assemblies.empty()
+                                         ? read_sample_input(DISMANTLE_SOURCE_DIR "/samples", "lathe")
+                                         : read_assembly_input(settings.assemblies.front());
+  if (!input) {
+    std::fprintf(stderr, "bench_candidates: %s\n", input.error().message.c_str());
     return bench::kExitUnreadable;
   }
+  const Assembly& assembly = input->assembly;
   const Executor executor(ExecutorKind::Threads, settings.threads);
   ClassifyOptions classify;
   classify.executor = executor;
-  const Result<PairStates> states = classify_pairs(*assembly, classify);
+  const Result<PairStates> states = classify_pairs(assembly, classify);
   if (!states) return bench::kExitFailed;
-  const ChosenMotionBatch chosen = make_motion_batch(*assembly, *states, executor, settings.device);
+  const ChosenMotionBatch chosen = make_motion_batch(assembly, *states, executor, settings.device);
   if (!chosen.why.empty()) std::fprintf(stderr, "bench_candidates: on the CPU (%s)\n", chosen.why.c_str());
-  run(settings, *assembly, *chosen.batch);
+  run(settings, assembly, *chosen.batch);
   return 0;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/motion_scenes.h"
 
-#include "dismantle/documents/motion_file.h"
+#include "bench/assembly_input.h"
 #include "dismantle/engine/classify_pairs.h"
-#include "dismantle/loading/load_assembly.h"
 #include "tests/support/large_scenes.h"
 
 #include <algorithm>
@@ -89,22 +88,22 @@ BenchScene sliver_peg(const std::string& name, const BenchSize& size) {
 Result<BenchScene> sample(const std::string& name, const std::string& folder, bool moving) {
   BenchScene bench;
   bench.name = name;
-  const Result<Assembly> assembly = load_assembly(folder + "/" + name + ".step");
-  if (!assembly) return assembly.error();
-  bench.assembly = *assembly;
-  if (moving) {
-    const Result<PairStates> states = classify_pairs(*assembly, {});
-    if (!states) return states.error();
-    bench.states = *states;
-    const Result<Motion> motion = read_motion(folder + "/" + name + ".motion.json");
-    if (!motion) return motion.error();
-    for (const MotionMove& recorded : motion->moves) {
-      BenchMove move;
-      for (const std::string& component : recorded.components)
-        if (const std::optional<ComponentId> id = assembly->find(component)) move.components.push_back(*id);
-      for (const Frame& target : recorded.targets) move.targets.push_back(target.pose);
-      bench.moves.push_back(std::move(move));
-    }
+  const Result<AssemblyFile> input = read_sample_input(folder, name);
+  if (!input) return input.error();
+  bench.assembly = input->assembly;
+  if (!moving) return bench;
+  const Result<PairStates> states = classify_pairs(bench.assembly, {});
+  if (!states) return states.error();
+  bench.states = *states;
+  if (!input->motion)
+    return Error{ErrorKind::Unreadable,
+                 name + " has no motion (there is none in the file or beside it); write it with --motion"};
+  for (const MotionMove& recorded : input->motion->moves) {
+    BenchMove move;
+    for (const std::string& component : recorded.components)
+      if (const std::optional<ComponentId> id = bench.assembly.find(component)) move.components.push_back(*id);
+    for (const Frame& target : recorded.targets) move.targets.push_back(target.pose);
+    bench.moves.push_back(std::move(move));
   }
   return bench;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/import/assembly_bytes.h"
+#include "dismantle/assembly/assembly_bytes.h"
 #include "fuzz/fuzz_input.h"
 
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
+#include "dismantle/documents/motion_file.h"
 #include "dismantle/loading/write_assembly.h"
 
 #include <fmt/format.h>
@@ -14,13 +15,21 @@ namespace {
 struct ConvertCommand {
   CommonOptions common;
   std::string output;
+  std::string motion_file;
   WriteOptions write;
 };
 
 Result<Assembly> run(const ConvertCommand& command) {
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly;
-  const Result<Done> written = write_assembly(command.output, *assembly, command.write);
+  std::optional<Motion> motion;
+  if (!command.motion_file.empty()) {
+    Result<Motion> read = read_motion(command.motion_file);
+    if (!read) return read.error();
+    if (const Result<Done> named = check_names(*read, *assembly); !named) return named.error();
+    motion = std::move(*read);
+  }
+  const Result<Done> written = write_assembly(command.output, *assembly, command.write, motion ? &*motion : nullptr);
   if (!written) return written.error();
   return assembly;
 }
@@ -53,6 +62,7 @@ void add_convert_command(CLI::App& app, ExitCode& exit_code) {
                    "one), or without extension a new folder of OBJ files")
       ->required()
       ->type_name("FILE");
+  command->add_option("--motion", options->motion_file, "Keep this motion in the .dasm file")->type_name("FILE");
   command->add_flag(
       "--ascii", [options](std::int64_t) { options->write.stl = StlForm::Ascii; },
       "ASCII STL with one solid per component, instead of binary");

@@ -3,9 +3,8 @@
 
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/engine/classify_pairs.h"
 #include "dismantle/session/play_motion.h"
-#include "tests/support/slide_scenes.h"
+#include "tests/support/slide_motions.h"
 
 /// Drags of a component by a simulated hand, with an audit of the path.
 namespace dismantle::scenes {
@@ -15,31 +14,6 @@ struct Drag {
   PlayedMotion played;
   AuditReport audit;
 };
-
-/// A motion of the scene's component through `targets`, 0.01 s each.
-inline Motion motion_of(const SlideScene& scene, const std::vector<Pose>& targets,
-                        ResponseKind response = ResponseKind::Slide) {
-  Motion motion;
-  motion.response = response;
-  motion.moves.push_back({{scene.assembly[scene.moving].name}, {}});
-  for (const Pose& target : targets)
-    motion.moves[0].targets.push_back({0.01 * static_cast<double>(motion.moves[0].targets.size() + 1), target});
-  return motion;
-}
-
-/// The next `count` targets of a hand.
-inline std::vector<Pose> pull(Hand hand, int count) {
-  std::vector<Pose> targets;
-  for (int k = 0; k < count; ++k) targets.push_back(hand.next());
-  return targets;
-}
-
-/// The pair states for a tolerance and no other options. @pre the scene can be classified
-inline PairStates states_of(const Assembly& assembly, double tolerance) {
-  ClassifyOptions options;
-  options.tolerance = tolerance;
-  return classify_pairs(assembly, options).value();
-}
 
 /// Plays the targets with method `certificates` from the assembled state, and audits the path.
 inline Drag drag(const SlideScene& scene, double tolerance, const std::vector<Pose>& targets) {

@@ -3,7 +3,7 @@
 
 #include "dismantle/files/isolated_process.h"
 #include "dismantle/formats/cad/read_cad.h"
-#include "dismantle/formats/import/assembly_bytes.h"
+#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
 

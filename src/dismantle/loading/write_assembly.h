@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/path.h"
 #include "dismantle/core/result.h"
 #include "dismantle/formats/mesh/write_options.h"
 
@@ -9,10 +10,12 @@
 
 namespace dismantle {
 
-/// Writes the assembly in its assembled pose [mm], by extension (upper or lower case): .obj, .stl, .ply, .glb; without
-/// extension, a new folder with an OBJ file for each component. write_mesh.h and write_glb.h say what each format
-/// keeps. A file appears whole or not at all. Errors: Usage for an unknown extension, Failed if it cannot be written.
+/// Writes the assembly in its assembled pose [mm], by extension (upper or lower case): .obj, .stl, .ply, .glb, .dasm;
+/// without extension, a new folder with an OBJ file for each component. write_mesh.h, write_glb.h and assembly_file.h
+/// say what each format keeps. A file appears whole or not at all.
+/// @param motion kept in a .dasm file; may be null
+/// Errors: Usage for an unknown extension and for a motion in any other format; Failed if it cannot be written.
 Result<Done> write_assembly(const std::filesystem::path& file, const Assembly& assembly,
-                            const WriteOptions& options = {});
+                            const WriteOptions& options = {}, const Motion* motion = nullptr);
 
 }  // namespace dismantle

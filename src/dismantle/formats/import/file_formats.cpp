@@ -18,6 +18,7 @@ Span<const FormatEntry> file_formats() {
       {FileFormat::Collada, "COLLADA", {".dae"}},
       {FileFormat::Vrml, "VRML", {".wrl", ".vrml"}},
       {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
+      {FileFormat::Dasm, "DASM", {".dasm"}},
       {FileFormat::Obj, "OBJ", {".obj"}, true, true},
       {FileFormat::Stl, "STL", {".stl"}, true},
       {FileFormat::Ply, "PLY", {".ply"}, true},  // a line each

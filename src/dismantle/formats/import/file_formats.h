@@ -11,7 +11,7 @@
 namespace dismantle {
 
 /// The formats of files that hold assemblies.
-enum class FileFormat { Step, Iges, Brep, FreeCad, Gltf, ThreeMf, Collada, Vrml, Urdf, Obj, Stl, Ply };
+enum class FileFormat { Step, Iges, Brep, FreeCad, Gltf, ThreeMf, Collada, Vrml, Urdf, Dasm, Obj, Stl, Ply };
 
 /// A format, and how its files are recognised.
 struct FormatEntry {

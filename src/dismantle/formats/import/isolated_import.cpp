@@ -4,7 +4,7 @@
 #include "dismantle/files/file_cache.h"
 #include "dismantle/files/read_file.h"
 #include "dismantle/files/sha256.h"
-#include "dismantle/formats/import/assembly_bytes.h"
+#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/formats/import/mesh_source.h"
 
 #include <algorithm>

@@ -1,79 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/import/assembly_bytes.h"
+#include "dismantle/assembly/assembly_bytes.h"
 
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
+#include "dismantle/assembly/byte_stream.h"
+
 #include <unordered_map>
 
 namespace dismantle {
 
 namespace {
-
-class Writer {
- public:
-  explicit Writer(const ByteSink& sink) : sink_(sink) {}
-
-  template <class T>
-  void value(const T& v) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    sink_(&v, sizeof v);
-  }
-  template <class T>
-  void array(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    value<std::uint64_t>(values.size());
-    if (!values.empty()) sink_(values.data(), values.size() * sizeof(T));
-  }
-  void text(const std::string& s) { array(std::vector<char>(s.begin(), s.end())); }
-
- private:
-  const ByteSink& sink_;
-};
-
-/// Reads the bytes back; after a truncated piece all values are empty and ok() is false.
-class Reader {
- public:
-  explicit Reader(Span<const std::byte> bytes) : bytes_(bytes) {}
-
-  bool ok() const { return ok_; }
-  bool at_end() const { return offset_ == bytes_.size(); }
-  std::size_t left() const { return bytes_.size() - offset_; }
-
-  template <class T>
-  T value() {
-    T v{};
-    if (sizeof v > left()) {
-      ok_ = false;
-      return v;
-    }
-    std::memcpy(&v, bytes_.data() + offset_, sizeof v);
-    offset_ += sizeof v;
-    return v;
-  }
-  /// A count of items of at least `min_size` bytes each.
-  std::size_t count(std::size_t min_size) {
-    const auto n = value<std::uint64_t>();
-    if (n > left() / min_size) ok_ = false;
-    return ok_ ? static_cast<std::size_t>(n) : 0;
-  }
-  template <class T>
-  std::vector<T> array() {
-    std::vector<T> values(count(sizeof(T)));
-    if (!values.empty()) std::memcpy(values.data(), bytes_.data() + offset_, values.size() * sizeof(T));
-    offset_ += values.size() * sizeof(T);
-    return values;
-  }
-  std::string text() {
-    const std::vector<char> characters = array<char>();
-    return {characters.begin(), characters.end()};
-  }
-
- private:
-  Span<const std::byte> bytes_;
-  std::size_t offset_ = 0;
-  bool ok_ = true;
-};
 
 bool indices_valid(const TriangleMesh& mesh) {
   for (const Face& face : mesh.faces)
@@ -82,14 +16,14 @@ bool indices_valid(const TriangleMesh& mesh) {
   return true;
 }
 
-void write_faults(const MeshFaults& f, Writer& out) {
+void write_faults(const MeshFaults& f, ByteWriter& out) {
   for (const std::size_t count : {f.welded_vertices, f.degenerate_faces, f.boundary_edges, f.nonmanifold_edges,
                                   f.misoriented_edges, f.open_edges})
     out.value<std::uint64_t>(count);
   out.value<std::uint8_t>(f.inside_out ? 1 : 0);
 }
 
-MeshFaults read_faults(Reader& in) {
+MeshFaults read_faults(ByteReader& in) {
   MeshFaults f;
   for (std::size_t* count : {&f.welded_vertices, &f.degenerate_faces, &f.boundary_edges, &f.nonmanifold_edges,
                              &f.misoriented_edges, &f.open_edges})
@@ -98,7 +32,7 @@ MeshFaults read_faults(Reader& in) {
   return f;
 }
 
-void write_component(const Component& c, std::uint32_t mesh, Writer& out) {
+void write_component(const Component& c, std::uint32_t mesh, ByteWriter& out) {
   out.text(c.name);
   out.value(mesh);
   out.value(c.assembly_from_mesh);
@@ -110,7 +44,7 @@ void write_component(const Component& c, std::uint32_t mesh, Writer& out) {
 }  // namespace
 
 void write_assembly_bytes(const Assembly& assembly, const ByteSink& sink) {
-  Writer out(sink);
+  ByteWriter out(sink);
   out.text(assembly.source_file);
   out.text(assembly.source_sha256);
   out.text(assembly.source_units);
@@ -138,7 +72,7 @@ void write_assembly_bytes(const Assembly& assembly, const ByteSink& sink) {
 }
 
 std::optional<Assembly> assembly_from_bytes(Span<const std::byte> bytes) {
-  Reader in(bytes);
+  ByteReader in(bytes);
   Assembly assembly;
   assembly.source_file = in.text();
   assembly.source_sha256 = in.text();

@@ -2,17 +2,13 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/assembly/byte_stream.h"
 #include "dismantle/core/result.h"
-#include "dismantle/core/span.h"
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 
 namespace dismantle {
-
-/// Receives the next piece of a byte stream.
-using ByteSink = std::function<void(const void* data, std::size_t size)>;
 
 /// Serialises an assembly exactly, each shared mesh once, in native byte order: for another process of the same
 /// program, not for files.

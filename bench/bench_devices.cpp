@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plays the same motions on the CPU and on the CUDA device: compares every step bit for bit, and times both.
+//   bench_devices [--method certificates|streams]... [--triangles N] [--threads N] [--steps N] [--repeats N]
+//                 [--response stop|touch|slide] [--samples FOLDER] [--emulate] [--json FILE] [SCENE...]
+// One row a scene and method, tab-separated: wall times of a step on the CPU, then on the device; ratio: mean step of
+// the CPU over that of the device. The first step of each move, which builds the front, is not in these times; the
+// longest of them is first_ms. --repeats plays so often on the device, and compares each play. --emulate takes the
+// emulated device in place of CUDA. --json appends one line a row. Exit code 1 if any step differs.
+#include "bench/command_line.h"
+#include "bench/motion_scenes.h"
+#include "bench/timing.h"
+#include "dismantle/certificates/choose_certificate_device.h"
+#include "dismantle/exec/cuda_device.h"
+#include "dismantle/streams/choose_streams_backend.h"
+#include "dismantle/streams/streams_motion_engine.h"
+
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <thread>
+
+namespace dismantle {
+namespace {
+
+struct Settings {
+  std::vector<std::string> methods, scenes;
+  BenchSize size;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int repeats = 3;
+  bool emulate = false;
+  std::optional<ResponseKind> response;  // absent: slide where the method can, else touch
+  std::string samples_folder = DISMANTLE_SOURCE_DIR "/samples";
+  std::string json_file;
+};
+
+/// A motion played once.
+struct Play {
+  double build_ms = 0, first_ms = 0;
+  std::vector<double> ms;         // of each step but the first ones
+  std::vector<StepResult> steps;  // all
+  std::map<std::string_view, double> stage_ms;
+};
+
+std::unique_ptr<MotionEngine> make_engine(const std::string& method, const BenchScene& scene, const Settings& settings,
+                                          bool on_device) {
+  const Executor executor = settings.threads > 1 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
+  if (method == "certificates") {
+    const CertificateOptions options{executor, widest_lanes()};
+    CertificateDevice device;
+    if (on_device)
+      device.fronts = settings.emulate ? make_emulated_front_device(executor)
+                                       : std::move(make_cuda_front_device().value());
+    return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(device));
+  }
+  CollisionOptions options;
+  options.executor = executor;
+  std::unique_ptr<StreamsBackend> backend = make_host_streams_backend(scene.assembly, options);
+  if (on_device)
+    backend = settings.emulate ? make_emulated_streams_backend(scene.assembly, options, executor)
+                               : std::move(make_cuda_streams_backend(scene.assembly, options).value());
+  return make_streams_motion_engine(scene.assembly, scene.states, options, std::move(backend));
+}
+
+Play play(const std::string& method, const BenchScene& scene, const Settings& settings, bool on_device) {
+  Play made;
+  const bench::Stopwatch building;
+  const std::unique_ptr<MotionEngine> engine = make_engine(method, scene, settings, on_device);
+  made.build_ms = building.ms();
+  ResponseKind response = engine->can_respond(ResponseKind::Slide) ? ResponseKind::Slide : ResponseKind::Touch;
+  if (settings.response && engine->can_respond(*settings.response)) response = *settings.response;
+  for (const BenchMove& move : scene.moves) {
+    engine->grab(move.components);
+    for (std::size_t k = 0; k < move.targets.size(); ++k) {
+      const bench::Stopwatch stepping;
+      made.steps.push_back(engine->step(move.targets[k], response));
+      const double ms = stepping.ms();
+      if (k == 0) {
+        made.first_ms = std::max(made.first_ms, ms);
+        continue;
+      }
+      made.ms.push_back(ms);
+      for (const StageTime& stage : made.steps.back().cost.stages) made.stage_ms[stage.stage] += stage.ms;
+    }
+  }
+  return made;
+}
+
+bool same(const StepResult& a, const StepResult& b) {
+  return a.pose == b.pose && a.reached == b.reached && a.poses == b.poses && a.blocking_pairs == b.blocking_pairs &&
+         a.contact_points == b.contact_points && a.sweeps == b.sweeps && a.clearance == b.clearance &&
+         a.cost.pairs == b.cost.pairs && a.cost.triangle_pairs == b.cost.triangle_pairs && a.cost.tests == b.cost.tests;
+}
+
+/// The first step that differs; none if the plays are equal.
+std::optional<std::size_t> first_difference(const Play& a, const Play& b) {
+  for (std::size_t k = 0; k < std::min(a.steps.size(), b.steps.size()); ++k)
+    if (!same(a.steps[k], b.steps[k])) return k;
+  return a.steps.size() == b.steps.size() ? std::nullopt : std::optional(std::min(a.steps.size(), b.steps.size()));
+}
+
+std::string times_json(const Play& play) {
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "{\"build_ms\": %.3f, \"first_ms\": %.4f, \"mean_ms\": %.4f, \"median_ms\": %.4f, \"p99_ms\": %.4f, "
+                "\"max_ms\": %.4f, \"stages_ms\": {",
+                play.build_ms, play.first_ms, bench::mean(play.ms), bench::quantile(play.ms, 0.5),
+                bench::quantile(play.ms, 0.99), bench::quantile(play.ms, 1));
+  std::string json = text;
+  bool first = true;
+  for (const auto& [stage, ms] : play.stage_ms) {
+    std::snprintf(text, sizeof text, "%s\"%s\": %.4f", first ? "" : ", ", std::string(stage).c_str(),
+                  ms / static_cast<double>(std::max<std::size_t>(1, play.ms.size())));
+    json += text;
+    first = false;
+  }
+  return json + "}}";
+}
+
+/// Prints a row. @return false if a step differs
+bool compare(const std::string& method, const BenchScene& scene, const Settings& settings,
+             const std::string& device_name) {
+  const Play on_cpu = play(method, scene, settings, false);
+  std::optional<Play> best;
+  std::optional<std::size_t> difference;
+  for (int repeat = 0; repeat < settings.repeats; ++repeat) {
+    Play on_device = play(method, scene, settings, true);
+    if (!difference) difference = first_difference(on_device, on_cpu);
+    if (!best || bench::mean(on_device.ms) < bench::mean(best->ms)) best = std::move(on_device);
+  }
+  std::size_t tests = 0, device_tests = 0, replays = 0, reached = 0, front = 0, pairs = 0;
+  for (const StepResult& step : best->steps) {
+    tests += step.cost.tests;
+    device_tests += step.cost.device_tests;
+    replays += step.cost.replays;
+    reached += step.reached ? 1 : 0;
+    front = std::max(front, step.cost.pairs);
+    pairs = std::max(pairs, step.cost.triangle_pairs);
+  }
+  const double ratio = bench::mean(on_cpu.ms) / bench::mean(best->ms);
+  const std::string verdict = difference ? "differ at step " + std::to_string(*difference) : "equal";
+  std::printf("%s\t%zu\t%s\t%zu\t%s\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.2f\t%zu\t%zu\t%zu\t%zu\n",
+              scene.name.c_str(), triangle_count(scene.assembly), method.c_str(), best->steps.size(), verdict.c_str(),
+              on_cpu.first_ms, bench::quantile(on_cpu.ms, 0.5), bench::quantile(on_cpu.ms, 0.99),
+              bench::quantile(on_cpu.ms, 1), best->first_ms, bench::quantile(best->ms, 0.5),
+              bench::quantile(best->ms, 0.99), bench::quantile(best->ms, 1), ratio, front, pairs, tests, device_tests);
+  std::fflush(stdout);
+  if (!settings.json_file.empty()) {
+    std::FILE* file = std::fopen(settings.json_file.c_str(), "a");
+    if (file != nullptr) {
+      std::fprintf(file,
+                   "{\"scene\": \"%s\", \"triangles\": %zu, \"method\": \"%s\", \"steps\": %zu, \"reached\": %zu, "
+                   "\"plays\": %d, \"equal\": %s, \"device\": \"%s\", \"cpu_threads\": %d, \"cpu\": %s, "
+                   "\"on_device\": %s, \"max_front\": %zu, \"max_triangle_pairs\": %zu, \"tests\": %zu, "
+                   "\"device_tests\": %zu, \"replays\": %zu}\n",
+                   scene.name.c_str(), triangle_count(scene.assembly), method.c_str(), best->steps.size(), reached,
+                   settings.repeats, difference ? "false" : "true", device_name.c_str(), settings.threads,
+                   times_json(on_cpu).c_str(), times_json(*best).c_str(), front, pairs, tests, device_tests, replays);
+      std::fclose(file);
+    }
+  }
+  return !difference;
+}
+
+bool parse(int argc, char** argv, Settings& settings) {
+  std::string usage =
+      "bench_devices [--method certificates|streams]... [--triangles N] [--threads N] [--steps N] [--repeats N]\n"
+      "              [--response stop|touch|slide] [--samples FOLDER] [--emulate] [--json FILE] [SCENE...]\n"
+      "scenes:";
+  for (const std::string& name : bench_scene_names()) usage += " " + name;
+  bench::CommandLine line(usage);
+  line.choices("--method", settings.methods, {{"certificates", "certificates"}, {"streams", "streams"}});
+  line.option("--triangles", settings.size.triangles, 1);
+  line.option("--threads", settings.threads, 1);
+  line.option("--steps", settings.size.steps, 1);
+  line.option("--repeats", settings.repeats, 1);
+  line.choice("--response", settings.response,
+              {{"stop", ResponseKind::Stop}, {"touch", ResponseKind::Touch}, {"slide", ResponseKind::Slide}});
+  line.option("--samples", settings.samples_folder);
+  line.flag("--emulate", settings.emulate);
+  line.option("--json", settings.json_file);
+  line.words(settings.scenes);
+  if (!line.parse(argc, argv)) return false;
+  if (settings.methods.empty()) settings.methods = {"streams", "certificates"};
+  if (settings.scenes.empty()) settings.scenes = bench_scene_names();
+  return true;
+}
+
+int run(const Settings& settings) {
+  std::string device_name = "emulated";
+  if (!settings.emulate) {
+    const Result<std::string> name = cuda_device_name();
+    if (!name) {
+      std::fprintf(stderr, "bench_devices: nothing was compared (%s)\n", name.error().message.c_str());
+      return bench::kExitFailed;
+    }
+    device_name = *name;
+  }
+  std::printf(
+      "scene\ttriangles\tmethod\tsteps\tbits\tcpu_first_ms\tcpu_median\tcpu_p99\tcpu_max\tfirst_ms\tmedian\tp99\tmax\t"
+      "ratio\tfront\ttriangle_pairs\ttests\tdevice_tests\n");
+  bool all_same = true;
+  for (const std::string& name : settings.scenes) {
+    const Result<std::vector<BenchScene>> scenes = make_bench_scenes(name, settings.size, settings.samples_folder);
+    if (!scenes) {
+      std::fprintf(stderr, "bench_devices: %s\n", scenes.error().message.c_str());
+      return bench::kExitUnreadable;
+    }
+    for (const BenchScene& scene : *scenes)
+      for (const std::string& method : settings.methods)
+        all_same = compare(method, scene, settings, device_name) && all_same;
+  }
+  return all_same ? 0 : bench::kExitFailed;
+}
+
+}  // namespace
+}  // namespace dismantle
+
+int main(int argc, char** argv) {
+  dismantle::Settings settings;
+  return dismantle::parse(argc, argv, settings) ? dismantle::run(settings) : dismantle::bench::kExitUsage;
+}

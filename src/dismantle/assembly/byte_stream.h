@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/core/span.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace dismantle {
+
+/// Receives the next piece of a byte stream.
+using ByteSink = std::function<void(const void* data, std::size_t size)>;
+
+/// Writes values in native byte order.
+class ByteWriter {
+ public:
+  explicit ByteWriter(const ByteSink& sink) : sink_(sink) {}
+
+  template <class T>
+  void value(const T& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    sink_(&v, sizeof v);
+  }
+  template <class T>
+  void array(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value<std::uint64_t>(values.size());
+    if (!values.empty()) sink_(values.data(), values.size() * sizeof(T));
+  }
+  void text(const std::string& s) { array(std::vector<char>(s.begin(), s.end())); }
+
+ private:
+  const ByteSink& sink_;
+};
+
+/// Reads the bytes back; after a truncated piece all values are empty and ok() is false.
+class ByteReader {
+ public:
+  explicit ByteReader(Span<const std::byte> bytes) : bytes_(bytes) {}
+
+  bool ok() const { return ok_; }
+  bool at_end() const { return offset_ == bytes_.size(); }
+  std::size_t left() const { return bytes_.size() - offset_; }
+
+  template <class T>
+  T value() {
+    T v{};
+    if (sizeof v > left()) {
+      ok_ = false;
+      return v;
+    }
+    std::memcpy(&v, bytes_.data() + offset_, sizeof v);
+    offset_ += sizeof v;
+    return v;
+  }
+  /// A count of items of at least `min_size` bytes each.
+  std::size_t count(std::size_t min_size) {
+    const auto n = value<std::uint64_t>();
+    if (n > left() / min_size) ok_ = false;
+    return ok_ ? static_cast<std::size_t>(n) : 0;
+  }
+  template <class T>
+  std::vector<T> array() {
+    std::vector<T> values(count(sizeof(T)));
+    if (!values.empty()) std::memcpy(values.data(), bytes_.data() + offset_, values.size() * sizeof(T));
+    offset_ += values.size() * sizeof(T);
+    return values;
+  }
+  std::string text() {
+    const std::vector<char> characters = array<char>();
+    return {characters.begin(), characters.end()};
+  }
+
+ private:
+  Span<const std::byte> bytes_;
+  std::size_t offset_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace dismantle
