@@ -96,7 +96,7 @@ class DeviceCertificates : public testing::TestWithParam<TestedDevice> {
 
   /// Plays a motion on the CPU and with the device, and expects equal steps.
   QueryCounts expect_same(const Assembly& assembly, double tolerance, const Motion& motion, std::size_t min_pairs = 0) {
-    const PairStates states = states_of(assembly, tolerance);
+    const PairStates states = scenes::states_of(assembly, tolerance);
     QueryCounts counts;
     CertificateEngine plain(assembly, states);
     CertificateEngine engine(assembly, states, {}, {device(counts), min_pairs});
