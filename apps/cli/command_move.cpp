@@ -170,6 +170,7 @@ void print_text(const MoveOptions& o, const Path& path, const std::vector<MoveSu
 struct MoveEngine {
   std::unique_ptr<MotionEngine> engine;
   std::string device = "cpu";
+  std::shared_ptr<const DeviceFailure> failure;  ///< Null on the CPU.
 };
 
 MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states) {
@@ -178,14 +179,15 @@ MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const Pai
     ChosenCertificateDevice chosen = choose_certificate_device(assembly, o.common.device);
     if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
     const CertificateOptions certificates{executor, widest_lanes()};
-    return {std::make_unique<CertificateEngine>(assembly, states, certificates, std::move(chosen.use)), chosen.device};
+    return {std::make_unique<CertificateEngine>(assembly, states, certificates, std::move(chosen.use)), chosen.device,
+            chosen.failure};
   }
   CollisionOptions collision;
   collision.test = o.test.value_or(ElementaryTest::Certified);
   collision.executor = executor;
   ChosenStreamsBackend chosen = choose_streams_backend(assembly, collision, o.common.device);
   if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
-  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device};
+  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device, chosen.failure};
 }
 
 /// Adds the other members of its components' groups to a move. Unknown names are left for play_motion() to refuse.
@@ -229,6 +231,9 @@ Result<ExitCode> run(const MoveOptions& o) {
   const Result<PlayedMotion> played =
       play_motion(*assembly, *states, motion, *moving.engine, progress_printer(o.common));
   if (!played) return played.error();
+  if (moving.failure && !moving.failure->why.empty())
+    std::fprintf(stderr, "dismantle: note: the GPU failed (%s); the CPU computed the rest, with the same results\n",
+                 moving.failure->why.c_str());
   if (played->cancelled) std::fprintf(stderr, "dismantle: cancelled; the path contains the motion so far\n");
 
   const Result<Done> written = write_path(o.output, played->path);

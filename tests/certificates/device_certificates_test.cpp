@@ -9,6 +9,49 @@ using namespace scenes;
 
 INSTANTIATE_TEST_SUITE_P(On, DeviceCertificates, testing::ValuesIn(kCertificateDevices), name_of_device);
 
+/// A device that fails in its n-th call.
+class FailingDevice final : public FrontDevice {
+ public:
+  explicit FailingDevice(int calls_before) : device_(make_emulated_front_device(Executor())), left_(calls_before) {}
+  Span<const PartResults> evaluate(Span<const FrontQuery> fronts, bool exhaustive) override {
+    fail_in_time();
+    return device_->evaluate(fronts, exhaustive);
+  }
+  Span<const NodeSeparation> separate(Span<const FrontQuery> fronts, Span<const MergeCandidate> pairs) override {
+    fail_in_time();
+    return device_->separate(fronts, pairs);
+  }
+
+ private:
+  void fail_in_time() {
+    if (left_-- == 0) throw CudaError("a kernel failed (the device is lost)");
+  }
+
+  std::unique_ptr<FrontDevice> device_;
+  int left_;
+};
+
+TEST(CertificateDevice, IsGivenUpWithTheSameResultsWhereverItFails) {
+  const GearPair pair = gear_pair(0.05);
+  const SlideScene scene = meshing_gears(pair);
+  const PairStates states = states_of(scene.assembly, 0.01);
+  for (int calls = 0; calls < 12; ++calls) {
+    SCOPED_TRACE(calls);
+    const auto failure = std::make_shared<DeviceFailure>();
+    CertificateEngine plain(scene.assembly, states);
+    CertificateEngine engine(scene.assembly, states, {}, {std::make_unique<FailingDevice>(calls), 0, failure});
+    for (CertificateEngine* each : {&plain, &engine}) each->grab(std::vector<ComponentId>{scene.moving});
+    for (int k = 1; k <= 10; ++k) {
+      const StepResult a = plain.step(pair.rolled(0.01 * k, 0.2 * k), ResponseKind::Slide);
+      const StepResult b = engine.step(pair.rolled(0.01 * k, 0.2 * k), ResponseKind::Slide);
+      ASSERT_EQ(a.poses, b.poses);
+      ASSERT_EQ(a.clearance, b.clearance);
+      ASSERT_EQ(a.cost.pairs, b.cost.pairs);
+    }
+    EXPECT_EQ(failure->why, "a kernel failed (the device is lost)");
+  }
+}
+
 TEST_P(DeviceCertificates, PullPegsOutLikeTheCpu) {
   for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
     const SlideScene peg = peg_in_hole(48, 0.01);

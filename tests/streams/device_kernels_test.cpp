@@ -55,8 +55,10 @@ struct SproutedFront {
   }
   std::vector<std::uint64_t> replaced_by(const std::vector<std::uint64_t>& kept) {
     counters.kept = kept.size();
+    counters.next_front = counters.complete != 0 ? StepCapacity::front_needed(counters) : counters.front;
     Executor().for_each(8, ReplaceSprouted{&counters, kept, sprouted, front});
-    EndFront{&counters}(0);
+    std::vector<std::uint64_t> triangle_pairs(1);
+    for (int repeat = 0; repeat < 2; ++repeat) BeginNarrowPhase{&counters, triangle_pairs}(0);
     return {front.begin(), front.begin() + static_cast<long>(counters.front)};
   }
 };

@@ -43,7 +43,7 @@ class DeviceBatch final : public MotionBatch {
   double path_deviation() const { return kArcShare * tolerance_; }
   CandidateScene scene() const;
   std::vector<Pose> stations_to(const Pose& target) const;
-  std::vector<FirstContact> brought_down_contacts(const DeviceArray<CandidateContact>& found);
+  std::vector<FirstContact> brought_down_contacts(std::size_t count);
   FirstContact contact_of(const CandidateContact& found) const;
 
   Queue queue_;
@@ -60,7 +60,13 @@ class DeviceBatch final : public MotionBatch {
   DeviceArray<Vec3> vertices_;
   DeviceArray<Kdop16> bounds_;
   DeviceArray<NodeIndex> moving_roots_;
+  std::size_t moving_root_count_ = 0;
   DeviceArray<std::uint32_t> motion_class_;
+  // Of the last candidates; kept from call to call.
+  DeviceArray<Vec3> displacements_;
+  DeviceArray<RigidTransform> stations_;
+  DeviceArray<std::uint32_t> station_begin_;
+  DeviceArray<CandidateContact> found_;
   std::vector<std::uint32_t> moving_;  // motion_class_ on the host
   Pose start_;
   RigidSet set_;
@@ -83,28 +89,29 @@ void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentI
     const NodeIndex root = host_.fixed().bvh.components[c.value].root;
     if (root != kNoNode) roots.push_back(root);
   }
-  state_ = {queue_, Span<const RigidTransform>(state)};
-  vertices_ = {queue_, host_.vertices_t0()};
-  bounds_ = {queue_, host_.bounds()};
-  moving_roots_ = {queue_, Span<const NodeIndex>(roots)};
-  motion_class_ = {queue_, Span<const std::uint32_t>(moving_)};
+  upload(queue_, state_, Span<const RigidTransform>(state));
+  upload(queue_, vertices_, host_.vertices_t0());
+  upload(queue_, bounds_, host_.bounds());
+  upload(queue_, moving_roots_, Span<const NodeIndex>(roots));
+  moving_root_count_ = roots.size();
+  upload(queue_, motion_class_, Span<const std::uint32_t>(moving_));
 }
 
 template <class Queue>
 CandidateScene DeviceBatch<Queue>::scene() const {
   return {geometry_.tree(),           bounds_.view(),
           geometry_.assembled.view(), vertices_.view(),
-          geometry_.faces.view(),     moving_roots_.view(),
+          geometry_.faces.view(),     moving_roots_.view().subspan(0, moving_root_count_),
           motion_class_.view(),       {displaced_.view(), margins_.view(), state_.view(), state_.view()},
           {rule_table_.view()},       transform_from_pose(start_)};
 }
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> displacements) {
-  const DeviceArray<Vec3> device_displacements(queue_, displacements);
-  DeviceArray<CandidateContact> found(queue_, displacements.size());
-  queue_.launch(displacements.size(), SweepStraight{scene(), device_displacements.view(), found.view()});
-  return brought_down_contacts(found);
+  const std::size_t count = displacements.size();
+  const Span<const Vec3> uploaded = upload(queue_, displacements_, displacements);
+  queue_.launch(count, SweepStraight{scene(), uploaded, room_for(queue_, found_, count)});
+  return brought_down_contacts(count);
 }
 
 /// The poses that divide the screw into pieces with chords near enough to the arcs; the start first.
@@ -126,18 +133,17 @@ std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> ta
     for (const Pose& station : stations_to(target)) stations.push_back(transform_from_pose(station));
     begin.push_back(static_cast<std::uint32_t>(stations.size()));
   }
-  const DeviceArray<RigidTransform> device_stations(queue_, Span<const RigidTransform>(stations));
-  const DeviceArray<std::uint32_t> device_begin(queue_, Span<const std::uint32_t>(begin));
-  DeviceArray<CandidateContact> found(queue_, targets.size());
-  queue_.launch(targets.size(), SweepTurning{scene(), device_stations.view(), device_begin.view(), found.view()});
-  return brought_down_contacts(found);
+  const Span<const RigidTransform> uploaded = upload(queue_, stations_, Span<const RigidTransform>(stations));
+  const Span<const std::uint32_t> begins = upload(queue_, station_begin_, Span<const std::uint32_t>(begin));
+  queue_.launch(targets.size(), SweepTurning{scene(), uploaded, begins, room_for(queue_, found_, targets.size())});
+  return brought_down_contacts(targets.size());
 }
 
 template <class Queue>
-std::vector<FirstContact> DeviceBatch<Queue>::brought_down_contacts(const DeviceArray<CandidateContact>& found) {
+std::vector<FirstContact> DeviceBatch<Queue>::brought_down_contacts(std::size_t count) {
   std::vector<FirstContact> contacts;
-  contacts.reserve(found.size());
-  for (const CandidateContact& contact : brought_down(queue_, found, found.size()))
+  contacts.reserve(count);
+  for (const CandidateContact& contact : brought_down(queue_, found_, count))
     contacts.push_back(contact_of(contact));
   return contacts;
 }

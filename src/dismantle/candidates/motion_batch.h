@@ -8,6 +8,7 @@
 #include "dismantle/core/span.h"
 #include "dismantle/engine/contact.h"
 #include "dismantle/engine/device_choice.h"
+#include "dismantle/exec/cuda_device.h"
 #include "dismantle/exec/executor.h"
 
 #include <memory>
@@ -41,6 +42,8 @@ struct ChosenMotionBatch {
   std::unique_ptr<MotionBatch> batch;  ///< Ready for set_state().
   std::string device;                  ///< "cpu", or the CUDA device's name.
   std::string why;                     ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
+  /// Says if the device failed later and the CPU took over; null on the CPU.
+  std::shared_ptr<const DeviceFailure> failure;
 };
 
 /// Makes a batch for an assembly, which must outlive it. DeviceChoice::Auto takes a CUDA device if there is one.

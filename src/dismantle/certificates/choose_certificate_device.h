@@ -13,6 +13,8 @@ struct ChosenCertificateDevice {
   CertificateDevice use;  ///< For the engine.
   std::string device;     ///< "cpu", or the name of the CUDA device.
   std::string why;        ///< If CUDA was requested and the CPU chosen: the reason; else empty.
+  /// Says while the engine runs if its device failed and the CPU took over; null on the CPU.
+  std::shared_ptr<const DeviceFailure> failure;
 };
 
 ///@{ Thresholds of DeviceChoice::Auto: triangles of an assembly, and pairs of a sweep, from which on it uses a CUDA

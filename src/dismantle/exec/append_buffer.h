@@ -11,8 +11,8 @@
 namespace dismantle {
 
 /// A view of a buffer that kernels append to, on CPU threads and CUDA. Values past the capacity are counted but not
-/// stored, so that no loss goes unnoticed. Positions are taken by one atomic addition (the global lock of Du et al.
-/// 2015, section 4.3).
+/// stored, so that no loss goes unnoticed. Positions are taken by atomic additions (the global lock of Du et al. 2015,
+/// section 4.3).
 template <class T>
 class AppendView {
  public:
@@ -20,8 +20,12 @@ class AppendView {
   /// @param needed counts the values that are appended, stored or not
   DISMANTLE_HOST_DEVICE AppendView(Span<T> storage, std::uint64_t* needed) : storage_(storage), needed_(needed) {}
 
-  /// Appends one value.
+  /// Appends one value, with one addition (the global lock of the paper).
   DISMANTLE_HOST_DEVICE void append(const T& value) const { put(take(1), value); }
+
+  /// As append(), with one addition for all threads of a warp that append together.
+  /// @pre all of these append to the same buffer
+  DISMANTLE_HOST_DEVICE void append_together(const T& value) const { put(atomic_count(needed_), value); }
 
   /// Appends values with one addition.
   void append(Span<const T> values) const {

@@ -19,9 +19,12 @@ inline void check_cuda(cudaError_t error, const char* call) {
   if (error != cudaSuccess) throw CudaError(std::string(call) + " failed (" + cudaGetErrorString(error) + ")");
 }
 
+/// Threads of a block of run_items.
+inline constexpr unsigned kThreadsPerBlock = 128;
+
 /// Runs a body with one thread per item.
 template <class Body>
-__global__ void run_items(std::size_t count, const Body body) {
+__global__ void __launch_bounds__(kThreadsPerBlock) run_items(std::size_t count, const Body body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i < count) body(i);
 }
@@ -106,8 +109,6 @@ class CudaQueue {
   void wait() { check_cuda(cudaStreamSynchronize(state_->stream), "a kernel or a copy"); }
 
  private:
-  static constexpr unsigned kThreadsPerBlock = 128;
-
   struct State {
     cudaStream_t stream = nullptr;
     cudaEvent_t marks[kMarkCount] = {};
@@ -129,10 +130,17 @@ class CudaQueue {
   template <class Enqueue>
   void record(Recording& recording, const Enqueue& enqueue) {
     check_cuda(cudaStreamBeginCapture(state_->stream, cudaStreamCaptureModeThreadLocal), "cudaStreamBeginCapture");
-    state_->recording = true;
-    enqueue();
-    state_->recording = false;
     cudaGraph_t graph = nullptr;
+    state_->recording = true;
+    try {
+      enqueue();
+    } catch (...) {
+      state_->recording = false;
+      cudaStreamEndCapture(state_->stream, &graph);  // the stream must not stay in capture
+      if (graph != nullptr) cudaGraphDestroy(graph);
+      throw;
+    }
+    state_->recording = false;
     check_cuda(cudaStreamEndCapture(state_->stream, &graph), "cudaStreamEndCapture");
     cudaGraphExec_t executable = nullptr;
     const cudaError_t made = cudaGraphInstantiate(&executable, graph, 0);

@@ -41,6 +41,22 @@ class DeviceArray {
   std::size_t size_ = 0;
 };
 
+/// The first `count` values of an array that is made larger where it is too small; then its content is lost.
+template <class T, class Queue>
+Span<T> room_for(Queue& queue, DeviceArray<T>& array, std::size_t count) {
+  if (array.size() < count) array = DeviceArray<T>(std::as_const(queue), count + count / 2);
+  return array.view().subspan(0, count);
+}
+
+/// Copies values of the host to the beginning of an array, as room_for() gives it. Returns when the copy is made.
+template <class T, class Queue>
+Span<const T> upload(Queue& queue, DeviceArray<T>& array, Span<const T> values) {
+  const Span<T> room = room_for(queue, array, values.size());
+  queue.copy_up(room.data(), values.data(), values.size() * sizeof(T));
+  queue.wait();
+  return room;
+}
+
 /// An array on the host and its mirror on a device, for values that one writes and the other reads.
 template <class T>
 class MirroredArray {

@@ -18,9 +18,38 @@ DISMANTLE_HOST_DEVICE inline std::uint64_t atomic_add(std::uint64_t* counter, st
 #endif
 }
 
+/// As atomic_add(counter, each). On CUDA, the threads of a warp that arrive together make one addition ("warp
+/// aggregation"). @pre all of these have the same counter and the same `each`
+DISMANTLE_HOST_DEVICE inline std::uint64_t atomic_count(std::uint64_t* counter, std::uint32_t each = 1) {
+#if defined(__CUDA_ARCH__)
+  const unsigned group = __activemask(), lane = threadIdx.x % 32;
+  const int first = __ffs(static_cast<int>(group)) - 1;
+  unsigned long long before = 0;
+  if (static_cast<int>(lane) == first)
+    before = atomicAdd(reinterpret_cast<unsigned long long*>(counter), each * static_cast<unsigned long long>(__popc(group)));
+  return __shfl_sync(group, before, first) + each * static_cast<unsigned>(__popc(group & ((1u << lane) - 1)));
+#else
+  return atomic_add(counter, each);
+#endif
+}
+
+/// Adds to a counter whose old value is not needed. On CUDA, the threads of a warp that arrive together make one
+/// addition. @pre all of these have the same counter; their sum is below 2^32
+DISMANTLE_HOST_DEVICE inline void atomic_sum(std::uint64_t* counter, std::uint32_t value) {
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+  const unsigned group = __activemask(), lane = threadIdx.x % 32;
+  const unsigned sum = __reduce_add_sync(group, value);
+  if (static_cast<int>(lane) == __ffs(static_cast<int>(group)) - 1) atomic_add(counter, sum);
+#else
+  atomic_add(counter, value);
+#endif
+}
+
 /// Sets a word to the smaller of itself and `value`, without ordering other memory accesses.
 DISMANTLE_HOST_DEVICE inline void atomic_lower(std::uint64_t* word, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
+  // A word only gets smaller: what is no smaller than an old value of it need not be written.
+  if (value >= *reinterpret_cast<volatile std::uint64_t*>(word)) return;
   atomicMin(reinterpret_cast<unsigned long long*>(word), static_cast<unsigned long long>(value));
 #else
   const std::atomic_ref<std::uint64_t> shared(*word);

@@ -7,8 +7,11 @@
 
 namespace dismantle {
 
-/// Visits that an item may make before it leaves its remaining pairs to the next round.
+///@{ Visits that an item may make before it leaves its remaining pairs to the next round: on CPU threads, and on a
+/// device, where a warp waits for its longest thread. What is appended does not depend on it.
 inline constexpr int kFrontWorkBudget = 512;
+inline constexpr int kDeviceFrontWorkBudget = 24;
+///@}
 /// Size of the stack of the depth-first traversal; pairs that do not fit are left to the next round, too.
 inline constexpr int kFrontStackSize = 96;
 
@@ -26,6 +29,7 @@ struct FrontSproutKernel {
   Span<const Kdop16> bounds;               ///< Of the whole step, shape [node_count] [world].
   Span<const std::uint32_t> motion_class;  ///< Equal for components without relative motion, shape [component_count].
   Span<const std::uint64_t> items;         ///< Keys of the front's nodes, or those left by the round before.
+  int work_budget = kFrontWorkBudget;      ///< Visits of an item.
 
   /// First round: item i is a node of the front.
   template <class Sink>
@@ -77,7 +81,7 @@ struct FrontSproutKernel {
   DISMANTLE_HOST_DEVICE void descend(NodePair p, Sink& sink) const {
     NodePair stack[kFrontStackSize];
     int open = 0;
-    int budget = kFrontWorkBudget;
+    int budget = work_budget;
     stack[open++] = p;
     while (open > 0) {
       const NodePairChildren next = expanded(tree, bounds, stack[--open]);

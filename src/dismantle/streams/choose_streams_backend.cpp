@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/streams/choose_streams_backend.h"
 
-#include "dismantle/exec/cuda_device.h"
+#include "dismantle/streams/fallback_streams_backend.h"
 
 namespace dismantle {
 
@@ -12,7 +12,11 @@ ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const Coll
       (choice == DeviceChoice::Auto && triangle_count(assembly) >= kCudaWorthTriangles)) {
     const Result<std::string> name = cuda_device_name();
     Result<std::unique_ptr<StreamsBackend>> backend = make_cuda_streams_backend(assembly, options);
-    if (name && backend) return {std::move(*backend), *name, ""};
+    if (name && backend) {
+      auto failure = std::make_shared<DeviceFailure>();
+      const auto make_other = [&assembly, options] { return make_host_streams_backend(assembly, options); };
+      return {std::make_unique<FallbackStreamsBackend>(std::move(*backend), make_other, failure), *name, "", failure};
+    }
     if (choice == DeviceChoice::Cuda) chosen.why = backend.error().message;
   }
   chosen.backend = make_host_streams_backend(assembly, options);

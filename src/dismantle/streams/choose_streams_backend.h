@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/engine/device_choice.h"
+#include "dismantle/exec/cuda_device.h"
 #include "dismantle/streams/streams_backend.h"
 
 #include <memory>
@@ -14,6 +15,8 @@ struct ChosenStreamsBackend {
   std::unique_ptr<StreamsBackend> backend;  ///< All components in the assembled state.
   std::string device;                       ///< "cpu", or the CUDA device's name.
   std::string why;  ///< DeviceChoice::Cuda: the reason for running on the CPU instead; else empty.
+  /// Says while the backend runs if its device failed and the CPU took over; null on the CPU.
+  std::shared_ptr<const DeviceFailure> failure;
 };
 
 /// Number of triangles from which DeviceChoice::Auto takes a CUDA device: a step then takes milliseconds on a CPU

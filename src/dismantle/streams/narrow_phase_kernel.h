@@ -88,9 +88,9 @@ DISMANTLE_HOST_DEVICE inline bool overlap_by_less(const Kdop16& a, const Kdop16&
 }
 
 /// The end of the round of the narrow phase that begins at triangle pair `begin`. S_t is tested in rounds, so that
-/// later rounds can omit the time after the first contacts.
+/// later rounds can omit the time after the first contacts. The first one fills a GPU.
 DISMANTLE_HOST_DEVICE inline std::size_t narrow_phase_round_end(std::size_t begin) {
-  constexpr std::size_t kFirstRound = 512, kRoundGrowth = 4;
+  constexpr std::size_t kFirstRound = 16'384, kRoundGrowth = 4;
   return begin + (kRoundGrowth * begin > kFirstRound ? kRoundGrowth * begin : kFirstRound);
 }
 

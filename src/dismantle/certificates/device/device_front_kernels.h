@@ -125,9 +125,10 @@ struct PairSink {
   Span<PairResult> results;  ///< Their results.
   std::uint64_t* needed;     ///< SweepCounters::needed.
 
-  /// Reserves room for `count` pairs; if there is none, only counts them. @return index of the first; none for no room
+  /// Reserves room for `count` pairs; if there is none, only counts them. All threads that reserve at one place in a
+  /// kernel reserve the same number. @return index of the first; none for no room
   DISMANTLE_HOST_DEVICE std::uint32_t reserve(std::uint32_t count) const {
-    const std::uint64_t first = atomic_add(needed, count);
+    const std::uint64_t first = atomic_count(needed, count);
     if (first + count <= pairs.size()) return static_cast<std::uint32_t>(first);
     for (std::uint64_t k = first; k < pairs.size(); ++k) put(static_cast<std::uint32_t>(k), {}, 0, PairResult::kNone);
     return PairResult::kNone;
@@ -147,7 +148,7 @@ struct TestSink {
 
   /// Adds a test; if there is no room, only counts it. @return its index; none for no room
   DISMANTLE_HOST_DEVICE std::uint32_t append(const TrianglePairRequest& test) const {
-    const std::uint64_t index = atomic_add(needed, 1);
+    const std::uint64_t index = atomic_count(needed);
     if (index >= tests.size()) return PairResult::kNone;
     tests[index] = test;
     return static_cast<std::uint32_t>(index);

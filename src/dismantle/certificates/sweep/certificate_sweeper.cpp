@@ -169,18 +169,13 @@ CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double win
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (std::size_t part = 0; part < pairs[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
-  Span<const PartResults> known;
-  const bool by_device = uses_device(pairs);
-  if (by_device) {
-    merge_by_device(pairs, tasks);
-    known = device_.fronts->evaluate(front_queries(pairs), budget == SweepBudget::Exhaustive);
-  }
+  const DeviceResults by_device = ask_device(pairs, tasks, budget);
   for_each_part(tasks.size(), [&](std::size_t i) {
     const PairSweep& pair = pairs[tasks[i].pair];
-    if (!by_device) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
+    if (!by_device.merged) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
     tasks[i].found =
         pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, triangle_pair_test(pair, tasks[i], window),
-                               by_device ? &known[i] : nullptr);
+                               by_device.parts.empty() ? nullptr : &by_device.parts[i]);
   });
 
   collect(tasks, pairs, result);
@@ -215,6 +210,22 @@ bool CertificateSweeper::uses_device(const std::vector<PairSweep>& pairs) const 
   std::size_t size = 0;
   for (const PairSweep& pair : pairs) size += pair.front->size();
   return size >= device_.min_pairs;
+}
+
+CertificateSweeper::DeviceResults CertificateSweeper::ask_device(const std::vector<PairSweep>& pairs,
+                                                                 const std::vector<PartTask>& tasks,
+                                                                 SweepBudget budget) {
+  DeviceResults results;
+  if (!uses_device(pairs)) return results;
+  try {
+    merge_by_device(pairs, tasks);
+    results.merged = true;
+    results.parts = device_.fronts->evaluate(front_queries(pairs), budget == SweepBudget::Exhaustive);
+  } catch (const CudaError& error) {
+    device_.fronts = nullptr;
+    if (device_.failure) device_.failure->why = error.what();
+  }
+  return results;
 }
 
 std::vector<FrontQuery> CertificateSweeper::front_queries(const std::vector<PairSweep>& pairs) {

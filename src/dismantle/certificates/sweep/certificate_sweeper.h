@@ -160,6 +160,13 @@ class CertificateSweeper {
   std::vector<PairSweep> prepare_pairs(const ScrewMotion& motion, SweepBudget budget, CertificateSweep& result);
   /// True if there is a device, and the fronts are large enough for it.
   bool uses_device(const std::vector<PairSweep>& pairs) const;
+  /// What the device did for a sweep.
+  struct DeviceResults {
+    bool merged = false;            ///< It merged the parts.
+    Span<const PartResults> parts;  ///< Of each part; empty if the device is not used, or has failed.
+  };
+  /// Merges and evaluates on the device, if it is used. A device that fails is given up.
+  DeviceResults ask_device(const std::vector<PairSweep>& pairs, const std::vector<PartTask>& tasks, SweepBudget budget);
   static std::vector<FrontQuery> front_queries(const std::vector<PairSweep>& pairs);
   /// Merges the parts, with separations that the device computes.
   void merge_by_device(const std::vector<PairSweep>& pairs, const std::vector<PartTask>& tasks);

@@ -72,6 +72,64 @@ Geometry::Geometry(Queue& queue, const AssemblyTriangles& fixed)
       key_bits(32 + static_cast<int>(std::bit_width(leaf_count))),
       first_front_node(top_begin < fixed.bvh.node_count() ? pair_key(fixed.bvh.root(), fixed.bvh.root()) : kDeadNode) {}
 
+/// A view of what a step uploads, on the host or the device.
+class UploadView {
+ public:
+  /// Words of 8 bytes for so many components.
+  static std::size_t word_count(std::size_t components) {
+    return components * (2 * kTransformWords + 1) + (components + 1) / 2 + 1;
+  }
+
+  /// @param words the memory, word_count() of them
+  UploadView(Span<std::uint64_t> words, std::size_t components) : words_(words.data()), count_(components) {}
+
+  ///@{ S_tm at the start and the end of the step: world from assembled, shape [component_count].
+  Span<RigidTransform> start() const { return at<RigidTransform>(0); }
+  Span<RigidTransform> end() const { return at<RigidTransform>(kTransformWords * count_); }
+  ///@}
+  /// Shape [component_count].
+  Span<ComponentStep> components() const { return at<ComponentStep>(2 * kTransformWords * count_); }
+  /// Equal for components without relative motion, shape [component_count].
+  Span<std::uint32_t> motion_class() const { return at<std::uint32_t>((2 * kTransformWords + 1) * count_); }
+  /// Of the whole step.
+  StepInput& input() const { return *reinterpret_cast<StepInput*>(words_ + word_count(count_) - 1); }
+
+ private:
+  static constexpr std::size_t kTransformWords = sizeof(RigidTransform) / sizeof(std::uint64_t);
+  static_assert(sizeof(ComponentStep) == sizeof(std::uint64_t) && sizeof(StepInput) <= sizeof(std::uint64_t));
+
+  template <class T>
+  Span<T> at(std::size_t word) const {
+    return {reinterpret_cast<T*>(words_ + word), count_};
+  }
+
+  std::uint64_t* words_;
+  std::size_t count_;
+};
+
+/// All that a step uploads, in one copy.
+class Upload {
+ public:
+  /// Uninitialized. @param queue allocates the memory
+  template <class Queue>
+  Upload(Queue& queue, std::size_t components)
+      : words_(queue, UploadView::word_count(components)), components_(components) {}
+
+  ///@{ The content on the host and on the device.
+  UploadView on_host() { return {words_.on_host(), components_}; }
+  UploadView on_device() { return {words_.on_device(), components_}; }
+  ///@}
+  /// Enqueues the copy from the host to the device.
+  template <class Queue>
+  void copy_up(Queue& queue) {
+    words_.copy_up(queue);
+  }
+
+ private:
+  MirroredArray<std::uint64_t> words_;
+  std::size_t components_;
+};
+
 /// The arrays that kernels append to, and those derived from them. Full arrays grow, and the step is run again.
 class Buffers {
  public:

@@ -23,7 +23,7 @@ struct StepInput {
   std::uint32_t restart_front = 0;  ///< Not 0: the front is restarted from the root.
 };
 
-inline constexpr int kFrontRounds = 4;  ///< Rounds after the first that are enqueued at once.
+inline constexpr int kFrontRounds = 6;  ///< Rounds after the first that are enqueued at once.
 inline constexpr int kNarrowRounds =
     16;  ///< More rounds than any number of pairs needs: they grow by a factor of five.
 inline constexpr std::size_t kReportedContacts = 256;  ///< Contacts that are downloaded with the counts.
@@ -44,6 +44,7 @@ DISMANTLE_HOST_DEVICE inline double time_of_word(std::uint64_t word) {
 /// The counts of a step. Values appended are counted even if there was no room for them.
 struct StepCounters {
   std::uint64_t front = 0;                          ///< Nodes of S_f including dead ones; kept from step to step.
+  std::uint64_t next_front = 0;                     ///< Nodes of S_f after the step.
   std::uint64_t triangle_pairs = 0;                 ///< S_t
   std::uint64_t kept = 0;                           ///< New nodes of the front.
   std::uint64_t sprouted = 0;                       ///< Nodes of the front that are replaced.
@@ -65,15 +66,15 @@ struct StepReport {
 /// Key of a dead node of the front, in the slot of a node that was sprouted without replacement. Never a pair of nodes.
 inline constexpr std::uint64_t kDeadNode = ~std::uint64_t{0};
 
-/// Clears the counts, and restarts the front if asked to. One item.
+/// Clears the counts, and restarts the front if asked to.
 struct BeginStep {
   StepCounters* counters;     ///< Output: all 0, except for `front`.
   const StepInput* input;     ///< The step.
   Span<std::uint64_t> front;  ///< Storage of S_f.
   std::uint64_t root;         ///< The front's first node; kDeadNode if there is none.
 
-  /// The item.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
+  /// Does it.
+  DISMANTLE_HOST_DEVICE void operator()() const {
     std::uint64_t nodes = counters->front;
     if (input->restart_front != 0) {
       nodes = root == kDeadNode ? 0 : 1;
@@ -84,8 +85,9 @@ struct BeginStep {
   }
 };
 
-/// S_v0, S_tm -> S_v(n+1). Item: a vertex.
+/// S_v0, S_tm -> S_v(n+1). Item: a vertex; at least one, which also begins the step.
 struct MoveVertices {
+  BeginStep begin;                         ///< Touches nothing that vertices need.
   Span<const ComponentStep> components;    ///< Shape [component_count].
   Span<const RigidTransform> next;         ///< S_tm: world from assembled, shape [component_count].
   Span<const std::uint32_t> component_of;  ///< Shape [vertex_count].
@@ -94,6 +96,8 @@ struct MoveVertices {
 
   /// Vertex v.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t v) const {
+    if (v == 0) begin();
+    if (v >= component_of.size()) return;
     const std::uint32_t component = component_of[v];
     if (components[component].make_vertices != 0) VertexUpdateKernel{next[component], assembled, moved}(v);
   }
@@ -129,8 +133,9 @@ struct FitBounds {
   }
 };
 
-/// Sink of FrontSproutKernel that appends by one atomic addition a value: the paper's global lock. Pairs without
-/// relative motion are dropped, as the front is restarted when that changes.
+/// Sink of FrontSproutKernel that appends with one atomic addition for the threads of a warp that append together (the
+/// paper's global lock: one a value; docs/gpu.md compares them). Pairs without relative motion are dropped, as the front
+/// is restarted when that changes.
 struct FrontSink {
   AppendView<std::uint64_t> triangle_pairs;  ///< S_t, keys.
   AppendView<std::uint64_t> kept;            ///< Keys of new nodes.
@@ -138,11 +143,11 @@ struct FrontSink {
   AppendView<std::uint64_t> pending;         ///< Keys for the next round.
 
   ///@{ See FrontSproutKernel.
-  DISMANTLE_HOST_DEVICE void sprout(std::size_t index) const { sprouted.append(index); }
-  DISMANTLE_HOST_DEVICE void keep(std::uint64_t key) const { kept.append(key); }
+  DISMANTLE_HOST_DEVICE void sprout(std::size_t index) const { sprouted.append_together(index); }
+  DISMANTLE_HOST_DEVICE void keep(std::uint64_t key) const { kept.append_together(key); }
   DISMANTLE_HOST_DEVICE void rest(std::uint64_t) const {}
-  DISMANTLE_HOST_DEVICE void triangle_pair(std::uint64_t key) const { triangle_pairs.append(key); }
-  DISMANTLE_HOST_DEVICE void pend(std::uint64_t key) const { pending.append(key); }
+  DISMANTLE_HOST_DEVICE void triangle_pair(std::uint64_t key) const { triangle_pairs.append_together(key); }
+  DISMANTLE_HOST_DEVICE void pend(std::uint64_t key) const { pending.append_together(key); }
   ///@}
 };
 
@@ -204,14 +209,16 @@ struct StepCapacity {
   }
 };
 
-/// Sets `complete` if nothing is pending and all arrays were large enough. One item.
+/// Sets `complete` if nothing is pending and all arrays were large enough, and the size of the front after the step.
+/// One item.
 struct CompleteFront {
-  StepCounters* counters;  ///< Its `complete` is set.
+  StepCounters* counters;  ///< Its `complete` and `next_front` are set.
   StepCapacity capacity;   ///< Of the arrays.
 
   /// The item.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
     counters->complete = counters->pending[kFrontRounds] == 0 && capacity.fits_front(*counters) ? 1 : 0;
+    counters->next_front = counters->complete != 0 ? StepCapacity::front_needed(*counters) : counters->front;
   }
 };
 
@@ -234,33 +241,18 @@ struct ReplaceSprouted {
   }
 };
 
-/// Sets the new size of the front, if it is complete. One item.
-struct EndFront {
-  StepCounters* counters;  ///< Its `front` is set.
-
-  /// The item.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
-    if (counters->complete != 0) counters->front = StepCapacity::front_needed(*counters);
-  }
-};
-
-/// Fills the unused slots of S_t with the largest key, so that all of it can be sorted. Item: a slot.
-struct PadTrianglePairs {
-  const StepCounters* counters;        ///< Its `triangle_pairs` slots are in use.
-  Span<std::uint64_t> triangle_pairs;  ///< Storage of S_t.
+/// Ends the front and begins the narrow phase: sets the size of the front, clears the counts of the narrow phase, and
+/// fills the unused slots of S_t with the largest key, so that they can be sorted. May be repeated. Item: a slot; at
+/// least one.
+struct BeginNarrowPhase {
+  StepCounters* counters;              ///< Its `triangle_pairs` slots are in use.
+  Span<std::uint64_t> triangle_pairs;  ///< The slots of S_t that are sorted.
 
   /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     if (i >= counters->triangle_pairs) triangle_pairs[i] = ~std::uint64_t{0};
-  }
-};
-
-/// Clears the counts of the narrow phase. One item.
-struct BeginNarrowPhase {
-  StepCounters* counters;  ///< The counts.
-
-  /// The item.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const {
+    if (i > 0) return;
+    counters->front = counters->next_front;
     counters->contacts = counters->intersections = counters->tests = counters->reported = 0;
     for (std::uint64_t& word : counters->first_toi) word = word_of_time(1);
   }
@@ -282,12 +274,12 @@ struct NarrowSink {
 
   ///@{ See NarrowPhaseKernel.
   DISMANTLE_HOST_DEVICE void contact(const TrianglePairContact& found) const {
-    contacts.append(found);
+    contacts.append_together(found);
     atomic_lower(&counters->first_toi[round + 1], word_of_time(found.toi));
   }
-  DISMANTLE_HOST_DEVICE void intersection(std::uint64_t key) const { intersections.append(key); }
+  DISMANTLE_HOST_DEVICE void intersection(std::uint64_t key) const { intersections.append_together(key); }
   DISMANTLE_HOST_DEVICE void tested(std::size_t count) const {
-    if (count > 0) atomic_add(&counters->tests, count);
+    if (count > 0) atomic_sum(&counters->tests, static_cast<std::uint32_t>(count));
   }
   ///@}
 };
@@ -316,7 +308,7 @@ struct ReportFirstContacts {
 
   /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    if (i < counters->contacts && contacts[i].toi <= horizon_of(*counters, kNarrowRounds)) reported.append(contacts[i]);
+    if (i < counters->contacts && contacts[i].toi <= horizon_of(*counters, kNarrowRounds)) reported.append_together(contacts[i]);
   }
 };
 

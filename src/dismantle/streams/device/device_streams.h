@@ -13,7 +13,7 @@ namespace dismantle {
 
 /// All streams of method `streams` in a device's memory (Du et al. 2015, figure 3): only S_tm is uploaded and only
 /// contacts are downloaded. A step replays one recording of launches and waits once; it is run again if an array was
-/// full, and continued if the front needs more rounds than are recorded.
+/// full, and continued if the front needs more rounds, or S_t more room, than are recorded.
 ///
 /// @tparam Queue the device: HostQueue or CudaQueue
 template <class Queue>
@@ -33,17 +33,18 @@ class DeviceStreams {
   void commit();
   void jump(Span<const RigidTransform> state);
   Span<const RigidTransform> state() const { return matrices_.start(); }
-  std::vector<std::uint64_t> triangle_pairs() {
-    return brought_down(queue_, buffers_.sorted_pairs, counters().triangle_pairs);
-  }
+  std::vector<std::uint64_t> triangle_pairs();
   ///@}
 
  private:
   enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
+  static constexpr std::size_t kMinPairRoom = 2048;
+  static constexpr std::size_t kRoomForFewPairs = 8;     // of the pairs: more room is taken back
+  static constexpr int kStepsBeforeLessRoom = 64;
 
   const device_code::StepCounters& counters() const { return report_.on_host()[0].counters; }
   device_code::StepCounters* shared_counters() { return &report_.on_device().data()->counters; }
-  FrontSproutKernel front_kernel(Span<const std::uint64_t> items) const;
+  FrontSproutKernel front_kernel(Span<const std::uint64_t> items);
   device_code::FrontSink front_sink(int round);
 
   void set_vertices_input(Span<const RigidTransform> next);
@@ -53,6 +54,10 @@ class DeviceStreams {
   void enqueue_rounds();
   void enqueue_front_end();
   void enqueue_narrow_phase();
+  /// True if all triangle pairs are tested in one round of the narrow phase: then their order does not matter.
+  bool one_round() const { return pair_room_ <= narrow_phase_round_end(0); }
+  bool grow_pair_room();
+  void watch_pair_count();
   void run_step();
   bool finish_front();
   void forget_recordings();
@@ -69,10 +74,7 @@ class DeviceStreams {
   DeviceArray<Vec3> displaced_;  // of the ghosts
   DeviceArray<float> margins_;   // of the leaves
   DeviceArray<PairRuleEntry> rules_;
-  MirroredArray<RigidTransform> transforms_[2];  // S_tm at the start and the end of the step
-  MirroredArray<device_code::ComponentStep> components_;
-  MirroredArray<std::uint32_t> motion_class_;
-  MirroredArray<device_code::StepInput> input_;
+  device_code::Upload upload_;
   MirroredArray<device_code::StepReport> report_;
   device_code::Buffers buffers_;
 
@@ -83,6 +85,8 @@ class DeviceStreams {
   std::size_t fresh_size_ = 0;  // of the front after the last restart
   std::size_t excess_ = 0;      // visits beyond that since then, summed over the steps
   std::size_t replays_ = 0;     // of the last step
+  std::size_t pair_room_;       // triangle pairs that the recordings sort and test
+  int steps_with_few_pairs_ = 0;
 };
 
 template <class Queue>
@@ -96,13 +100,10 @@ DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed,
                 DeviceArray<Vec3>(queue_, Span<const Vec3>(fixed.vertices))},
       bounds_(queue_, bounds),
       arrivals_(queue_, Span<const std::uint32_t>(std::vector<std::uint32_t>(fixed.bvh.children.size(), 0))),
-      transforms_{MirroredArray<RigidTransform>(queue_, fixed.component_count()),
-                  MirroredArray<RigidTransform>(queue_, fixed.component_count())},
-      components_(queue_, fixed.component_count()),
-      motion_class_(queue_, fixed.component_count()),
-      input_(queue_, 1),
+      upload_(queue_, fixed.component_count()),
       report_(queue_, 1),
-      buffers_(queue_, std::max<std::size_t>(options.initial_capacity, 1)) {
+      buffers_(queue_, std::max<std::size_t>(options.initial_capacity, 1)),
+      pair_room_(std::min(kMinPairRoom, buffers_.triangle_pairs.size())) {
   report_.on_host()[0] = {};
   report_.copy_up(queue_);
   queue_.wait();
@@ -123,6 +124,15 @@ void DeviceStreams<Queue>::set_rules(PairRulesView rules) {
 }
 
 template <class Queue>
+std::vector<std::uint64_t> DeviceStreams<Queue>::triangle_pairs() {
+  const std::size_t count = counters().triangle_pairs;
+  if (!one_round()) return brought_down(queue_, buffers_.sorted_pairs, count);
+  std::vector<std::uint64_t> pairs = brought_down(queue_, buffers_.triangle_pairs, count);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+template <class Queue>
 void DeviceStreams<Queue>::forget_recordings() {
   for (typename Queue::Recording& recording : recording_) recording.forget();
 }
@@ -137,7 +147,7 @@ template <class Queue>
 void DeviceStreams<Queue>::jump(Span<const RigidTransform> state) {
   // As a candidate that is committed: only vertices of the candidate can be computed. The next step updates the bounds.
   set_vertices_input(state);
-  input_.on_host()[0] = {};
+  upload_.on_host().input() = {};
   enqueue_vertices();
   queue_.wait();
   commit();
@@ -148,24 +158,26 @@ StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next) {
   set_step_input(next);
   run_step();
   watch_front_size();
+  watch_pair_count();
   return result();
 }
 
 template <class Queue>
 void DeviceStreams<Queue>::set_vertices_input(Span<const RigidTransform> next) {
-  const Span<device_code::ComponentStep> components = components_.on_host();
+  const device_code::UploadView upload = upload_.on_host();
+  const Span<device_code::ComponentStep> components = upload.components();
   std::fill(components.begin(), components.end(), device_code::ComponentStep{});
-  std::copy(state().begin(), state().end(), transforms_[0].on_host().begin());
-  std::copy(next.begin(), next.end(), transforms_[1].on_host().begin());
+  std::copy(state().begin(), state().end(), upload.start().begin());
+  std::copy(next.begin(), next.end(), upload.end().begin());
   for (const ComponentId c : matrices_.set_next(next)) components[c.value].make_vertices = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
-  std::copy(classes.begin(), classes.end(), motion_class_.on_host().begin());
+  std::copy(classes.begin(), classes.end(), upload.motion_class().begin());
 }
 
 template <class Queue>
 void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next) {
   set_vertices_input(next);
-  for (const ComponentId c : matrices_.take_outdated_bounds()) components_.on_host()[c.value].fit_bounds = 1;
+  for (const ComponentId c : matrices_.take_outdated_bounds()) upload_.on_host().components()[c.value].fit_bounds = 1;
   const Span<const std::uint32_t> classes = matrices_.motion_class();
   const bool same_classes =
       front_classes_.size() == classes.size() && std::equal(classes.begin(), classes.end(), front_classes_.begin());
@@ -173,7 +185,7 @@ void DeviceStreams<Queue>::set_step_input(Span<const RigidTransform> next) {
     front_classes_.assign(classes.begin(), classes.end());
     restart_front_ = true;
   }
-  input_.on_host()[0] = {restart_front_ ? 1u : 0u};
+  upload_.on_host().input() = {restart_front_ ? 1u : 0u};
 }
 
 template <class Queue>
@@ -196,6 +208,10 @@ void DeviceStreams<Queue>::run_step() {
     });
     queue_.wait();
   } while (!finish_front());
+  while (grow_pair_room()) {
+    enqueue_narrow_phase();
+    queue_.wait();
+  }
   while (buffers_.grow_narrow_phase(queue_, counters())) {
     ++replays_;
     forget_recordings();
@@ -216,7 +232,9 @@ bool DeviceStreams<Queue>::finish_front() {
     queue_.launch(1, device_code::CarryPending{shared_counters()});
     enqueue_rounds();
     enqueue_front_end();
+    queue_.mark(kFront);
     enqueue_narrow_phase();
+    queue_.mark(kEnd);
     queue_.wait();
   }
   return true;
@@ -224,15 +242,15 @@ bool DeviceStreams<Queue>::finish_front() {
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_vertices() {
-  for (MirroredArray<RigidTransform>& transforms : transforms_) transforms.copy_up(queue_);
-  components_.copy_up(queue_);
-  motion_class_.copy_up(queue_);
-  input_.copy_up(queue_);
-  queue_.launch(1, device_code::BeginStep{shared_counters(), input_.on_device().data(), buffers_.front.view(),
-                                          geometry_.first_front_node});
-  queue_.launch(geometry_.assembled.size(),
-                device_code::MoveVertices{components_.on_device(), transforms_[1].on_device(),
-                                          geometry_.component_of_vertex.view(), geometry_.assembled.view(),
+  upload_.copy_up(queue_);
+  const device_code::UploadView upload = upload_.on_device();
+  queue_.launch(std::max<std::size_t>(geometry_.assembled.size(), 1),
+                device_code::MoveVertices{{shared_counters(), &upload.input(), buffers_.front.view(),
+                                           geometry_.first_front_node},
+                                          upload.components(),
+                                          upload.end(),
+                                          geometry_.component_of_vertex.view(),
+                                          geometry_.assembled.view(),
                                           vertices_[1 - start_].view()});
 }
 
@@ -243,15 +261,15 @@ void DeviceStreams<Queue>::enqueue_bounds() {
       margins_.view()};
   queue_.launch(geometry_.leaf_count, device_code::FitBounds{leaf_kernel,
                                                              {geometry_.tree(), bounds_.view()},
-                                                             components_.on_device(),
+                                                             upload_.on_device().components(),
                                                              geometry_.ranges.view(),
                                                              geometry_.parents.view(),
                                                              arrivals_.view()});
 }
 
 template <class Queue>
-FrontSproutKernel DeviceStreams<Queue>::front_kernel(Span<const std::uint64_t> items) const {
-  return {geometry_.tree(), bounds_.view(), motion_class_.on_device(), items};
+FrontSproutKernel DeviceStreams<Queue>::front_kernel(Span<const std::uint64_t> items) {
+  return {geometry_.tree(), bounds_.view(), upload_.on_device().motion_class(), items, kDeviceFrontWorkBudget};
 }
 
 /// The sink of the round that appends to pending[round].
@@ -282,19 +300,19 @@ void DeviceStreams<Queue>::enqueue_front_end() {
   queue_.launch(
       std::max(buffers_.kept.size(), buffers_.sprouted.size()),
       device_code::ReplaceSprouted{counters, buffers_.kept.view(), buffers_.sprouted.view(), buffers_.front.view()});
-  queue_.launch(1, device_code::EndFront{counters});
-  const Span<std::uint64_t> pairs = buffers_.triangle_pairs.view();
-  queue_.launch(pairs.size(), device_code::PadTrianglePairs{counters, pairs});
-  queue_.sort(pairs, buffers_.sorted_pairs.view(), geometry_.key_bits, buffers_.sort_scratch.view());
 }
 
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_narrow_phase() {
   device_code::StepCounters* counters = shared_counters();
-  const std::size_t max_pairs = buffers_.sorted_pairs.size();
-  NarrowPhaseKernel kernel{buffers_.sorted_pairs.view(),
+  const std::size_t max_pairs = pair_room_;
+  const Span<std::uint64_t> pairs = buffers_.triangle_pairs.view().subspan(0, max_pairs);
+  const Span<std::uint64_t> sorted = buffers_.sorted_pairs.view().subspan(0, max_pairs);
+  queue_.launch(max_pairs, device_code::BeginNarrowPhase{counters, pairs});
+  if (!one_round()) queue_.sort(pairs, sorted, geometry_.key_bits, buffers_.sort_scratch.view());
+  NarrowPhaseKernel kernel{one_round() ? pairs : sorted,
                            {vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view()},
-                           {displaced_.view(), margins_.view(), transforms_[0].on_device(), transforms_[1].on_device()},
+                           {displaced_.view(), margins_.view(), upload_.on_device().start(), upload_.on_device().end()},
                            bounds_.view(),
                            geometry_.component_of_node.view(),
                            geometry_.features.view(),
@@ -304,7 +322,6 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
                                {buffers_.intersections.view(), &counters->intersections},
                                counters,
                                0};
-  queue_.launch(1, device_code::BeginNarrowPhase{counters});
   for (std::size_t begin = 0; begin < max_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
     queue_.launch(std::min(narrow_phase_round_end(begin), max_pairs) - begin,
                   device_code::TestTrianglePairs{kernel, sink, begin});
@@ -314,6 +331,30 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
                     buffers_.contacts.view(),
                     {{report_.on_device().data()->contacts, device_code::kReportedContacts}, &counters->reported}});
   report_.copy_down(queue_);
+}
+
+/// Makes room for the triangle pairs of this step. @return true if there was too little: the narrow phase must be
+/// repeated
+template <class Queue>
+bool DeviceStreams<Queue>::grow_pair_room() {
+  const std::size_t count = counters().triangle_pairs;
+  if (count <= pair_room_) return false;
+  pair_room_ = std::min(count + count / 2, buffers_.triangle_pairs.size());
+  ++replays_;
+  forget_recordings();
+  return true;
+}
+
+/// Takes back room for triangle pairs that is not needed any more: all of it is sorted in each step.
+template <class Queue>
+void DeviceStreams<Queue>::watch_pair_count() {
+  const std::size_t count = counters().triangle_pairs;
+  const bool few = pair_room_ > kMinPairRoom && kRoomForFewPairs * count < pair_room_;
+  steps_with_few_pairs_ = few ? steps_with_few_pairs_ + 1 : 0;
+  if (steps_with_few_pairs_ < kStepsBeforeLessRoom) return;
+  pair_room_ = std::max(kMinPairRoom, 2 * count);
+  steps_with_few_pairs_ = 0;
+  forget_recordings();
 }
 
 /// Restarts a front that has grown too much, by the rule of Front.
