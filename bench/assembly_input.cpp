@@ -12,9 +12,10 @@ namespace {
 
 #ifdef DISMANTLE_CORE_ONLY
 Result<AssemblyFile> read_other_format(const std::filesystem::path& file) {
-  return Error{ErrorKind::Unreadable, file.string() +
-                                          " cannot be read (this build reads .dasm files only); convert it with a whole "
-                                          "dismantle: dismantle convert FILE -o FILE.dasm"};
+  return Error{ErrorKind::Unreadable,
+               file.string() +
+                   " cannot be read (this build reads .dasm files only); convert it with a whole "
+                   "dismantle: dismantle convert FILE -o FILE.dasm"};
 }
 #else
 Result<AssemblyFile> read_other_format(const std::filesystem::path& file) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time of appending to the streams of the front by global locks, local locks and count-scan-emit, on the CPU or a CUDA
-// device. Scene: a shaft in its hole.
-//   bench_appends [--variant global|local|count-scan-emit]... [--device cpu|cuda] [--threads N] [--triangles N]
+// device, where global locks can also be aggregated by warps. Scene: a shaft in its hole. On a device, the time of the
+// kernels; on the CPU, wall time.
+//   bench_appends [--variant global|warp|local|count-scan-emit]... [--device cpu|cuda] [--threads N] [--triangles N]
 //                 [--steps N] [--repeats N]
 // One row a variant, tab-separated: the mean time of a launch and the values that the last one appended, for a front
 // that starts from its root and for one that is updated.
@@ -21,11 +22,12 @@ struct Settings {
 
 bool parse(int argc, char** argv, Settings& settings) {
   bench::CommandLine line(
-      "bench_appends [--variant global|local|count-scan-emit]... [--device cpu|cuda] [--threads N]\n"
+      "bench_appends [--variant global|warp|local|count-scan-emit]... [--device cpu|cuda] [--threads N]\n"
       "                     [--triangles N] [--steps N] [--repeats N]");
   std::vector<AppendVariant> chosen;
   line.choices("--variant", chosen,
                {{"global", AppendVariant::GlobalLock},
+                {"warp", AppendVariant::WarpAggregated},
                 {"local", AppendVariant::LocalLock},
                 {"count-scan-emit", AppendVariant::CountScanEmit}});
   line.choice("--device", settings.runs.on_device, {{"cpu", false}, {"cuda", true}});

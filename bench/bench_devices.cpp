@@ -39,32 +39,40 @@ struct Play {
   std::vector<double> ms;         // of each step but the first ones
   std::vector<StepResult> steps;  // all
   std::map<std::string_view, double> stage_ms;
+  std::string failure;  // of the device, in the middle
 };
 
-std::unique_ptr<MotionEngine> make_engine(const std::string& method, const BenchScene& scene, const Settings& settings,
-                                          bool on_device) {
+/// An engine, and whether its device has failed: null on the CPU and on the emulated device.
+struct MadeEngine {
+  std::unique_ptr<MotionEngine> engine;
+  std::shared_ptr<const DeviceFailure> failure;
+};
+
+MadeEngine make_engine(const std::string& method, const BenchScene& scene, const Settings& settings, bool on_device) {
   const Executor executor = settings.threads > 1 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
   if (method == "certificates") {
     const CertificateOptions options{executor, widest_lanes()};
-    CertificateDevice device;
-    if (on_device)
-      device.fronts = settings.emulate ? make_emulated_front_device(executor)
-                                       : std::move(make_cuda_front_device().value());
-    return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(device));
+    ChosenCertificateDevice chosen;
+    if (on_device && settings.emulate) chosen.use.fronts = make_emulated_front_device(executor);
+    if (on_device && !settings.emulate) chosen = choose_certificate_device(DeviceChoice::Cuda);
+    return {std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(chosen.use)),
+            chosen.failure};
   }
   CollisionOptions options;
   options.executor = executor;
-  std::unique_ptr<StreamsBackend> backend = make_host_streams_backend(scene.assembly, options);
-  if (on_device)
-    backend = settings.emulate ? make_emulated_streams_backend(scene.assembly, options, executor)
-                               : std::move(make_cuda_streams_backend(scene.assembly, options).value());
-  return make_streams_motion_engine(scene.assembly, scene.states, options, std::move(backend));
+  ChosenStreamsBackend chosen;
+  if (on_device && settings.emulate)
+    chosen.backend = make_emulated_streams_backend(scene.assembly, options, executor);
+  else
+    chosen = choose_streams_backend(scene.assembly, options, on_device ? DeviceChoice::Cuda : DeviceChoice::Cpu);
+  return {make_streams_motion_engine(scene.assembly, scene.states, options, std::move(chosen.backend)), chosen.failure};
 }
 
 Play play(const std::string& method, const BenchScene& scene, const Settings& settings, bool on_device) {
   Play made;
   const bench::Stopwatch building;
-  const std::unique_ptr<MotionEngine> engine = make_engine(method, scene, settings, on_device);
+  const MadeEngine used = make_engine(method, scene, settings, on_device);
+  MotionEngine* const engine = used.engine.get();
   made.build_ms = building.ms();
   ResponseKind response = engine->can_respond(ResponseKind::Slide) ? ResponseKind::Slide : ResponseKind::Touch;
   if (settings.response && engine->can_respond(*settings.response)) response = *settings.response;
@@ -82,6 +90,7 @@ Play play(const std::string& method, const BenchScene& scene, const Settings& se
       for (const StageTime& stage : made.steps.back().cost.stages) made.stage_ms[stage.stage] += stage.ms;
     }
   }
+  if (used.failure) made.failure = used.failure->why;
   return made;
 }
 
@@ -122,9 +131,11 @@ bool compare(const std::string& method, const BenchScene& scene, const Settings&
   const Play on_cpu = play(method, scene, settings, false);
   std::optional<Play> best;
   std::optional<std::size_t> difference;
+  std::string failure;
   for (int repeat = 0; repeat < settings.repeats; ++repeat) {
     Play on_device = play(method, scene, settings, true);
     if (!difference) difference = first_difference(on_device, on_cpu);
+    if (failure.empty()) failure = on_device.failure;
     if (!best || bench::mean(on_device.ms) < bench::mean(best->ms)) best = std::move(on_device);
   }
   std::size_t tests = 0, device_tests = 0, replays = 0, reached = 0, front = 0, pairs = 0;
@@ -137,7 +148,8 @@ bool compare(const std::string& method, const BenchScene& scene, const Settings&
     pairs = std::max(pairs, step.cost.triangle_pairs);
   }
   const double ratio = bench::mean(on_cpu.ms) / bench::mean(best->ms);
-  const std::string verdict = difference ? "differ at step " + std::to_string(*difference) : "equal";
+  std::string verdict = difference ? "differ at step " + std::to_string(*difference) : "equal";
+  if (!failure.empty()) verdict = "the device failed: " + failure;
   std::printf("%s\t%zu\t%s\t%zu\t%s\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.2f\t%zu\t%zu\t%zu\t%zu\n",
               scene.name.c_str(), triangle_count(scene.assembly), method.c_str(), best->steps.size(), verdict.c_str(),
               on_cpu.first_ms, bench::quantile(on_cpu.ms, 0.5), bench::quantile(on_cpu.ms, 0.99),
@@ -153,12 +165,13 @@ bool compare(const std::string& method, const BenchScene& scene, const Settings&
                    "\"on_device\": %s, \"max_front\": %zu, \"max_triangle_pairs\": %zu, \"tests\": %zu, "
                    "\"device_tests\": %zu, \"replays\": %zu}\n",
                    scene.name.c_str(), triangle_count(scene.assembly), method.c_str(), best->steps.size(), reached,
-                   settings.repeats, difference ? "false" : "true", device_name.c_str(), settings.threads,
-                   times_json(on_cpu).c_str(), times_json(*best).c_str(), front, pairs, tests, device_tests, replays);
+                   settings.repeats, difference || !failure.empty() ? "false" : "true", device_name.c_str(),
+                   settings.threads, times_json(on_cpu).c_str(), times_json(*best).c_str(), front, pairs, tests,
+                   device_tests, replays);
       std::fclose(file);
     }
   }
-  return !difference;
+  return !difference && failure.empty();
 }
 
 bool parse(int argc, char** argv, Settings& settings) {

@@ -64,7 +64,7 @@ std::unique_ptr<MotionEngine> make_engine(const std::string& method, const Bench
                                           const Settings& settings) {
   const Executor executor = settings.threads > 1 ? Executor(ExecutorKind::Threads, settings.threads) : Executor();
   if (method == "certificates") {
-    ChosenCertificateDevice chosen = choose_certificate_device(scene.assembly, settings.device);
+    ChosenCertificateDevice chosen = choose_certificate_device(settings.device);
     note_cpu(chosen.why);
     const CertificateOptions options{executor, widest_lanes()};
     return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(chosen.use));

@@ -176,7 +176,7 @@ struct MoveEngine {
 MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const PairStates& states) {
   const Executor executor = make_executor(o.common);
   if (o.method == "certificates") {
-    ChosenCertificateDevice chosen = choose_certificate_device(assembly, o.common.device);
+    ChosenCertificateDevice chosen = choose_certificate_device(o.common.device);
     if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
     const CertificateOptions certificates{executor, widest_lanes()};
     return {std::make_unique<CertificateEngine>(assembly, states, certificates, std::move(chosen.use)), chosen.device,
@@ -187,7 +187,8 @@ MoveEngine make_engine(const MoveOptions& o, const Assembly& assembly, const Pai
   collision.executor = executor;
   ChosenStreamsBackend chosen = choose_streams_backend(assembly, collision, o.common.device);
   if (!chosen.why.empty()) note_cpu(o.common, chosen.why);
-  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device, chosen.failure};
+  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), chosen.device,
+          chosen.failure};
 }
 
 /// Adds the other members of its components' groups to a move. Unknown names are left for play_motion() to refuse.

@@ -75,6 +75,8 @@ std::string_view name_of(AppendVariant variant) {
   switch (variant) {
     case AppendVariant::GlobalLock:
       return "global lock";
+    case AppendVariant::WarpAggregated:
+      return "warp-aggregated";
     case AppendVariant::LocalLock:
       return "local lock";
     case AppendVariant::CountScanEmit:
@@ -105,7 +107,7 @@ template <class Item>
 void FrontAppender::launch(std::size_t count, std::size_t items_per_range, const Item& item, const Executor& executor) {
   if (variant_ == AppendVariant::CountScanEmit) {
     count_scan_emit(count, items_per_range, item, executor);
-  } else if (variant_ == AppendVariant::GlobalLock) {
+  } else if (variant_ == AppendVariant::GlobalLock || variant_ == AppendVariant::WarpAggregated) {
     append<GlobalLockSink>(count, items_per_range, item, executor);
   } else {
     append<LocalLockSink>(count, items_per_range, item, executor);

@@ -14,17 +14,22 @@ namespace dismantle {
 
 /// Ways in which concurrent threads append values to one stream.
 enum class AppendVariant {
-  GlobalLock,     ///< One atomic addition for each value, on the stream's own counter (Du et al. 2015, section 4.3).
-  LocalLock,      ///< Into a buffer local to a group of items, which is flushed to the stream with one atomic addition
-                  ///< when it is full (Tang, Manocha, Lin, Tong 2011). Method `streams` does this.
-  CountScanEmit,  ///< Two passes: the first counts, the second writes to the offsets of a prefix sum of the counts.
+  GlobalLock,      ///< One atomic addition for each value, on the stream's own counter (Du et al. 2015, section 4.3).
+  LocalLock,       ///< Into a buffer local to a group of items, which is flushed to the stream with one atomic addition
+                   ///< when it is full (Tang, Manocha, Lin, Tong 2011). Method `streams` does this.
+  WarpAggregated,  ///< As GlobalLock, with one addition for the threads of a warp that append together; on a CPU the
+                   ///< same.
+  CountScanEmit,   ///< Two passes: the first counts, the second writes to the offsets of a prefix sum of the counts.
 };
 
-/// All variants.
+///@{ All variants that differ on a CPU, and on a CUDA device.
 inline constexpr AppendVariant kAppendVariants[] = {AppendVariant::GlobalLock, AppendVariant::LocalLock,
                                                     AppendVariant::CountScanEmit};
+inline constexpr AppendVariant kDeviceAppendVariants[] = {AppendVariant::GlobalLock, AppendVariant::WarpAggregated,
+                                                          AppendVariant::LocalLock, AppendVariant::CountScanEmit};
+///@}
 
-/// "global lock", "local lock", "count-scan-emit".
+/// "global lock", "local lock", "warp-aggregated", "count-scan-emit".
 std::string_view name_of(AppendVariant variant);
 
 /// Sprouts the nodes of a front as `Front` does, with any of the variants: the values appended are the same.

@@ -2,7 +2,6 @@
 #include "bench/baselines/device_appender.h"
 
 #include "bench/baselines/device_append_buffer.cuh"
-#include "dismantle/streams/stage_clock.h"
 
 #include <cub/device/device_scan.cuh>
 
@@ -51,27 +50,30 @@ struct FrontRound {
   }
 };
 
-/// Appends every value with an atomic addition of its own.
-class GlobalLockSink : public DeviceSink<GlobalLockSink> {
+/// Appends every value with an atomic addition of its own, or with one for the threads of a warp that append together.
+template <bool kTogether>
+class GlobalLockSink : public DeviceSink<GlobalLockSink<kTogether>> {
  public:
   __device__ explicit GlobalLockSink(const StreamViews& views) : views_(views) {}
-  __device__ void put(Stream stream, std::uint64_t value) { views_.stream[stream].append(value); }
+  __device__ void put(Stream stream, std::uint64_t value) {
+    kTogether ? views_.stream[stream].append_together(value) : views_.stream[stream].append(value);
+  }
 
  private:
   const StreamViews& views_;
 };
 
+template <bool kTogether>
 struct SproutWithGlobalLock {
   FrontRound round;
   StreamViews views;
 
   __device__ void operator()(std::size_t i) const {
-    GlobalLockSink sink(views);
+    GlobalLockSink<kTogether> sink(views);
     round.visit(i, sink);
   }
 };
 
-constexpr unsigned kThreadsPerBlock = 128;
 constexpr unsigned kLocalCapacity = 256;  // 10 KiB of shared memory a block
 
 /// A block's buffers in shared memory.
@@ -198,12 +200,10 @@ class CudaAppender final : public DeviceAppender {
     double ms = 0;
     std::vector<std::uint64_t> left(items.begin(), items.end());
     for (bool first = true; !left.empty(); first = false) {
-      const DeviceArray<std::uint64_t> of_round(queue_, Span<const std::uint64_t>(left));
       FrontRound round{input_.kernel(), first};
-      round.kernel.items = of_round.view();
-      StageClock clock;
-      variant_ == AppendVariant::CountScanEmit ? count_scan_emit(round) : append(round);
-      ms += clock.total();
+      round.kernel.items = upload(queue_, items_, Span<const std::uint64_t>(left));
+      round.kernel.work_budget = kDeviceFrontWorkBudget;
+      ms += variant_ == AppendVariant::CountScanEmit ? count_scan_emit(round) : append(round);
       collect();
       left = std::exchange(streams_[Stream::Pending], {});
     }
@@ -214,47 +214,62 @@ class CudaAppender final : public DeviceAppender {
   int replays() const override { return replays_; }
 
  private:
-  void append(const FrontRound& round) {
+  /// @return the time of the kernels [ms]
+  double append(const FrontRound& round) {
     const std::size_t count = round.kernel.items.size();
+    double ms = 0;
     for (bool full = true; full;) {
       StreamViews views;
       for (std::size_t s = 0; s < kStreamCount; ++s) views.stream[s] = buffers_[s].start();
+      queue_.mark(0);
       if (variant_ == AppendVariant::GlobalLock) {
-        queue_.launch(count, SproutWithGlobalLock{round, views});
+        queue_.launch(count, SproutWithGlobalLock<false>{round, views});
+      } else if (variant_ == AppendVariant::WarpAggregated) {
+        queue_.launch(count, SproutWithGlobalLock<true>{round, views});
       } else {
         const auto blocks = static_cast<unsigned>((count + kThreadsPerBlock - 1) / kThreadsPerBlock);
         sprout_with_local_lock<<<blocks, kThreadsPerBlock, 0, queue_.stream()>>>(round, views);
         check_cuda(cudaGetLastError(), "a kernel's launch");
       }
+      queue_.mark(1);
       full = false;
       for (DeviceAppendBuffer<std::uint64_t>& buffer : buffers_) full = buffer.grown() || full;
       replays_ += full ? 1 : 0;
+      ms += queue_.milliseconds(0, 1);
     }
+    return ms;
   }
 
-  void count_scan_emit(const FrontRound& round) {
+  /// @return the time of the kernels [ms], without that of the host in between, which learns the number of values
+  double count_scan_emit(const FrontRound& round) {
     const std::size_t count = round.kernel.items.size(), cells = kStreamCount * count;
-    DeviceArray<std::uint64_t> counts(queue_, cells + 1);
-    DeviceArray<std::uint64_t> offsets(queue_, cells + 1);
-    const std::uint64_t none = 0;  // so that the last offset is the total
-    queue_.copy_up(counts.view().data() + cells, &none, sizeof none);
-    queue_.launch(count, CountValues{round, counts.view()});
+    const Span<std::uint64_t> counts = room_for(queue_, counts_, cells + 1);
+    const Span<std::uint64_t> offsets = room_for(queue_, offsets_, cells + 1);
+    const auto scan = [&](void* scratch, std::size_t& bytes) {
+      check_cuda(cub::DeviceScan::ExclusiveSum(scratch, bytes, counts.data(), offsets.data(), cells + 1, queue_.stream()),
+                 "the scan");
+    };
     std::size_t bytes = 0;
-    check_cuda(cub::DeviceScan::ExclusiveSum(nullptr, bytes, counts.view().data(), offsets.view().data(), cells + 1,
-                                             queue_.stream()),
-               "the scan");
-    DeviceArray<std::byte> scratch(queue_, bytes);
-    check_cuda(cub::DeviceScan::ExclusiveSum(scratch.view().data(), bytes, counts.view().data(), offsets.view().data(),
-                                             cells + 1, queue_.stream()),
-               "the scan");
+    scan(nullptr, bytes);
+    const Span<std::byte> scratch = room_for(queue_, scratch_, bytes);
+    const std::uint64_t none = 0;  // so that the last offset is the total
+    queue_.copy_up(counts.data() + cells, &none, sizeof none);
+    queue_.wait();
+    queue_.mark(0);
+    queue_.launch(count, CountValues{round, counts});
+    scan(scratch.data(), bytes);
+    queue_.mark(1);
     std::uint64_t begins[kStreamCount + 1] = {};
     for (std::size_t s = 0; s <= kStreamCount; ++s)
-      queue_.copy_down(&begins[s], offsets.view().data() + s * count, sizeof begins[s]);
+      queue_.copy_down(&begins[s], offsets.data() + s * count, sizeof begins[s]);
     queue_.wait();
     std::copy(std::begin(begins), std::end(begins), begins_.begin());
-    emitted_ = DeviceArray<std::uint64_t>(queue_, begins_[kStreamCount]);
-    queue_.launch(count, EmitValues{round, offsets.view(), emitted_.view()});
+    const Span<std::uint64_t> emitted = room_for(queue_, emitted_, begins_[kStreamCount]);
+    queue_.mark(2);
+    queue_.launch(count, EmitValues{round, offsets, emitted});
+    queue_.mark(3);
     queue_.wait();
+    return queue_.milliseconds(0, 1) + queue_.milliseconds(2, 3);
   }
 
   /// Copies the values of a round to the host.
@@ -277,6 +292,8 @@ class CudaAppender final : public DeviceAppender {
   CudaQueue queue_;
   Input input_;
   std::vector<DeviceAppendBuffer<std::uint64_t>> buffers_;
+  DeviceArray<std::uint64_t> items_, counts_, offsets_;
+  DeviceArray<std::byte> scratch_;
   DeviceArray<std::uint64_t> emitted_;                    // one stream after the other
   std::array<std::uint64_t, kStreamCount + 1> begins_{};  // of each in that
   std::array<std::vector<std::uint64_t>, kStreamCount> streams_;

@@ -71,7 +71,11 @@ Result<std::deque<TimedAppender>> make_appenders(const AppendRuns& runs, const E
 
 }  // namespace
 
-Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const AppendRuns& runs) {
+Result<std::vector<AppendTime>> time_appends(const BenchScene& scene, const AppendRuns& asked) {
+  AppendRuns runs = asked;
+  if (runs.variants.empty() && runs.on_device)
+    runs.variants.assign(std::begin(kDeviceAppendVariants), std::end(kDeviceAppendVariants));
+  if (runs.variants.empty()) runs.variants.assign(std::begin(kAppendVariants), std::end(kAppendVariants));
   const Executor executor = runs.cores > 1 ? Executor(ExecutorKind::Threads, runs.cores) : Executor();
   Result<std::deque<TimedAppender>> made = make_appenders(runs, executor);
   if (!made) return made.error();

@@ -20,10 +20,10 @@ struct AppendTime {
 
 /// Settings of time_appends().
 struct AppendRuns {
-  std::vector<AppendVariant> variants{std::begin(kAppendVariants), std::end(kAppendVariants)};  ///< In this order.
-  bool on_device = false;  ///< On the CUDA device instead of `cores`.
-  int cores = 1;           ///< Threads on the CPU.
-  int repeats = 1;         ///< Of each launch; the shortest time counts.
+  std::vector<AppendVariant> variants;  ///< In this order; empty: all that differ on the CPU or the device.
+  bool on_device = false;               ///< On the CUDA device instead of `cores`.
+  int cores = 1;                        ///< Threads on the CPU.
+  int repeats = 1;                      ///< Of each launch; the shortest time counts.
 };
 
 /// Sprouts the front of every step of the scene's first move with each variant in turn: from the root, and from the

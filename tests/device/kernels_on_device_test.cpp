@@ -81,7 +81,7 @@ TEST_F(KernelsOnDevice, SproutTheSameFrontWithEveryAppendVariantFromCapacityOne)
   FrontAppender expected(AppendVariant::GlobalLock, 1 << 16);
   expected.run(front_kernel(), Executor());
   EXPECT_GT(expected.values(FrontAppender::TrianglePairs).size(), 100u);
-  for (const AppendVariant variant : kAppendVariants) {
+  for (const AppendVariant variant : kDeviceAppendVariants) {
     SCOPED_TRACE(name_of(variant));
     const auto appender = std::move(make_device_appender(variant, 1).value());
     appender->set_input(front_kernel());

@@ -12,7 +12,8 @@ namespace {
 /// A device that fails in its n-th call.
 class FailingBackend final : public StreamsBackend {
  public:
-  FailingBackend(std::unique_ptr<StreamsBackend> backend, int calls_before) : backend_(std::move(backend)), left_(calls_before) {}
+  FailingBackend(std::unique_ptr<StreamsBackend> backend, int calls_before)
+      : backend_(std::move(backend)), left_(calls_before) {}
   void set_ghosts(const GhostVertices& ghosts) override { called().set_ghosts(ghosts); }
   void set_rules(PairRulesView rules) override { called().set_rules(rules); }
   StreamsStep step(Span<const RigidTransform> next) override { return called().step(next); }
@@ -46,9 +47,8 @@ TEST(FallbackStreamsBackend, GoesOnWithTheSameResultsWhereverTheDeviceFails) {
     const auto make_host = [&] { return make_host_streams_backend(assembly, options); };
     auto device = std::make_unique<FailingBackend>(make_emulated_streams_backend(assembly, options, Executor()), calls);
     const auto expected = make_streams_engine(assembly, states, options);
-    const auto engine =
-        make_streams_engine(assembly, states, options,
-                            std::make_unique<FallbackStreamsBackend>(std::move(device), make_host, failure));
+    const auto engine = make_streams_engine(
+        assembly, states, options, std::make_unique<FallbackStreamsBackend>(std::move(device), make_host, failure));
     std::vector<RigidTransform> next(8);
     for (int step = 0; step < 12; ++step) {
       for (RigidTransform& transform : next)

@@ -106,9 +106,8 @@ std::string assembly_file_bytes(const Assembly& assembly, const Motion* motion) 
   append(kMagic, sizeof kMagic);
   out.value(kVersion);
   std::string body;
-  write_assembly_bytes(assembly, [&body](const void* data, std::size_t size) {
-    body.append(static_cast<const char*>(data), size);
-  });
+  write_assembly_bytes(
+      assembly, [&body](const void* data, std::size_t size) { body.append(static_cast<const char*>(data), size); });
   out.value<std::uint64_t>(body.size());
   bytes += body;
   out.value<std::uint8_t>(motion != nullptr ? 1 : 0);
@@ -122,8 +121,8 @@ Result<AssemblyFile> parse_assembly_file(Span<const std::byte> bytes, const std:
   ByteReader in(bytes.subspan(sizeof kMagic, bytes.size() - sizeof kMagic));
   const auto version = in.value<std::uint32_t>();
   if (in.ok() && version != kVersion)
-    return malformed_file(file_name, "its version is " + std::to_string(version) + ", and this dismantle reads version " +
-                                         std::to_string(kVersion));
+    return malformed_file(file_name, "its version is " + std::to_string(version) +
+                                         ", and this dismantle reads version " + std::to_string(kVersion));
   const std::size_t size = in.count(1);
   if (!in.ok()) return malformed_file(file_name, "it is cut off");
   const std::size_t begin = bytes.size() - in.left();
@@ -149,7 +148,8 @@ Result<AssemblyFile> read_assembly_file(const std::filesystem::path& file, std::
   std::vector<char> bytes(size);
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
     return malformed_file(file.string(), "the system cannot read it");
-  return parse_assembly_file({reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()}, file.filename().string());
+  return parse_assembly_file({reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()},
+                             file.filename().string());
 }
 
 }  // namespace dismantle

@@ -28,6 +28,7 @@ std::string assembly_file_bytes(const Assembly& assembly, const Motion* motion =
 Result<AssemblyFile> parse_assembly_file(Span<const std::byte> bytes, const std::string& file_name);
 
 /// Reads a `.dasm` file. Errors: Unreadable, also for a file that is missing or larger than `limit_bytes`.
-Result<AssemblyFile> read_assembly_file(const std::filesystem::path& file, std::uint64_t limit_bytes = std::uint64_t{4} << 30);
+Result<AssemblyFile> read_assembly_file(const std::filesystem::path& file,
+                                        std::uint64_t limit_bytes = std::uint64_t{4} << 30);
 
 }  // namespace dismantle

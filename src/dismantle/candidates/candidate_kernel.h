@@ -210,12 +210,7 @@ class CandidateSearch {
     const auto root = static_cast<NodeIndex>(scene_.bounds.size() - 1);
     for (const NodeIndex moving : scene_.moving_roots) {
       open({moving, root}, contact_of({moving, root}));
-      while (open_count_ > 0) {
-        const Open next = open_[--open_count_];
-        if (!worth(next.contact)) continue;
-        const bool leaves = scene_.tree.is_leaf(next.pair.a) && scene_.tree.is_leaf(next.pair.b);
-        leaves ? test(next.pair) : expand(next.pair);
-      }
+      for (NodePair leaves; next_leaves(leaves);) test(leaves);
     }
     return found_;
   }
@@ -225,6 +220,21 @@ class CandidateSearch {
     NodePair pair;
     double contact;  ///< Lower bound of the time of contact.
   };
+
+  /// Expands pairs until the next one is of two leaves. On a GPU, the threads of a warp do this together, and then test
+  /// their leaves together (Aila and Laine 2009). @return false if there is none
+  DISMANTLE_HOST_DEVICE bool next_leaves(NodePair& leaves) {
+    while (open_count_ > 0) {
+      const Open next = open_[--open_count_];
+      if (!worth(next.contact)) continue;
+      if (scene_.tree.is_leaf(next.pair.a) && scene_.tree.is_leaf(next.pair.b)) {
+        leaves = next.pair;
+        return true;
+      }
+      expand(next.pair);
+    }
+    return false;
+  }
 
   DISMANTLE_HOST_DEVICE bool worth(double contact) const {
     return found_.key == CandidateContact::kFree ? contact <= 1 : contact < found_.toi;

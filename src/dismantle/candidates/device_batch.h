@@ -143,8 +143,7 @@ template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::brought_down_contacts(std::size_t count) {
   std::vector<FirstContact> contacts;
   contacts.reserve(count);
-  for (const CandidateContact& contact : brought_down(queue_, found_, count))
-    contacts.push_back(contact_of(contact));
+  for (const CandidateContact& contact : brought_down(queue_, found_, count)) contacts.push_back(contact_of(contact));
   return contacts;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "dismantle/certificates/device/front_device.h"
-#include "dismantle/exec/cuda_device.h"
 #include "dismantle/core/keep_going.h"
 #include "dismantle/engine/motion_engine.h"
+#include "dismantle/exec/cuda_device.h"
 #include "dismantle/math/lane_dispatch.h"
 
 #include <limits>
@@ -51,7 +51,6 @@ struct CertificateOptions {
 /// A device that evaluates fronts, and when it is used.
 struct CertificateDevice {
   std::unique_ptr<FrontDevice> fronts;  ///< Null: everything is computed on the CPU.
-  std::size_t min_pairs = 0;            ///< Sweeps of fewer pairs of nodes do not use the device.
   /// Set if the device fails (CudaError): the engine then goes on without it, with the same results. May be null.
   std::shared_ptr<DeviceFailure> failure;
 };

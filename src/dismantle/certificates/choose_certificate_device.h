@@ -17,16 +17,9 @@ struct ChosenCertificateDevice {
   std::shared_ptr<const DeviceFailure> failure;
 };
 
-///@{ Thresholds of DeviceChoice::Auto: triangles of an assembly, and pairs of a sweep, from which on it uses a CUDA
-/// device. Fronts of fewer triangles hardly ever grow to as many pairs. To check so many pairs takes a core 0.14 ms
-/// (2.1 ns a pair in lanes of AVX-512), about the time expected for a device's launches and copies. Estimates, not
-/// measured on a GPU.
-inline constexpr std::size_t kCudaWorthCertificateTriangles = 100'000;
-inline constexpr std::size_t kCudaWorthPairs = 65'536;
-///@}
-
-/// Chooses the device for an engine of method `certificates` over this assembly. DeviceChoice::Cuda uses it in every
-/// sweep.
-ChosenCertificateDevice choose_certificate_device(const Assembly& assembly, DeviceChoice choice);
+/// Chooses the device for an engine of method `certificates`. DeviceChoice::Auto is the CPU: on an H200 every scene
+/// measured took 1.7 to 12 times as long as on eight threads (docs/gpu.md), as fronts are small and a sweep needs
+/// little.
+ChosenCertificateDevice choose_certificate_device(DeviceChoice choice);
 
 }  // namespace dismantle

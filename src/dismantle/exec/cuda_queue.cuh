@@ -7,6 +7,7 @@
 #include <cuda_runtime.h>
 #include <cub/device/device_radix_sort.cuh>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,15 @@ template <class Body>
 __global__ void __launch_bounds__(kThreadsPerBlock) run_items(std::size_t count, const Body body) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i < count) body(i);
+}
+
+/// Runs a body for as many items as the device has counted, at most `room`, on a grid that fills the device.
+template <class Body>
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    run_counted_items(std::size_t room, const std::uint64_t* counted, const Body body) {
+  const std::uint64_t count = *counted < room ? *counted : room;
+  const std::size_t stride = gridDim.x * static_cast<std::size_t>(blockDim.x);
+  for (std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x; i < count; i += stride) body(i);
 }
 
 /// A stream of a CUDA device, with the interface that HostQueue documents. Copies and launches return before they are
@@ -74,6 +84,14 @@ class CudaQueue {
     check_cuda(cudaGetLastError(), "a kernel's launch");
   }
 
+  template <class Body>
+  void launch_counted(std::size_t room, const std::uint64_t* counted, const Body& body) {
+    if (room == 0) return;
+    const std::size_t blocks = std::min<std::size_t>((room + kThreadsPerBlock - 1) / kThreadsPerBlock, kCountedBlocks);
+    run_counted_items<<<static_cast<unsigned>(blocks), kThreadsPerBlock, 0, state_->stream>>>(room, counted, body);
+    check_cuda(cudaGetLastError(), "a kernel's launch");
+  }
+
   /// The stream itself, for blocks that share memory and for CUB.
   cudaStream_t stream() const { return state_->stream; }
 
@@ -109,6 +127,8 @@ class CudaQueue {
   void wait() { check_cuda(cudaStreamSynchronize(state_->stream), "a kernel or a copy"); }
 
  private:
+  static constexpr std::size_t kCountedBlocks = 2048;  // some 16 for each multiprocessor of a large GPU
+
   struct State {
     cudaStream_t stream = nullptr;
     cudaEvent_t marks[kMarkCount] = {};

@@ -41,10 +41,11 @@ class DeviceArray {
   std::size_t size_ = 0;
 };
 
-/// The first `count` values of an array that is made larger where it is too small; then its content is lost.
+/// The first `count` values of an array that is made larger where it is too small; then its content is lost. The first
+/// time it gets just that size.
 template <class T, class Queue>
 Span<T> room_for(Queue& queue, DeviceArray<T>& array, std::size_t count) {
-  if (array.size() < count) array = DeviceArray<T>(std::as_const(queue), count + count / 2);
+  if (array.size() < count) array = DeviceArray<T>(std::as_const(queue), array.size() == 0 ? count : count + count / 2);
   return array.view().subspan(0, count);
 }
 

@@ -56,6 +56,13 @@ class HostQueue {
     executor_.for_each(count, body);
   }
 
+  /// Enqueues body(i) for every i in [0, min(room, *counted)), as launch() does. @param counted in the device's memory,
+  /// read when the work is done
+  template <class Body>
+  void launch_counted(std::size_t room, const std::uint64_t* counted, const Body& body) {
+    executor_.for_each(std::min<std::uint64_t>(room, *counted), body);
+  }
+
   /// The memory that sort() needs for so many keys [bytes].
   std::size_t sort_scratch_bytes(std::size_t count) const {
     static_cast<void>(count);

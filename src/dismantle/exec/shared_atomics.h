@@ -26,7 +26,8 @@ DISMANTLE_HOST_DEVICE inline std::uint64_t atomic_count(std::uint64_t* counter, 
   const int first = __ffs(static_cast<int>(group)) - 1;
   unsigned long long before = 0;
   if (static_cast<int>(lane) == first)
-    before = atomicAdd(reinterpret_cast<unsigned long long*>(counter), each * static_cast<unsigned long long>(__popc(group)));
+    before = atomicAdd(reinterpret_cast<unsigned long long*>(counter),
+                       each * static_cast<unsigned long long>(__popc(group)));
   return __shfl_sync(group, before, first) + each * static_cast<unsigned>(__popc(group & ((1u << lane) - 1)));
 #else
   return atomic_add(counter, each);

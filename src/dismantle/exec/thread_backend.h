@@ -10,8 +10,9 @@
 
 namespace dismantle {
 
-/// The threads of an Executor of kind Threads. One of two implementations is linked: oneTBB, or plain std::thread for
-/// ThreadSanitizer builds, which report false races inside Debian's oneTBB.
+/// The threads of an Executor of kind Threads. One of two implementations is linked: oneTBB, or standard threads where
+/// there is none (DISMANTLE_CORE_ONLY), and for ThreadSanitizer builds, which report false races inside Debian's
+/// oneTBB.
 class ThreadBackend {
  public:
   virtual ~ThreadBackend() = default;

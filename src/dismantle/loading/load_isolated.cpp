@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/loading/load_isolated.h"
 
+#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/files/isolated_process.h"
 #include "dismantle/formats/cad/read_cad.h"
-#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/loading/load_assembly.h"
 

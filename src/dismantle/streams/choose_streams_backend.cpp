@@ -3,6 +3,8 @@
 
 #include "dismantle/streams/fallback_streams_backend.h"
 
+#include <algorithm>
+
 namespace dismantle {
 
 ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const CollisionOptions& options,
@@ -11,7 +13,9 @@ ChosenStreamsBackend choose_streams_backend(const Assembly& assembly, const Coll
   if (choice == DeviceChoice::Cuda ||
       (choice == DeviceChoice::Auto && triangle_count(assembly) >= kCudaWorthTriangles)) {
     const Result<std::string> name = cuda_device_name();
-    Result<std::unique_ptr<StreamsBackend>> backend = make_cuda_streams_backend(assembly, options);
+    CollisionOptions on_device = options;  // to grow an array is to repeat a step
+    on_device.initial_capacity = std::max(options.initial_capacity, 2 * triangle_count(assembly));
+    Result<std::unique_ptr<StreamsBackend>> backend = make_cuda_streams_backend(assembly, on_device);
     if (name && backend) {
       auto failure = std::make_shared<DeviceFailure>();
       const auto make_other = [&assembly, options] { return make_host_streams_backend(assembly, options); };

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -71,7 +72,7 @@ class FallbackStreamsBackend final : public StreamsBackend {
       if (!make_other_) throw;
       failure_->why = error.what();
     }
-    used_ = std::exchange(make_other_, nullptr)();
+    failed_ = std::exchange(used_, std::exchange(make_other_, nullptr)());
     if (ghosts_ != nullptr) used_->set_ghosts(*ghosts_);
     if (rules_) used_->set_rules(*rules_);
     used_->jump(state_);
@@ -79,8 +80,8 @@ class FallbackStreamsBackend final : public StreamsBackend {
     if (repeat != Repeat::No) call(*used_);
   }
 
-  std::unique_ptr<StreamsBackend> used_;
-  Make make_other_;  // empty once it is in use
+  std::unique_ptr<StreamsBackend> used_, failed_;  // fixed() of the failed one may still be in use
+  Make make_other_;                                // empty once it is in use
   std::shared_ptr<DeviceFailure> failure_;
   const GhostVertices* ghosts_ = nullptr;
   std::optional<PairRulesView> rules_;

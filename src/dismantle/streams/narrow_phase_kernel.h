@@ -106,6 +106,15 @@ enum class PairCull : std::uint8_t {
   SeparatingAxis,  ///< One axis for all of them: elementary_apart.
 };
 
+/// The tests of the narrow phase, for sets of them: a GPU runs one kernel for each, as the largest one's registers
+/// would slow the others down.
+enum NarrowTests : unsigned {
+  kDiscreteTest = 1,    ///< TID, of S_i.
+  kElementaryTest = 2,  ///< With cubic roots, as in the paper.
+  kCertifiedTest = 4,   ///< With ghost surfaces.
+  kAllTests = 7,
+};
+
 /// S_t -> contacts and intersections (Du et al. 2015, algorithm 1, lines 6 to 14): TID for pairs of S_i, a continuous
 /// test for all others.
 /// The sink receives the output:
@@ -127,17 +136,26 @@ struct NarrowPhaseKernel {
   /// Tests triangle pair i.
   template <class Sink>
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i, Sink& sink) const {
+    run<kAllTests>(i, horizon, sink);
+  }
+
+  /// Tests triangle pair i, if its test is one of `kTests` (NarrowTests).
+  /// @param last as `horizon`
+  template <unsigned kTests, class Sink>
+  DISMANTLE_HOST_DEVICE void run(std::size_t i, double last, Sink& sink) const {
     const NodePair p = pair_of_key(pairs[i]);
     const PairRule rule = rules.find(component_of[p.a], component_of[p.b]);
     if (rule.test == PairTest::None) return;
     if (rule.test == PairTest::Discrete) {
-      if (intersect_triangle_triangle(triangles.end(p.a), triangles.end(p.b))) sink.intersection(pairs[i]);
+      if constexpr ((kTests & kDiscreteTest) != 0)
+        if (intersect_triangle_triangle(triangles.end(p.a), triangles.end(p.b))) sink.intersection(pairs[i]);
     } else if (rule.test == PairTest::Ordinary && test == ElementaryTest::Elementary) {
-      elementary(i, p, sink);
-    } else if (!overlap_by_less(bounds[p.a], bounds[p.b], ghosts.play(p))) {
+      if constexpr ((kTests & kElementaryTest) != 0) elementary(i, p, sink);
+    } else if constexpr ((kTests & kCertifiedTest) != 0) {
+      if (overlap_by_less(bounds[p.a], bounds[p.b], ghosts.play(p))) return;
       sink.tested(1);
-      const CcdResult ccd = certified(p, rule, 0, horizon);
-      if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], horizon * ccd.toi});
+      const CcdResult ccd = certified(p, rule, 0, last);
+      if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], last * ccd.toi});
     }
   }
 

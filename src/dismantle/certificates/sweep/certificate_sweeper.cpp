@@ -205,18 +205,11 @@ void CertificateSweeper::collect(const std::vector<PartTask>& tasks, std::vector
   }
 }
 
-bool CertificateSweeper::uses_device(const std::vector<PairSweep>& pairs) const {
-  if (!device_.fronts || pairs.empty()) return false;
-  std::size_t size = 0;
-  for (const PairSweep& pair : pairs) size += pair.front->size();
-  return size >= device_.min_pairs;
-}
-
 CertificateSweeper::DeviceResults CertificateSweeper::ask_device(const std::vector<PairSweep>& pairs,
                                                                  const std::vector<PartTask>& tasks,
                                                                  SweepBudget budget) {
   DeviceResults results;
-  if (!uses_device(pairs)) return results;
+  if (!device_.fronts || pairs.empty()) return results;
   try {
     merge_by_device(pairs, tasks);
     results.merged = true;

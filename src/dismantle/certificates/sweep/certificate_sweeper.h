@@ -158,8 +158,6 @@ class CertificateSweeper {
   void for_each_part(std::size_t count, const Run& run) const;
   /// The pairs to be swept, with their fronts.
   std::vector<PairSweep> prepare_pairs(const ScrewMotion& motion, SweepBudget budget, CertificateSweep& result);
-  /// True if there is a device, and the fronts are large enough for it.
-  bool uses_device(const std::vector<PairSweep>& pairs) const;
   /// What the device did for a sweep.
   struct DeviceResults {
     bool merged = false;            ///< It merged the parts.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/import/isolated_import.h"
 
+#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/files/file_cache.h"
 #include "dismantle/files/read_file.h"
 #include "dismantle/files/sha256.h"
-#include "dismantle/assembly/assembly_bytes.h"
 #include "dismantle/formats/import/mesh_source.h"
 
 #include <algorithm>

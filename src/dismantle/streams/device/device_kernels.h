@@ -134,8 +134,8 @@ struct FitBounds {
 };
 
 /// Sink of FrontSproutKernel that appends with one atomic addition for the threads of a warp that append together (the
-/// paper's global lock: one a value; docs/gpu.md compares them). Pairs without relative motion are dropped, as the front
-/// is restarted when that changes.
+/// paper's global lock: one a value; docs/gpu.md compares them). Pairs without relative motion are dropped, as the
+/// front is restarted when that changes.
 struct FrontSink {
   AppendView<std::uint64_t> triangle_pairs;  ///< S_t, keys.
   AppendView<std::uint64_t> kept;            ///< Keys of new nodes.
@@ -284,7 +284,9 @@ struct NarrowSink {
   ///@}
 };
 
-/// One round of S_t -> contacts and intersections. Item: a triangle pair of the round.
+/// One round of S_t -> contacts and intersections, by the tests of `kTests` (NarrowTests). Item: a triangle pair of the
+/// round.
+template <unsigned kTests>
 struct TestTrianglePairs {
   NarrowPhaseKernel kernel;  ///< Its pairs are all slots of S_t.
   NarrowSink sink;           ///< Output.
@@ -294,9 +296,7 @@ struct TestTrianglePairs {
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const StepCounters& counters = *sink.counters;
     if (counters.complete == 0 || begin + i >= counters.triangle_pairs) return;
-    NarrowPhaseKernel own = kernel;
-    own.horizon = horizon_of(counters, sink.round);
-    own(begin + i, sink);
+    kernel.template run<kTests>(begin + i, horizon_of(counters, sink.round), sink);
   }
 };
 
@@ -308,7 +308,8 @@ struct ReportFirstContacts {
 
   /// Slot i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    if (i < counters->contacts && contacts[i].toi <= horizon_of(*counters, kNarrowRounds)) reported.append_together(contacts[i]);
+    if (i < counters->contacts && contacts[i].toi <= horizon_of(*counters, kNarrowRounds))
+      reported.append_together(contacts[i]);
   }
 };
 

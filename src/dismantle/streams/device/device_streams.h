@@ -39,7 +39,7 @@ class DeviceStreams {
  private:
   enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
   static constexpr std::size_t kMinPairRoom = 2048;
-  static constexpr std::size_t kRoomForFewPairs = 8;     // of the pairs: more room is taken back
+  static constexpr std::size_t kRoomForFewPairs = 8;  // of the pairs: more room is taken back
   static constexpr int kStepsBeforeLessRoom = 64;
 
   const device_code::StepCounters& counters() const { return report_.on_host()[0].counters; }
@@ -54,6 +54,8 @@ class DeviceStreams {
   void enqueue_rounds();
   void enqueue_front_end();
   void enqueue_narrow_phase();
+  void enqueue_narrow_round(std::size_t count, const NarrowPhaseKernel& kernel, const device_code::NarrowSink& sink,
+                            std::size_t begin);
   /// True if all triangle pairs are tested in one round of the narrow phase: then their order does not matter.
   bool one_round() const { return pair_room_ <= narrow_phase_round_end(0); }
   bool grow_pair_room();
@@ -74,6 +76,7 @@ class DeviceStreams {
   DeviceArray<Vec3> displaced_;  // of the ghosts
   DeviceArray<float> margins_;   // of the leaves
   DeviceArray<PairRuleEntry> rules_;
+  bool has_discrete_rules_ = false;
   device_code::Upload upload_;
   MirroredArray<device_code::StepReport> report_;
   device_code::Buffers buffers_;
@@ -120,6 +123,9 @@ void DeviceStreams<Queue>::set_ghosts(const GhostVertices& ghosts, Span<const Kd
 template <class Queue>
 void DeviceStreams<Queue>::set_rules(PairRulesView rules) {
   rules_ = DeviceArray<PairRuleEntry>(queue_, rules.table);
+  has_discrete_rules_ = std::any_of(rules.table.begin(), rules.table.end(), [](const PairRuleEntry& entry) {
+    return entry.a != PairRuleEntry::kFree && entry.rule.test == PairTest::Discrete;
+  });
   forget_recordings();
 }
 
@@ -198,8 +204,9 @@ void DeviceStreams<Queue>::run_step() {
       queue_.mark(kVertices);
       enqueue_bounds();
       queue_.mark(kRefit);
-      queue_.launch(buffers_.front.size(),
-                    device_code::SproutFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
+      queue_.launch_counted(
+          buffers_.front.size(), &shared_counters()->front,
+          device_code::SproutFront{front_kernel(buffers_.front.view()), front_sink(0), shared_counters()});
       enqueue_rounds();
       enqueue_front_end();
       queue_.mark(kFront);
@@ -244,14 +251,14 @@ template <class Queue>
 void DeviceStreams<Queue>::enqueue_vertices() {
   upload_.copy_up(queue_);
   const device_code::UploadView upload = upload_.on_device();
-  queue_.launch(std::max<std::size_t>(geometry_.assembled.size(), 1),
-                device_code::MoveVertices{{shared_counters(), &upload.input(), buffers_.front.view(),
-                                           geometry_.first_front_node},
-                                          upload.components(),
-                                          upload.end(),
-                                          geometry_.component_of_vertex.view(),
-                                          geometry_.assembled.view(),
-                                          vertices_[1 - start_].view()});
+  queue_.launch(
+      std::max<std::size_t>(geometry_.assembled.size(), 1),
+      device_code::MoveVertices{{shared_counters(), &upload.input(), buffers_.front.view(), geometry_.first_front_node},
+                                upload.components(),
+                                upload.end(),
+                                geometry_.component_of_vertex.view(),
+                                geometry_.assembled.view(),
+                                vertices_[1 - start_].view()});
 }
 
 template <class Queue>
@@ -288,8 +295,8 @@ void DeviceStreams<Queue>::enqueue_rounds() {
                 "the last round leaves its pairs in the array that the first one reads");
   for (int round = 1; round <= device_code::kFrontRounds; ++round) {
     const Span<const std::uint64_t> left = std::as_const(buffers_.pending[(round - 1) % 2]).view();
-    queue_.launch(left.size(), device_code::ResumeFront{front_kernel(left), front_sink(round),
-                                                        &shared_counters()->pending[round - 1]});
+    const std::uint64_t* count = &shared_counters()->pending[round - 1];
+    queue_.launch_counted(left.size(), count, device_code::ResumeFront{front_kernel(left), front_sink(round), count});
   }
 }
 
@@ -323,14 +330,22 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
                                counters,
                                0};
   for (std::size_t begin = 0; begin < max_pairs; begin = narrow_phase_round_end(begin), ++sink.round)
-    queue_.launch(std::min(narrow_phase_round_end(begin), max_pairs) - begin,
-                  device_code::TestTrianglePairs{kernel, sink, begin});
+    enqueue_narrow_round(std::min(narrow_phase_round_end(begin), max_pairs) - begin, kernel, sink, begin);
   queue_.launch(buffers_.contacts.size(),
                 device_code::ReportFirstContacts{
                     counters,
                     buffers_.contacts.view(),
                     {{report_.on_device().data()->contacts, device_code::kReportedContacts}, &counters->reported}});
   report_.copy_down(queue_);
+}
+
+template <class Queue>
+void DeviceStreams<Queue>::enqueue_narrow_round(std::size_t count, const NarrowPhaseKernel& kernel,
+                                                const device_code::NarrowSink& sink, std::size_t begin) {
+  queue_.launch(count, device_code::TestTrianglePairs<kCertifiedTest>{kernel, sink, begin});
+  if (test_ == ElementaryTest::Elementary)
+    queue_.launch(count, device_code::TestTrianglePairs<kElementaryTest>{kernel, sink, begin});
+  if (has_discrete_rules_) queue_.launch(count, device_code::TestTrianglePairs<kDiscreteTest>{kernel, sink, begin});
 }
 
 /// Makes room for the triangle pairs of this step. @return true if there was too little: the narrow phase must be
