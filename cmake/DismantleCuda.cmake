@@ -4,7 +4,7 @@
 set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")  # CMake 3.25 does not know it
 set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
 if(NOT CMAKE_CUDA_ARCHITECTURES)
-  set(CMAKE_CUDA_ARCHITECTURES 80)  # and, as PTX, all that came later
+  set(CMAKE_CUDA_ARCHITECTURES 80-real 90)  # and, as PTX, all that came later
 endif()
 include(CheckLanguage)
 check_language(CUDA)

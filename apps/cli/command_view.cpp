@@ -3,6 +3,7 @@
 #include "apps/cli/option_checks.h"
 #include "apps/server/server.h"
 #include "dismantle/documents/path_file.h"
+#include "dismantle/exec/cuda_device.h"
 #include "dismantle/files/user_folders.h"
 #include "dismantle/formats/import/file_formats.h"
 
@@ -32,6 +33,7 @@ struct ViewOptions {
   int port = 0;
   bool no_browser = false;
   bool no_journal = false;
+  std::string method = "certificates";
 };
 
 /// Blocks SIGINT and SIGTERM in this thread and those that it starts: the main thread waits for them.
@@ -94,6 +96,8 @@ Result<server::ServerOptions> server_options(const ViewOptions& o) {
   options.model.classify.executor = executor;
   options.model.simplify = o.common.simplify;
   options.model.executor = executor;
+  options.model.drag_by_streams = o.method == "streams";
+  options.model.device = o.common.device;
   return options;
 }
 
@@ -115,6 +119,12 @@ Result<Done> run(const ViewOptions& o) {
     return Error{ErrorKind::Usage, "two assemblies are given (a file and --sample); give only one"};
   if (!o.common.assembly_file.empty() && !fs::exists(o.common.assembly_file))
     return Error{ErrorKind::Unreadable, o.common.assembly_file + " cannot be read (no such file); check the path"};
+  if (o.common.device == DeviceChoice::Cuda) {
+    const Result<std::string> cuda = cuda_device_name();
+    if (!cuda) note_cpu(o.common, cuda.error().message);
+    if (o.method != "streams")
+      note_cpu(o.common, "only method streams uses a GPU in the viewer; give --method streams");
+  }
   const Result<server::ServerOptions> options = server_options(o);
   if (!options) return options.error();
 
@@ -149,6 +159,12 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
       ->check(between(1, 65535));
   command->add_flag("--no-browser", options->no_browser, "Only print the URL");
   command->add_flag("--no-journal", options->no_journal, "Do not keep the session on disk or resume one");
+  command
+      ->add_option("--method", options->method,
+                   "Collision method of drags; streams touches or stops, on a GPU if --device says so")
+      ->type_name("certificates|streams")
+      ->check(one_of({"certificates", "streams"}))
+      ->capture_default_str();
   command->add_option("--web", options->web_folder, "Serve the page's files from a folder (for work on the page)")
       ->type_name("DIR")
       ->check(existing_folder());

@@ -6,6 +6,7 @@
 #include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/loading/load_isolated.h"
 #include "dismantle/simplify/simplify_assembly.h"
+#include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/surface/find_clashes.h"
 
 namespace dismantle::server {
@@ -20,6 +21,15 @@ Result<Assembly> simplified(Assembly assembly, const ModelOptions& options, cons
   Result<SimplifiedAssembly> result = simplify_assembly(assembly, options.simplify, simplify);
   if (!result) return result.error();
   return std::move(result->assembly);
+}
+
+/// Method `streams` for drags.
+DragEngine streams_engine(const Assembly& assembly, const PairStates& states, const ModelOptions& options) {
+  CollisionOptions collision;
+  collision.executor = options.executor;
+  ChosenStreamsBackend chosen = choose_streams_backend(assembly, collision, options.device);
+  return {make_streams_motion_engine(assembly, states, collision, std::move(chosen.backend)), "streams", chosen.device,
+          chosen.failure};
 }
 
 }  // namespace
@@ -55,6 +65,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
     if (!declared) return declared.error();
   }
   model.session = std::make_unique<Session>(*assembly, states, engine);
+  if (options.drag_by_streams) model.session->set_drag_engine(streams_engine(*assembly, states, options));
   return model;
 }
 

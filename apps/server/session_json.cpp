@@ -91,6 +91,10 @@ Json state_json(const Session& session) {
   json["moving"] = to_json(session.moving());
   json["automatic"] = automatic_json(session);
   json["response"] = name_of(session.response());
+  json["responses"] = Json::array();
+  for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop})
+    if (session.can_respond(response)) json["responses"].push_back(name_of(response));
+  json["method"] = session.drag_engine().method;
   json["undo"] = session.done().empty() ? Json(nullptr) : Json(session.done()[session.done().size() - 1].label);
   json["redo"] = session.undone().empty() ? Json(nullptr) : Json(session.undone()[0].label);
   json["moves"] = moves_json(session.done());

@@ -159,6 +159,10 @@ class WorkbenchCommands {
   Result<Json> set_response() {
     const auto response = in_.response();
     if (!response) return response.error();
+    if (!session_.can_respond(*response))
+      return usage("this response cannot be chosen",
+                   "method " + session_.drag_engine().method + " has no " + std::string(name_of(*response)),
+                   "choose touch or stop");
     session_.set_response(*response);
     return Json::object();
   }
@@ -288,7 +292,12 @@ class WorkbenchCommands {
                 {"step_us", quantiles(s.step_us())},
                 {"hand_to_pose_us", quantiles(s.latency_us())},
                 {"front_size", session_.engine().front_size()},
-                {"device", "cpu"}};
+                {"device", device_of_drags()}};
+  }
+  /// The CPU took over where a GPU failed.
+  std::string device_of_drags() const {
+    const DragEngine& used = session_.drag_engine();
+    return used.failure && !used.failure->why.empty() ? "cpu (the GPU failed: " + used.failure->why + ")" : used.device;
   }
   Result<Json> clearance() {
     if (session_.moving().empty())

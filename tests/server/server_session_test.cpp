@@ -118,6 +118,29 @@ TEST_F(ServerSession, RefusesInvalidCommands) {
   EXPECT_TRUE(client.command("check")["ok"]);
 }
 
+using ServerStreams = ServerScene;
+
+TEST_F(ServerStreams, DragsByMethodStreamsAndOffersItsResponses) {
+  ServerOptions options;
+  options.model.drag_by_streams = true;
+  options.model.device = DeviceChoice::Cpu;
+  start_with_block_and_wall(std::move(options));
+  Client client(address());
+  const Json state = client.state();
+  EXPECT_EQ(state["method"], "streams");
+  EXPECT_EQ(state["response"], "touch");
+  EXPECT_EQ(state["responses"], (Json{"touch", "stop"}));
+  EXPECT_FALSE(client.command("set_response", {{"response", "slide"}})["ok"]);
+  EXPECT_TRUE(client.command("set_response", {{"response", "stop"}})["ok"]);
+  EXPECT_TRUE(client.command("set_response", {{"response", "touch"}})["ok"]);
+  const PoseMessage last = drag(client, hold(client, 0), {0, 0, 0}, {15, 0, 0}, 15);
+  EXPECT_NEAR(last.pose.position.x, 10.5, 0.02);
+  EXPECT_FALSE(last.contacts.empty());
+  EXPECT_EQ(client.command("metrics")["device"], "cpu");
+  client.command("release");
+  audited_recording();
+}
+
 TEST_F(ServerSession, HidesIsolatesAndRestores) {
   Client client(address());
   client.state();

@@ -108,9 +108,28 @@ Vec3 Session::moving_center() const {
   return transform_from_pose(poses()[moving_[0].value]) * moving_center_;
 }
 
+void Session::set_drag_engine(DragEngine engine) {
+  DISMANTLE_EXPECT(activity_ != SessionActivity::Drag);
+  drag_engine_ = std::move(engine);
+  if (!can_respond(response_)) response_ = ResponseKind::Touch;
+}
+
+StepResult Session::step_of_drag(const Pose& target) {
+  MotionEngine* const other = drag_engine_.engine.get();
+  if (other == nullptr) return engine_->step(target, response_);
+  if (!std::equal(poses().begin(), poses().end(), other->poses().begin())) other->jump(poses());
+  const Span<const ComponentId> held = other->moving_set();
+  if (!std::equal(held.begin(), held.end(), moving_.begin(), moving_.end())) other->grab(moving_);
+  StepResult step = other->step(target, response_);
+  if (step.poses.empty()) return step;
+  engine_->jump(other->poses());  // which releases the set
+  engine_->grab(moving_);
+  return step;
+}
+
 StepResult Session::drag(const Pose& target, double time) {
   DISMANTLE_EXPECT(activity_ == SessionActivity::Drag);
-  StepResult step = engine_->step(target, response_);
+  StepResult step = step_of_drag(target);
   std::vector<Frame>& frames = open_->frames;
   if (step.poses.empty()) return step;
   const std::size_t before = frames.size();

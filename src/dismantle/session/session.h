@@ -3,6 +3,7 @@
 
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/result.h"
+#include "dismantle/exec/cuda_device.h"
 #include "dismantle/session/exit_search.h"
 #include "dismantle/session/journal.h"
 #include "dismantle/session/playback.h"
@@ -44,9 +45,17 @@ struct Guide {
   Timeline timeline;  ///< Its moves.
 };
 
-/// An interactive disassembly session: dragging with collision handling by the method `certificates`, a recording of
-/// everything that happened, undo and redo. Every motion satisfies docs/guarantee.md. Equal calls give equal sessions,
-/// bit for bit. Not thread-safe.
+/// An engine that computes drags in place of the session's own, and what to call it.
+struct DragEngine {
+  std::unique_ptr<MotionEngine> engine;          ///< Over the session's assembly and pair states; null: its own engine.
+  std::string method = "certificates";           ///< As `--method` names it.
+  std::string device = "cpu";                    ///< "cpu", or the name of the CUDA device.
+  std::shared_ptr<const DeviceFailure> failure;  ///< Of the device, while it works; null on the CPU.
+};
+
+/// An interactive disassembly session: dragging with collision handling by the method `certificates` or another one, a
+/// recording of everything that happened, undo and redo. Every motion satisfies docs/guarantee.md. Equal calls give
+/// equal sessions, bit for bit. Not thread-safe.
 class Session {
  public:
   /// A session with everything assembled. `assembly` must outlive it.
@@ -60,6 +69,12 @@ class Session {
   Span<const Pose> poses() const { return engine_->poses(); }
   /// The engine, for queries about its moving set.
   const CertificateEngine& engine() const { return *engine_; }
+  /// Computes drags by another engine from now on; where it cannot slide, drags touch. Everything else (taking out,
+  /// putting back, playback, contacts, clearance) stays with the session's own. Both hold docs/guarantee.md.
+  /// @pre nothing is dragged
+  void set_drag_engine(DragEngine engine);
+  /// The engine of drags.
+  const DragEngine& drag_engine() const { return drag_engine_; }
   /// Options of the engine.
   const CertificateOptions& options() const { return options_; }
   /// The present activity.
@@ -89,7 +104,11 @@ class Session {
 
   /// The response of drags.
   ResponseKind response() const { return response_; }
-  /// Sets the response of drags.
+  /// True if the engine of drags implements this response.
+  bool can_respond(ResponseKind response) const {
+    return drag_engine_.engine == nullptr || drag_engine_.engine->can_respond(response);
+  }
+  /// Sets the response of drags. @pre can_respond(response)
   void set_response(ResponseKind response) { response_ = response; }
 
   /// Undoes the last entry; during a drag, ends and undoes the drag. Errors: Usage if there is none.
@@ -176,6 +195,7 @@ class Session {
   /// Puts the components of an entry at the pose of one of its frames.
   void put(const SessionEntry& entry, const Frame& frame);
   void begin(SessionActivity activity, std::string_view verb, std::vector<ComponentId> set);
+  StepResult step_of_drag(const Pose& target);
   void begin_automatic(AutomaticKind kind, std::vector<Frame> targets);
   void be_idle();
   StepResult advance_automatic(double dt);
@@ -192,6 +212,7 @@ class Session {
   PairStates pairs_;
   CertificateOptions options_;
   std::unique_ptr<CertificateEngine> engine_;
+  DragEngine drag_engine_;
   SessionActivity activity_ = SessionActivity::Idle;
   std::vector<ComponentId> moving_;
   Vec3 moving_center_;  ///< Of the box around the assembled set [mm].

@@ -175,6 +175,8 @@ export class PathPlayer implements Transport {
       moving: steps[step]?.components ?? [],
       automatic: null,
       response: "slide",
+      responses: ["slide"],
+      method: "certificates",
       undo: null,
       redo: null,
       moves: steps.map(({ label, components: moved, duration }, i) => ({

@@ -112,7 +112,7 @@ export class Toolbar {
     this.headset.setAttribute("aria-pressed", String(this.app.headset.active));
     for (const [response, radio] of this.responses) {
       radio.checked = (state?.response ?? "slide") === response;
-      radio.disabled = !control || !state;
+      radio.disabled = !control || !state?.responses.includes(response);
     }
     setText(this.name, model?.name ?? "");
     document.title = model ? `${model.name} – ${text("title")}` : text("title");

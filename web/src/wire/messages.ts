@@ -91,6 +91,10 @@ export interface StateEvent {
   moving: number[];
   automatic: "take_out" | "put_back" | null;
   response: Response;
+  /// The responses that `method` has.
+  responses: Response[];
+  /// What computes drags.
+  method: "certificates" | "streams";
   undo: string | null;
   redo: string | null;
   moves: Move[];
