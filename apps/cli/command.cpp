@@ -196,7 +196,7 @@ void note_cpu(const CommonOptions& options, const std::string& why) {
 }
 
 Result<Assembly> load(const CommonOptions& options) {
-  if (!options.uses_device) note_cpu(options, "only move uses a CUDA device");
+  if (!options.uses_device) note_cpu(options, "only move and view use a GPU");
   ImportOptions import = options.import;
   import.progress = progress_printer(options);
   Result<Assembly> assembly = load_assembly(options.assembly_file, import);

@@ -48,6 +48,33 @@ class Tables(unittest.TestCase):
                 run_all.chosen_table(benchmark, text)
 
 
+class Gpu(unittest.TestCase):
+    def write(self, folder, devices):
+        (folder / "machine.json").write_text(json.dumps({"gpu": "Abacus", "driver": "1", "cuda": "2", "processor": "p", "cores": 3, "date": "d",
+                                                         "load": 0.1, "commit": "c"}))
+        times = {"mean_ms": 2, "median_ms": 1, "p99_ms": 3, "max_ms": 4}
+        play = {"scene": "s", "triangles": 5, "method": "streams", "steps": 6, "plays": 3, "equal": False, "cpu_threads": 8, "cpu": times,
+                "on_device": {**times, "mean_ms": 0.5}, "max_front": 7, "max_triangle_pairs": 8}
+        (folder / "devices.jsonl").write_text(json.dumps(play) + devices)
+        (folder / "steps.tsv").write_text("ok\t9\tbits: s\n")
+        (folder / "appends-cuda.tsv").write_text("variant\tms\nlocal\t1\n")
+
+    def test_the_section_has_every_play_table_and_step(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertEqual(make_results.gpu_section_of(folder), "")
+            self.write(folder, "\n")
+            section = make_results.gpu_section_of(folder)
+        for part in ("Abacus", "DIFFERENT", "| 4.00 | 7 | 8 |", "### appends on cuda", "| local | 1 |", "| ok | 9 | bits: s |"):
+            self.assertIn(part, section)
+
+    def test_other_files_are_refused(self):
+        with tempfile.TemporaryDirectory() as name:
+            self.write(pathlib.Path(name), "\n{}\n")
+            with self.assertRaisesRegex(make_results.Failure, "is not what tools/gpu_check writes"):
+                make_results.gpu_section_of(pathlib.Path(name))
+
+
 class Commands(unittest.TestCase):
     def test_the_build_folder_is_put_in_and_patterns_become_files(self):
         words = run_all.words_of("build/release/bench/x --n 'a b' bench/benchmarks.*", pathlib.Path("/elsewhere"))
