@@ -18,7 +18,7 @@ struct ChosenCertificateDevice {
 };
 
 /// Chooses the device for an engine of method `certificates`. DeviceChoice::Auto is the CPU: on an H200 every scene
-/// measured took 1.7 to 12 times as long as on eight threads (docs/gpu.md), as fronts are small and a sweep needs
+/// measured took 1.7 to 4.6 times as long as on 16 threads (docs/gpu.md), as fronts are small and a sweep needs
 /// little.
 ChosenCertificateDevice choose_certificate_device(DeviceChoice choice);
 

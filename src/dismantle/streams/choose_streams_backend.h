@@ -19,7 +19,7 @@ struct ChosenStreamsBackend {
   std::shared_ptr<const DeviceFailure> failure;
 };
 
-/// Number of triangles from which DeviceChoice::Auto takes a CUDA device: from there on, an H200 was faster than eight
+/// Number of triangles from which DeviceChoice::Auto takes a CUDA device: from there on, an H200 was faster than 16
 /// threads in every scene measured (docs/gpu.md).
 inline constexpr std::size_t kCudaWorthTriangles = 5'000;
 

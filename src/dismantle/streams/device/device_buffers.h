@@ -185,7 +185,7 @@ bool Buffers::grow_front(Queue& queue, const StepCounters& needed) {
   bool grown = false;
   if (const std::uint64_t nodes = StepCapacity::front_needed(needed); nodes > front.size()) {
     DeviceArray<std::uint64_t> larger(queue, nodes + nodes / 2);
-    queue.copy(larger.view().data(), front.view().data(), front.size() * sizeof(std::uint64_t));
+    queue.copy(larger.view().data(), front.view().data(), needed.front * sizeof(std::uint64_t));
     queue.wait();
     front = std::move(larger);
     grown = true;
