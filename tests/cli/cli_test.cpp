@@ -331,12 +331,24 @@ TEST_F(Cli, LeavesNoPartialFileIfItCannotWrite) {
 }
 
 TEST_F(Cli, ReadsWhatConvertWrites) {
-  for (const char* file : {"out.obj", "out.stl", "out.glb"}) {
+  for (const char* file : {"out.obj", "out.stl", "out.glb", "out.dasm"}) {
     ASSERT_EQ(run(std::string("convert parts -o ") + file).exit_code, 0) << file;
     const Outcome o = run(std::string("info ") + file + " --json");
     ASSERT_EQ(o.exit_code, 0) << file << o.err;
     EXPECT_EQ(Json::parse(o.out)["assembly"]["triangles"], 24) << file;
   }
+}
+
+TEST_F(Cli, KeepsMotionsInDasmFilesOnly) {
+  EXPECT_EQ(run("convert parts -o out.dasm --motion pull.motion.json").exit_code, 0);
+  EXPECT_GT(fs::file_size(in("out.dasm")), 1000u);
+  expect_error("convert parts -o out.glb --motion pull.motion.json", 2, ".dasm");
+  write("other.motion.json",
+        R"({"format": "dismantle-motion", "version": 1, "moves": [{"components": ["ball"], "targets": []}]})");
+  expect_error("convert parts -o other.dasm --motion other.motion.json", 3, "ball");
+  EXPECT_FALSE(fs::exists(in("other.dasm")));
+  write("cut.dasm", read_all(in("out.dasm")).substr(0, 700));
+  expect_error("info cut.dasm", 3, "cannot be read as DASM");
 }
 
 }  // namespace

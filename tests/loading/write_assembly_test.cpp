@@ -43,6 +43,58 @@ TEST(WriteAssembly, ObjGivesBackTheSameComponents) {
   EXPECT_EQ(folder.entry_count(), 1u);
 }
 
+TEST(WriteAssembly, DasmGivesBackEverything) {
+  const ScratchFolder folder;
+  Assembly original = two_parts();
+  original.components.push_back(original.components[1]);
+  original.components[2].name = "another ring";
+  original.source_file = "from.step";
+  original.deflection = 0.25;
+  ASSERT_TRUE(write_assembly(folder / "a.dasm", original).ok());
+  const auto again = load_assembly(folder / "a.dasm");
+  ASSERT_TRUE(again.ok()) << message_of(again);
+  ASSERT_EQ(again->components.size(), 3u);
+  EXPECT_EQ(again->source_file, "from.step");
+  EXPECT_EQ(again->deflection, 0.25);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again->components[i].name, original.components[i].name);
+    EXPECT_EQ(*again->components[i].mesh, *original.components[i].mesh);
+    EXPECT_EQ(again->components[i].assembly_from_mesh, original.components[i].assembly_from_mesh);
+    EXPECT_EQ(again->components[i].color, original.components[i].color);
+  }
+  EXPECT_EQ(again->components[1].mesh, again->components[2].mesh);
+
+  ImportOptions inches;
+  inches.units = "in";
+  const auto larger = load_assembly(folder / "a.dasm", inches);
+  ASSERT_TRUE(larger.ok()) << message_of(larger);
+  EXPECT_DOUBLE_EQ(assembled_bounds(*larger).upper.z, 25.4 * assembled_bounds(original).upper.z);
+  EXPECT_EQ(larger->source_units, "in");
+}
+
+TEST(WriteAssembly, DasmLosesWhatOtherFormatsDoNotLetIn) {
+  const ScratchFolder folder;
+  Assembly original = two_parts();
+  TriangleMesh faulty = *original.components[0].mesh;
+  faulty.faces.push_back({{0, 0, 1}});
+  original.components[0].mesh = std::make_shared<const TriangleMesh>(faulty);
+  original.components.push_back(original.components[1]);
+  original.components[2].mesh = std::make_shared<const TriangleMesh>();
+  ASSERT_TRUE(write_assembly(folder / "a.dasm", original).ok());
+  const auto again = load_assembly(folder / "a.dasm");
+  ASSERT_TRUE(again.ok()) << message_of(again);
+  ASSERT_EQ(again->components.size(), 2u);
+  EXPECT_EQ(again->components[0].mesh->faces.size(), 12u);
+  EXPECT_EQ(again->components[0].faults.degenerate_faces, 1u);
+
+  original.components = {original.components[2]};
+  ASSERT_TRUE(write_assembly(folder / "b.dasm", original).ok());
+  EXPECT_FALSE(load_assembly(folder / "b.dasm").ok());
+  ImportOptions small;
+  small.limits.triangles = 10;
+  EXPECT_FALSE(load_assembly(folder / "a.dasm", small).ok());
+}
+
 TEST(WriteAssembly, NamesThatObjCannotHoldAreChanged) {
   const ScratchFolder folder;
   Assembly assembly = two_parts();
