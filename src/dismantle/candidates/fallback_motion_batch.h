@@ -13,6 +13,7 @@ namespace dismantle {
 /// A batch that goes on with another one when its device fails (CudaError): every batch gives the same results.
 class FallbackMotionBatch final : public MotionBatch {
  public:
+  /// Makes a batch.
   using Make = std::function<std::unique_ptr<MotionBatch>()>;
 
   /// @param on_device used until it fails

@@ -16,6 +16,7 @@ namespace dismantle {
 /// gives the same results. Not tried again.
 class FallbackStreamsBackend final : public StreamsBackend {
  public:
+  /// Makes a backend.
   using Make = std::function<std::unique_ptr<StreamsBackend>()>;
 
   /// @param on_device used until it fails
