@@ -206,25 +206,33 @@ void JointRelations::add_fasteners_beside(const Joint& joint, ComponentId gone, 
     if (!is_held(part, present)) next.push_back(part);
 }
 
+std::vector<ComponentId> JointRelations::rest_of_stack(const PlanStep& step, const ComponentSet& present) const {
+  std::vector<ComponentId> rest;
+  for (const std::size_t i : stacks_of(step))
+    for (const ComponentId c : joints_[i].stack())
+      if (present.has(c) && !has(rest, c)) rest.push_back(c);
+  return rest;
+}
+
 std::vector<ComponentId> JointRelations::next_after(const PlanStep& step, const std::vector<ComponentId>& kinds,
                                                     const ComponentSet& present) const {
-  std::vector<ComponentId> next;
-  for (const ComponentId c : step.components)
-    for (const std::vector<Indices>* of : {&fastened_by_, &washer_of_})
-      for (const std::size_t i : (*of)[c.value]) {
-        const std::vector<ComponentId> stack = joints_[i].stack();
-        next.insert(next.end(), stack.begin(), stack.end());
-      }
-  for (const ComponentId c : step.components)
-    for (const std::vector<Indices>* of : {&fastened_by_, &washer_of_})
-      for (const std::size_t i : (*of)[c.value]) {
-        const Joint& joint = joints_[i];
-        add_fasteners_beside(joint, joint.screw.valid() ? joint.screw : joint.nuts.front(), kinds, present, next);
-      }
-  std::vector<ComponentId> once;
+  std::vector<ComponentId> once = rest_of_stack(step, present), next;
+  for (const std::size_t i : stacks_of(step)) {
+    const Joint& joint = joints_[i];
+    add_fasteners_beside(joint, joint.screw.valid() ? joint.screw : joint.nuts.front(), kinds, present, next);
+  }
   for (const ComponentId c : next)
     if (present.has(c) && !has(once, c)) once.push_back(c);
   return once;
+}
+
+JointRelations::Indices JointRelations::stacks_of(const PlanStep& step) const {
+  Indices found;
+  for (const ComponentId c : step.components)
+    for (const std::vector<Indices>* of : {&fastened_by_, &washer_of_})
+      for (const std::size_t i : (*of)[c.value])
+        if (std::find(found.begin(), found.end(), i) == found.end()) found.push_back(i);
+  return found;
 }
 
 std::vector<Vec3> JointRelations::exits_of(ComponentId c) const {

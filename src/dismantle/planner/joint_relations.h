@@ -42,6 +42,9 @@ class JointRelations {
   /// any more.
   std::optional<Unscrewing> unscrewing(const PlanStep& step, const ComponentSet& present) const;
 
+  /// What is left of the stacks that a step began, in the order in which it comes off.
+  /// @param present without the components of the step
+  std::vector<ComponentId> rest_of_stack(const PlanStep& step, const ComponentSet& present) const;
   /// Components that a person would remove next, after a step, the first one first: the rest of the stack that it
   /// began; equal fasteners that hold the same part; what is held no more.
   /// @param kinds first_of_shape() @param present without the components of the step
@@ -56,6 +59,8 @@ class JointRelations {
   ComponentId holder(const Joint& joint, const ComponentSet& present) const;
   bool is_closed(const Joint& joint, const ComponentSet& present) const;
   bool leaves_along(const Joint& joint, ComponentId fastener, const Vec3& direction) const;
+  /// The joints of whose stacks a step moves a part.
+  Indices stacks_of(const PlanStep& step) const;
   bool is_held(ComponentId c, const ComponentSet& present) const;
   void add_fasteners_beside(const Joint& joint, ComponentId gone, const std::vector<ComponentId>& kinds,
                             const ComponentSet& present, std::vector<ComponentId>& next) const;

@@ -5,10 +5,9 @@
 
 namespace dismantle {
 
-std::optional<StraightRemoval> JointSteps::next_after(const PlanStep& step, DirectionId last,
-                                                      const std::vector<ComponentId>& kinds,
+std::optional<StraightRemoval> JointSteps::first_free(const std::vector<ComponentId>& components, DirectionId last,
                                                       const ComponentSet& present, const ComponentSet& staying) {
-  for (const ComponentId c : relations_.next_after(step, kinds, present)) {
+  for (const ComponentId c : components) {
     if (staying.has(c)) continue;
     std::vector<DirectionId> directions = choice_.directions()[c.value];
     std::stable_partition(directions.begin(), directions.end(), [&](DirectionId d) { return d == last; });

@@ -17,12 +17,9 @@ class JointSteps {
              const RigidGroups& groups)
       : relations_(relations), table_(table), choice_(choice), groups_(groups) {}
 
-  /// Where a person would go on after a step (JointRelations::next_after), if that can be removed straight; along
-  /// `last`, if possible.
-  /// @param kinds first_of_shape() @param present without the components of the step
-  std::optional<StraightRemoval> next_after(const PlanStep& step, DirectionId last,
-                                            const std::vector<ComponentId>& kinds, const ComponentSet& present,
-                                            const ComponentSet& staying);
+  /// The first of some components that can be removed straight; along `last`, if possible.
+  std::optional<StraightRemoval> first_free(const std::vector<ComponentId>& components, DirectionId last,
+                                            const ComponentSet& present, const ComponentSet& staying);
   /// The removal of a fastener with those of its washers that can move along; any other removal as it is.
   StraightRemoval with_washers(StraightRemoval removal, const ComponentSet& present, const ComponentSet& staying);
 

@@ -280,15 +280,18 @@ class Planner {
   /// Single components that can be removed straight, in the order in which to try them.
   std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying,
                                                FreeComponentSearch& search, const JointRelations* joints) {
-    if (!options_.preferences.empty()) {
+    const bool by_preferences = !options_.preferences.empty();
+    if (joints != nullptr && !plan_.steps.empty()) {
+      const PlanStep& last = plan_.steps.back();
+      const auto next = by_preferences ? joints->rest_of_stack(last, body) : joints->next_after(last, kinds(), body);
+      if (const auto first = joint_steps_.first_free(next, last_direction_, body, staying)) return {*first};
+    }
+    if (by_preferences) {
       StepBefore before;
       if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
       return preferred_removals({table_, choice_.directions(), kinds(), options_.preferences, early_}, body, staying,
                                 before);
     }
-    if (joints != nullptr && !plan_.steps.empty())
-      if (const auto next = joint_steps_.next_after(plan_.steps.back(), last_direction_, kinds(), body, staying))
-        return {*next};
     std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return in_time(); });
     std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
       const bool a_is_early = early_.has(a.components[0]), b_is_early = early_.has(b.components[0]);
