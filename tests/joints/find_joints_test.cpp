@@ -110,7 +110,8 @@ TEST(FindJoints, HoldAHubOnAShaftWithASetScrew) {
   set_screw.diameter = 5;
   set_screw.pitch = 0.8;
   set_screw.axis = {0, 0, 1};
-  const TriangleMesh rod = scenes::turned({{6, scenes::circle(2.5)}, {12, scenes::circle(2.5)}});
+  // Its tip is drawn into the shaft by 1 mm.
+  const TriangleMesh rod = scenes::turned({{5, scenes::circle(2.5)}, {12, scenes::circle(2.5)}});
   const Assembly a = scenes::assembly({scenes::component("shaft", scenes::moved(shaft, on_side)),
                                        scenes::component("hub", hub), scenes::component("set screw", rod)});
   const std::vector<Joint> joints = find_joints(a, {std::nullopt, std::nullopt, set_screw}, Executor());

@@ -108,7 +108,8 @@ class JointSearch {
     }
     std::stable_sort(around.begin(), around.end(),
                      [](const Surrounding& a, const Surrounding& b) { return a.mean < b.mean; });
-    const Surrounding* thread = thread_of(around);
+    const Surrounding* thread =
+        shank->has_head ? thread_of(around.begin(), around.end()) : thread_of(around.rbegin(), around.rend());
     if (thread == nullptr) return std::nullopt;
 
     Joint joint;
@@ -177,10 +178,12 @@ class JointSearch {
     return found;
   }
 
-  /// What the thread of a screw ends in; null if nothing surrounds it. @param around by position, from the tip
-  const Surrounding* thread_of(const std::vector<Surrounding>& around) const {
+  /// What the thread of a screw is in, of what surrounds it, the most probable one first; null if that is nothing.
+  template <class Iterator>
+  const Surrounding* thread_of(Iterator first, Iterator last) const {
     const Surrounding* any = nullptr;
-    for (const Surrounding& s : around) {
+    for (; first != last; ++first) {
+      const Surrounding& s = *first;
       const ComponentId c = s.component;
       if (is(c, Kind::Washer)) continue;
       if (s.is_tight || is(c, Kind::Nut) || is(c, Kind::Insert) || is(c, Kind::Standoff)) return &s;

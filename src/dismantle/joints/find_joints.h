@@ -19,8 +19,8 @@ namespace dismantle {
 /// - A nut, washer, threaded insert or standoff is one by `fasteners`; a nut and a washer that the shank passes through
 ///   come off with it.
 /// - The thread ends in the nut, insert, standoff or component with a hole no wider than the thread that is nearest to
-///   the tip; if there is none, in what is nearest to the tip. It is left after the distance from the tip to the end of
-///   that hole towards the head.
+///   the tip; if there is none, in what is nearest to the tip. That of a screw without a head is in the one nearest to
+///   its other end. It is left after the distance from the tip to the end of that hole towards the head.
 /// - A nut without a recognised screw is on the component that fills its hole, and holds that and what it, or its
 ///   washer, presses on.
 /// Not known: forces, how far a thread that is not modelled reaches, what only friction, glue or a wide washer holds,
