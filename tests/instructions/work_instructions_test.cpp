@@ -64,8 +64,10 @@ TEST(WorkInstructions, NameFastenersTheirToolsAndThreads) {
   const WorkInstructions made = written(a, scenes::bolted_lid_pairs(), path);
   EXPECT_EQ(made.steps[0].title, "Unscrew 2 \u00d7 part 7 (socket head screw M5x16)");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "4 mm hex key\n");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning),
-            "Right-hand thread M5, pitch 0.8 mm. The rotation is not shown: unscrew first if engaged.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "") << "the motion tells the turns";
+  const std::string motion = said(made.steps[0], InstructionNote::Kind::Motion);
+  EXPECT_EQ(motion.substr(0, 8), "Unscrew ");
+  EXPECT_NE(motion.find(" turns anticlockwise, 11"), std::string::npos) << motion;
   EXPECT_EQ(made.tools, std::vector<std::string>{"4 mm hex key"});
   EXPECT_EQ(part_name_text(made.parts[2]), "part 7, socket head screw M5x16");
 }
