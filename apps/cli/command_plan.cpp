@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -31,6 +32,7 @@ struct PlanCommand {
   std::vector<std::string> targets, fixed;
   double time_limit = 0, effort = 1, allow_overlap = 0;
   std::vector<StepPreference> preferences;
+  FastenerOrder fasteners = FastenerOrder::First;
   bool margins = false;
 };
 
@@ -78,8 +80,8 @@ std::string margin_text(const Assembly& a, const PlanStep& step) {
 void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan) {
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const PlanStep& step = plan.steps[k];
-    fmt::print("{:>4}  {}  {}, {}{}\n", k + 1, names_text(a, step.components), name_of(step.tier),
-               direction_text(step.exit), margin_text(a, step));
+    fmt::print("{:>4}  {}  {}, {}{}{}\n", k + 1, names_text(a, step.components), name_of(step.tier),
+               direction_text(step.exit), fastener_text_of(a, step), margin_text(a, step));
   }
   fmt::print("{}{} steps in {:.2f} s:", plan.steps.empty() ? "" : "\n", plan.steps.size(), plan.seconds);
   for (const auto& [tier, count] : tier_counts(plan)) fmt::print(" {} {};", count, name_of(tier));
@@ -127,6 +129,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   options.search_longer(command.effort);
   options.preferences = command.preferences;
   options.margins = command.margins;
+  options.fasteners = command.fasteners;
   options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
   const auto make_plan = [&] {
@@ -205,6 +208,14 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "is up), equal components in a row, or keeping all supported; the first counts most")
       ->transform(choice(step_preferences()))
       ->type_name("direction|upright|groups|support");
+  command
+      ->add_option(
+          "--fasteners", options->fasteners,
+          "Order of screws and nuts: first, before what they hold, unscrewed along their axes, wherever that is "
+          "possible; or as any other component (default: first)")
+      ->transform(choice(
+          std::map<std::string, FastenerOrder>{{"first", FastenerOrder::First}, {"any", FastenerOrder::Ignored}}))
+      ->type_name("first|any");
   command
       ->add_option("--allow-overlap", options->allow_overlap,
                    "Where a component stays otherwise, let it overlap what it touches by up to this much more than in "

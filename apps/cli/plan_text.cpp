@@ -9,6 +9,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json id_json(const Assembly& assembly, ComponentId c) {
+  return c.valid() ? Json(assembly[c].name) : Json(nullptr);
+}
+
+Json unscrewing_json(const Unscrewing& u) {
+  return {{"turns", u.turns > 0 ? Json(u.turns) : Json(nullptr)},
+          {"travel_mm", u.travel},
+          {"pitch_mm", u.pitch > 0 ? Json(u.pitch) : Json(nullptr)},
+          {"left_handed", u.left_handed},
+          {"nominal", u.nominal}};
+}
+
+Json joint_json(const Assembly& assembly, const Joint& joint) {
+  return {{"screw", id_json(assembly, joint.screw)},
+          {"nuts", names_json(assembly, joint.nuts)},
+          {"head_washers", names_json(assembly, joint.head_washers)},
+          {"nut_washers", names_json(assembly, joint.nut_washers)},
+          {"held", names_json(assembly, joint.held)},
+          {"thread_in", id_json(assembly, joint.thread_in)},
+          {"has_head", joint.has_head},
+          {"axis", {joint.axis.x, joint.axis.y, joint.axis.z}}};
+}
+
 }  // namespace
 
 Result<ComponentId> find_component(const Assembly& assembly, const std::string& name) {
@@ -57,18 +80,21 @@ Json explanation_json(const Assembly& assembly, const Explanation& e) {
 }
 
 Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
-  Json steps = Json::array(), staying = Json::array(), tiers = Json::object();
+  Json steps = Json::array(), staying = Json::array(), tiers = Json::object(), joints = Json::array();
   for (const PlanStep& step : plan.steps) {
     steps.push_back({{"components", names_json(a, step.components)},
                      {"tier", name_of(step.tier)},
                      {"part_of_step", step.part_of == PlanStep::kWhole ? Json(nullptr) : Json(step.part_of)},
                      {"exit", {step.exit.x, step.exit.y, step.exit.z}}});
+    if (step.unscrewing) steps.back()["unscrew"] = unscrewing_json(*step.unscrewing);
+    if (!step.still_held_by.empty()) steps.back()["still_held_by"] = names_json(a, step.still_held_by);
     if (!step.margin) continue;
     steps.back()["margin_mm"] = step.margin->margin;
     const bool is_near = step.margin->nearest.valid();
     steps.back()["nearest"] = is_near ? Json(a[step.margin->nearest].name) : Json(nullptr);
   }
   for (const Explanation& e : plan.staying) staying.push_back(explanation_json(a, e));
+  for (const Joint& joint : plan.joints) joints.push_back(joint_json(a, joint));
   for (const auto& [tier, count] : tier_counts(plan)) tiers[std::string(name_of(tier))] = count;
   return {{"format", "dismantle-plan"},
           {"version", 1},
@@ -77,8 +103,16 @@ Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
           {"out_of_time", plan.out_of_time},
           {"tiers", tiers},
           {"steps", steps},
+          {"joints", joints},
           {"staying", staying},
           {"removed", path.removed}};
+}
+
+std::string fastener_text_of(const Assembly& assembly, const PlanStep& step) {
+  std::string text;
+  if (step.unscrewing) text += ", " + unscrewing_text(*step.unscrewing);
+  if (!step.still_held_by.empty()) text += ", still held by " + names_text(assembly, step.still_held_by);
+  return text;
 }
 
 std::map<PlanTier, std::size_t> tier_counts(const Plan& plan) {

@@ -25,6 +25,9 @@ nlohmann::ordered_json explanation_json(const Assembly& assembly, const Explanat
 /// A plan as the JSON object of `plan --json`, without the time it took. @param path of the plan
 nlohmann::ordered_json plan_json(const Assembly& assembly, const Plan& plan, const Path& path);
 
+/// The fasteners of a step, for people: ", unscrew 12 turns anticlockwise, 9.6 mm ..." and ", still held by bolt".
+std::string fastener_text_of(const Assembly& assembly, const PlanStep& step);
+
 /// Number of steps by tier.
 std::map<PlanTier, std::size_t> tier_counts(const Plan& plan);
 

@@ -232,6 +232,12 @@ class PlanStep:
     def margin(self) -> Optional[float]: ...
     @property
     def nearest(self) -> Optional[str]: ...
+    @property
+    def unscrew(self) -> Optional[str]: ...
+    @property
+    def turns(self) -> Optional[float]: ...
+    @property
+    def still_held_by(self) -> List[str]: ...
 
 class Plan:
     @property
@@ -288,6 +294,7 @@ def plan(
     time_limit: float = 0.0,
     effort: float = 1.0,
     margins: bool = False,
+    fasteners: str = "first",
     threads: int = 0,
     progress: _Progress = None,
 ) -> Plan: ...

@@ -48,8 +48,8 @@ std::vector<StepPreference> preferences_of(const std::vector<std::string>& names
 }
 
 PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed,
-              const std::vector<std::string>& prefer, double time_limit, double effort, bool margins, int threads,
-              const py::object& progress) {
+              const std::vector<std::string>& prefer, double time_limit, double effort, bool margins,
+              const std::string& fasteners, int threads, const py::object& progress) {
   PythonProgress watched(progress);
   PlanOptions options;
   options.preferences = preferences_of(prefer);
@@ -57,6 +57,9 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
   options.fixed = components_of(*states->assembly, fixed);
   options.time_limit = time_limit;
   options.margins = margins;
+  if (fasteners != "first" && fasteners != "any")
+    raise_usage("the plan cannot take fasteners '" + fasteners + "' (there is no such order); give 'first' or 'any'");
+  options.fasteners = fasteners == "any" ? FastenerOrder::Ignored : FastenerOrder::First;
   options.engine.executor = executor_of(threads);
   options.progress = watched.callback();
   if (!(time_limit >= 0)) raise_usage("the plan cannot be made (the time limit is negative); give 0 for none");
@@ -178,7 +181,27 @@ void bind_plan_classes(py::module_& module) {
             if (!s.step.margin || !s.step.margin->nearest.valid()) return {};
             return (*s.states->assembly)[s.step.margin->nearest].name;
           },
-          "Name of the component at twice the margin; None if nothing is near.");
+          "Name of the component at twice the margin; None if nothing is near.")
+      .def_property_readonly(
+          "unscrew",
+          [](const StepOfPlan& s) -> std::optional<std::string> {
+            if (!s.step.unscrewing) return {};
+            return unscrewing_text(*s.step.unscrewing);
+          },
+          "How a fastener is turned out of its thread: 'unscrew 12 turns anticlockwise, 9.6 mm (nominal pitch 0.8 "
+          "mm)'. "
+          "None for all other steps.")
+      .def_property_readonly(
+          "turns",
+          [](const StepOfPlan& s) -> std::optional<double> {
+            if (!s.step.unscrewing || !(s.step.unscrewing->turns > 0)) return {};
+            return s.step.unscrewing->turns;
+          },
+          "Number of turns until the thread ends; None without a thread, or where its pitch is unknown.")
+      .def_property_readonly(
+          "still_held_by",
+          [](const StepOfPlan& s) { return component_names(*s.states->assembly, s.step.still_held_by); },
+          "Names of the fasteners that still hold what moves; empty unless there was no other step.");
   py::class_<PlanView>(module, "Plan", "A disassembly sequence.")
       .def_property_readonly(
           "steps",
@@ -243,11 +266,11 @@ void bind_plan(py::module_& module) {
   module.def(
       "plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(), py::arg("fixed") = py::none(),
       py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("margins") = false,
-      py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("fasteners") = "first", py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Finds a disassembly sequence of everything, or of `targets`; components in `fixed` never move. `prefer` orders "
       "the components that can be removed next: 'direction', 'upright', 'groups', 'support', the first counts most. "
       "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight. `margins`: "
-      "find PlanStep.margin.");
+      "find PlanStep.margin. `fasteners`: 'first', before what they hold, or 'any'.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0,
              "Finds the blockers of the straight removal of a component.");
   module.def(

@@ -2,9 +2,11 @@
 #include "dismantle/documents/path_file.h"
 #include "dismantle/engine/classify_pairs.h"
 #include "dismantle/loading/load_assembly.h"
+#include "dismantle/loading/write_assembly.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/plan_path.h"
 #include "tests/cli/cli_fixture.h"
+#include "tests/support/joint_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -58,6 +60,32 @@ TEST_F(CliPlan, TreatsWhatBelongsTogetherAsOnePart) {
             std::string::npos);
   EXPECT_NE(run("why parts back --together '[bf][ar][co][kn]*'").out.find("more of its group"), std::string::npos);
   EXPECT_EQ(run("check parts --together '*'").out.find("back "), std::string::npos);
+}
+
+TEST_F(CliPlan, SaysHowScrewsAreTurnedAndWhatTheyHold) {
+  ASSERT_TRUE(write_assembly(in("case.glb"), scenes::covered_case()).ok());
+  const Outcome o = run("plan case.glb -o case.path.json --json");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json plan = Json::parse(o.out);
+  ASSERT_EQ(plan["joints"].size(), 4u);
+  EXPECT_EQ(plan["joints"][0]["held"], Json::parse(R"(["case", "cover"])"));
+  EXPECT_EQ(plan["joints"][0]["thread_in"], "case");
+  ASSERT_EQ(plan["steps"].size(), 6u);
+  EXPECT_EQ(plan["steps"][4]["components"][0], "cover");
+  EXPECT_FALSE(plan["steps"][4].contains("unscrew"));
+  EXPECT_FALSE(plan["steps"][4].contains("still_held_by"));
+  const Json& unscrew = plan["steps"][0]["unscrew"];
+  EXPECT_NEAR(unscrew["turns"].get<double>(), 15, 1);
+  EXPECT_EQ(unscrew["pitch_mm"], 0.8);
+  EXPECT_EQ(unscrew["nominal"], true);
+  EXPECT_EQ(run("audit case.glb case.path.json").exit_code, 0);
+  EXPECT_NE(run("plan case.glb -o case.path.json").out.find("turns anticlockwise, 1"), std::string::npos);
+
+  const Outcome any = run("plan case.glb -o any.path.json --json --fasteners any");
+  ASSERT_EQ(any.exit_code, 0) << any.err;
+  EXPECT_EQ(Json::parse(any.out)["joints"].size(), 0u);
+  EXPECT_EQ(Json::parse(any.out)["steps"][0]["components"][0], "chip");
+  EXPECT_EQ(run("plan case.glb -o any.path.json --fasteners last").exit_code, 2);
 }
 
 TEST_F(CliPlan, ProposesWhatGivesAndTakesIt) {

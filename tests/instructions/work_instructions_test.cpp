@@ -3,6 +3,7 @@
 
 #include "tests/fasteners/turned_meshes.h"
 #include "tests/instructions/bolted_lid.h"
+#include "tests/support/joint_scenes.h"
 
 #include <algorithm>
 
@@ -63,10 +64,59 @@ TEST(WorkInstructions, NameFastenersTheirToolsAndThreads) {
   const WorkInstructions made = written(a, scenes::bolted_lid_pairs(), path);
   EXPECT_EQ(made.steps[0].title, "Unscrew 2 \u00d7 part 7 (socket head screw M5x16)");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "4 mm hex key\n");
-  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning),
-            "Right-hand thread M5, pitch 0.8 mm. The rotation is not shown: unscrew first if engaged.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "") << "the motion tells the turns";
+  const std::string motion = said(made.steps[0], InstructionNote::Kind::Motion);
+  EXPECT_EQ(motion.substr(0, 8), "Unscrew ");
+  EXPECT_NE(motion.find(" turns anticlockwise, 11"), std::string::npos) << motion;
   EXPECT_EQ(made.tools, std::vector<std::string>{"4 mm hex key"});
   EXPECT_EQ(part_name_text(made.parts[2]), "part 7, socket head screw M5x16");
+}
+
+/// A path that moves sets of components up or down, one after another.
+Path path_of(const Assembly& a, const std::vector<std::pair<std::vector<std::string>, double>>& moves) {
+  Path path;
+  for (const Component& c : a.components) path.components.push_back(c.name);
+  for (const auto& [components, height] : moves)
+    path.moves.push_back({"remove", components, {{0, {}}, {1, {{0, 0, height}, {}}}}});
+  return path;
+}
+
+TEST(WorkInstructions, SayHowAThreadIsUndone) {
+  const Assembly a = scenes::covered_case();
+  const Path path =
+      path_of(a, {{{"screw"}, 60}, {{"screw#2"}, 70}, {{"screw#3"}, 80}, {{"screw#4"}, 90}, {{"cover"}, 50}});
+  const WorkInstructions out = written(a, {0.05, {}}, path);
+  ASSERT_EQ(out.steps.size(), 2u);
+  EXPECT_EQ(out.steps[0].title, "Unscrew 4 \u00d7 screw (socket head screw M5x16)");
+  EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Motion).substr(0, 36), "Unscrew 15 turns anticlockwise, 12 m");
+  EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Warning).find("The rotation is not shown"), std::string::npos);
+  EXPECT_EQ(said(out.steps[1], InstructionNote::Kind::Warning).find("Still held"), std::string::npos);
+  const WorkInstructions back = written(a, {0.05, {}}, path, small(PathDirection::Reversed));
+  EXPECT_NE(said(back.steps[1], InstructionNote::Kind::Motion).find(" Screw in 15 turns clockwise, 12"),
+            std::string::npos);
+}
+
+TEST(WorkInstructions, NameTheFastenersThatStillHoldAPart) {
+  const Assembly a = scenes::covered_case();
+  const WorkInstructions out = written(a, {0.05, {}}, path_of(a, {{{"screw"}, 60}, {{"cover"}, 50}}));
+  ASSERT_EQ(out.steps.size(), 2u);
+  EXPECT_NE(said(out.steps[1], InstructionNote::Kind::Warning)
+                .find("Still held by screw#2, screw#3 and screw#4: loosen that first, if you can."),
+            std::string::npos)
+      << said(out.steps[1], InstructionNote::Kind::Warning);
+}
+
+TEST(WorkInstructions, TakeAScrewAndItsWasherForOne) {
+  const Assembly a = scenes::bolted_plates();
+  const WorkInstructions out =
+      written(a, {0.05, {}}, path_of(a, {{{"nut", "washer#2"}, -40}, {{"bolt", "washer"}, 50}, {{"upper"}, 40}}));
+  ASSERT_EQ(out.steps.size(), 3u);
+  EXPECT_EQ(out.steps[0].title.substr(0, 8), "Unscrew ");
+  EXPECT_EQ(out.steps[0].title.find("together"), std::string::npos) << out.steps[0].title;
+  EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Motion).substr(0, 8), "Unscrew ");
+  EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Warning).find("as a unit"), std::string::npos);
+  EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Tool), "8 mm spanner (wrench)\n");
+  EXPECT_NE(said(out.steps[1], InstructionNote::Kind::Motion).substr(0, 8), "Unscrew ") << "its nut is gone";
 }
 
 TEST(WorkInstructions, AreReversedForAssembly) {

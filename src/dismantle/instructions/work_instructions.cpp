@@ -2,6 +2,7 @@
 #include "dismantle/instructions/work_instructions.h"
 
 #include "dismantle/documents/bill_of_materials.h"
+#include "dismantle/instructions/joint_notes.h"
 #include "dismantle/instructions/motion_text.h"
 #include "dismantle/instructions/removal_facts.h"
 #include "dismantle/instructions/step_picture.h"
@@ -59,6 +60,7 @@ class Writer {
         bill_(bill_of_materials(assembly, fasteners_)),
         names_(assembly, bill_, options.missing_glyphs),
         lines_(assembly.components.size()),
+        joints_(assembly, fasteners_, options.engine.executor),
         facts_(assembly, pairs, options.engine),
         pictures_(assembly, options.picture_width, options.picture_height, options.engine.executor) {
     for (std::size_t i = 0; i < bill_.size(); ++i)
@@ -105,7 +107,7 @@ class Writer {
     instruction.parts = counted(step);
     instruction.title = verb(step, legs) + " " + subject(step, instruction.parts);
     note_motion(step, legs, instruction);
-    note_tools(first, legs, instruction);
+    note_tools(step, legs, instruction);
     note_warnings(step, legs, instruction);
     note_clearance(step, instruction);
     note_overlaps(step, instruction);
@@ -144,10 +146,10 @@ class Writer {
     return is_forward_ ? "Remove" : "Mount";
   }
 
-  /// True for a screw, a nut or a standoff that comes out along its axis.
+  /// True for a screw, a nut or a standoff that comes out along its axis, alone or with its washers.
   bool is_unscrewed(const RemovalMove& removal, const std::vector<Leg>& legs) const {
-    if (removal.components.size() != 1 || legs.empty()) return false;
-    const ComponentId c = removal.components[0];
+    const ComponentId c = joints_.turned_in(removal);
+    if (!c.valid() || legs.empty()) return false;
     return fasteners_[c.value] && is_threaded(*fasteners_[c.value]) &&
            comes_along_axis(assembly_[c], *fasteners_[c.value], removal, legs.front());
   }
@@ -155,6 +157,12 @@ class Writer {
   std::string subject(const WorkStep& step, const std::vector<CountedPart>& parts) const {
     if (step.removals.size() == 1 && step.removals[0].components.size() == 1)
       return with_fastener(names_.in_title(step.removals[0].components[0]), parts.front());
+    if (step.removals.size() > 1 && parts.size() > 1) {
+      std::vector<std::string> names;
+      names.reserve(parts.size());
+      for (const CountedPart& part : parts) names.push_back(with_fastener(counted_name(result_, part), part));
+      return list_text(names);
+    }
     if (step.removals.size() > 1)
       return with_fastener(std::to_string(parts.front().count) + kTimes + names_.item_in_title(parts.front().item),
                            parts.front());
@@ -164,7 +172,7 @@ class Writer {
     names.reserve(parts.size());
     for (const CountedPart& part : parts)
       names.push_back(part.count > 1 ? counted_name(result_, part) : name_of_one(step.removals[0], part.item));
-    return list_text(names) + " together";
+    return list_text(names) + (joints_.turned_in(step.removals[0]).valid() ? "" : " together");
   }
 
   /// A name with what fastener the part is.
@@ -192,8 +200,18 @@ class Writer {
     return {};
   }
 
+  /// How the first removal of a step unscrews a fastener.
+  std::optional<Unscrewing> unscrewing(const WorkStep& step, const std::vector<Leg>& legs) const {
+    return legs.empty() ? std::nullopt : joints_.unscrewing(step, step.removals.front(), legs.front());
+  }
+
   void note_motion(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
     std::string text = motion_text(legs, options_.direction);
+    if (const std::optional<Unscrewing> turn = unscrewing(step, legs)) {
+      std::string turning = is_forward_ ? unscrewing_text(*turn) : screwing_in_text(*turn);
+      turning[0] = static_cast<char>(turning[0] - 'a' + 'A');
+      text = is_forward_ ? turning + ". " + text : text + " " + turning + ".";
+    }
     if (step.removals.size() > 1)
       text += is_forward_ ? " Remove one at a time, all in the same direction."
                           : " Mount one at a time, all in the same direction.";
@@ -210,21 +228,26 @@ class Writer {
         note.text += away < 0 ? " In the picture: towards you." : " In the picture: away from you.";
   }
 
-  void note_tools(const RemovalMove& removal, const std::vector<Leg>& legs, Instruction& instruction) {
-    if (removal.components.size() != 1 || legs.empty()) return;
-    const ComponentId c = removal.components[0];
+  void note_tools(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
+    const RemovalMove& removal = step.removals.front();
+    const ComponentId c = joints_.turned_in(removal);
+    if (!c.valid() || legs.empty()) return;
     const ToolNotes notes = tool_notes(assembly_[c], fasteners_[c.value], removal, legs, options_.direction);
     for (const Tool& tool : notes.tools) instruction.notes.push_back({Kind::Tool, tool.text});
-    for (const std::string& thread : notes.threads) instruction.notes.push_back({Kind::Warning, thread});
+    // The turns of a joint tell more than its thread.
+    if (!unscrewing(step, legs))
+      for (const std::string& thread : notes.threads) instruction.notes.push_back({Kind::Warning, thread});
     tools_.insert(notes.tools.begin(), notes.tools.end());
   }
 
   void note_warnings(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
     const auto warn = [&](const std::string& text) { instruction.notes.push_back({Kind::Warning, text}); };
     const std::size_t count = step.removals.front().components.size();
-    if (count > 1) warn((is_forward_ ? "Remove these " : "Mount these ") + std::to_string(count) + " parts as a unit.");
+    if (count > 1 && !joints_.turned_in(step.removals.front()).valid())
+      warn((is_forward_ ? "Remove these " : "Mount these ") + std::to_string(count) + " parts as a unit.");
     if (is_forward_ && !legs.empty() && legs.front().angle == 0 && direction_words(legs.front().direction) == "down")
       warn("Comes out downwards: support it by hand.");
+    note_joints(step, legs, instruction);
     const std::vector<ComponentId> falling = facts_.unsupported_after(step, ground_);
     if (falling.empty()) return;
     std::vector<std::string> each;
@@ -234,6 +257,18 @@ class Writer {
     warn(list_text(each) + are +
          (is_forward_ ? " unsupported after this step. Support " + them + " first."
                       : " unsupported before this step. Support " + them + " until the step is complete."));
+  }
+
+  /// Warns of fasteners that still hold what moves.
+  void note_joints(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) const {
+    if (legs.empty()) return;
+    std::vector<std::string> names;
+    for (const ComponentId c : joints_.still_held_by(step, step.removals.front(), legs.front()))
+      names.push_back(names_.of(c));
+    if (names.empty()) return;
+    instruction.notes.push_back(
+        {Kind::Warning, is_forward_ ? "Still held by " + list_text(names) + ": loosen that first, if you can."
+                                    : "Already held by " + list_text(names) + ": fasten that last, if you can."});
   }
 
   void note_clearance(const WorkStep& step, Instruction& instruction) {
@@ -318,6 +353,7 @@ class Writer {
   std::vector<BillItem> bill_;
   InstructionNames names_;
   std::vector<std::size_t> lines_;  // line of the bill of materials of each component
+  JointNotes joints_;
   RemovalFacts facts_;
   StepPictureRenderer pictures_;
   ComponentId ground_;

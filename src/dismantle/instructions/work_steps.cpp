@@ -40,6 +40,15 @@ bool are_parallel(const Course& a, const Course& b) {
   return length(a.direction - b.direction) < kParallel && std::abs(a.angle - b.angle) < kParallel;
 }
 
+/// The lines of the bill of materials of the components of a removal, ascending.
+std::vector<std::size_t> kinds_of(const RemovalMove& removal, const std::vector<std::size_t>& lines) {
+  std::vector<std::size_t> kinds;
+  kinds.reserve(removal.components.size());
+  for (const ComponentId c : removal.components) kinds.push_back(lines[c.value]);
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
 std::vector<RemovalMove> removals_of(const Timeline& timeline) {
   std::vector<RemovalMove> removals;
   for (const TimelineMove& move : timeline.moves()) {
@@ -55,9 +64,7 @@ std::vector<RemovalMove> removals_of(const Timeline& timeline) {
 std::vector<WorkStep> work_steps(const Assembly& assembly, const Timeline& timeline, PathDirection direction) {
   const std::vector<std::size_t> kinds = bill_lines(assembly);
   const auto are_equal = [&](const RemovalMove& a, const RemovalMove& b) {
-    return a.components.size() == 1 && b.components.size() == 1 &&
-           kinds[a.components[0].value] == kinds[b.components[0].value] &&
-           are_parallel(course_of(assembly, a), course_of(assembly, b));
+    return kinds_of(a, kinds) == kinds_of(b, kinds) && are_parallel(course_of(assembly, a), course_of(assembly, b));
   };
   std::vector<WorkStep> steps;
   std::vector<Pose> poses(assembly.components.size());

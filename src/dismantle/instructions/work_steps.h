@@ -14,7 +14,8 @@ struct RemovalMove {
   std::vector<Pose> poses;
 };
 
-/// One step of the work instructions: one removal, or several removals of equal components along parallel paths.
+/// One step of the work instructions: one removal, or several removals of equal components, or sets of
+/// them, along parallel paths.
 struct WorkStep {
   std::vector<RemovalMove> removals;  ///< In the order of disassembly, also for assembly.
   std::vector<Pose> before;           ///< Poses of all components before the first removal. Shape [component_count].

@@ -165,6 +165,7 @@ double BlockingTable::max_exit_distance(ComponentId moving) const {
 }
 
 bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed) {
+  if (joints_ != nullptr && joint_blocker(moving, d, ComponentSet(features_.size(), {&fixed, 1}))) return true;
   return blocks(row(moving, d), moving, d, fixed);
 }
 
@@ -182,7 +183,13 @@ bool BlockingTable::blocks(Row& row, ComponentId moving, DirectionId d, Componen
   return *known == Known::Blocks;
 }
 
+std::optional<ComponentId> BlockingTable::joint_blocker(ComponentId moving, DirectionId d,
+                                                        const ComponentSet& present) const {
+  return joints_ != nullptr ? joints_->blocker(moving, direction(d), present) : std::nullopt;
+}
+
 std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
+  if (const auto by_joint = joint_blocker(moving, d, present)) return by_joint;
   Row& known = row(moving, d);
   if (known.witness.valid() && present.has(known.witness)) return known.witness;
   const auto is_blocker = [&](ComponentId c) { return present.has(c) && blocks(known, moving, d, c); };
@@ -208,6 +215,7 @@ void BlockingTable::remember_blocker(ComponentId moving, ComponentId blocker) {
 
 std::optional<ComponentId> BlockingTable::expected_blocker(ComponentId moving, DirectionId d,
                                                            const ComponentSet& present) {
+  if (const auto by_joint = joint_blocker(moving, d, present)) return by_joint;
   Row& known = row(moving, d);
   if (known.witness.valid() && present.has(known.witness)) return known.witness;
   for (const ComponentId other : known.expected)
@@ -219,9 +227,12 @@ std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId
                                                  std::size_t enough) {
   std::vector<ComponentId> found;
   Row& known = row(moving, d);
+  const std::optional<ComponentId> by_joint = joint_blocker(moving, d, present);
+  if (by_joint) found.push_back(*by_joint);
   for (const std::uint32_t i : known.nearest) {
     if (found.size() >= enough) break;
-    if (present.has(known.near[i]) && blocks(known, moving, d, known.near[i])) found.push_back(known.near[i]);
+    if (known.near[i] == by_joint || !present.has(known.near[i])) continue;
+    if (blocks(known, moving, d, known.near[i])) found.push_back(known.near[i]);
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -265,6 +276,12 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
       return {};
     }
     unasked.push_back(member);
+    if (joints_ != nullptr)
+      for (const ComponentId other : joints_->tied_to(member, present)) {
+        if (together_.has(other)) continue;
+        blocked_by_[other.value] = member;
+        unfollowed.push_back(other);
+      }
     const Row& known = row(member, d);
     for (const std::uint32_t i : known.nearest) {
       const ComponentId other = known.near[i];

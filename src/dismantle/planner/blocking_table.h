@@ -6,6 +6,7 @@
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/core/keep_going.h"
 #include "dismantle/planner/component_set.h"
+#include "dismantle/planner/joint_relations.h"
 #include "dismantle/planner/shape_features.h"
 
 #include <array>
@@ -77,6 +78,10 @@ class BlockingTable {
   /// Lets two components pass each other along an axis only, either way: a ring that gives, and what it is on.
   /// @pre no relation of the two was computed yet
   void let_pass_along(ComponentId a, ComponentId b, Vec3 axis);
+  /// Has joints block as well, until it is called again: fasteners what they hold, and components of one joint move as
+  /// one body. Contacts do not know of it.
+  /// @param joints null for collisions only; must outlive its use
+  void follow(const JointRelations* joints) { joints_ = joints; }
   /// Records that `fixed` blocks, by a rule that a single sweep does not test.
   void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
   /// The first contact with a blocking component; none if it does not block.
@@ -112,11 +117,14 @@ class BlockingTable {
   bool may_pass(ComponentId moving, DirectionId d, ComponentId fixed) const;
   bool passes_along_axis(ComponentId a, ComponentId b) const { return only_along_.count(std::minmax(a, b)) > 0; }
   void remember_blocker(ComponentId moving, ComponentId blocker);
+  /// What blocks by a joint, if joints are followed.
+  std::optional<ComponentId> joint_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) const;
 
   const CertificateEngine& engine_;
   Span<const ShapeFeatures> features_;
   const RigidGroups& groups_;
   KeepGoing keep_going_;
+  const JointRelations* joints_ = nullptr;
   Expectation expectation_;
   std::vector<Vec3> directions_;
   std::map<std::array<std::int64_t, 3>, std::vector<DirectionId>> cells_;  // of directions, for those that are equal

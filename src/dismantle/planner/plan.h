@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/joints/joint.h"
 
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,12 @@ struct PlanStep {
   std::vector<Pose> poses;
   Vec3 exit;                           ///< Unit direction of the last, straight part.
   std::optional<StepMargin> margin{};  ///< With PlanOptions::margins.
+  /// How a fastener is turned out of its thread meanwhile: one that comes out along its axis, and is in the thread. The
+  /// path itself may be straight.
+  std::optional<Unscrewing> unscrewing{};
+  /// Fasteners that still hold some of the components when they move; for a fastener that is pulled across its axis,
+  /// what it is screwed into. Ascending; empty unless there was no other step.
+  std::vector<ComponentId> still_held_by{};
 };
 
 /// A component that blocks the straight removal of another along one direction.
@@ -86,6 +93,7 @@ struct Plan {
   bool out_of_time = false;               ///< The time limit or the user ended the search early.
   std::vector<ComponentPair> allowances;  ///< Of pairs that may be deeper than the tolerance, by the engine.
   double seconds = 0;                     ///< Duration of the search.
+  std::vector<Joint> joints{};            ///< That the order follows; empty with FastenerOrder::Ignored.
 
   /// True if everything that was asked for can be removed.
   bool complete() const { return staying.empty() && !out_of_time; }

@@ -3,24 +3,23 @@
 
 #include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
+#include "dismantle/fasteners/find_fasteners.h"
+#include "dismantle/joints/find_joints.h"
 #include "dismantle/planner/explanation.h"
+#include "dismantle/planner/joint_relations.h"
+#include "dismantle/planner/joint_steps.h"
 #include "dismantle/planner/least_overlap.h"
-#include "dismantle/planner/search/component_axes.h"
+#include "dismantle/planner/search/curved_steps.h"
 #include "dismantle/planner/search/direction_choice.h"
 #include "dismantle/planner/search/free_component_search.h"
-#include "dismantle/planner/search/long_searches.h"
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
-#include "dismantle/planner/search/sample_search.h"
-#include "dismantle/planner/search/screw_search.h"
-#include "dismantle/planner/search/slide_search.h"
 #include "dismantle/planner/step_margin.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <map>
 #include <mutex>
 #include <optional>
 
@@ -30,9 +29,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// No longer random search is made for a component whose best excursion was below this [radii]: it only rattles in its
-/// seat.
-constexpr double kRoom = 0.5;
 /// Relative difference below which components count as equally large (rounding in a rotated assembly).
 constexpr double kSameSize = 1e-6;
 /// Distance at which removed components stand, in diagonals of the assembly.
@@ -42,6 +38,11 @@ RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
   RigidGroups groups(assembly.components.size());
   for (const std::vector<ComponentId>& together : options.together) groups.unite(together);
   return groups;
+}
+
+std::vector<Joint> joints_of(const Assembly& assembly, const PlanOptions& options) {
+  if (options.fasteners == FastenerOrder::Ignored) return {};
+  return find_joints(assembly, find_fasteners(assembly), options.engine.executor);
 }
 
 /// Makes one plan of one assembly.
@@ -55,23 +56,31 @@ class Planner {
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
         features_(shape_features(assembly, options.engine.executor)),
+        joints_(joints_of(assembly, options)),
+        relations_(joints_, groups_, count_),
+        early_(count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
         table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
         choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
                 [this] { return keep_going(); }),
-        axes_(planned(pairs), validator_),
+        joint_steps_(relations_, table_, choice_, groups_),
+        curved_(planned(pairs), {groups_, features_, validator_, table_, choice_, keep_going_}, options.slide_effort,
+                options.sample_effort),
         margins_(assembly, pairs, validator_),
         size_(diagonal(assembled_bounds(assembly))),
-        overlaps_(assembly, pairs, table_, engine_options()),
-        sliding_(options.slide_effort),
-        sampling_(options.sample_effort) {
+        overlaps_(assembly, pairs, table_, engine_options()) {
     plan_.allowances = validator_.engine().overlapping_pairs();
     for (const FlexiblePart& part : options.flexible)
       for (const ComponentPair& pair : pairs.pairs)
         if (length_squared(part.axis) > 0 && pair.declared > 0 &&
             (pair.a == part.component || pair.b == part.component))
           table_.let_pass_along(pair.a, pair.b, part.axis);
+    for (std::uint32_t c = 0; c < count_; ++c) {
+      if (!relations_.is_fastener(ComponentId(c))) continue;
+      early_.insert(ComponentId(c));
+      for (const Vec3& exit : relations_.exits_of(ComponentId(c))) choice_.put_first(ComponentId(c), exit);
+    }
   }
 
   Plan run() {
@@ -83,6 +92,7 @@ class Planner {
     }
     take_apart_bodies();
     plan_.out_of_time = stopped_;
+    plan_.joints = joints_;
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);
   }
@@ -156,10 +166,9 @@ class Planner {
   /// Removes the targets from a body with as few others as possible; if straight motions are not enough, by themselves.
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
     const ComponentSet never(count_, fixed_);
-    const KeepGoing ask = [this] { return keep_going(); };
     ComponentSet left = body;
     for (;;) {
-      const auto needed = fewest_removals(table_, choice_.directions(), body, never, targets, ask);
+      const auto needed = needed_for(targets, body, never);
       ComponentSet staying = body;
       staying.erase(needed ? needed->members() : targets);
       const std::size_t steps = plan_.steps.size(), bodies = bodies_.size();
@@ -170,25 +179,49 @@ class Planner {
       bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && leads(target) && keep_going()) plan_.staying.push_back(explanation(target, left));
+      if (left.has(target) && curved_.leads(target) && keep_going()) plan_.staying.push_back(explanation(target, left));
   }
+
+  /// The components that have to go for the targets: with the fasteners that hold them, if there is a way.
+  std::optional<ComponentSet> needed_for(const std::vector<ComponentId>& targets, const ComponentSet& body,
+                                         const ComponentSet& never) {
+    std::optional<ComponentSet> needed;
+    if (!relations_.empty()) {
+      table_.follow(&relations_);
+      needed = fewest_removals(table_, choice_.directions(), body, never, targets, keep_going_);
+      table_.follow(nullptr);
+    }
+    return needed ? needed : fewest_removals(table_, choice_.directions(), body, never, targets, keep_going_);
+  }
+
+  /// Searches for single components in one body.
+  struct Searches {
+    FreeComponentSearch by_joints, by_collisions;
+    void remove(const std::vector<ComponentId>& components) {
+      by_joints.remove(components);
+      by_collisions.remove(components);
+    }
+  };
 
   /// Removes what it can from `body` except `staying`. @return the rest
   ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of, Effort effort) {
-    FreeComponentSearch search(table_, choice_.directions(), body, staying);
+    Searches searches{FreeComponentSearch(table_, choice_.directions(), body, staying, early_),
+                      FreeComponentSearch(table_, choice_.directions(), body, staying)};
     while (body.size() > staying.size() && keep_going()) {
       validator_.stand(body);
-      std::optional<PlanStep> step = next_step(body, staying, effort, search);
+      std::optional<PlanStep> step = next_step(body, staying, effort, searches);
       if (!step) break;
+      step->unscrewing = relations_.unscrewing(*step, body);
+      step->still_held_by = relations_.torn_by(*step, body);
       if (options_.margins) step->margin = margins_.of(*step, body.members(), size_);
       body.erase(step->components);
-      search.remove(step->components);
+      searches.remove(step->components);
       const auto index = static_cast<std::uint32_t>(plan_.steps.size());
       plan_.steps.push_back(*step);
       plan_.steps.back().part_of = part_of;
       const std::size_t group = groups_.of(step->components.front()).size();
-      if (step->components.size() == group) {
-        taken_out_ += group;
+      if (step->components.size() == group || relations_.fastener_of(step->components).valid()) {
+        taken_out_ += step->components.size();
       } else {
         go_into(*step, index);
       }
@@ -209,103 +242,60 @@ class Planner {
   }
 
   std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying, Effort effort,
-                                    FreeComponentSearch& search) {
-    const std::vector<StraightRemoval> single = single_removals(body, staying, search);
-    for (const StraightRemoval& removal : single)
-      if (auto step = try_removal(removal, body)) return step;
-    if (!single.empty()) return keep_going() ? next_step(body, staying, effort, search) : std::nullopt;
-    if (auto step = find_screwed(body, staying, false)) return step;
-    const auto ask = [this] { return keep_going(); };
-    while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, ask))
-      if (auto step = try_removal(*removal, body)) return step;
-    if (auto step = find_screwed(body, staying, true)) return step;
-    if (effort == Effort::Simple) return std::nullopt;
-    if (auto step = find_sliding(body, staying)) return step;
-    return find_sampled(body, staying);
-  }
-
-  /// A step that unscrews one component, the smallest first. @param groups those with a group, or those without
-  std::optional<PlanStep> find_screwed(const ComponentSet& body, const ComponentSet& staying, bool groups) {
-    for (const ComponentId c : smallest_first(body, staying)) {
-      if ((groups_.of(c).size() > 1) != groups) continue;
-      for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
-        if (!keep_going()) return std::nullopt;
-        if (!body.has(neighbour) || groups_.together(c, neighbour) || !axes_.may_turn(c, thread, body)) continue;
-        std::vector<ComponentId>& met = met_[{c, neighbour}];
-        if (!met.empty() && body.has_all(met)) continue;
-        PathSearch search = screw_out(validator_, table_, c, thread, [this] { return keep_going(); });
-        if (search.step) return with_group(std::move(*search.step));
-        met = std::move(search.met);
-      }
+                                    Searches& searches) {
+    if (!relations_.empty()) {
+      table_.follow(&relations_);
+      auto step = simple_step(body, staying, searches.by_joints, &relations_);
+      table_.follow(nullptr);
+      if (step) return step;
     }
-    return std::nullopt;
+    if (auto step = simple_step(body, staying, searches.by_collisions, nullptr)) return step;
+    if (effort == Effort::Simple) return std::nullopt;
+    if (auto step = curved_.find_sliding(body, staying)) return step;
+    return curved_.find_sampled(body, staying);
   }
 
-  std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying) {
-    return find_long(sliding_, body, staying, [&](ComponentId c, std::size_t effort) {
-      SlideMoves moves = axes_.slide_moves(c, body, choice_, table_);
-      moves.max_effort = effort;
-      return slide_out(validator_, table_, c, moves, [this] { return keep_going(); });
-    });
+  /// A step straight or along a thread. @param joints those that the step respects; may be null
+  std::optional<PlanStep> simple_step(const ComponentSet& body, const ComponentSet& staying,
+                                      FreeComponentSearch& search, const JointRelations* joints) {
+    for (bool any = true; any && keep_going();) {
+      const std::vector<StraightRemoval> single = single_removals(body, staying, search, joints);
+      for (const StraightRemoval& removal : single)
+        if (auto step =
+                try_removal(joints != nullptr ? joint_steps_.with_washers(removal, body, staying) : removal, body))
+          return step;
+      any = !single.empty();
+    }
+    if (auto step = curved_.find_screwed(body, staying, CurvedSteps::Groups::Single, joints)) return step;
+    while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, keep_going_))
+      if (auto step = try_removal(*removal, body)) return step;
+    return curved_.find_screwed(body, staying, CurvedSteps::Groups::OfSeveral, joints);
   }
 
-  std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying) {
-    return find_long(sampling_, body, staying, [&](ComponentId c, std::size_t effort) {
-      const LongSearches::InVain& slid = sliding_.last(c);
-      const double room = std::max(slid.furthest.value_or(0), sampling_.last(c).furthest.value_or(0));
-      const bool held_fast = slid.effort > 0 && !slid.furthest;
-      const bool rattles = effort > LongSearches::kFirstEffort && room < kRoom;
-      if (held_fast || rattles) return PathSearch{std::nullopt, slid.met, slid.furthest, true};
-      return sample_out(validator_, table_, c, effort, [this] { return keep_going(); });
-    });
-  }
-
-  /// A step by LongSearches for one component, with its group; the smallest first.
-  template <class Search>
-  std::optional<PlanStep> find_long(LongSearches& searches, const ComponentSet& body, const ComponentSet& staying,
-                                    const Search& search) {
-    std::vector<ComponentId> components = smallest_first(body, staying);
-    std::erase_if(components, [this](ComponentId c) { return !leads(c); });
-    auto step = searches.find(
-        components, body, validator_, [this] { return keep_going(); }, search);
-    return step ? std::optional(with_group(std::move(*step))) : std::nullopt;
-  }
-
-  /// True for the largest component of a group, for which the whole group is searched for and explained.
-  bool leads(ComponentId c) const {
-    const Span<const ComponentId> group = groups_.of(c);
-    return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {
-      return features_[a.value].radius < features_[b.value].radius;
-    }) == c;
-  }
-
-  /// A step of a component as that of its group.
-  PlanStep with_group(PlanStep step) const {
-    const Span<const ComponentId> group = groups_.of(step.components.front());
-    step.components.assign(group.begin(), group.end());
-    return step;
-  }
-
-  std::vector<ComponentId> smallest_first(const ComponentSet& body, const ComponentSet& staying) const {
-    std::vector<ComponentId> members = body.members();
-    std::erase_if(members, [&](ComponentId c) { return staying.has(c); });
-    std::stable_sort(members.begin(), members.end(), [this](ComponentId a, ComponentId b) {
-      return features_[a.value].radius < features_[b.value].radius;
-    });
-    return members;
+  const std::vector<ComponentId>& kinds() {
+    if (kinds_.empty()) kinds_ = first_of_shape(assembly_);
+    return kinds_;
   }
 
   /// Single components that can be removed straight, in the order in which to try them.
   std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying,
-                                               FreeComponentSearch& search) {
-    if (!options_.preferences.empty()) {
-      if (kinds_.empty()) kinds_ = first_of_shape(assembly_);
+                                               FreeComponentSearch& search, const JointRelations* joints) {
+    const bool by_preferences = !options_.preferences.empty();
+    if (joints != nullptr && !plan_.steps.empty()) {
+      const PlanStep& last = plan_.steps.back();
+      const auto next = by_preferences ? joints->rest_of_stack(last, body) : joints->next_after(last, kinds(), body);
+      if (const auto first = joint_steps_.first_free(next, last_direction_, body, staying)) return {*first};
+    }
+    if (by_preferences) {
       StepBefore before;
       if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
-      return preferred_removals({table_, choice_.directions(), kinds_, options_.preferences}, body, staying, before);
+      return preferred_removals({table_, choice_.directions(), kinds(), options_.preferences, early_}, body, staying,
+                                before);
     }
     std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return in_time(); });
     std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
+      const bool a_is_early = early_.has(a.components[0]), b_is_early = early_.has(b.components[0]);
+      if (a_is_early != b_is_early) return a_is_early;
       const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
       if (a_goes_on != b_goes_on) return a_goes_on;
       return features_[a.components[0].value].radius < features_[b.components[0].value].radius;
@@ -344,7 +334,7 @@ class Planner {
 
   void explain_left(const ComponentSet& left, const ComponentSet& staying) {
     for (const ComponentId c : left.members())
-      if (!staying.has(c) && leads(c) && keep_going()) plan_.staying.push_back(explanation(c, left));
+      if (!staying.has(c) && curved_.leads(c) && keep_going()) plan_.staying.push_back(explanation(c, left));
   }
 
   const Assembly& assembly_;
@@ -357,17 +347,20 @@ class Planner {
   RigidGroups groups_;
   std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
+  const KeepGoing keep_going_ = [this] { return keep_going(); };
+  const std::vector<Joint> joints_;
+  JointRelations relations_;
+  ComponentSet early_;  // fasteners of joints
   MotionValidator validator_;
   BlockingTable table_;
   DirectionChoice choice_;
-  ComponentAxes axes_;
+  JointSteps joint_steps_;
+  CurvedSteps curved_;
   StepMargins margins_;
   double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
   DirectionId last_direction_;
-  std::vector<ComponentId> kinds_;  // first_of_shape(), if preferences need it
-  LongSearches sliding_, sampling_;
-  std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
+  std::vector<ComponentId> kinds_;  // first_of_shape(), once it is needed
   /// Components that are taken apart in one place.
   struct Body {
     ComponentSet left, staying;
@@ -389,6 +382,7 @@ Explanation why_blocked(const Assembly& assembly, const PairStates& pairs, Compo
   PlanOptions plan = options;
   plan.targets = {component};
   plan.fixed.clear();
+  plan.fasteners = FastenerOrder::Ignored;
   return Planner(assembly, pairs, plan).explain_assembled(component);
 }
 

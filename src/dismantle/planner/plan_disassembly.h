@@ -19,6 +19,12 @@ enum class StepPreference {
   Support,    ///< It takes the support from below away from no component.
 };
 
+/// The place of threaded fasteners in the order of steps.
+enum class FastenerOrder {
+  First,    ///< They come before what they hold (find_joints()), and leave along their axes, wherever that is possible.
+  Ignored,  ///< As any other component.
+};
+
 /// Options of plan_disassembly.
 struct PlanOptions {
   std::vector<ComponentId> targets;  ///< Components to remove, with as few others as possible; empty: everything.
@@ -44,6 +50,8 @@ struct PlanOptions {
 
   /// Finds the margin of each step (PlanStep::margin).
   bool margins = false;
+  /// The place of threaded fasteners.
+  FastenerOrder fasteners = FastenerOrder::First;
 
   /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {

@@ -37,12 +37,27 @@ class PrecedenceFinder {
     for (std::uint32_t j = 0; j < k; ++j)
       if (plan_.steps[j].part_of == step.part_of) earlier.push_back(j);
     found = step.poses.empty() ? met_straight(step, earlier) : near_way(step, earlier);
+    for (const std::uint32_t j : earlier)
+      if (releases(plan_.steps[j], step)) found.push_back(j);
     if (step.part_of != PlanStep::kWhole) found.push_back(step.part_of);
     std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
  private:
+  /// True if an earlier step removes a fastener that holds a component of a later one, or a nut or washer of the same
+  /// stack that comes off first.
+  bool releases(const PlanStep& earlier, const PlanStep& later) const {
+    const ComponentSet gone(assembly_.components.size(), earlier.components);
+    const ComponentSet next(assembly_.components.size(), later.components);
+    return std::any_of(plan_.joints.begin(), plan_.joints.end(), [&](const Joint& joint) {
+      const std::vector<ComponentId> stack = joint.stack();
+      const bool has_first = joint.screw.valid() ? gone.has(joint.screw) : gone.has(joint.nuts.front());
+      return (has_first && next.has_any(joint.held)) || (gone.has_any(stack) && next.has_any(stack));
+    });
+  }
+
   std::vector<std::uint32_t> met_straight(const PlanStep& step, std::vector<std::uint32_t> earlier) {
     std::vector<std::uint32_t> found;
     while (!earlier.empty()) {

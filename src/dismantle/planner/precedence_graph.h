@@ -19,7 +19,8 @@ struct PrecedenceGraph {
   friend bool operator==(const PrecedenceGraph&, const PrecedenceGraph&) = default;
 };
 
-/// Computed by sweeping each step's path, with the engine, against everything that the plan removes before it. Every
+/// Computed by sweeping each step's path, with the engine, against everything that the plan removes before it; a
+/// fastener precedes what it holds (Plan::joints), and a stack keeps its order. Every
 /// order that respects the graph holds the guarantee, as contacts of a path do not depend on what else is present. For
 /// paths that are not straight, every component whose bounding box is near counts as met, so that the relation may be
 /// stricter than necessary.

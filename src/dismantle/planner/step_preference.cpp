@@ -90,6 +90,8 @@ std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, con
   }
   std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     if (a.first != b.first) return a.first < b.first;
+    const bool a_is_early = choice.early.has(a.second.components[0]);
+    if (a_is_early != choice.early.has(b.second.components[0])) return a_is_early;
     return choice.table.radius(a.second.components[0]) < choice.table.radius(b.second.components[0]);
   });
   std::vector<StraightRemoval> removals;

@@ -25,10 +25,11 @@ struct RemovalChoice {
   const DirectionLists& directions;                ///< Of each component.
   const std::vector<ComponentId>& kinds;           ///< As first_of_shape().
   const std::vector<StepPreference>& preferences;  ///< The most important first.
+  const ComponentSet& early;                       ///< Components that come first where preferences are equal.
 };
 
 /// All single components of `present` outside `never` that can be removed straight, along each free direction, in order
-/// of preference; ties by size, small ones first.
+/// of preference; ties: early ones first, then by size, small ones first.
 std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,
                                                 const ComponentSet& never, const StepBefore& before);
 

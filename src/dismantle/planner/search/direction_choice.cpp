@@ -67,6 +67,13 @@ std::vector<DirectionId> DirectionChoice::in_order(const std::vector<CandidateDi
   return list;
 }
 
+void DirectionChoice::put_first(ComponentId c, const Vec3& direction) {
+  std::vector<DirectionId>& list = directions_[c.value];
+  const DirectionId added = table_.add_direction(direction), known = one_along(list, added);
+  if (known.valid()) std::erase(list, known);
+  list.insert(list.begin(), known.valid() ? known : added);
+}
+
 // The one of `list` that is nearly equal to `d`; invalid if there is none.
 DirectionId DirectionChoice::one_along(const std::vector<DirectionId>& list, DirectionId d) const {
   const auto found = std::find_if(list.begin(), list.end(), [&](DirectionId known) {

@@ -26,6 +26,8 @@ class DirectionChoice {
 
   /// The directions of each component, the most promising first. Shape [component_count].
   const DirectionLists& directions() const { return directions_; }
+  /// Makes a unit direction the first one of a component.
+  void put_first(ComponentId c, const Vec3& direction);
   /// The contact normals of a component in its assembled pose; empty for one of `staying`.
   const ContactNormals& contacts(ComponentId c) const { return contacts_[c.value]; }
 

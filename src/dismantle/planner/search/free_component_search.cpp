@@ -15,6 +15,11 @@ constexpr std::uint32_t kNowhere = 0xffffffffu;
 
 FreeComponentSearch::FreeComponentSearch(BlockingTable& table, const DirectionLists& directions,
                                          const ComponentSet& present, const ComponentSet& never)
+    : FreeComponentSearch(table, directions, present, never, ComponentSet(present.universe())) {}
+
+FreeComponentSearch::FreeComponentSearch(BlockingTable& table, const DirectionLists& directions,
+                                         const ComponentSet& present, const ComponentSet& never,
+                                         const ComponentSet& early)
     : table_(table),
       directions_(directions),
       present_(present),
@@ -22,8 +27,10 @@ FreeComponentSearch::FreeComponentSearch(BlockingTable& table, const DirectionLi
       place_(present.universe(), kNowhere),
       blocked_by_(present.universe()) {
   std::erase_if(order_, [&](ComponentId c) { return never.has(c); });
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](ComponentId a, ComponentId b) { return table.radius(a) < table.radius(b); });
+  std::stable_sort(order_.begin(), order_.end(), [&](ComponentId a, ComponentId b) {
+    if (early.has(a) != early.has(b)) return early.has(a);
+    return table.radius(a) < table.radius(b);
+  });
   counts_.assign(order_.size() + 1, 0);
   for (std::uint32_t place = 0; place < order_.size(); ++place) {
     place_[order_[place].value] = place;

@@ -17,6 +17,9 @@ class FreeComponentSearch {
   /// @param table, directions must outlive this @param present all that will be there @param never components that stay
   FreeComponentSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
                       const ComponentSet& never);
+  /// As above. @param early components that are tested before all others
+  FreeComponentSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
+                      const ComponentSet& never, const ComponentSet& early);
 
   /// Notes that components are not there any more.
   void remove(Span<const ComponentId> components);
@@ -44,7 +47,7 @@ class FreeComponentSearch {
   BlockingTable& table_;
   const DirectionLists& directions_;
   ComponentSet present_;
-  std::vector<ComponentId> order_;                    ///< Those that may be removed, the smallest first.
+  std::vector<ComponentId> order_;                    ///< Those that may be removed, early and small ones first.
   std::vector<std::uint32_t> place_;                  ///< Of each component in `order_`; kNowhere for those that stay.
   std::vector<std::uint32_t> counts_;                 ///< Fenwick tree over `order_` of those that are there.
   std::array<std::set<std::uint32_t>, 2> waiting_;    ///< By pass: places of those that are not known to be blocked.

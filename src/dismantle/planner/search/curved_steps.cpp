@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/search/curved_steps.h"
+
+#include "dismantle/planner/search/sample_search.h"
+
+#include <algorithm>
+
+namespace dismantle {
+
+namespace {
+
+/// No longer random search is made for a component whose best excursion was below this [radii]: it only rattles in its
+/// seat.
+constexpr double kRoom = 0.5;
+
+}  // namespace
+
+CurvedSteps::CurvedSteps(const PlannedAssembly& planned, const CurvedSearch& search, std::size_t slide_effort,
+                         std::size_t sample_effort)
+    : with_(search), axes_(planned, search.validator), sliding_(slide_effort), sampling_(sample_effort) {}
+
+std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, const ComponentSet& staying, Groups groups,
+                                                  const JointRelations* joints) {
+  for (const ComponentId c : smallest_first(body, staying)) {
+    if ((with_.groups.of(c).size() > 1) != (groups == Groups::OfSeveral)) continue;
+    for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
+      if (!with_.keep_going()) return std::nullopt;
+      if (!body.has(neighbour) || with_.groups.together(c, neighbour) || !axes_.may_turn(c, thread, body)) continue;
+      if (joints != nullptr && joints->blocker(c, thread.direction, body) &&
+          joints->blocker(c, -thread.direction, body))
+        continue;
+      std::vector<ComponentId>& met = met_[{c, neighbour}];
+      if (!met.empty() && body.has_all(met)) continue;
+      PathSearch search = screw_out(with_.validator, with_.table, c, thread, with_.keep_going);
+      if (search.step) return with_group(std::move(*search.step));
+      met = std::move(search.met);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PlanStep> CurvedSteps::find_sliding(const ComponentSet& body, const ComponentSet& staying) {
+  return find_long(sliding_, body, staying, [&](ComponentId c, std::size_t effort) {
+    SlideMoves moves = axes_.slide_moves(c, body, with_.choice, with_.table);
+    moves.max_effort = effort;
+    return slide_out(with_.validator, with_.table, c, moves, with_.keep_going);
+  });
+}
+
+std::optional<PlanStep> CurvedSteps::find_sampled(const ComponentSet& body, const ComponentSet& staying) {
+  return find_long(sampling_, body, staying, [&](ComponentId c, std::size_t effort) {
+    const LongSearches::InVain& slid = sliding_.last(c);
+    const double room = std::max(slid.furthest.value_or(0), sampling_.last(c).furthest.value_or(0));
+    const bool held_fast = slid.effort > 0 && !slid.furthest;
+    const bool rattles = effort > LongSearches::kFirstEffort && room < kRoom;
+    if (held_fast || rattles) return PathSearch{std::nullopt, slid.met, slid.furthest, true};
+    return sample_out(with_.validator, with_.table, c, effort, with_.keep_going);
+  });
+}
+
+/// A step by LongSearches for one component, with its group; the smallest first.
+template <class Search>
+std::optional<PlanStep> CurvedSteps::find_long(LongSearches& searches, const ComponentSet& body,
+                                               const ComponentSet& staying, const Search& search) {
+  std::vector<ComponentId> components = smallest_first(body, staying);
+  std::erase_if(components, [this](ComponentId c) { return !leads(c); });
+  auto step = searches.find(components, body, with_.validator, with_.keep_going, search);
+  return step ? std::optional(with_group(std::move(*step))) : std::nullopt;
+}
+
+bool CurvedSteps::leads(ComponentId c) const {
+  const Span<const ComponentId> group = with_.groups.of(c);
+  return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {
+    return with_.features[a.value].radius < with_.features[b.value].radius;
+  }) == c;
+}
+
+/// A step of a component as that of its group.
+PlanStep CurvedSteps::with_group(PlanStep step) const {
+  const Span<const ComponentId> group = with_.groups.of(step.components.front());
+  step.components.assign(group.begin(), group.end());
+  return step;
+}
+
+std::vector<ComponentId> CurvedSteps::smallest_first(const ComponentSet& body, const ComponentSet& staying) const {
+  std::vector<ComponentId> members = body.members();
+  std::erase_if(members, [&](ComponentId c) { return staying.has(c); });
+  std::stable_sort(members.begin(), members.end(), [this](ComponentId a, ComponentId b) {
+    return with_.features[a.value].radius < with_.features[b.value].radius;
+  });
+  return members;
+}
+
+}  // namespace dismantle
