@@ -21,6 +21,7 @@ struct JobUpdate {
   std::string name;                 ///< Name for the user.
   std::string stage;                ///< What it does now, for the user.
   double fraction = -1;             ///< Fraction of the stage that is done; negative: unknown.
+  double seconds = 0;               ///< Since the start [s].
   Status status = Status::Running;  ///< All but Running are final.
   std::string error;                ///< Failed, Cancelled: the message.
 };
