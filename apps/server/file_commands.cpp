@@ -146,23 +146,23 @@ Result<Json> FileCommands::cancel(const Json& command) {
 
 Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file, const std::string& units) {
   const std::string name = file->name;
-  return jobs_.start(name, [this, file = std::move(file), units](const ProgressCallback& progress) {
-    ModelOptions options = options_;
-    if (!units.empty()) options.import.units = units;
-    Result<Model> model = load_model(file->path, options, progress);
-    if (!model)
-      return Result<Jobs::Finish>(Error{model.error().kind, without_folder(model.error().message, file->path)});
-    model->name = clean_name(file->name);
-    if (file->temporary_folder.empty()) recent_.add(file->path);
-    // std::function requires copyable captures.
-    return Result<Jobs::Finish>([this, file, shared = std::make_shared<Model>(std::move(*model))] {
-      {
-        const std::lock_guard lock(mutex_);
-        opened_ = file;
-      }
-      on_model_(std::move(*shared));
-    });
-  });
+  return jobs_.start(name,
+                     [this, file = std::move(file), units](const ProgressCallback& progress) -> Result<Jobs::Outcome> {
+                       ModelOptions options = options_;
+                       if (!units.empty()) options.import.units = units;
+                       Result<Model> model = load_model(file->path, options, progress);
+                       if (!model) return Error{model.error().kind, without_folder(model.error().message, file->path)};
+                       model->name = clean_name(file->name);
+                       if (file->temporary_folder.empty()) recent_.add(file->path);
+                       // std::function requires copyable captures.
+                       return Jobs::Outcome{[this, file, shared = std::make_shared<Model>(std::move(*model))] {
+                         {
+                           const std::lock_guard lock(mutex_);
+                           opened_ = file;
+                         }
+                         on_model_(std::move(*shared));
+                       }};
+                     });
 }
 
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {

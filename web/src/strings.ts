@@ -244,7 +244,7 @@ const kEnglish = {
   "job.cancel": "Cancel",
   "job.failed": "{name}: {error}",
   "job.cancelled": "Cancelled.",
-  "job.cancelled.of": "Cancelled: {name}",
+  "job.cancelled.of": "Cancelled: {name}.",
   saved: "Recording saved",
   "section.axis": "Section plane normal to {axis}",
   "section.flip": "Flip",

@@ -7,7 +7,7 @@ export interface PathedFile {
 }
 
 /// Files that assemblies refer to, beside those that can be opened.
-const kCompanions = [".mtl", ".bin"];
+export const kCompanions = [".mtl", ".bin"];
 
 /// The files of a drop, those in dropped folders included.
 export async function droppedFiles(data: DataTransfer): Promise<PathedFile[]> {

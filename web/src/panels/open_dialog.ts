@@ -3,7 +3,7 @@ import { button, dialogHeader, element, linkButton } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { Commands } from "../wire/messages.ts";
-import { chosenFiles, commonFolder, droppedFiles, type PathedFile, packedFiles, usefulFiles } from "./dropped_files.ts";
+import { chosenFiles, commonFolder, droppedFiles, kCompanions, type PathedFile, packedFiles, usefulFiles } from "./dropped_files.ts";
 
 /// Time given to the server to announce an open assembly before the start page is shown [ms].
 const kStartPageDelay = 250;
@@ -121,7 +121,7 @@ export class OpenDialog {
       ...(files.length > 0 ? files : [element("li", { class: "muted" }, text("open.recent.none"))]),
     );
     const { roots, extensions } = this.session.store;
-    this.picker.accept = extensions.join();
+    this.picker.accept = [...extensions, ...kCompanions, ".json"].join();
     this.roots.replaceChildren(...roots.map((name, root) => this.rootList(name, root)));
     if (roots.length === 0) this.roots.append(element("p", { class: "muted" }, text("open.roots.none")));
   }

@@ -35,6 +35,7 @@ export class SectionPanel {
   private readonly faceButton: HTMLButtonElement;
   private readonly hint = element("p", { class: "muted", role: "status" });
   private open = false;
+  private shownModel = -1;
   private picking = false;
 
   constructor(private readonly session: Session) {
@@ -161,6 +162,11 @@ export class SectionPanel {
 
   private update(): void {
     const { planes, model } = this.session.store;
+    if (model && model.number !== this.shownModel) {
+      this.shownModel = model.number;
+      this.setPicking(false);
+      this.session.viewport.setPlanes([]);
+    }
     if (planes.length === 0 && !this.node.contains(document.activeElement) && !this.picking) this.open = false;
     if (!model) this.open = false;
     this.node.hidden = !this.open;
@@ -171,6 +177,7 @@ export class SectionPanel {
       row.slider.disabled = row.number.disabled = row.flip.disabled = plane === undefined;
       setText(row.unit, shownUnit());
       if (plane) this.showPlane(row, plane);
+      else row.number.value = "";
     }
   }
 

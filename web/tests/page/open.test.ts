@@ -10,7 +10,11 @@ import { isPresent } from "../support/step.ts";
 
 const folder = mkdtempSync(join(tmpdir(), "dismantle-root-"));
 useViewer(["--root", folder], { waits: false });
-after(() => rmSync(folder, { recursive: true }));
+/// Folders of chosen files; the browser reads them later.
+const chosen: string[] = [];
+after(() => {
+  for (const used of [folder, ...chosen]) rmSync(used, { recursive: true });
+});
 
 const modelName = () => viewer.page.evaluate(() => window.dismantle!.app.session.store.model?.name ?? null);
 
@@ -91,6 +95,7 @@ ${["base", "link"].map((name) => `<link name="${name}"><visual><geometry><mesh f
 /// Chooses or drops files with paths below one folder.
 async function choose(files: Record<string, string>, picker: "#file-picker" | "#folder-picker"): Promise<void> {
   const from = mkdtempSync(join(tmpdir(), "dismantle-chosen-"));
+  chosen.push(from);
   for (const [path, content] of Object.entries(files)) {
     mkdirSync(dirname(join(from, path)), { recursive: true });
     writeFileSync(join(from, path), content);
@@ -100,7 +105,6 @@ async function choose(files: Record<string, string>, picker: "#file-picker" | "#
     picker,
     picker === "#folder-picker" ? join(from, Object.keys(files)[0].split("/")[0]) : paths,
   );
-  rmSync(from, { recursive: true });
 }
 
 const rows = () => viewer.page.locator("#tree-panel .row:not(.group)").count();
@@ -125,6 +129,11 @@ test("a URDF is opened with the meshes of its folder", async () => {
   );
   await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.model!.name === "arm.urdf");
   assert.equal(await rows(), 2);
+});
+
+test("a URDF without its meshes is refused with what to do", async () => {
+  await choose({ "arm.urdf": kArm }, "#file-picker");
+  await viewer.page.locator(".toast.warning", { hasText: "keep the URDF and its meshes in one folder" }).waitFor();
 });
 
 test("several files dropped on the page are opened together", async () => {

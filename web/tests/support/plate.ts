@@ -17,7 +17,9 @@ export function holedPlate({ sides: [length, width, height], holes, diameter }: 
   const lines: string[] = ["o plate"];
   let count = 0;
   const vertex = (x: number, y: number, z: number): number => {
-    lines.push(`v ${x.toFixed(6)} ${y.toFixed(6)} ${z}`);
+    // Without -0, which would not be the same point as 0.
+    const [a, b] = [x, y].map((value) => Math.round(1e6 * value) / 1e6 + 0);
+    lines.push(`v ${a} ${b} ${z}`);
     return ++count;
   };
   const quad = (a: number, b: number, c: number, d: number) => lines.push(`f ${a} ${b} ${c}`, `f ${a} ${c} ${d}`);
