@@ -239,6 +239,7 @@ export class Session {
 
   /// Loads the steps of the recording or of the guide from the server.
   async loadSteps(source: Source): Promise<GuideStep[]> {
+    if (this.connection.steps) return this.connection.steps;
     const response = await this.connection.request(source === "guide" ? "/api/guide.json" : "/api/path.json");
     const names = this.store.model!.components.map(({ name }) => name);
     return stepsOfPath((await response.json()) as PathFile, names);

@@ -3,7 +3,15 @@ import { button, dialogHeader, element, linkButton } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { Commands } from "../wire/messages.ts";
-import { chosenFiles, commonFolder, droppedFiles, kCompanions, type PathedFile, packedFiles, usefulFiles } from "./dropped_files.ts";
+import {
+  chosenFiles,
+  commonFolder,
+  droppedFiles,
+  kCompanions,
+  type PathedFile,
+  packedFiles,
+  usefulFiles,
+} from "./dropped_files.ts";
 
 /// Time given to the server to announce an open assembly before the start page is shown [ms].
 const kStartPageDelay = 250;

@@ -138,7 +138,9 @@ export class TimelinePanel {
     if (this.duration() === 0) return;
     const speed = sign * Number(this.speed.value);
     // Without a playback the time is the recording's end: playing forward starts at its beginning.
-    if (!state?.playback) await showPath(this.session, this.source());
+    const time = this.time();
+    if (!state?.playback || time <= kSameTime || time >= this.duration() - kSameTime)
+      await showPath(this.session, this.source());
     if (!state?.playback)
       await this.session.send("seek", { time: sign > 0 ? 0 : this.duration(), source: this.source() });
     else if (sign > 0 && this.time() >= this.duration() - kSameTime) await this.session.send("seek", { time: 0 });

@@ -50,7 +50,7 @@ export function holedPlate({ sides: [length, width, height], holes, diameter }: 
       quad(low[k].rim, low[k].hole, low[n].hole, low[n].rim);
       quad(low[k].hole, high[k].hole, high[n].hole, low[n].hole);
       const next = ring[n];
-      const turnsCorner = point.rim[0] !== next.rim[0] && point.rim[1] !== next.rim[1];
+      const turnsCorner = [0, 1].every((k) => Math.abs(point.rim[k] - next.rim[k]) > 1e-9);
       if (turnsCorner) {
         const c = Math.floor((4 * (k + 0.5)) / kSides);
         lines.push(
