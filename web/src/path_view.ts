@@ -6,7 +6,7 @@ import type { Session } from "./session.ts";
 import type { Source } from "./wire/messages.ts";
 
 /// Maximum side of the region that is fitted, in diagonals of the assembly.
-const kMaxExtent = 2.5;
+const kMaxExtent = 8;
 
 /// Bounds of the assembly and of its components after each step, limited so that the assembly remains large enough:
 /// recordings can move components far away.

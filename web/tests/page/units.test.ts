@@ -12,17 +12,17 @@ test("the button changes the unit of every length that is shown", async () => {
   await viewer.press("d");
   await viewer.page.locator("#directions .direction").first().waitFor();
   await viewer.page.locator("#pairs .badge").first().waitFor();
-  const millimetres = await textOf("#inspector .facts");
+  const millimetres = await textOf("#inspector .body > .facts:first-child");
   assert.match(millimetres, /76\.0 × 26\.0 × 1\.0 mm/);
   await viewer.click("#units");
-  assert.match(await textOf("#inspector .facts"), /2\.992 × 1\.024 × 0\.039 in/);
+  assert.match(await textOf("#inspector .body > .facts:first-child"), /2\.992 × 1\.024 × 0\.039 in/);
   assert.match(await textOf("#status-tolerance"), / in$/);
   await viewer.press("s", "m");
   for (const part of ["#inspector", "#side", "#status", "#measure-label"])
     assert.doesNotMatch(await textOf(part), /\d (mm|µm)|\[mm\]/, part);
   await viewer.press("m", "s");
   await viewer.press("u");
-  assert.match(await textOf("#inspector .facts"), /76\.0 × 26\.0 × 1\.0 mm/);
+  assert.match(await textOf("#inspector .body > .facts:first-child"), /76\.0 × 26\.0 × 1\.0 mm/);
 });
 
 test("numbers that are typed are in the shown unit, and converted when it changes", async () => {
@@ -34,7 +34,7 @@ test("numbers that are typed are in the shown unit, and converted when it change
   await viewer.click("#numeric-apply");
   const [x] = await viewer.shift(kSlide);
   assert.ok(Math.abs(x - 25.4) < 0.05, `${x}`);
-  assert.match(await textOf("#inspector .facts"), /moved 1\.00\d in|moved 0\.99\d+ in/);
+  assert.match(await textOf("#inspector .body > .facts:first-child"), /moved 1\.00\d in|moved 0\.99\d+ in/);
   await reset();
 });
 
