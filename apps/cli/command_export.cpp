@@ -150,7 +150,7 @@ Result<std::vector<MoveClearance>> clearances(const ExportInput& exported, const
 Result<std::string> content(ExportFormat format, const ExportInput& exported, const ExportCommand& command) {
   if (format == ExportFormat::Png) return png(exported, command);
   if (has_own_writer(format))
-    return instructions_file(exported.assembly, exported.timeline, direction(command), exported.product, format,
+    return instructions_text(exported.assembly, exported.timeline, direction(command), exported.product, format,
                              command.instructions, command.common);
   ExportOptions options;
   options.direction = direction(command);

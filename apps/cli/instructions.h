@@ -27,8 +27,8 @@ struct InstructionsCommand {
 void add_instructions_options(CLI::App& command, InstructionsCommand& options);
 
 /// The work instructions of a path, as a page or a PDF. Prints a note on stderr where the PDF lacks glyphs of names.
-/// Errors: of work_instructions() and instructions_pdf().
-Result<std::string> instructions_file(const Assembly& assembly, const Timeline& timeline, PathDirection direction,
+/// Errors: of instructions_file().
+Result<std::string> instructions_text(const Assembly& assembly, const Timeline& timeline, PathDirection direction,
                                       const std::string& product, ExportFormat format,
                                       const InstructionsCommand& command, const CommonOptions& common);
 

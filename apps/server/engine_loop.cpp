@@ -11,8 +11,10 @@ constexpr std::size_t kMaxTasks = 1000;
 
 EngineLoop::EngineLoop(EngineListener& listener, Roots roots, std::optional<std::filesystem::path> journals, Jobs& jobs)
     : listener_(listener),
-      bench_(std::move(roots), std::move(journals),
-             [this, &jobs](const SearchRequest& request) { return start_search(jobs, request); }),
+      bench_(
+          std::move(roots), std::move(journals),
+          [this, &jobs](const SearchRequest& request) { return start_search(jobs, request); },
+          [this, &jobs](InstructionsRequest request) { return start_instructions(jobs, std::move(request)); }),
       thread_([this] { run(); }) {}
 
 EngineLoop::~EngineLoop() {
@@ -20,12 +22,26 @@ EngineLoop::~EngineLoop() {
 }
 
 Result<std::uint32_t> EngineLoop::start_search(Jobs& jobs, const SearchRequest& request) {
-  return jobs.start(search_name(request), [this, request](const ProgressCallback& progress) -> Result<Jobs::Finish> {
+  return jobs.start(search_name(request), [this, request](const ProgressCallback& progress) -> Result<Jobs::Outcome> {
     Result<SearchResult> found = run_search(request, progress);
     if (!found) return found.error();
-    return Jobs::Finish([this, result = std::move(*found)] {
-      post_always([result](Workbench& bench) { bench.apply_search_result(result); });
-    });
+    const bool is_cancelled = found->cancelled;
+    return Jobs::Outcome{[this, result = std::move(*found)] {
+                           post_always([result](Workbench& bench) { bench.apply_search_result(result); });
+                         },
+                         is_cancelled};
+  });
+}
+
+Result<std::uint32_t> EngineLoop::start_instructions(Jobs& jobs, InstructionsRequest request) {
+  // std::function requires copyable captures.
+  auto shared = std::make_shared<const InstructionsRequest>(std::move(request));
+  return jobs.start("Work instructions", [this, shared](const ProgressCallback& progress) -> Result<Jobs::Outcome> {
+    Result<MadeInstructions> made = make_instructions(*shared, progress);
+    if (!made) return made.error();
+    return Jobs::Outcome{[this, shared, result = std::move(*made)] {
+      post_always([shared, result](Workbench& bench) { bench.keep_instructions(*shared->assembly, result); });
+    }};
   });
 }
 

@@ -69,6 +69,8 @@ class EngineLoop {
 
   /// Starts a job that runs the search and applies its result on the loop's thread.
   Result<std::uint32_t> start_search(Jobs& jobs, const SearchRequest& request);
+  /// Starts a job that makes work instructions and keeps them in the workbench.
+  Result<std::uint32_t> start_instructions(Jobs& jobs, InstructionsRequest request);
   void run();
   /// Waits for tasks, an input or the next step, and takes the tasks and the input; false if the loop must end.
   bool take_work(std::deque<Task>& tasks, std::optional<PendingInput>& input);

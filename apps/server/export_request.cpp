@@ -43,23 +43,25 @@ std::optional<ExportRequest> parse_export(const RequestTarget& target) {
   return {};
 }
 
+Error no_moves() {
+  return {ErrorKind::Usage, "there is no path to export (nothing was moved yet); move something first"};
+}
+
+Result<Path> exported_path(const Model& model, PlaybackSource source) {
+  if (source == PlaybackSource::Recording) return model.session->recording();
+  const Guide* guide = model.session->guide();
+  if (guide == nullptr)
+    return Error{ErrorKind::Usage, "there is no guide to export (no path file is open); open one first"};
+  return parse_path(guide->text, guide->name);
+}
+
 Result<ExportSource> export_source(const ExportRequest& request, const Model* model) {
   if (model == nullptr)
     return Error{ErrorKind::Usage, "there is nothing to export (no assembly is open); open one first"};
-  ExportSource source{model->assembly, {}};
-  const Guide* guide = model->session->guide();
-  if (request.of_guide && guide == nullptr)
-    return Error{ErrorKind::Usage, "there is no guide to export (no path file is open); open one first"};
-  if (request.of_guide) {
-    Result<Path> path = parse_path(guide->text, guide->name);
-    if (!path) return path.error();
-    source.path = std::move(*path);
-  } else {
-    source.path = model->session->recording();
-  }
-  if (needs_path(request.format) && source.path.moves.empty())
-    return Error{ErrorKind::Usage, "there is no path to export (nothing was moved yet); move something first"};
-  return source;
+  Result<Path> path = exported_path(*model, request.of_guide ? PlaybackSource::Guide : PlaybackSource::Recording);
+  if (!path) return path.error();
+  if (needs_path(request.format) && path->moves.empty()) return no_moves();
+  return ExportSource{model->assembly, std::move(*path)};
 }
 
 HttpResponse export_response(const ExportRequest& request, const ExportSource& source) {

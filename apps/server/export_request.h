@@ -28,6 +28,13 @@ struct ExportSource {
 /// Parses a request target; none if it is not an export.
 std::optional<ExportRequest> parse_export(const RequestTarget& target);
 
+/// The error that there is nothing to export.
+Error no_moves();
+
+/// The recording or the guide as a path; may have no moves. Call on the engine loop's thread. Errors: Usage if there is
+/// no guide; Unreadable as of parse_path.
+Result<Path> exported_path(const Model& model, PlaybackSource source);
+
 /// Captures the data to export. `model` is null if no assembly is open. Call on the engine loop's thread. Errors: Usage
 /// if no assembly is open, or there is no path; Unreadable as of parse_path.
 Result<ExportSource> export_source(const ExportRequest& request, const Model* model);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/file_commands.h"
 
+#include "apps/server/uploaded_files.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/files/display_name.h"
+#include "dismantle/files/text_name.h"
 #include "dismantle/formats/import/units.h"
 #include "samples/bundled/bundled_sample.h"
 
@@ -42,12 +44,26 @@ std::uint64_t index_member(const Json& command, const char* name) {
   return found != command.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
 }
 
+/// A message in which a file is called by its name alone.
+std::string without_folder(std::string message, const fs::path& file) {
+  for (const std::string& folder : {file.string() + "/", file.parent_path().string() + "/"})
+    for (std::size_t at = 0; (at = message.find(folder, at)) != std::string::npos;) message.erase(at, folder.size());
+  return message;
+}
+
 Result<Json> job_json(const Result<std::uint32_t>& job) {
   if (!job) return job.error();
   return Json{{"job", *job}};
 }
 
 }  // namespace
+
+OpenedFile::OpenedFile(fs::path file) : path(std::move(file)), name(display_name(path)) {}
+
+OpenedFile::~OpenedFile() {
+  std::error_code ignored;
+  if (!temporary_folder.empty()) fs::remove_all(temporary_folder, ignored);
+}
 
 void remove_with_folder(const fs::path& file) {
   std::error_code ignored;
@@ -129,30 +145,46 @@ Result<Json> FileCommands::cancel(const Json& command) {
 }
 
 Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file, const std::string& units) {
-  const std::string name = display_name(file->path);
-  return jobs_.start(name, [this, file = std::move(file), units](const ProgressCallback& progress) {
-    ModelOptions options = options_;
-    if (!units.empty()) options.import.units = units;
-    Result<Model> model = load_model(file->path, options, progress);
-    if (!model) return Result<Jobs::Finish>(model.error());
-    if (!file->is_temporary) recent_.add(file->path);
-    // std::function requires copyable captures.
-    return Result<Jobs::Finish>([this, file, shared = std::make_shared<Model>(std::move(*model))] {
-      {
-        const std::lock_guard lock(mutex_);
-        opened_ = file;
-      }
-      on_model_(std::move(*shared));
-    });
-  });
+  const std::string name = file->name;
+  return jobs_.start(name,
+                     [this, file = std::move(file), units](const ProgressCallback& progress) -> Result<Jobs::Outcome> {
+                       ModelOptions options = options_;
+                       if (!units.empty()) options.import.units = units;
+                       Result<Model> model = load_model(file->path, options, progress);
+                       if (!model) return Error{model.error().kind, without_folder(model.error().message, file->path)};
+                       model->name = clean_name(file->name);
+                       if (file->temporary_folder.empty()) recent_.add(file->path);
+                       // std::function requires copyable captures.
+                       return Jobs::Outcome{[this, file, shared = std::make_shared<Model>(std::move(*model))] {
+                         {
+                           const std::lock_guard lock(mutex_);
+                           opened_ = file;
+                         }
+                         on_model_(std::move(*shared));
+                       }};
+                     });
 }
 
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
-  return start(std::make_shared<OpenedFile>(file, false), {});
+  return start(std::make_shared<OpenedFile>(file), {});
 }
 
 Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {
-  return start(std::make_shared<OpenedFile>(file, true), {});
+  return start(std::make_shared<OpenedFile>(file, file.filename().string(), file.parent_path()), {});
+}
+
+Result<std::uint32_t> FileCommands::open_packed(const fs::path& packed, const std::string& name) {
+  auto file = std::make_shared<OpenedFile>(packed, name, packed.parent_path());
+  const fs::path folder = packed.parent_path() / "files";
+  if (const Result<Done> unpacked = unpack_files(packed, folder); !unpacked) return unpacked.error();
+  const Result<fs::path> assembly = assembly_among(folder);
+  if (!assembly) return assembly.error();
+  file->path = *assembly;
+  std::error_code ignored;
+  const bool is_folder = fs::is_directory(*assembly, ignored);
+  if (!is_folder || (name.empty() && *assembly != folder)) file->name = assembly->filename().string();
+  if (file->name.empty()) file->name = "meshes";
+  return start(std::move(file), {});
 }
 
 Result<Json> FileCommands::open_again(const Json& command) {

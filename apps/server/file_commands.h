@@ -18,18 +18,20 @@ namespace dismantle::server {
 /// Removes a file and then its folder, if that is empty. Errors are ignored.
 void remove_with_folder(const std::filesystem::path& file);
 
-/// A file that is or was opened.
+/// A file or a folder of meshes that is or was opened.
 struct OpenedFile {
-  std::filesystem::path path;  ///< Where it is.
-  bool is_temporary = false;   ///< Removed with its folder at the end of this.
+  std::filesystem::path path;              ///< Where it is.
+  std::string name;                        ///< For users.
+  std::filesystem::path temporary_folder;  ///< Removed with all that it holds at the end of this; empty: none.
 
-  /// Of a file that exists.
-  OpenedFile(std::filesystem::path file, bool temporary) : path(std::move(file)), is_temporary(temporary) {}
+  /// Of a file that exists, with its own name.
+  explicit OpenedFile(std::filesystem::path file);
+  /// Of a file in a folder from new_temporary_folder().
+  OpenedFile(std::filesystem::path file, std::string display_name, std::filesystem::path folder)
+      : path(std::move(file)), name(std::move(display_name)), temporary_folder(std::move(folder)) {}
   OpenedFile(const OpenedFile&) = delete;
   OpenedFile& operator=(const OpenedFile&) = delete;
-  ~OpenedFile() {
-    if (is_temporary) remove_with_folder(path);
-  }
+  ~OpenedFile();
 };
 
 /// The file commands of docs/wire.md: samples, files, recent, open, open_again, cancel. For the network's thread.
@@ -57,6 +59,9 @@ class FileCommands final : public ServerCommands {
   /// As open_file(), and removes the file and its folder: where it cannot be loaded, when another file has been loaded,
   /// and at the end.
   Result<std::uint32_t> open_upload(const std::filesystem::path& file);
+  /// As open_upload(), for several files that belong together, packed as docs/wire.md says. @param name of the folder
+  /// that they are from; may be empty. Errors: also of unpack_files() and assembly_among().
+  Result<std::uint32_t> open_packed(const std::filesystem::path& packed, const std::string& name);
   /// As open_file(), for a bundled sample. Errors: also Usage if there is no such sample, Failed if no temporary file
   /// can be written.
   Result<std::uint32_t> open_sample(const std::string& name);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::chrono::milliseconds kUpdateInterval{100};
 
 /// Does the work; exceptions become errors.
-Result<Jobs::Finish> run_guarded(const std::string& name, const Jobs::Work& work, const ProgressCallback& progress) {
+Result<Jobs::Outcome> run_guarded(const std::string& name, const Jobs::Work& work, const ProgressCallback& progress) {
   try {
     return work(progress);
   } catch (const std::bad_alloc&) {
@@ -51,15 +51,19 @@ Result<Done> Jobs::cancel(std::uint32_t job) {
 }
 
 void Jobs::run(const std::string& name, const Work& work) {
-  JobUpdate update{last_, name, "starting", -1, JobUpdate::Status::Running, {}};
+  using Clock = std::chrono::steady_clock;
+  JobUpdate update{last_, name, "starting", -1, 0, JobUpdate::Status::Running, {}};
   on_update_(update);
-  auto last_update = std::chrono::steady_clock::now();
-  const Result<Finish> result = run_guarded(name, work, [&](std::string_view stage, double fraction) {
-    const auto now = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_update = start;
+  const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const Result<Outcome> result = run_guarded(name, work, [&](std::string_view stage, double fraction) {
+    const Clock::time_point now = Clock::now();
     if (stage != update.stage || now - last_update >= kUpdateInterval) {
       last_update = now;
       update.stage = stage;
       update.fraction = fraction;
+      update.seconds = seconds();
       on_update_(update);
     }
     return !cancelled_.load();
@@ -67,12 +71,13 @@ void Jobs::run(const std::string& name, const Work& work) {
 
   running_ = false;  // Finish may cause the start of another job; start() waits for this thread
   update.fraction = 1;
-  update.status = JobUpdate::Status::Done;
+  update.seconds = seconds();
+  update.status = result && result->is_cancelled ? JobUpdate::Status::Cancelled : JobUpdate::Status::Done;
   if (!result) {
     update.status = cancelled_ ? JobUpdate::Status::Cancelled : JobUpdate::Status::Failed;
     update.error = result.error().message;
   } else {
-    (*result)();
+    result->publish();
   }
   on_update_(update);
 }

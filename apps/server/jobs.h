@@ -21,6 +21,7 @@ struct JobUpdate {
   std::string name;                 ///< Name for the user.
   std::string stage;                ///< What it does now, for the user.
   double fraction = -1;             ///< Fraction of the stage that is done; negative: unknown.
+  double seconds = 0;               ///< Since the start [s].
   Status status = Status::Running;  ///< All but Running are final.
   std::string error;                ///< Failed, Cancelled: the message.
 };
@@ -30,8 +31,13 @@ class Jobs {
  public:
   /// Publishes the result of a job.
   using Finish = std::function<void()>;
-  /// Does the work of a job and returns the function that publishes the result.
-  using Work = std::function<Result<Finish>(const ProgressCallback&)>;
+  /// How the work of a job ended.
+  struct Outcome {
+    Finish publish;             ///< Publishes the result.
+    bool is_cancelled = false;  ///< The job was cancelled, and the result is what was found until then.
+  };
+  /// Does the work of a job.
+  using Work = std::function<Result<Outcome>(const ProgressCallback&)>;
   /// Receives updates, on the job's thread.
   using Listener = std::function<void(const JobUpdate&)>;
 

@@ -9,9 +9,38 @@
 #include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/surface/find_clashes.h"
 
+#include <atomic>
+#include <memory>
+#include <mutex>
+
 namespace dismantle::server {
 
 namespace {
+
+/// Reports the progress of making the session, from any thread. After finish() it neither reports nor cancels: the
+/// session's engine keeps the callback.
+class SessionProgress {
+ public:
+  explicit SessionProgress(const ProgressCallback& progress) : progress_(progress) {}
+  bool keep_going() {
+    if (finished_) return true;
+    const std::lock_guard lock(mutex_);
+    cancelled_ = cancelled_ || !report_progress(progress_, "preparing the session", -1);
+    return !cancelled_;
+  }
+  /// @return false if it was cancelled
+  bool finish() {
+    const bool going = keep_going();
+    finished_ = true;
+    return going;
+  }
+
+ private:
+  const ProgressCallback& progress_;
+  std::mutex mutex_;
+  bool cancelled_ = false;
+  std::atomic<bool> finished_ = false;
+};
 
 Result<Assembly> simplified(Assembly assembly, const ModelOptions& options, const ProgressCallback& progress) {
   if (options.simplify == 0) return assembly;
@@ -58,14 +87,21 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
+  const auto watch = std::make_shared<SessionProgress>(progress);
+  engine.keep_going = [watch] { return watch->keep_going(); };
   PairStates states = pair_states(model.clashes, classify.rule);
   std::error_code unused;
   if (options.declared_for.empty() || std::filesystem::equivalent(file, options.declared_for, unused)) {
     const Result<Done> declared = declare_allowances(states, *assembly, classify.declared);
     if (!declared) return declared.error();
   }
+<<<<<<< HEAD
   model.session = std::make_unique<Session>(*assembly, states, engine);
   if (options.drag_by_streams) model.session->set_drag_engine(streams_engine(*assembly, states, options));
+=======
+  if (watch->keep_going()) model.session = std::make_unique<Session>(*assembly, states, engine);
+  if (!watch->finish()) return Error{ErrorKind::Failed, "cancelled"};
+>>>>>>> help-b
   return model;
 }
 

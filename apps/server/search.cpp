@@ -9,6 +9,9 @@ namespace dismantle::server {
 
 namespace {
 
+/// Time limit of the search for what has to be removed before a component [s].
+constexpr double kChainSeconds = 5;
+
 /// The id of a session's component in the snapshot; invalid if it is not there.
 ComponentId local(const SessionSnapshot& snapshot, ComponentId component) {
   const auto found = std::lower_bound(snapshot.components.begin(), snapshot.components.end(), component);
@@ -38,16 +41,10 @@ PairStates pairs_of(const SessionSnapshot& snapshot, const PairStates& all,
   return pairs;
 }
 
-/// Leaves one thread to the drag.
-Executor executor_beside(const Executor& executor) {
-  if (executor.kind() != ExecutorKind::Threads || executor.thread_count() < 3) return Executor();
-  return Executor(ExecutorKind::Threads, executor.thread_count() - 1);
-}
-
 PlanOptions plan_options(const SearchRequest& request, const ProgressCallback& progress) {
   const SessionSnapshot& snapshot = *request.snapshot;
-  const CertificateOptions engine{executor_beside(request.engine.executor), request.engine.lanes};
-  PlanOptions options{local(snapshot, request.targets), local(snapshot, request.fixed), 0, engine, progress};
+  PlanOptions options{local(snapshot, request.targets), local(snapshot, request.fixed), 0,
+                      engine_beside(request.engine), progress};
   options.preferences = request.preferences;
   return options;
 }
@@ -96,7 +93,41 @@ SearchResult result_of(const SearchRequest& request, const Plan& plan) {
   return result;
 }
 
+/// The components to remove before the target, as few as possible and in order; none if nothing is found in time.
+std::optional<RemovalChain> chain_to(const SearchRequest& request, PlanOptions options) {
+  const SessionSnapshot& snapshot = *request.snapshot;
+  options.time_limit = kChainSeconds;
+  const ComponentId target = options.targets[0];
+  const Plan plan = plan_disassembly(snapshot.assembly, snapshot.pairs, options);
+  if (!plan.complete()) return {};
+  RemovalChain chain;
+  for (const PlanStep& step : plan.steps) {
+    chain.direction = step.exit;
+    if (std::find(step.components.begin(), step.components.end(), target) != step.components.end()) return chain;
+    chain.before.push_back(step.components);
+    for (ComponentId& c : chain.before.back()) c = snapshot.components[c.value];
+  }
+  return {};
+}
+
+SearchResult explained(const SearchRequest& request, const PlanOptions& options) {
+  const SessionSnapshot& snapshot = *request.snapshot;
+  SearchResult result;
+  result.kind = request.kind;
+  result.snapshot = request.snapshot;
+  result.reasons.push_back(
+      translated(snapshot, why_blocked(snapshot.assembly, snapshot.pairs, options.targets[0], options)));
+  if (!result.reasons[0].blockers.empty()) result.chain = chain_to(request, options);
+  return result;
+}
+
 }  // namespace
+
+CertificateOptions engine_beside(const CertificateOptions& session) {
+  const Executor& executor = session.executor;
+  if (executor.kind() != ExecutorKind::Threads || executor.thread_count() < 3) return {Executor(), session.lanes};
+  return {Executor(ExecutorKind::Threads, executor.thread_count() - 1), session.lanes};
+}
 
 std::string_view name_of(SearchKind kind) {
   switch (kind) {
@@ -164,20 +195,31 @@ Result<SearchResult> run_search(const SearchRequest& request, const ProgressCall
     cancelled |= !report_progress(progress, stage, fraction);
     return !cancelled;
   };
-  const SessionSnapshot& snapshot = *request.snapshot;
   SearchResult result;
   if (request.kind == SearchKind::Why) {
-    result.kind = request.kind;
-    result.snapshot = request.snapshot;
-    const PlanOptions options = plan_options(request, watched);
-    result.reasons.push_back(
-        translated(snapshot, why_blocked(snapshot.assembly, snapshot.pairs, options.targets[0], options)));
+    result = explained(request, plan_options(request, watched));
   } else {
+    const SessionSnapshot& snapshot = *request.snapshot;
     result = result_of(request, plan_disassembly(snapshot.assembly, snapshot.pairs, plan_options(request, watched)));
   }
-  if (!report_progress(watched, "planning", 1)) return Error{ErrorKind::Failed, "cancelled"};
+  report_progress(watched, "planning", 1);
+  result.cancelled = cancelled;
+  const bool is_useful = request.kind == SearchKind::Plan && result.steps > 0;
+  if (cancelled && !is_useful) return Error{ErrorKind::Failed, "cancelled"};
   return result;
 }
+
+namespace {
+
+Json chain_json(const SearchResult& result) {
+  if (!result.chain) return nullptr;
+  Json before = Json::array();
+  for (const std::vector<ComponentId>& step : result.chain->before)
+    before.push_back(to_json(Span<const ComponentId>(step)));
+  return {{"before", std::move(before)}, {"direction", to_json(result.chain->direction)}};
+}
+
+}  // namespace
 
 Json search_json(const SearchResult& result) {
   Json reasons = Json::array();
@@ -192,8 +234,9 @@ Json search_json(const SearchResult& result) {
                        {"together", to_json(Span<const ComponentId>(e.together))},
                        {"locked", to_json(Span<const ComponentId>(e.locked))}});
   }
-  return {{"kind", name_of(result.kind)}, {"complete", result.complete}, {"out_of_time", result.out_of_time},
-          {"seconds", result.seconds},    {"steps", result.steps},       {"reasons", std::move(reasons)}};
+  return {{"kind", name_of(result.kind)},  {"complete", result.complete}, {"out_of_time", result.out_of_time},
+          {"cancelled", result.cancelled}, {"seconds", result.seconds},   {"steps", result.steps},
+          {"reasons", std::move(reasons)}, {"chain", chain_json(result)}};
 }
 
 }  // namespace dismantle::server

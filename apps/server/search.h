@@ -9,10 +9,14 @@
 #include "apps/server/session_json.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dismantle::server {
+
+/// Engine options for work beside a session, whose drag keeps a thread. @param session options of its engine
+CertificateOptions engine_beside(const CertificateOptions& session);
 
 /// The kinds of searches of the planner.
 enum class SearchKind {
@@ -53,20 +57,29 @@ struct SearchRequest {
 /// The name of the job, for the user. @pre the request has a snapshot
 std::string search_name(const SearchRequest& request);
 
+/// What has to be removed before a component can be: as few others as possible.
+struct RemovalChain {
+  std::vector<std::vector<ComponentId>> before;  ///< Sets that go out together, in their order.
+  Vec3 direction;                                ///< In which the component then leaves; unit.
+};
+
 /// The result of a search. Component ids and poses are those of the session.
 struct SearchResult {
   SearchKind kind = SearchKind::Plan;               ///< As requested.
   std::shared_ptr<const SessionSnapshot> snapshot;  ///< As requested.
   bool complete = false;                            ///< All targets can be removed.
   bool out_of_time = false;                         ///< The search reached its time limit.
+  bool cancelled = false;                           ///< The user ended the search; what was found until then is here.
   double seconds = 0;                               ///< Duration of the search [s].
   std::size_t steps = 0;                            ///< Number of steps of the plan.
   std::vector<Explanation> reasons;                 ///< The blockers of each target that cannot be removed.
+  std::optional<RemovalChain> chain;                ///< Why: if it was found in a few seconds.
   Path path;                                        ///< The path of the plan.
   std::vector<Removal> removals;                    ///< TakeOut, if complete: the motions to carry out.
 };
 
-/// Runs a search, which takes seconds to minutes. For any thread. Errors: Failed if `progress` cancels.
+/// Runs a search, which takes seconds to minutes. For any thread. Errors: Failed if `progress` cancels; a plan of
+/// which some steps were found by then is returned.
 Result<SearchResult> run_search(const SearchRequest& request, const ProgressCallback& progress);
 
 /// The member `search` of the event `state`.

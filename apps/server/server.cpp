@@ -40,9 +40,13 @@ constexpr std::chrono::milliseconds kCloseTimeout{500};
 
 Json job_event(const JobUpdate& update) {
   static constexpr const char* kStatus[] = {"running", "done", "failed", "cancelled"};
-  Json json{
-      {"event", "job"},        {"job", update.job},           {"name", update.name},
-      {"stage", update.stage}, {"fraction", update.fraction}, {"status", kStatus[static_cast<int>(update.status)]}};
+  Json json{{"event", "job"},
+            {"job", update.job},
+            {"name", update.name},
+            {"stage", update.stage},
+            {"fraction", update.fraction},
+            {"seconds", update.seconds},
+            {"status", kStatus[static_cast<int>(update.status)]}};
   if (!update.error.empty()) json["error"] = update.error;
   return json;
 }
@@ -127,6 +131,7 @@ class Server::Impl final : public Site, private EngineListener {
                        respond);
     if (target.path == "/api/guide.json")
       return send_text(&Workbench::guide_text, "there is no guide (no path file is open); open one first", respond);
+    if (target.path == "/api/instructions") return send_instructions(std::move(respond));
     if (const std::optional<ExportRequest> request = parse_export(target))
       return export_file(*request, std::move(respond));
     if (target.path.substr(0, 5) == "/api/") return respond(not_found(target.path));
@@ -136,12 +141,11 @@ class Server::Impl final : public Site, private EngineListener {
 
   std::variant<UploadTarget, HttpResponse> begin_upload(const RequestTarget& target,
                                                         const std::string& client) override {
-    const bool is_guide = target.path == "/api/guide";
-    if (!is_guide && target.path != "/api/open") return not_found(target.path);
+    const bool is_guide = target.path == "/api/guide", is_packed = target.path == "/api/open_files";
+    if (!is_guide && !is_packed && target.path != "/api/open") return not_found(target.path);
     if (!hub_.is_in_control(client))
       return error_response(403, "nothing can be opened (another page is in control); take control first");
-    const auto name = target.query.find("name");
-    const std::string base = name == target.query.end() ? "" : fs::path(name->second).filename().string();
+    const std::string base = is_packed ? "packed" : name_of(target);
     if (base.empty() || base[0] == '.')
       return error_response(400, "the upload has no name (its extension gives the format); give ?name=FILE");
     const Result<fs::path> folder = new_temporary_folder();
@@ -151,11 +155,19 @@ class Server::Impl final : public Site, private EngineListener {
 
   void finish_upload(const Upload& upload, ResponseCallback respond) override {
     if (upload.target.path == "/api/guide") return open_guide(upload.file, std::move(respond));
-    const Result<std::uint32_t> job = files_.open_upload(upload.file);
+    const bool is_packed = upload.target.path == "/api/open_files";
+    const Result<std::uint32_t> job =
+        is_packed ? files_.open_packed(upload.file, name_of(upload.target)) : files_.open_upload(upload.file);
     respond(job ? json_response(202, {{"job", *job}}) : error_response(409, job.error().message));
   }
 
  private:
+  /// The file name of the query's `name`; empty if there is none.
+  static std::string name_of(const RequestTarget& target) {
+    const auto name = target.query.find("name");
+    return name == target.query.end() ? "" : fs::path(name->second).filename().string();
+  }
+
   static HttpResponse not_found(const std::string& path) {
     return error_response(404, "there is no " + path + " (no file of the page has this name); see docs/wire.md");
   }
@@ -215,6 +227,21 @@ class Server::Impl final : public Site, private EngineListener {
       HttpResponse response = error_response(404, otherwise);
       if (const std::optional<std::string> found = (bench.*text)())
         response = {200, "application/json", std::make_shared<const std::string>(*found), bench.recording_name()};
+      asio::post(io_, [respond, response] { respond(response); });
+    });
+  }
+
+  void send_instructions(ResponseCallback respond) {
+    engine_.post_always([this, respond = std::move(respond)](Workbench& bench) {
+      HttpResponse response = error_response(
+          404,
+          "there are no work instructions (none were made of this assembly); make them by the command instructions");
+      // The page is never shown from here: it has styles of its own, which the policy of the viewer forbids.
+      if (const MadeInstructions* made = bench.instructions())
+        response = {200,
+                    made->format == ExportFormat::InstructionsPdf ? "application/pdf" : "application/octet-stream",
+                    made->bytes,
+                    {}};
       asio::post(io_, [respond, response] { respond(response); });
     });
   }

@@ -43,6 +43,7 @@ void Workbench::set_model(Model model) {
   if (model_) journals_.detach(session());
   model_ = std::move(model);
   search_result_.reset();
+  instructions_.reset();
   drop_input();
   const Result<bool> attached = journals_.attach(session());
   is_resumed_ = attached && *attached;
@@ -102,6 +103,14 @@ void Workbench::apply_search_result(const SearchResult& result) {
     if (!guided) warning_ = guided.error().message;
   }
   if (result.kind == SearchKind::TakeOut && result.complete) follow_removals(result);
+}
+
+void Workbench::keep_instructions(const Assembly& assembly, MadeInstructions made) {
+  if (!model_ || model_->assembly.get() != &assembly) return;
+  std::string notes;
+  for (const std::string& note : made.notes) notes += (notes.empty() ? "" : "; ") + note;
+  if (!notes.empty()) warn("The PDF: " + notes);
+  instructions_ = std::move(made);
 }
 
 void Workbench::follow_removals(const SearchResult& result) {

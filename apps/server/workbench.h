@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "apps/server/instructions_request.h"
 #include "apps/server/journal_store.h"
 #include "apps/server/model.h"
 #include "apps/server/roots.h"
@@ -30,10 +31,17 @@ class Workbench {
   /// another job is running.
   using StartSearch = std::function<Result<std::uint32_t>(const SearchRequest&)>;
 
+  /// Starts making work instructions, which are passed to keep_instructions() later. @return as StartSearch
+  using StartInstructions = std::function<Result<std::uint32_t>(InstructionsRequest)>;
+
   /// @param roots folders in which recordings are saved and paths are read
   /// @param journals the folder of the sessions' journals; none: not stored
-  Workbench(Roots roots, std::optional<std::filesystem::path> journals, StartSearch start_search)
-      : roots_(std::move(roots)), journals_(std::move(journals)), start_search_(std::move(start_search)) {}
+  Workbench(Roots roots, std::optional<std::filesystem::path> journals, StartSearch start_search,
+            StartInstructions start_instructions)
+      : roots_(std::move(roots)),
+        journals_(std::move(journals)),
+        start_search_(std::move(start_search)),
+        start_instructions_(std::move(start_instructions)) {}
   /// Closes the journal.
   ~Workbench();
   Workbench(const Workbench&) = delete;
@@ -57,6 +65,10 @@ class Workbench {
   /// Applies the result of a search: a plan becomes the guide, a removal path is followed, reasons are reported in the
   /// state. Ignored if another assembly is open.
   void apply_search_result(const SearchResult& result);
+  /// Keeps work instructions of `assembly` for instructions(). Ignored if another assembly is open.
+  void keep_instructions(const Assembly& assembly, MadeInstructions made);
+  /// The work instructions of the open assembly that were made last; null if there are none.
+  const MadeInstructions* instructions() const { return instructions_ ? &*instructions_ : nullptr; }
   /// Opens a path file as the guide. Errors: as read_path and Session::set_guide; Usage if nothing is open.
   Result<Done> open_guide(const std::filesystem::path& file, const std::string& name);
 
@@ -110,6 +122,8 @@ class Workbench {
   Roots roots_;
   JournalStore journals_;
   StartSearch start_search_;
+  StartInstructions start_instructions_;
+  std::optional<MadeInstructions> instructions_;
   std::optional<Model> model_;
   std::optional<SearchResult> search_result_;  ///< Of the last search, while it is valid.
   bool is_resumed_ = false, is_resumable_ = false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/server/command_arguments.h"
 #include "apps/server/workbench.h"
 
 #include "dismantle/files/atomic_file.h"
-#include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
 #include <array>
@@ -13,111 +13,6 @@
 namespace dismantle::server {
 
 namespace {
-
-Error usage(const std::string& problem, const std::string& why, const std::string& advice) {
-  return {ErrorKind::Usage, problem + " (" + why + "); " + advice};
-}
-
-/// The members of a command. Errors: Usage, with the name of a member that is missing or of a wrong type.
-class Arguments {
- public:
-  Arguments(const Json& command, std::size_t component_count) : command_(command), component_count_(component_count) {}
-
-  /// The member `components`, with at least one component.
-  Result<std::vector<ComponentId>> components() const {
-    Result<std::vector<ComponentId>> ids = list("components");
-    if (ids && ids->empty()) return wrong("components", "a list of indices");
-    return ids;
-  }
-
-  /// A list of components; empty if it is missing.
-  Result<std::vector<ComponentId>> list(const char* name) const {
-    std::vector<ComponentId> ids;
-    const auto found = command_.find(name);
-    if (found == command_.end()) return ids;
-    if (!found->is_array()) return wrong(name, "a list of indices");
-    for (const Json& one : *found) {
-      if (!one.is_number_unsigned() || one.get<std::uint64_t>() >= component_count_)
-        return wrong(name, "indices of components of the assembly");
-      ids.emplace_back(one.get<std::uint32_t>());
-    }
-    return ids;
-  }
-
-  /// The member `prefer`, the most important first; empty if it is missing.
-  Result<std::vector<StepPreference>> preferences() const {
-    std::vector<StepPreference> preferences;
-    const auto found = command_.find("prefer");
-    if (found == command_.end()) return preferences;
-    const std::string expected = "a list of direction, upright, groups, support, each once at most";
-    if (!found->is_array()) return wrong("prefer", expected);
-    for (const Json& one : *found) {
-      const auto known = one.is_string() ? step_preferences().find(one.get<std::string>()) : step_preferences().end();
-      if (known == step_preferences().end() ||
-          std::find(preferences.begin(), preferences.end(), known->second) != preferences.end())
-        return wrong("prefer", expected);
-      preferences.push_back(known->second);
-    }
-    return preferences;
-  }
-
-  /// The member `direction`; none if it is missing or null.
-  Result<std::optional<Vec3>> direction() const {
-    const auto found = command_.find("direction");
-    if (found == command_.end() || found->is_null()) return std::optional<Vec3>{};
-    Vec3 v;
-    bool is_valid = found->is_array() && found->size() == 3;
-    for (int k = 0; is_valid && k < 3; ++k) {
-      const Json& one = (*found)[static_cast<std::size_t>(k)];
-      is_valid = one.is_number() && std::fabs(one.get<double>()) <= kMaxWireNumber;
-      if (is_valid) v[k] = one.get<double>();
-    }
-    if (!is_valid) return wrong("direction", "three numbers");
-    return std::optional<Vec3>{v};
-  }
-
-  Result<double> number(const char* name) const {
-    const auto found = command_.find(name);
-    if (found == command_.end() || !found->is_number() || std::fabs(found->get<double>()) > kMaxWireNumber)
-      return wrong(name, "a number");
-    return found->get<double>();
-  }
-
-  Result<std::string> text(const char* name) const {
-    const auto found = command_.find(name);
-    if (found == command_.end() || !found->is_string()) return wrong(name, "a string");
-    return found->get<std::string>();
-  }
-
-  Result<std::uint64_t> index(const char* name) const {
-    const auto found = command_.find(name);
-    if (found == command_.end() || !found->is_number_unsigned()) return wrong(name, "an index");
-    return found->get<std::uint64_t>();
-  }
-
-  /// The member `source`; the recording if it is missing.
-  Result<PlaybackSource> source() const {
-    const auto found = command_.find("source");
-    if (found == command_.end() || *found == "recording") return PlaybackSource::Recording;
-    if (*found == "guide") return PlaybackSource::Guide;
-    return wrong("source", "recording or guide");
-  }
-
-  Result<ResponseKind> response() const {
-    const auto found = command_.find("response");
-    for (const ResponseKind kind : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide})
-      if (found != command_.end() && *found == std::string(name_of(kind))) return kind;
-    return wrong("response", "one of slide, touch, stop");
-  }
-
- private:
-  static Error wrong(const std::string& member, const std::string& expected) {
-    return usage("the command was not understood", "'" + member + "' must be " + expected, "see docs/wire.md");
-  }
-
-  const Json& command_;
-  std::size_t component_count_;
-};
 
 /// A reply without members, or the error.
 Result<Json> empty_reply(const Result<Done>& done) {
@@ -221,6 +116,13 @@ class WorkbenchCommands {
     if (components->size() > 1)
       return usage("the blockers cannot be determined", "several components are selected", "select one");
     return bench_.search({SearchKind::Why, {}, *components, {}, {}, {}});
+  }
+  Result<Json> instructions() {
+    Result<InstructionsRequest> request = instructions_request(in_.command(), *bench_.model());
+    if (!request) return request.error();
+    const Result<std::uint32_t> job = bench_.start_instructions_(std::move(*request));
+    if (!job) return job.error();
+    return Json{{"job", *job}};
   }
   Result<Json> play() {
     const auto source = in_.source();
@@ -355,6 +257,7 @@ constexpr std::array kCommands = {
     CommandEntry{"plan", true, &WorkbenchCommands::plan},
     CommandEntry{"find_path", true, &WorkbenchCommands::find_path},
     CommandEntry{"why", true, &WorkbenchCommands::why},
+    CommandEntry{"instructions", true, &WorkbenchCommands::instructions},
     CommandEntry{"play", true, &WorkbenchCommands::play},
     CommandEntry{"pause", true, &WorkbenchCommands::pause},
     CommandEntry{"seek", true, &WorkbenchCommands::seek},

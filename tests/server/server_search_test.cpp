@@ -172,8 +172,36 @@ TEST_F(ServerSearch, CanBeCancelledAndAllowsDraggingMeanwhile) {
   const Json last =
       client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
   EXPECT_EQ(last["status"], "cancelled");
+  EXPECT_GT(last["seconds"], 0);
   client.command("release");
-  EXPECT_TRUE(client.state()["guide"].is_null());
+}
+
+TEST_F(ServerSearch, KeepsTheStepsFoundUntilAPlanIsCancelled) {
+  start_with(scenes::stack_in_tube(60));
+  Client client(address());
+  client.state();
+  const Json reply = client.command("plan");
+  const auto is_found = [](const Json& j) {
+    return j["stage"].get<std::string>().find("steps found") != std::string::npos;
+  };
+  client.event_where("job", is_found);
+  ASSERT_TRUE(client.command("cancel", {{"job", reply["job"]}})["ok"]);
+  const Json state = state_where(client, "search");
+  EXPECT_TRUE(state["search"]["cancelled"]);
+  EXPECT_FALSE(state["search"]["complete"]);
+  EXPECT_GE(state["search"]["steps"], 2);
+  EXPECT_LT(state["search"]["steps"], 60);
+  EXPECT_EQ(state["guide"]["moves"].size(), state["search"]["steps"]);
+}
+
+TEST_F(ServerSearch, NamesWhatHasToBeRemovedFirst) {
+  start_with(scenes::stack_in_tube(4));
+  Client client(address());
+  client.state();
+  search(client, "why", {{"components", {2}}});
+  const Json chain = state_where(client, "search")["search"]["chain"];
+  EXPECT_EQ(chain["before"], (Json{{1}})) << chain;
+  EXPECT_NEAR(chain["direction"][2], -1, 1e-9);
 }
 
 TEST_F(ServerSearch, PlaysNoPathFoundBeforeSomethingMoved) {

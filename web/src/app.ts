@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Box3, Vector3 } from "three";
 import { type Axis, kAxes, kAxisNames } from "./axes.ts";
-import { makeStage, saveAs } from "./dom.ts";
+import { element, makeStage, saveAs } from "./dom.ts";
 import { Devices } from "./input/devices.ts";
 import { Drag } from "./input/drag.ts";
 import { listenForKeys } from "./input/keys.ts";
 import { PointerInput } from "./input/pointer.ts";
 import { RateControl } from "./input/rate_control.ts";
 import { Banner, Toasts } from "./panels/banner.ts";
+import { ContextMenu } from "./panels/context_menu.ts";
 import { ExplodePanel } from "./panels/explode_panel.ts";
 import { ExportDialog } from "./panels/export_dialog.ts";
 import { GuidePanel } from "./panels/guide_panel.ts";
@@ -34,6 +35,8 @@ import { Headset } from "./xr/headset.ts";
 /// Lengths of the arrows at blockers and along free directions [px].
 const kReasonArrow = 64;
 const kFreeArrow = 80;
+/// Blockers are pointed at up to this many, the nearest first.
+const kMaxReasonArrows = 6;
 
 /// The viewer page: builds its parts and connects them to buttons and keys.
 export class App {
@@ -53,6 +56,7 @@ export class App {
   private readonly measure: Measure;
   private readonly explode: ExplodePanel;
   readonly plan: PlanPanel;
+  private readonly menu: ContextMenu;
   private readonly openDialog: OpenDialog;
   private readonly exports: ExportDialog;
   private readonly help = helpDialog();
@@ -75,24 +79,18 @@ export class App {
     this.measure = new Measure(this.session);
     this.explode = new ExplodePanel(this.session);
     this.plan = new PlanPanel(this.session);
+    this.menu = new ContextMenu(this.session, this.actions);
     this.openDialog = new OpenDialog(this.session);
     this.exports = new ExportDialog(this.session);
-    stage.append(
-      new Banner(this.session).node,
-      this.sections.node,
-      this.explode.node,
-      this.plan.node,
-      this.measure.node,
-      this.toasts.node,
-    );
+    stage.append(new Banner(this.session).node, this.measure.node, this.pointer.boxNode, this.toasts.node);
     document.body.prepend(new Toolbar(this).node, this.tree.node);
     document.body.append(
-      this.inspector.node,
-      new GuidePanel(this.session).node,
+      element("div", { id: "side" }, this.plan.node, this.sections.node, this.inspector.node),
+      element("div", { id: "docks" }, this.explode.node, new GuidePanel(this.session).node),
       this.timeline.node,
       new StatusLine(this.session).node,
     );
-    document.body.append(this.openDialog.node, this.exports.node, this.help);
+    document.body.append(this.openDialog.node, this.exports.node, this.exports.preview, this.help, this.menu.node);
     this.connectParts();
     this.theme = new ThemeSwitch(this.viewport);
     this.headset = new Headset(this.session, this.drag, this.actions);
@@ -111,7 +109,10 @@ export class App {
   private connectParts(): void {
     const { session, viewport } = this;
     session.onNote = (level, message) => this.toasts.show(level, message);
-    this.pointer.onClick = (pick) => this.measure.click(pick);
+    this.pointer.onClick = (pick) => this.sections.click(pick) || this.measure.click(pick);
+    this.pointer.onHover = (pick) => this.measure.hover(pick);
+    this.pointer.onMenu = (pick, x, y) => this.menu.open(pick ? [pick.component] : [], x, y);
+    this.tree.onMenu = (components, x, y) => this.menu.open(components, x, y);
     viewport.scene.add(this.gizmo.object);
     viewport.beforeRender.push(() => this.updateMarkers());
     session.notifier.subscribe(() => {
@@ -142,7 +143,7 @@ export class App {
     const { reason } = this.session;
     if (!reason) return [];
     const direction = new Vector3(...reason.direction);
-    return reason.blockers.map(({ point: contact }) => {
+    return reason.blockers.slice(0, kMaxReasonArrows).map(({ point: contact }) => {
       const point = new Vector3(...contact);
       const back = -kReasonArrow * this.viewport.rig.pixelSize(point);
       return { point: point.addScaledVector(direction, back), direction, length: kReasonArrow };
@@ -193,6 +194,7 @@ export class App {
       screenshot: () =>
         void this.viewport.screenshot().then((picture) => saveAs(picture, `${this.session.fileStem}.png`)),
       theme: () => this.theme.toggle(),
+      units: () => this.session.toggleUnit(),
       help: () => this.help.showModal(),
       play: () => this.timeline.toggle(),
       nextStep: () => this.timeline.step(1),
@@ -202,6 +204,9 @@ export class App {
       putBack: withSelection("put_back"),
       isolate: () => this.session.toggleIsolated(),
       toggleHidden: () => this.session.toggleHidden(),
+      xray: () => this.session.toggleXray(this.session.store.selection),
+      showAll: () => this.session.showAll(),
+      selectSimilar: () => this.session.selectSimilar(),
       device: () => void this.devices.choose(),
       headset: () => void this.headset.enter(),
       search: () => this.tree.focusSearch(),

@@ -28,6 +28,7 @@ const kIcons = {
   eye: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM8 6a2 2 0 1 0 0 4 2 2 0 0 0 0-4z",
   eyeOff: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM2.5 13.5l11-11",
   xray: "M8 1.5l5.5 3v7L8 14.5l-5.5-3v-7zM2.5 4.5 8 7.5l5.5-3M8 7.5v7",
+  similar: "M2 2h5v5H2zM9 9h5v5H9zM9.5 2h4v4M2.5 10v4h4",
   isolate: "M2 5V2h3M11 2h3v3M14 11v3h-3M5 14H2v-3M6 6h4v4H6z",
   fit: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4",
   section: "M3 2h10v12H3zM3 14 13 2M3 9l6-7M8 14l5-6",
@@ -125,6 +126,16 @@ export function makeStage(label: string): { stage: HTMLElement; canvas: HTMLCanv
   const stage = element("main", { id: "stage" }, canvas);
   document.body.append(stage);
   return { stage, canvas };
+}
+
+/// The header of a panel beside the view: its title and a button that closes it.
+export function panelHeader(title: string, close: () => void): HTMLElement {
+  return element(
+    "header",
+    {},
+    element("h2", {}, title),
+    button({ icon: "close", label: text("close"), class: "tiny", press: close }),
+  );
 }
 
 /// Changes the label of a button that shows its label and has no key.

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, Vector3 } from "three";
 import { type GuideStep, type PathFile, stepsOfPath } from "./guide.ts";
+import { JobList } from "./job_list.ts";
+import { groupedNamesText, namesText } from "./names.ts";
 import { readGlb } from "./scene/glb.ts";
 import { ModelView } from "./scene/model_view.ts";
 import type { Viewport } from "./scene/viewport.ts";
 import { emptyStore, Notifier, type Store } from "./store.ts";
 import { text } from "./strings.ts";
+import { shownUnit, showUnit } from "./units.ts";
 import { Connection, type Transport } from "./wire/connection.ts";
-import type {
-  Commands,
-  FreeDirection,
-  JobEvent,
-  ModelEvent,
-  Move,
-  Reason,
-  Source,
-  StateEvent,
-} from "./wire/messages.ts";
+import type { Commands, FreeDirection, ModelEvent, Move, Reason, Source, StateEvent } from "./wire/messages.ts";
 import type { PoseFrame, WirePose } from "./wire/structs.ts";
-
-/// Lists of names are cut off after this many.
-export const kMaxNames = 3;
 
 /// The client side of the server's session, and the model view that shows it. Components are drawn only at poses that
 /// the server sent.
 export class Session {
   readonly store: Store = emptyStore();
   readonly notifier: Notifier;
+  readonly jobs: JobList;
   /// Shows a message to the user.
   onNote: (level: "note" | "warning", message: string) => void = () => {};
   /// Listeners of pose frames of the current state.
@@ -55,7 +47,12 @@ export class Session {
       }),
     );
     connection.on("control", ({ control, clients }) => this.change(() => Object.assign(store, { control, clients })));
-    connection.on("job", (job) => this.change(() => this.applyJob(job)));
+    this.jobs = new JobList(
+      store,
+      () => this.notifier.notify(),
+      (level, message) => this.onNote(level, message),
+    );
+    connection.on("job", (job) => this.change(() => this.jobs.apply(job)));
     connection.on("log", ({ level, text: message }) => this.onNote(level, message));
     connection.on("error", ({ error }) => this.onNote("warning", error));
     connection.on("model", (model) => this.applyModel(model));
@@ -77,13 +74,16 @@ export class Session {
   /// Has the planner find a removal path for the selection, and follows it.
   async findPath(): Promise<void> {
     const { selection } = this.store;
-    if (selection.length > 0) await this.send("find_path", { components: selection });
+    if (selection.length === 0) return this.onNote("note", text("select.first"));
+    await this.send("find_path", { components: selection });
   }
 
   /// Has the planner find what blocks the selected component.
   async requestReason(): Promise<void> {
     const { selection } = this.store;
-    if (selection.length === 1) await this.send("why", { components: selection });
+    if (selection.length !== 1)
+      return this.onNote("note", text(selection.length === 0 ? "select.first" : "select.one"));
+    await this.send("why", { components: selection });
   }
 
   /// The blockers of the selection, found by the planner; null: not determined.
@@ -141,6 +141,26 @@ export class Session {
     else void this.send("hide", { components: selection });
   }
 
+  /// True if a component is hidden.
+  get hasHidden(): boolean {
+    return this.store.state?.components.some(({ hidden }) => hidden) ?? false;
+  }
+
+  /// Shows all hidden components.
+  showAll(): void {
+    const { state } = this.store;
+    const components = state?.components.flatMap(({ hidden }, c) => (hidden ? [c] : [])) ?? [];
+    if (state?.isolated) void this.send("restore", {});
+    else if (components.length > 0) void this.send("show", { components });
+  }
+
+  /// Selects all components of the same shapes as the selected ones.
+  selectSimilar(): void {
+    const components = this.store.model?.components ?? [];
+    const shapes = new Set(this.store.selection.map((c) => components[c]?.shape));
+    this.select(components.flatMap(({ shape }, c) => (shapes.has(shape) ? [c] : [])));
+  }
+
   /// Changes the store and notifies the panels.
   change(apply: () => void): void {
     apply();
@@ -152,13 +172,14 @@ export class Session {
     return component === null ? "" : (this.store.model?.components[component]?.name ?? "");
   }
 
-  /// The first `max` names, and the number of the others.
-  namesOf(components: number[], max = kMaxNames): string {
-    const names = components
-      .slice(0, max)
-      .map((c) => this.nameOf(c))
-      .join(", ");
-    return components.length > max ? text("names.more", { names, count: components.length - max }) : names;
+  /// See namesText.
+  namesOf(components: number[], max?: number): string {
+    return namesText(this.store.model, components, max);
+  }
+
+  /// See groupedNamesText.
+  groupedNamesOf(components: number[]): string {
+    return groupedNamesText(this.store.model, components);
   }
 
   /// True if all commands are answered and everything received is shown.
@@ -218,6 +239,7 @@ export class Session {
 
   /// Loads the steps of the recording or of the guide from the server.
   async loadSteps(source: Source): Promise<GuideStep[]> {
+    if (this.connection.steps) return this.connection.steps;
     const response = await this.connection.request(source === "guide" ? "/api/guide.json" : "/api/path.json");
     const names = this.store.model!.components.map(({ name }) => name);
     return stepsOfPath((await response.json()) as PathFile, names);
@@ -233,6 +255,11 @@ export class Session {
     } catch (error) {
       this.onNote("warning", (error as Error).message);
     }
+  }
+
+  /// Shows lengths in inches instead of millimetres, or the other way round.
+  toggleUnit(): void {
+    this.change(() => showUnit(shownUnit() === "mm" ? "in" : "mm"));
   }
 
   /// Makes components translucent, or opaque if all of them are translucent.
@@ -259,13 +286,6 @@ export class Session {
     this.viewport.invalidate();
   }
 
-  private applyJob(job: JobEvent): void {
-    this.store.jobs.set(job.job, job);
-    if (job.status === "running") return;
-    this.store.jobs.delete(job.job);
-    if (job.status === "failed") this.onNote("warning", text("job.failed", { name: job.name, error: job.error ?? "" }));
-  }
-
   private applyModel(model: ModelEvent): void {
     const known = this.store.model?.number === model.number && this.store.model.sha256 === model.sha256;
     this.change(() => {
@@ -279,6 +299,7 @@ export class Session {
       stuck: null,
       planes: [],
       exploding: false,
+      quickExplode: 0,
       frame: null,
     });
     const loading = this.load(model).finally(() => {

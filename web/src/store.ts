@@ -2,16 +2,21 @@
 
 import type { Axis } from "./axes.ts";
 import type { Link } from "./wire/connection.ts";
-import type { CheckedPair, FreeDirection, JobEvent, Metrics, ModelEvent, StateEvent } from "./wire/messages.ts";
+import type { CheckedPair, FreeDirection, JobEvent, Metrics, ModelEvent, StateEvent, Triple } from "./wire/messages.ts";
 import type { PoseFrame } from "./wire/structs.ts";
 
-/// A section plane normal to a world axis.
+/// A section plane.
 export interface SectionPlane {
-  axis: Axis;
-  /// True to keep the side of lower coordinates.
+  /// The world axis that it is normal to; null: it is parallel to a face.
+  axis: Axis | null;
+  /// Unit normal.
+  normal: Triple;
+  /// Position of the face along the normal [mm]; 0 for an axis.
+  base: number;
+  /// Position along the normal, from `base` [mm].
+  offset: number;
+  /// True to keep the side against the normal.
   flipped: boolean;
-  /// Position between the model's bounds, from 0 to 1.
-  fraction: number;
 }
 
 /// Everything that the panels show. State that only this page has is listed here; all other state is the server's.
@@ -22,6 +27,7 @@ export interface Store {
   extensions: string[];
   control: boolean;
   clients: number;
+  /// The running jobs; `seconds` counts on.
   jobs: Map<number, JobEvent>;
   model: ModelEvent | null;
   state: StateEvent | null;
@@ -39,6 +45,8 @@ export interface Store {
   stuck: { components: number[]; blocking: number[] } | null;
   planes: SectionPlane[];
   exploding: boolean;
+  /// How far components are drawn from their positions in the quick exploded view; 0: not.
+  quickExplode: number;
   gizmo: boolean;
   measuring: boolean;
   dragHint: string;
@@ -67,6 +75,7 @@ export function emptyStore(): Store {
     stuck: null,
     planes: [],
     exploding: false,
+    quickExplode: 0,
     gizmo: false,
     measuring: false,
     dragHint: "",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All English text of the page. Placeholders in braces are filled in by `text`.
-import { kAxisNames } from "./axes.ts";
-import type { Triple } from "./wire/messages.ts";
+import { type Axis, kAxisNames } from "./axes.ts";
+import type { JobEvent, Triple } from "./wire/messages.ts";
 
 const kEnglish = {
   title: "dismantle",
@@ -15,8 +15,11 @@ const kEnglish = {
   "open.recent.none": "No recent files.",
   "open.roots": "Files on this machine",
   "open.roots.none": "No folders to show. Start the program with --root FOLDER.",
-  "open.choose": "Choose a file…",
-  "open.drop": "Drop a CAD or mesh file anywhere on this page, or",
+  "open.choose": "Choose files…",
+  "open.folder": "Choose a folder…",
+  "open.drop": "Drop CAD or mesh files, or a folder of them, anywhere on this page, or",
+  "open.whole": "Open this folder ({count} meshes)",
+  "open.nothing": "Nothing was opened: no file has a known format.",
   "open.up": "Up",
   "open.lead": "Take a mechanism apart by hand. Parts stop at contact and slide along it, as real ones do.",
   undo: "Undo",
@@ -35,9 +38,12 @@ const kEnglish = {
   "explode.step": "Step {step} of {count}: {label}",
   "explode.assembled": "Assembled",
   "explode.none": "Nothing to explode yet. Plan the disassembly (L), or take components out.",
+  "explode.quick": "Quick explode (approximate)",
+  "banner.quick": "Approximate: components are moved away from the centre, not along paths without collisions.",
   "explode.exit": "Exit exploded view",
   screenshot: "Screenshot",
   theme: "Dark or light theme",
+  units: "Lengths in {unit}",
   help: "Keys and gestures",
   stereo: "Stereo",
   "stereo.off": "Stereo (V): off",
@@ -51,6 +57,7 @@ const kEnglish = {
   "headset.place": "Recenter",
   "headset.leave": "Exit",
   guide: "Guide",
+  "guide.plan": "Planned sequence",
   "guide.follow": "Use this recording as a guide",
   "guide.step": "Step {step} of {count}: remove {names}",
   "guide.practice.step": "Step {step} of {count}: what comes next?",
@@ -74,6 +81,20 @@ const kEnglish = {
   "export.video": "Video of the playback",
   "export.making": "Creating the file…",
   "export.saved": "Saved {name}",
+  instructions: "Work instructions",
+  "instructions.paper": "Paper",
+  "instructions.a4": "A4",
+  "instructions.letter": "Letter",
+  "instructions.product": "Product",
+  "instructions.number": "Document number",
+  "instructions.revision": "Revision",
+  "instructions.author": "Author",
+  "instructions.date": "Date",
+  "instructions.today": "today",
+  "instructions.preview": "Preview",
+  "instructions.pdf": "Save PDF",
+  "instructions.html": "Save HTML page",
+  "instructions.print": "Print",
   steps: "Steps",
   "offline.view": "3D view. The left or right button orbits, the middle button pans.",
   "offline.cannot": "Not available here (an exported page has no engine); open the assembly in dismantle.",
@@ -99,23 +120,32 @@ const kEnglish = {
   "tree.none": "No matching component.",
   "tree.count": "{shown} of {all}",
   selection: "Selection",
+  selectSimilar: "Select similar",
+  "menu.view": "View",
   "selection.none": "Click a component, or select one in the list.",
   "selection.many": "{count} components",
   "selection.triangles": "Triangles",
-  "selection.size": "Size [mm]",
+  "selection.size": "Size",
   "selection.position": "Position",
   "position.assembled": "assembled",
   "position.moved": "moved {distance}",
   removal: "Removal",
   findPath: "Find a path",
   why: "What blocks it?",
-  "reason.by": "Blocked along {direction} by",
+  "reason.by": "Blocked along {direction} by {names}.",
   "reason.free": "It can be removed along {direction}.",
+  "reason.chain": "Take off {names} first; then it comes out along {direction}.",
+  "reason.path": "Nothing has to come off first, but it does not come out straight: find a path (N).",
+  "reason.details": "Details",
   "reason.after": "after {distance}",
   "reason.locked": "Interlocked with {names}",
   "reason.locked.many": "Interlocked with {count} other components",
   "reason.line": "{name}: blocked along {direction} by {names}",
   "names.more": "{names} and {count} more",
+  "names.and": "{names} and {last}",
+  "names.counted": "{count} × {name}",
+  "select.first": "Select a component first.",
+  "select.one": "Select one component only.",
   plan: "Plan",
   "plan.all": "Disassemble everything",
   "plan.selection": "Only the selection",
@@ -132,6 +162,7 @@ const kEnglish = {
   "plan.complete": "{steps} found in {seconds} s. See the guide below.",
   "plan.partly": "{steps} found in {seconds} s. These components remain:",
   "plan.ended": "{steps} found in {seconds} s. The search stopped at its time limit.",
+  "plan.cancelled": "{steps} found in {seconds} s, until you cancelled. See the guide below.",
   takeOut: "Take out",
   putBack: "Put back",
   isolate: "Isolate",
@@ -155,13 +186,15 @@ const kEnglish = {
   "pair.contains": "contains it",
   "pair.near": "{distance} apart",
   directions: "Free directions",
+  "direction.near": "near {axis} ({off}° off)",
+  "direction.between": "between {first} and {second}",
   "directions.find": "Find",
   "directions.free": "free",
   "directions.blocked": "{distance}, then {name}",
   "directions.none": "No free direction.",
   numeric: "Move by",
   "numeric.apply": "Move",
-  "numeric.axis": "{axis} [mm]",
+  "numeric.axis": "{axis} [{unit}]",
   "numeric.turn": "Rotate {axis} [°]",
   timeline: "Recording",
   "timeline.scrub": "Time in the recording",
@@ -210,13 +243,26 @@ const kEnglish = {
   "job.running": "{name}: {stage}",
   "job.cancel": "Cancel",
   "job.failed": "{name}: {error}",
+  "job.cancelled": "Cancelled.",
+  "job.cancelled.of": "Cancelled: {name}.",
   saved: "Recording saved",
   "section.axis": "Section plane normal to {axis}",
   "section.flip": "Flip",
   "section.position": "Position of the section plane normal to {axis}",
-  "measure.first": "Click the first point (Enter picks at the centre of the view).",
-  "measure.second": "Click the second point (Enter picks at the centre of the view).",
+  "section.face": "By a face…",
+  "section.byFace": "Face",
+  "section.position.face": "Distance of the section plane from the face",
+  "section.pick": "Click a flat face.",
+  "section.curved": "This face is not flat: click another one.",
+  "measure.first": "Click an edge, a face or a point (Enter picks at the centre of the view).",
+  "measure.second": "Click the second one.",
   "measure.result": "{distance}  (x {x}, y {y}, z {z})",
+  "measure.angle": "{result}, angle {angle}°",
+  "measure.point": "Point x {x}, y {y}, z {z}.",
+  "measure.edge": "Edge {length}.",
+  "measure.diameter": "Diameter {length}.",
+  "measure.radius": "Radius {length}.",
+  "measure.face": "Flat face.",
   "standard.front": "Front",
   "standard.back": "Back",
   "standard.left": "Left",
@@ -226,96 +272,8 @@ const kEnglish = {
   noWebGl: "WebGL 2 is not available (see the browser's graphics settings); enable hardware or software rendering.",
 } as const;
 
-/// A key or gesture, and its effect.
-type KeyHelp = [keys: string, effect: string];
-
-/// The list of keys and gestures, in titled groups.
-export type Help = [title: string, rows: KeyHelp[]][];
-
-const kNavigationHelp: KeyHelp[] = [
-  ["Left drag on empty space", "Orbit"],
-  ["Right drag", "Orbit, even over a component"],
-  ["Middle drag", "Pan"],
-  ["Wheel", "Zoom to the cursor"],
-  ["Double click", "Focus a component, or everything"],
-  ["F", "Fit everything, or the selection"],
-  ["1 … 6", "Front, right, top, back, left, bottom"],
-  ["O", "Parallel or perspective projection"],
-];
-const kStereoHelp: KeyHelp = ["V", "Stereo: side by side, red/cyan, off"];
-const kScreenHelp: KeyHelp[] = [
-  ["W", "Full screen on/off"],
-  ["Arrow keys", "Orbit (with Shift: pan) while the 3D view has the focus"],
-  ["+ −", "Zoom"],
-];
-const kSelectHelp: KeyHelp = ["Click, or Enter in the list", "Select; with Shift or Ctrl: add"];
-const kShowHelp: KeyHelp[] = [
-  ["Space", "Hide or show"],
-  ["I", "Isolate; again: show all"],
-];
-const kCutHelp: KeyHelp[] = [
-  ["S", "Section"],
-  ["M", "Measure between two clicks; Enter picks at the centre of the view"],
-];
-const kPageHelp: KeyHelp[] = [
-  ["T", "Dark or light theme"],
-  ["/", "Search the components"],
-];
-const kListHelp: KeyHelp = ["H", "This list"];
-
-/// Help of the viewer.
-export const kHelp: Help = [
-  ["View", [...kNavigationHelp, kStereoHelp, ...kScreenHelp]],
-  [
-    "Components",
-    [
-      kSelectHelp,
-      ["Left drag on a component", "Move it with real contact"],
-      ["Shift while dragging", "Towards or away from you"],
-      ["Alt while dragging", "Rotate"],
-      ["X Y Z", "Lock to an axis; press again to unlock"],
-      ["G", "Gizmo with arrows and rings"],
-      ["Esc", "Cancel the drag, or clear the selection"],
-      ["Ctrl+Z, Ctrl+Y", "Undo, redo; during a drag: back to its start"],
-      ["Del", "Take out"],
-      ["B", "Put back"],
-      ["D", "Show the free directions"],
-      ["N", "Find a removal path and follow it (also while dragging)"],
-      ["Q", "What blocks it?"],
-      ...kShowHelp,
-    ],
-  ],
-  [
-    "Other",
-    [
-      ["P", "Play or pause the recording"],
-      [". ,", "Next or previous move"],
-      ...kCutHelp,
-      ["L", "Plan the disassembly sequence"],
-      ["E", "Explode: the steps of the path, with trails"],
-      ...kPageHelp,
-      kListHelp,
-    ],
-  ],
-];
-
-/// Help of an exported page.
-export const kOfflineHelp: Help = [
-  ["View", [...kNavigationHelp, ...kScreenHelp]],
-  [
-    "Other",
-    [
-      ["P", "Play or pause"],
-      [". ,", "Play the next or previous step"],
-      kSelectHelp,
-      ...kShowHelp,
-      ...kCutHelp,
-      ...kPageHelp,
-      ["Esc", "Clear the selection"],
-      kListHelp,
-    ],
-  ],
-];
+/// The time of a job is shown from here on [s].
+const kMinJobTime = 3;
 
 /// Key of a text.
 export type TextKey = keyof typeof kEnglish;
@@ -325,28 +283,29 @@ export function text(key: TextKey, members: Record<string, string | number> = {}
   return kEnglish[key].replace(/\{(\w+)\}/g, (_, name: string) => String(members[name] ?? ""));
 }
 
+/// A running job: its name, what it does, how much of that is done, and since when.
+export function jobText({ name, stage, fraction, seconds }: JobEvent): string {
+  const part = fraction >= 0 ? ` ${Math.round(100 * fraction)} %` : "";
+  const time = seconds >= kMinJobTime ? ` (${seconds.toFixed(0)} s)` : "";
+  return `${text("job.running", { name, stage })}${part}${time}`;
+}
+
 /// "1 step", "2 steps".
 export function countText(count: number, noun: string): string {
   return `${count} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/// A length as text: about three significant digits, in millimetres or micrometres.
-export function lengthText(millimetres: number): string {
-  const size = Math.abs(millimetres);
-  if (size === 0) return "0 mm";
-  const sign = millimetres < 0 ? "−" : "";
-  if (size < 0.1) return `${sign}${(size * 1000).toFixed(size < 0.01 ? 1 : 0)} µm`;
-  return `${sign}${size.toFixed(size < 10 ? 2 : size < 100 ? 1 : 0)} mm`;
-}
+/// Directions that differ by less from an axis are called by its name alone, or by how much they are off it.
+const kOnAxis = 0.9999;
+const kNearAxis = Math.cos(Math.PI / 6);
 
-/// The size of an assembly as text: three significant digits, in metres above 1 m.
-export function sizeText(millimetres: number): string {
-  return millimetres < 1000 ? lengthText(millimetres) : `${Number((millimetres / 1000).toPrecision(3))} m`;
-}
-
-/// A unit vector as text: +Z for an axis, else its three components.
+/// A unit vector as text: "+Z", "near +Z (12° off)", or "between +X and −Z".
 export function directionText(direction: Triple): string {
-  const main = direction.findIndex((value) => Math.abs(value) > 0.9999);
-  if (main >= 0) return `${direction[main] > 0 ? "+" : "−"}${kAxisNames[main]}`;
-  return `(${direction.map((value) => value.toFixed(2).replace("-", "−")).join(", ")})`;
+  const name = (axis: number) => `${direction[axis] > 0 ? "+" : "−"}${kAxisNames[axis as Axis]}`;
+  const [first, second] = [0, 1, 2].sort((a, b) => Math.abs(direction[b]) - Math.abs(direction[a]));
+  const cosine = Math.abs(direction[first]);
+  if (cosine > kOnAxis) return name(first);
+  const off = ((Math.acos(cosine) * 180) / Math.PI).toFixed(0);
+  if (cosine > kNearAxis) return text("direction.near", { axis: name(first), off });
+  return text("direction.between", { first: name(first), second: name(second) });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/viewer_model.h"
 
+#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/files/json_text.h"
 
 namespace dismantle {
@@ -28,11 +29,15 @@ std::string viewer_model_json(const Assembly& assembly, double tolerance) {
                   {"tree", JsonValue::array()},
                   {"components", JsonValue::array()}};
   for (const TreeNode& node : assembly.tree) model["tree"].push_back({{"name", node.name}, {"parent", node.parent}});
-  for (const Component& c : assembly.components)
+  const std::vector<ComponentId> shapes = first_of_shape(assembly);
+  for (std::size_t i = 0; i < assembly.components.size(); ++i) {
+    const Component& c = assembly.components[i];
     model["components"].push_back({{"name", c.name},
                                    {"node", c.tree_node},
+                                   {"shape", shapes[i].value},
                                    {"triangles", c.mesh->faces.size()},
                                    {"bounds", box_json(assembled_bounds(c))}});
+  }
   return json_line(model);
 }
 

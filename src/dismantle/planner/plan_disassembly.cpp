@@ -3,8 +3,12 @@
 
 #include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
+<<<<<<< HEAD
 #include "dismantle/fasteners/find_fasteners.h"
 #include "dismantle/joints/find_joints.h"
+=======
+#include "dismantle/files/number_text.h"
+>>>>>>> help-b
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/joint_relations.h"
 #include "dismantle/planner/joint_steps.h"
@@ -118,8 +122,9 @@ class Planner {
   bool keep_going() {
     const std::lock_guard lock(progress_mutex_);
     const auto all = static_cast<double>(std::max<std::size_t>(1, count_));
-    if (!stopped_ && !report_progress(options_.progress, "planning", static_cast<double>(taken_out_) / all))
-      stopped_ = true;
+    const std::string found = count_text(plan_.steps.size(), "step");
+    const std::string stage = plan_.steps.empty() ? "planning" : "planning, " + found + " found";
+    if (!stopped_ && !report_progress(options_.progress, stage, static_cast<double>(taken_out_) / all)) stopped_ = true;
     return in_time();
   }
   /// False once the time limit ends the search; thread-safe.

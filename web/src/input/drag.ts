@@ -43,8 +43,8 @@ export class Drag {
 
   /// True if components may be grabbed now.
   get allowed(): boolean {
-    const { control, state } = this.session.store;
-    return control && state?.playback == null;
+    const { control, state, quickExplode } = this.session.store;
+    return control && state?.playback == null && quickExplode === 0;
   }
 
   /// True if the server has granted a grip that was not released since.

@@ -19,6 +19,7 @@ type Action =
   | "section"
   | "measure"
   | "theme"
+  | "units"
   | "help"
   | "play"
   | "directions"
@@ -103,6 +104,7 @@ function plainKey(app: KeyTarget, event: KeyboardEvent): Act | undefined {
     m: actions.measure,
     e: actions.explode,
     t: actions.theme,
+    u: actions.units,
     h: actions.help,
     p: actions.play,
     ".": actions.nextStep,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
 import type { Axis } from "../axes.ts";
+import { element } from "../dom.ts";
+import { type BoxRule, componentsInBox, type ScreenBox } from "../scene/box_selection.ts";
 import type { Gizmo } from "../scene/gizmo.ts";
 import type { Pick } from "../scene/model_view.ts";
 import { freeOf, type Session } from "../session.ts";
@@ -15,13 +17,21 @@ type Gesture =
   | { kind: "pan"; grabbed: Vector3 }
   | { kind: "press"; pick: Pick; adds: boolean }
   | { kind: "arrow"; arrow: number; fallback: Gesture }
+  | { kind: "box"; adds: boolean }
   | { kind: "drag"; mode: DragMode | null; ready: Promise<boolean> };
 
-/// Pointer gestures in the 3D view. Left button: orbit on empty space, select and drag on a component; right: always
-/// orbit; middle: pan; wheel: zoom to the cursor; double click: focus. Two fingers pan and zoom.
+/// Pointer gestures in the 3D view. Left button: orbit on empty space (with Shift: select by a box), select and drag on a
+/// component; right: always orbit, or a menu where it is only clicked; middle: pan; wheel: zoom to the cursor; double
+/// click: focus. Two fingers pan and zoom.
 export class PointerInput {
   /// Offers a click to a tool (measure) before it selects; returns true if the tool took it.
   onClick: (pick: Pick | null) => boolean = () => false;
+  /// Tells a tool what is under the cursor.
+  onHover: (pick: Pick | null) => void = () => {};
+  /// Opens a menu for a component, or for the view, at a point of the page.
+  onMenu: (pick: Pick | null, x: number, y: number) => void = () => {};
+  /// The rectangle of a selection by a box.
+  readonly boxNode = element("div", { id: "selection-box", hidden: true });
   /// World axis locked by the keyboard.
   axisLock: Axis | null = null;
 
@@ -90,6 +100,7 @@ export class PointerInput {
       return { kind: "drag", mode, ready: this.drag.begin(store.selection, this.selectionCenter()) };
     const pick = viewport.pick(at.x, at.y);
     if (pick) return { kind: "press", pick, adds: event.shiftKey || event.ctrlKey };
+    if (event.shiftKey && !store.measuring) return { kind: "box", adds: event.ctrlKey };
     return { kind: "orbit", pivot: this.orbitPivot(at) };
   }
 
@@ -115,6 +126,7 @@ export class PointerInput {
     const [dx, dy] = [at.x - this.last.x, at.y - this.last.y];
     if (this.gesture?.kind === "orbit") rig.orbit(dx, dy, this.gesture.pivot);
     else if (this.gesture?.kind === "pan") rig.pan(dx, dy, this.gesture.grabbed);
+    else if (this.gesture?.kind === "box") this.showBox(at);
     else if (this.gesture?.kind === "drag") {
       const free = event.altKey ? "turn" : event.shiftKey ? "depth" : "plane";
       this.drag.mode = this.gesture.mode ?? { kind: free, axis: this.axisLock };
@@ -148,10 +160,48 @@ export class PointerInput {
     this.touches.delete(event.pointerId);
     const { gesture } = this;
     if (!gesture) return;
+    const at = this.positionOf(event);
+    const isUp = event.type === "pointerup";
     if (gesture.kind === "drag") void gesture.ready.then(() => this.drag.end());
-    else if (!this.moved && event.type === "pointerup" && event.button === 0) this.click(gesture);
+    else if (gesture.kind === "box" && this.moved && isUp) this.selectBox(at, gesture.adds);
+    else if (!this.moved && isUp && event.button === 0) this.click(gesture);
+    else if (!this.moved && isUp && event.button === 2 && !this.drag.active)
+      this.onMenu(this.session.viewport.pick(at.x, at.y), event.clientX, event.clientY);
+    this.boxNode.hidden = true;
     this.gesture = null;
-    this.hoverAt = this.positionOf(event);
+    this.hoverAt = at;
+  }
+
+  private boxTo({ x, y }: { x: number; y: number }): ScreenBox {
+    const { down } = this;
+    return {
+      left: Math.min(down.x, x),
+      top: Math.min(down.y, y),
+      right: Math.max(down.x, x),
+      bottom: Math.max(down.y, y),
+    };
+  }
+
+  /// Drawn to the right, a box selects what is inside; to the left, also what it crosses.
+  private ruleTo({ x }: { x: number }): BoxRule {
+    return x >= this.down.x ? "inside" : "crossing";
+  }
+
+  private showBox(at: { x: number; y: number }): void {
+    const { left, top, right, bottom } = this.boxTo(at);
+    const { style } = this.boxNode;
+    [style.left, style.top] = [`${left}px`, `${top}px`];
+    [style.width, style.height] = [`${right - left}px`, `${bottom - top}px`];
+    this.boxNode.dataset.rule = this.ruleTo(at);
+    this.boxNode.hidden = false;
+  }
+
+  private selectBox(at: { x: number; y: number }, adds: boolean): void {
+    const { model, rig } = this.session.viewport;
+    if (!model) return;
+    const found = componentsInBox(model, rig, this.boxTo(at), this.ruleTo(at));
+    const before = adds ? this.session.store.selection : [];
+    this.session.select([...before, ...found.filter((c) => !before.includes(c))]);
   }
 
   private click(gesture: Gesture): void {
@@ -254,7 +304,9 @@ export class PointerInput {
     const view = viewport.pickCube(at.x, at.y);
     viewport.cube.hover(view);
     const onHandle = this.isOnHandle(at);
-    this.session.hover(view || onHandle ? null : (viewport.pick(at.x, at.y)?.component ?? null));
+    const pick = view || onHandle ? null : viewport.pick(at.x, at.y);
+    this.session.hover(pick?.component ?? null);
+    this.onHover(pick);
     viewport.canvas.classList.toggle("pointing", view !== null || onHandle);
     return false;
   }

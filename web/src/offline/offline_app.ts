@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element, makeStage, saveAs } from "../dom.ts";
+import { kOfflineHelp } from "../help_texts.ts";
 import { Drag } from "../input/drag.ts";
 import { type KeyTarget, listenForKeys } from "../input/keys.ts";
 import { PointerInput } from "../input/pointer.ts";
@@ -8,12 +9,12 @@ import { helpDialog } from "../panels/help.ts";
 import { Measure } from "../panels/measure.ts";
 import { SectionPanel } from "../panels/section_panel.ts";
 import { TimelinePanel } from "../panels/timeline.ts";
-import { type ToolName, toolButton, toolbarNode, toolGroup } from "../panels/tool_button.ts";
+import { type ToolName, toolButton, toolbarNode, toolGroup, unitButton } from "../panels/tool_button.ts";
 import { TreePanel } from "../panels/tree.ts";
 import { Gizmo } from "../scene/gizmo.ts";
 import { Viewport, type ViewportOptions } from "../scene/viewport.ts";
 import { Session } from "../session.ts";
-import { kOfflineHelp, text } from "../strings.ts";
+import { text } from "../strings.ts";
 import { ThemeSwitch } from "../theme.ts";
 import { OfflineBanner } from "./offline_banner.ts";
 import { type OfflineContent, PathPlayer } from "./path_player.ts";
@@ -55,11 +56,16 @@ export class OfflineApp implements KeyTarget {
     this.theme = new ThemeSwitch(this.viewport);
     this.actions = this.makeActions();
 
-    stage.append(new OfflineBanner(this.session).node, this.sections.node, this.measure.node, this.toasts.node);
+    stage.append(new OfflineBanner(this.session).node, this.measure.node, pointer.boxNode, this.toasts.node);
     document.body.prepend(this.toolbar(), this.tree.node);
-    document.body.append(this.steps.node, this.timeline.node, this.help);
+    document.body.append(
+      element("div", { id: "side" }, this.sections.node, this.steps.node),
+      this.timeline.node,
+      this.help,
+    );
     document.title = `${content.model.name} – ${text("title")}`;
-    pointer.onClick = (pick) => this.measure.click(pick);
+    pointer.onClick = (pick) => this.sections.click(pick) || this.measure.click(pick);
+    pointer.onHover = (pick) => this.measure.hover(pick);
     this.session.onNote = (level, message) => this.toasts.show(level, message);
     listenForKeys(this);
     this.player.connect();
@@ -76,6 +82,7 @@ export class OfflineApp implements KeyTarget {
       section: () => this.sections.toggle(),
       measure: () => this.measure.toggle(),
       theme: () => this.theme.toggle(),
+      units: () => this.session.toggleUnit(),
       help: () => this.help.showModal(),
       play: () => this.timeline.toggle(),
       nextStep: () => this.steps.go(1),
@@ -96,6 +103,7 @@ export class OfflineApp implements KeyTarget {
       group("section", "measure"),
       group("fit", "projection"),
       element("span", { class: "model-name" }, this.content.model.name),
+      toolGroup(unitButton(this.session.notifier, this.actions.units)),
       group("screenshot", "theme", "help"),
     );
   }

@@ -68,6 +68,10 @@ export class PathPlayer implements Transport {
     return {} as Commands[Name][1];
   }
 
+  get steps(): GuideStep[] {
+    return this.content.steps;
+  }
+
   async request(address: string): Promise<globalThis.Response> {
     if (!address.startsWith("/api/model.glb")) throw new Error(text("offline.cannot"));
     return new Response(this.content.glb);

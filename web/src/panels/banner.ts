@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "three";
-import { button, element } from "../dom.ts";
+import { button, element, setText } from "../dom.ts";
 import { freeOf, type Session } from "../session.ts";
-import { directionText, sizeText, text } from "../strings.ts";
+import { directionText, jobText, text } from "../strings.ts";
+import { sizeText } from "../units.ts";
 
 /// Units of files, and the sizes beyond which the unit is probably wrong [mm].
 const kUnits = ["mm", "cm", "m", "um", "in", "ft"];
@@ -27,29 +28,29 @@ export interface Notice {
 /// progress of jobs.
 export class Banner {
   readonly node = element("div", { id: "banners", role: "status" });
-  private shown = "";
+  private rows = new Map<string, Row>();
   private keptSize = -1; // number of the model whose size was accepted
 
   constructor(protected readonly session: Session) {
     session.notifier.subscribe(() => this.update());
   }
 
+  /// Notices that change their message keep their elements: a button that was replaced between the press and the
+  /// release of the mouse would not be clicked.
   private update(): void {
-    const notices = this.notices();
-    const signature = JSON.stringify(notices.map(({ key, message }) => [key, message]));
-    if (signature === this.shown) return;
-    this.shown = signature;
-    this.node.replaceChildren(
-      ...notices.map(({ key, message, action, choice }) =>
-        element(
-          "div",
-          { class: "banner", "data-banner": key },
-          element("span", {}, message),
-          choice ? chooser(choice) : null,
-          action ? button({ label: action.label, wide: true, press: action.press }) : null,
-        ),
-      ),
-    );
+    const rows = new Map<string, Row>();
+    for (const notice of this.notices()) {
+      const { key, message, action, choice } = notice;
+      const identity = JSON.stringify([key, action?.label, choice]);
+      const row = this.rows.get(identity) ?? makeRow(notice);
+      row.notice = notice;
+      setText(row.message, message);
+      rows.set(identity, row);
+    }
+    const nodes = [...rows.values()].map(({ node }) => node);
+    if (nodes.length !== this.rows.size || nodes.some((node, i) => node !== this.node.children[i]))
+      this.node.replaceChildren(...nodes);
+    this.rows = rows;
   }
 
   protected notices(): Notice[] {
@@ -58,14 +59,10 @@ export class Banner {
     const send = (command: "restore" | "take_control" | "resume" | "stop") => () => void this.session.send(command, {});
     const notices: Notice[] = [];
     const jobs = [...store.jobs.values()];
-    for (const { job, name, stage, fraction } of jobs) {
-      const percentage = fraction >= 0 ? ` ${Math.round(100 * fraction)} %` : "";
-      const message = text("job.running", { name, stage }) + percentage;
-      notices.push({
-        key: "job",
-        message,
-        action: { label: text("job.cancel"), press: () => void this.session.send("cancel", { job }) },
-      });
+    for (const event of jobs) {
+      const { job } = event;
+      const press = () => void this.session.send("cancel", { job });
+      notices.push({ key: "job", message: jobText(event), action: { label: text("job.cancel"), press } });
     }
     if (store.link === "lost") notices.push({ key: "lost", message: text("banner.lost") });
     if (!state) return notices;
@@ -102,6 +99,7 @@ export class Banner {
       });
     else this.addHidden(notices);
     this.addSize(notices);
+    if (store.quickExplode > 0) notices.push({ key: "approximate", message: text("banner.quick") });
     if (store.planes.length > 0) notices.push({ key: "section", message: text("banner.section") });
     this.addStuck(notices);
     this.addWasStuck(notices);
@@ -137,16 +135,15 @@ export class Banner {
   }
 
   private addHidden(notices: Notice[]): void {
-    const hidden = this.session.store.state!.components.flatMap((c, i) => (c.hidden ? [i] : []));
-    if (hidden.length === 0) return;
-    const press = () => void this.session.send("show", { components: hidden });
+    if (!this.session.hasHidden) return;
+    const press = () => this.session.showAll();
     notices.push({ key: "hidden", message: text("banner.hidden"), action: { label: text("restore"), press } });
   }
 
   private addStuck(notices: Notice[]): void {
     const { blocking, state } = this.session.store;
     if (blocking.size === 0 || !state?.hand) return;
-    const name = this.session.nameOf([...blocking][0]);
+    const name = this.session.namesOf([...blocking], 1);
     const found = this.session.directionsOf(state.hand.components);
     const free = freeOf(found).map(({ direction }) => directionText(direction));
     const directions = free.slice(0, kMaxDirections).join(" ");
@@ -158,13 +155,29 @@ export class Banner {
   private addWasStuck(notices: Notice[]): void {
     const { stuck, state, jobs } = this.session.store;
     if (!stuck || !state || !this.session.idle || state.search || jobs.size > 0) return;
-    const names = { name: this.session.nameOf(stuck.components[0]), by: this.session.nameOf(stuck.blocking[0]) };
+    const names = { name: this.session.nameOf(stuck.components[0]), by: this.session.namesOf(stuck.blocking, 1) };
     notices.push({
       key: "was-stuck",
       message: text("stuck.was", names),
       action: { label: text("findPath"), press: () => void this.session.findPath() },
     });
   }
+}
+
+/// The elements of a notice.
+interface Row {
+  node: HTMLElement;
+  message: HTMLElement;
+  notice: Notice;
+}
+
+function makeRow(notice: Notice): Row {
+  const { key, action, choice } = notice;
+  const row: Row = { node: element("div", { class: "banner", "data-banner": key }), message: element("span"), notice };
+  row.node.append(row.message);
+  if (choice) row.node.append(chooser(choice));
+  if (action) row.node.append(button({ label: action.label, wide: true, press: () => row.notice.action?.press() }));
+  return row;
 }
 
 function chooser(choice: NonNullable<Notice["choice"]>): HTMLElement {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Vector3 } from "three";
+import { type Box3, Vector3 } from "three";
 import { button, element, setText } from "../dom.ts";
 import type { GuideStep } from "../guide.ts";
 import { endOf, kSameTime } from "../moves.ts";
-import { matrixOf } from "../pose.ts";
+import { pathExtent } from "../path_view.ts";
 import type { View } from "../scene/camera_rig.ts";
 import { Trails, trailsUntil } from "../scene/trails.ts";
 import { Seeker } from "../seeker.ts";
@@ -11,8 +11,8 @@ import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { ModelEvent, Move, Source } from "../wire/messages.ts";
 
-/// Maximum side of the region that is fitted, in diagonals of the assembly.
-const kMaxExtent = 2.5;
+/// The quick exploded view moves components away from the centre by up to this times their distance from it.
+const kMaxQuick = 2;
 /// Positions that differ by less are the same [steps].
 const kSamePosition = 1e-6;
 
@@ -21,7 +21,7 @@ const kSamePosition = 1e-6;
 export class ExplodePanel {
   readonly node = element("section", {
     id: "explode-panel",
-    class: "floating",
+    class: "docked",
     "aria-label": text("explode"),
     hidden: true,
   });
@@ -36,6 +36,15 @@ export class ExplodePanel {
   private readonly before: HTMLButtonElement;
   private readonly after: HTMLButtonElement;
   private readonly tools: HTMLElement;
+  private readonly quick = element("input", {
+    type: "range",
+    min: "0",
+    max: String(kMaxQuick),
+    step: "0.02",
+    value: "0",
+    id: "explode-quick",
+  });
+  private readonly quickTools: HTMLElement;
   private readonly trails = new Trails();
   private readonly seeker: Seeker;
   private steps: GuideStep[] = [];
@@ -62,7 +71,9 @@ export class ExplodePanel {
     });
     this.slider.oninput = () => this.scrubTo(Number(this.slider.value));
     this.tools = element("div", { class: "explode-tools" }, this.before, this.slider, this.after);
-    this.node.append(this.status, this.tools);
+    this.quick.oninput = () => this.explodeQuickly(Number(this.quick.value));
+    this.quickTools = element("label", { class: "explode-tools" }, text("explode.quick"), this.quick);
+    this.node.append(this.status, this.tools, this.quickTools);
     session.viewport.scene.add(this.trails.object);
     session.notifier.subscribe(() => this.update());
   }
@@ -88,7 +99,10 @@ export class ExplodePanel {
     session.change(() => {
       session.store.exploding = true;
     });
-    if (this.moves().length === 0) return;
+    if (this.moves().length === 0) {
+      this.savedView = session.viewport.rig.current;
+      return;
+    }
     const source = this.source();
     try {
       this.steps = await session.loadSteps(source);
@@ -97,7 +111,8 @@ export class ExplodePanel {
     }
     const { rig } = session.viewport;
     this.savedView = rig.current;
-    rig.fit(this.extent());
+    await twoFrames(); // the panel has taken its place
+    rig.fit(pathExtent(session, this.steps));
     await this.seeker.seek(this.timeAt(this.moves().length), source);
     if (!session.store.exploding) return void session.send("stop", {});
     this.opened = true;
@@ -115,24 +130,24 @@ export class ExplodePanel {
     this.steps = [];
     if (this.savedView) session.viewport.rig.fly(this.savedView);
     this.savedView = null;
+    this.quick.value = "0";
+    this.explodeQuickly(0);
     session.change(() => {
       session.store.exploding = false;
     });
   }
 
-  /// Bounds of the assembly and of its parts after the path, limited so that the assembly remains large enough:
-  /// recordings can move components far away.
-  private extent(): Box3 {
-    const { components } = this.session.store.model!;
-    const boxes = components.map(({ bounds: [low, high] }) => new Box3(new Vector3(...low), new Vector3(...high)));
-    const all = boxes.reduce((sum, box) => sum.union(box), new Box3());
-    for (const { components: set, frames } of this.steps)
-      for (const c of set) all.union(boxes[c].clone().applyMatrix4(matrixOf(frames[frames.length - 1].pose)));
-    const { modelBox } = this.session;
-    const side = kMaxExtent * diagonalOf(modelBox);
-    return all.intersect(
-      new Box3().setFromCenterAndSize(modelBox.getCenter(new Vector3()), new Vector3(side, side, side)),
-    );
+  /// Draws components away from the centre. An approximate view: no engine has checked it.
+  private explodeQuickly(factor: number): void {
+    const { viewport, store } = this.session;
+    if (factor === store.quickExplode) return;
+    this.session.change(() => {
+      store.quickExplode = factor;
+    });
+    viewport.model?.explode(factor);
+    viewport.updateBounds();
+    if (factor > 0 && viewport.model && !viewport.rig.shows(viewport.model.bounds()))
+      viewport.rig.fit(viewport.model.bounds());
   }
 
   /// Number of completed steps, with the fraction of the current one.
@@ -165,6 +180,8 @@ export class ExplodePanel {
     if (!exploding) return;
     const moves = this.moves();
     this.tools.hidden = moves.length === 0;
+    this.quickTools.hidden = moves.length > 0;
+    if (moves.length > 0) this.explodeQuickly(0);
     if (moves.length === 0) return setText(this.status, text("explode.none"));
     const position = this.position();
     this.slider.max = String(moves.length);
@@ -195,4 +212,9 @@ export class ExplodePanel {
 
 function diagonalOf(box: Box3): number {
   return box.getSize(new Vector3()).length();
+}
+
+/// Resolves when the page has been laid out anew.
+function twoFrames(): Promise<void> {
+  return new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
 }

@@ -5,6 +5,7 @@ import { VideoRecorder, videoFormat } from "../scene/video_recorder.ts";
 import type { Session } from "../session.ts";
 import { type TextKey, text } from "../strings.ts";
 import type { Source } from "../wire/messages.ts";
+import { InstructionsPart } from "./instructions_part.ts";
 
 /// A file that the server exports (docs/wire.md), and the ending of its name.
 interface Format {
@@ -31,13 +32,14 @@ const kFormats: Format[] = [
 const kPollInterval = 50;
 const kMaxPolls = 200;
 
-/// The dialog that exports the assembly and its moves as files, or the playback as a video.
+/// The dialog that exports the assembly and its moves as files, as work instructions, or the playback as a video.
 export class ExportDialog {
   readonly node = element("dialog", { id: "export-dialog", "aria-label": text("export") });
   private readonly reverse = element("input", { type: "checkbox", id: "export-reverse" });
   private readonly status = element("p", { role: "status", id: "export-status", class: "muted" });
   private readonly buttons = kFormats.map((format) => ({ format, button: this.formatButton(format) }));
   private readonly videoButton: HTMLButtonElement;
+  private readonly instructions: InstructionsPart;
   private recording = false;
 
   constructor(private readonly session: Session) {
@@ -55,6 +57,11 @@ export class ExportDialog {
       id: "export-video",
       press: () => void this.recordVideo(),
     });
+    this.instructions = new InstructionsPart(
+      session,
+      () => this.source,
+      () => this.reverse.checked && !this.reverse.disabled,
+    );
     this.node.append(
       dialogHeader(text("export"), () => this.node.close()),
       element("label", { class: "check" }, this.reverse, element("span", {}, text("export.reverse"))),
@@ -66,12 +73,19 @@ export class ExportDialog {
         this.videoButton,
       ),
       this.status,
+      this.instructions.node,
     );
     session.notifier.subscribe(() => this.update());
   }
 
+  /// The dialog that previews work instructions.
+  get preview(): HTMLElement {
+    return this.instructions.preview.node;
+  }
+
   open(): void {
     setText(this.status, "");
+    this.instructions.reset();
     this.update();
     this.node.showModal();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, relabel, setText } from "../dom.ts";
 import { type ComponentStatus, type GuideStep, nextStep, poseAt, type Score, scoreOf } from "../guide.ts";
+import { showPath } from "../path_view.ts";
 import { matrixOf } from "../pose.ts";
 import { Ghost } from "../scene/ghost.ts";
 import type { Session } from "../session.ts";
@@ -36,6 +37,7 @@ export class GuidePanel {
   private scoredGrip: number | null = null;
   private wasBlocked = false;
   private lastMoveCount = 0;
+  private wasPlayed = false;
 
   constructor(private readonly session: Session) {
     this.showButton = button({
@@ -100,7 +102,11 @@ export class GuidePanel {
     if (moves === 0 && this.lastMoveCount > 0) this.restart();
     this.lastMoveCount = moves;
     this.updateScore();
-    const next = state.playback ? this.step : nextStep(this.steps, this.step, (c) => this.statusOf(c));
+    const { playback } = state;
+    const played = playback?.source === "guide" ? playback.move : null;
+    const from = this.wasPlayed && !playback ? 0 : this.step;
+    this.wasPlayed = played !== null;
+    const next = played ?? (playback ? this.step : nextStep(this.steps, from, (c) => this.statusOf(c)));
     if (next !== this.step && !state.hand) this.goTo(next);
     this.showStep();
   }
@@ -139,7 +145,7 @@ export class GuidePanel {
     const { state } = this.session.store;
     const count = this.steps.length;
     const step = this.steps[this.step];
-    setText(this.title, state?.guide?.name ?? "");
+    setText(this.title, titleOf(state?.guide?.name ?? ""));
     this.progress.value = count > 0 ? this.step / count : 0;
     const names = step?.components.map((c) => this.session.nameOf(c)).join(", ") ?? "";
     const known = this.practice.checked
@@ -193,6 +199,7 @@ export class GuidePanel {
   }
 
   private async playAll(): Promise<void> {
+    await showPath(this.session, "guide");
     await this.session.send("seek", { time: 0, source: "guide" });
     await this.session.send("play", { speed: 1, source: "guide" });
   }
@@ -201,6 +208,11 @@ export class GuidePanel {
     const removed = this.session.store.state?.components[component]?.removed === true;
     return { pose: this.session.poseOf(component), removed };
   }
+}
+
+/// The title of a guide, from the name of its file; the planner's is called plan.path.json.
+function titleOf(file: string): string {
+  return file === "plan.path.json" ? text("guide.plan") : file.replace(/\.path\.json$/, "");
 }
 
 function scoreText(faults: Score): string {

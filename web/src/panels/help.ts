@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { dialogHeader, element } from "../dom.ts";
-import { type Help, kHelp, text } from "../strings.ts";
+import { type Help, kHelp } from "../help_texts.ts";
+import { text } from "../strings.ts";
 
 /// Makes the dialog that lists keys and gestures.
 export function helpDialog(help: Help = kHelp): HTMLDialogElement {

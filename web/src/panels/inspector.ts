@@ -4,7 +4,8 @@ import { kAxisNames } from "../axes.ts";
 import { button, element, setText } from "../dom.ts";
 import type { Drag } from "../input/drag.ts";
 import type { Session } from "../session.ts";
-import { directionText, lengthText, text } from "../strings.ts";
+import { directionText, text } from "../strings.ts";
+import { boxText, fromShown, type LengthUnit, lengthText, shownUnit, toShown } from "../units.ts";
 import type { CheckedPair } from "../wire/messages.ts";
 import { componentRow } from "./component_row.ts";
 import { RemovalPart } from "./removal_part.ts";
@@ -19,7 +20,10 @@ export class Inspector {
   private readonly title = element("h2", { id: "selection-name" });
   private readonly none = element("p", { class: "muted pad" }, text("selection.none"));
   private readonly facts = element("dl", { class: "facts" });
-  private readonly actions: Record<"takeOut" | "putBack" | "isolate" | "hide" | "xray" | "halt", HTMLButtonElement>;
+  private readonly actions: Record<
+    "takeOut" | "putBack" | "isolate" | "hide" | "xray" | "similar" | "halt",
+    HTMLButtonElement
+  >;
   private readonly clearance = element("dl", { class: "facts", id: "clearance" });
   private readonly touches = element("ul", { class: "rows", id: "touches" });
   private readonly pairs = element("ul", { class: "rows", id: "pairs" });
@@ -27,6 +31,8 @@ export class Inspector {
   private readonly findDirections: HTMLButtonElement;
   private readonly removalPart: RemovalPart;
   private readonly numbers: HTMLInputElement[];
+  private readonly numberLabels = [0, 1, 2].map((axis) => element("span", {}, numberLabel(axis)));
+  private numberUnit: LengthUnit = shownUnit();
   private readonly body: HTMLElement;
   private pairsRequested = false;
   private signature = "";
@@ -71,6 +77,13 @@ export class Inspector {
         id: "xray",
         press: () => session.toggleXray(session.store.selection),
       }),
+      similar: button({
+        icon: "similar",
+        label: text("selectSimilar"),
+        wide: true,
+        id: "select-similar",
+        press: () => session.selectSimilar(),
+      }),
       halt: button({
         icon: "close",
         label: text("halt"),
@@ -113,14 +126,13 @@ export class Inspector {
   }
 
   private makeBody(): HTMLElement {
-    const { takeOut, putBack, isolate, hide, xray, halt } = this.actions;
+    const { takeOut, putBack, isolate, hide, xray, similar, halt } = this.actions;
     const fields = element(
       "form",
       { class: "numbers", id: "numeric" },
       ...this.numbers.map((field, i) => {
-        const axis = kAxisNames[i % 3];
-        const label = text(i < 3 ? "numeric.axis" : "numeric.turn", { axis });
-        return element("label", {}, element("span", {}, label), field);
+        const turn = () => element("span", {}, text("numeric.turn", { axis: kAxisNames[i % 3] }));
+        return element("label", {}, this.numberLabels[i] ?? turn(), field);
       }),
       element("button", { type: "submit", class: "button wide", id: "numeric-apply" }, text("numeric.apply")),
     );
@@ -132,7 +144,7 @@ export class Inspector {
       "div",
       { class: "body" },
       this.facts,
-      element("div", { class: "actions" }, takeOut, putBack, isolate, hide, xray, halt),
+      element("div", { class: "actions" }, takeOut, putBack, isolate, hide, xray, similar, halt),
       this.removalPart.node,
       part(text("clearance"), this.clearance),
       part(text("contacts"), this.touches),
@@ -143,7 +155,10 @@ export class Inspector {
   }
 
   private async moveByNumbers(): Promise<void> {
-    const values = this.numbers.map((field) => Number(field.value) || 0);
+    const values = this.numbers.map((field, i) => {
+      const value = Number(field.value) || 0;
+      return i < 3 ? fromShown(value) : value;
+    });
     const { selection } = this.session.store;
     if (selection.length === 0 || values.every((value) => value === 0)) return;
     const center = this.session.viewport.model!.boundsOf(selection).getCenter(new Vector3());
@@ -153,9 +168,22 @@ export class Inspector {
     await this.drag.end();
   }
 
+  /// Relabels and converts the fields of lengths when another unit is shown.
+  private showNumberUnit(): void {
+    const before = this.numberUnit;
+    if (before === shownUnit()) return;
+    this.numberUnit = shownUnit();
+    for (const [axis, label] of this.numberLabels.entries()) {
+      setText(label, numberLabel(axis));
+      const length = Number(this.numbers[axis].value) || 0;
+      this.numbers[axis].value = String(Number(toShown(fromShown(length, before)).toFixed(5)));
+    }
+  }
+
   private update(): void {
     const { store } = this.session;
     const { selection } = store;
+    this.showNumberUnit();
     this.none.hidden = selection.length > 0;
     this.body.hidden = selection.length === 0;
     setText(
@@ -195,7 +223,7 @@ export class Inspector {
     const facts: [string, string][] = [[text("selection.triangles"), triangles.toLocaleString("en")]];
     if (parts.length === 1) {
       const [low, high] = parts[0].bounds;
-      facts.push([text("selection.size"), low.map((value, k) => (high[k] - value).toFixed(1)).join(" × ")]);
+      facts.push([text("selection.size"), boxText(low.map((value, k) => high[k] - value))]);
       const now = state?.components[selection[0]];
       const pose = this.session.poseOf(selection[0]);
       const position = now?.removed
@@ -222,7 +250,7 @@ export class Inspector {
     const { frame, pairs, selection, directions, blocking } = this.session.store;
     const touched = new Map<number, number>();
     for (const { fixed, gap } of frame?.contacts ?? []) touched.set(fixed, Math.min(gap, touched.get(fixed) ?? gap));
-    const signature = JSON.stringify([[...touched], [...blocking], selection, directions, pairs === null]);
+    const signature = JSON.stringify([[...touched], [...blocking], selection, directions, pairs === null, shownUnit()]);
     if (signature === this.signature) return;
     this.signature = signature;
     const touching = [...touched].map(([component, gap]) =>
@@ -284,6 +312,10 @@ export class Inspector {
         this.pairsRequested = false;
       });
   }
+}
+
+function numberLabel(axis: number): string {
+  return text("numeric.axis", { axis: kAxisNames[axis], unit: shownUnit() });
 }
 
 function numberField(index: number): HTMLInputElement {

@@ -3,12 +3,21 @@ import { button, dialogHeader, element, linkButton } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
 import type { Commands } from "../wire/messages.ts";
+import {
+  chosenFiles,
+  commonFolder,
+  droppedFiles,
+  kCompanions,
+  type PathedFile,
+  packedFiles,
+  usefulFiles,
+} from "./dropped_files.ts";
 
 /// Time given to the server to announce an open assembly before the start page is shown [ms].
 const kStartPageDelay = 250;
 
 /// The dialog that opens assemblies, also shown as the start page: samples, recent files, files under the roots, an
-/// upload. A file dropped anywhere on the page is opened, too.
+/// upload. Files and folders dropped anywhere on the page are opened, too.
 export class OpenDialog {
   readonly node: HTMLDialogElement;
   private readonly samples = element("div", { class: "cards", id: "samples" });
@@ -18,7 +27,15 @@ export class OpenDialog {
     type: "file",
     class: "visually-hidden",
     id: "file-picker",
+    multiple: true,
     "aria-label": text("open.choose"),
+  });
+  private readonly folderPicker = element("input", {
+    type: "file",
+    class: "visually-hidden",
+    id: "folder-picker",
+    webkitdirectory: true,
+    "aria-label": text("open.folder"),
   });
   private dismissed = false;
   private waiting = false;
@@ -26,11 +43,12 @@ export class OpenDialog {
   private isStartPage = false;
 
   constructor(private readonly session: Session) {
-    this.picker.onchange = () => {
-      const file = this.picker.files?.[0];
-      if (file) void this.upload(file);
-      this.picker.value = "";
-    };
+    for (const picker of [this.picker, this.folderPicker])
+      picker.onchange = () => {
+        const files = chosenFiles(picker.files!);
+        picker.value = "";
+        void this.upload(files);
+      };
     this.node = element(
       "dialog",
       { id: "open-dialog", "aria-label": text("open.title") },
@@ -43,7 +61,9 @@ export class OpenDialog {
         { class: "drop" },
         element("span", {}, text("open.drop")),
         button({ icon: "open", label: text("open.choose"), wide: true, press: () => this.picker.click() }),
+        button({ icon: "open", label: text("open.folder"), wide: true, press: () => this.folderPicker.click() }),
         this.picker,
+        this.folderPicker,
       ),
       element(
         "div",
@@ -109,7 +129,7 @@ export class OpenDialog {
       ...(files.length > 0 ? files : [element("li", { class: "muted" }, text("open.recent.none"))]),
     );
     const { roots, extensions } = this.session.store;
-    this.picker.accept = extensions.join();
+    this.picker.accept = [...extensions, ...kCompanions, ".json"].join();
     this.roots.replaceChildren(...roots.map((name, root) => this.rootList(name, root)));
     if (roots.length === 0) this.roots.append(element("p", { class: "muted" }, text("open.roots.none")));
   }
@@ -134,7 +154,16 @@ export class OpenDialog {
         {},
         linkButton(text("open.up"), () => void show(parent)),
       );
-      list.replaceChildren(...(folder === "" ? rows : [up, ...rows]));
+      const meshes = (found?.entries ?? []).filter(({ kind, name: file }) => kind === "assembly" && isMesh(file));
+      const whole = element(
+        "li",
+        {},
+        linkButton(
+          text("open.whole", { count: meshes.length }),
+          () => void this.load({ root, file: folder === "" ? "." : folder }),
+        ),
+      );
+      list.replaceChildren(...(folder === "" ? [] : [up]), ...(meshes.length > 1 ? [whole] : []), ...rows);
     };
     void show("");
     return element("div", {}, element("h3", {}, name), list);
@@ -148,18 +177,27 @@ export class OpenDialog {
     if (await this.session.send("open_path", { root, file })) this.close();
   }
 
-  /// Uploads and opens a file of the user's machine.
-  async upload(file: File): Promise<void> {
-    const endpoint = file.name.endsWith(".path.json") ? "guide" : "open";
+  /// Uploads and opens files of the user's machine: one, or several that are an assembly together.
+  async upload(files: PathedFile[]): Promise<void> {
+    const { extensions } = this.session.store;
     try {
-      await this.session.connection.request(`/api/${endpoint}?name=${encodeURIComponent(file.name)}`, {
-        method: "POST",
-        body: file,
-      });
+      if (files.length === 1) {
+        const { file } = files[0];
+        await this.post(file.name.endsWith(".path.json") ? "guide" : "open", file.name, file);
+      } else if (files.length > 1) {
+        const useful = usefulFiles(files, extensions);
+        if (useful.length === 0) return this.session.onNote("warning", text("open.nothing"));
+        await this.post("open_files", commonFolder(useful), packedFiles(useful));
+      }
       this.close();
     } catch (error) {
       this.session.onNote("warning", (error as Error).message);
     }
+  }
+
+  private async post(endpoint: string, name: string, body: Blob): Promise<void> {
+    const address = `/api/${endpoint}?name=${encodeURIComponent(name)}`;
+    await this.session.connection.request(address, { method: "POST", body });
   }
 
   private listenForDrops(): void {
@@ -171,8 +209,12 @@ export class OpenDialog {
     document.addEventListener("dragleave", updateOutline);
     document.addEventListener("drop", (event) => {
       updateOutline(event);
-      const file = event.dataTransfer?.files[0];
-      if (file) void this.upload(file);
+      if (event.dataTransfer) void droppedFiles(event.dataTransfer).then((files) => this.upload(files));
     });
   }
+}
+
+/// True for files of which a folder is an assembly.
+function isMesh(file: string): boolean {
+  return /\.(obj|stl|ply)$/i.test(file);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element, linkButton, relabel, setText } from "../dom.ts";
+import { button, element, linkButton, panelHeader, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { countText, directionText, text } from "../strings.ts";
 import { kPreferences, type Preference, type Search } from "../wire/messages.ts";
@@ -7,7 +7,12 @@ import { kPreferences, type Preference, type Search } from "../wire/messages.ts"
 /// Plans the disassembly of everything or of the selection. The sequence becomes the guide; what blocks the remaining
 /// components is listed.
 export class PlanPanel {
-  readonly node = element("section", { id: "plan-panel", class: "floating", "aria-label": text("plan"), hidden: true });
+  readonly node = element("section", {
+    id: "plan-panel",
+    class: "side-panel",
+    "aria-label": text("plan"),
+    hidden: true,
+  });
   private readonly everything = choice("plan-all", true);
   private readonly selected = choice("plan-selection", false);
   private readonly selectedLabel = element("span");
@@ -32,6 +37,7 @@ export class PlanPanel {
       press: () => void this.requestPlan(),
     });
     this.node.append(
+      panelHeader(text("plan"), () => this.toggle()),
       element("label", {}, this.everything, element("span", {}, text("plan.all"))),
       element("label", {}, this.selected, this.selectedLabel),
       element("div", { class: "plan-fixed" }, this.fixedLabel, this.fixButton),
@@ -50,8 +56,6 @@ export class PlanPanel {
 
   toggle(): void {
     this.node.hidden = !this.node.hidden;
-    if (!this.node.hidden) this.selected.checked = this.session.store.selection.length > 0;
-    if (!this.selected.checked) this.everything.checked = true;
     this.session.notifier.notify();
   }
 
@@ -101,7 +105,15 @@ export class PlanPanel {
   private showSearch(search: Search | null): void {
     if (search === this.shownSearch) return;
     this.shownSearch = search;
-    const key = !search ? "" : search.complete ? "plan.complete" : search.out_of_time ? "plan.ended" : "plan.partly";
+    const key = !search
+      ? ""
+      : search.cancelled
+        ? "plan.cancelled"
+        : search.complete
+          ? "plan.complete"
+          : search.out_of_time
+            ? "plan.ended"
+            : "plan.partly";
     const seconds = search && (search.seconds < 10 ? search.seconds.toFixed(1) : search.seconds.toFixed(0));
     setText(this.summary, key === "" ? "" : text(key, { steps: countText(search!.steps, "step"), seconds: seconds! }));
     this.reasons.replaceChildren(

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element } from "../dom.ts";
-import { kMaxNames, type Session } from "../session.ts";
-import { directionText, lengthText, text } from "../strings.ts";
-import type { Reason } from "../wire/messages.ts";
+import { kMaxNames } from "../names.ts";
+import type { Session } from "../session.ts";
+import { directionText, text } from "../strings.ts";
+import { lengthText, shownUnit } from "../units.ts";
+import type { Reason, Search } from "../wire/messages.ts";
 import { componentRow } from "./component_row.ts";
 
 /// The inspector's part about removal: finds a path for the selection, or what blocks it.
@@ -11,7 +13,7 @@ export class RemovalPart {
   private readonly find: HTMLButtonElement;
   private readonly why: HTMLButtonElement;
   private readonly reason = element("div", { id: "reason", role: "status" });
-  private shown: Reason | null = null;
+  private shown: unknown[] = [];
 
   constructor(private readonly session: Session) {
     this.find = button({
@@ -46,23 +48,41 @@ export class RemovalPart {
     this.find.disabled = busy || jobs.size > 0 || out;
     this.why.disabled = busy || jobs.size > 0 || out || selection.length !== 1;
     const { reason } = this.session;
-    if (reason === this.shown) return;
-    this.shown = reason;
-    this.reason.replaceChildren(...(reason ? this.content(reason) : []));
+    const now = [reason, shownUnit()];
+    if (now.every((value, i) => value === this.shown[i])) return;
+    this.shown = now;
+    this.reason.replaceChildren(...(reason ? this.content(reason, state?.search?.chain ?? null) : []));
   }
 
-  private content({ component: self, direction, blockers, locked }: Reason): HTMLElement[] {
+  /// The answer in one sentence, and below it all that blocks.
+  private content({ component: self, direction, blockers, locked }: Reason, chain: Search["chain"]): HTMLElement[] {
+    const names = this.session.groupedNamesOf(blockers.map(({ component }) => component));
+    const message =
+      blockers.length === 0
+        ? text("reason.free", { direction: directionText(direction) })
+        : chain
+          ? this.chainText(chain)
+          : text("reason.by", { direction: directionText(direction), names });
     const rows = blockers.map(({ component, distance }) => {
       const after = distance === null ? "" : text("reason.after", { distance: lengthText(distance) });
       return componentRow(this.session, component, after, "blocks");
     });
-    const message = text(rows.length > 0 ? "reason.by" : "reason.free", { direction: directionText(direction) });
     const others = locked.filter((c) => c !== self);
-    return [
-      element("p", {}, message),
-      element("ul", { class: "rows" }, ...rows),
-      ...(others.length > 0 ? [element("p", { class: "muted" }, this.lockedText(others))] : []),
-    ];
+    const sentence = element("p", { id: "reason-sentence" }, message);
+    if (rows.length === 0) return [sentence];
+    const along = element("p", { class: "muted" }, text("reason.by", { direction: directionText(direction), names }));
+    const more = others.length > 0 ? element("p", { class: "muted" }, this.lockedText(others)) : null;
+    const summary = element("summary", {}, text("reason.details"));
+    const list = element("ul", { class: "rows" }, ...rows);
+    return [sentence, element("details", {}, summary, chain ? along : null, list, more)];
+  }
+
+  private chainText({ before, direction }: NonNullable<Search["chain"]>): string {
+    if (before.length === 0) return text("reason.path");
+    return text("reason.chain", {
+      names: this.session.groupedNamesOf(before.flat()),
+      direction: directionText(direction),
+    });
   }
 
   private lockedText(others: number[]): string {

@@ -1,105 +1,190 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Vector3 } from "three";
+import { type Box3, Vector3 } from "three";
 import { type Axis, kAxes, kAxisNames } from "../axes.ts";
-import { button, element } from "../dom.ts";
+import { button, element, panelHeader, setText } from "../dom.ts";
+import type { Pick } from "../scene/model_view.ts";
+import { faceAt } from "../scene/snap.ts";
 import type { Session } from "../session.ts";
 import type { SectionPlane } from "../store.ts";
 import { text } from "../strings.ts";
+import { coordinateText, fromShown, shownUnit, toShown } from "../units.ts";
 
-/// Up to three section planes, one normal to each axis.
+/// Planes that cut at the same time.
+const kMaxPlanes = 3;
+
+/// A row of the panel: a plane normal to an axis, or one by a face.
+interface Row {
+  axis: Axis | null;
+  node: HTMLElement;
+  on: HTMLInputElement;
+  slider: HTMLInputElement;
+  number: HTMLInputElement;
+  unit: HTMLElement;
+  flip: HTMLButtonElement;
+}
+
+/// Up to three section planes: one normal to each axis, and one by a face.
 export class SectionPanel {
   readonly node = element("section", {
     id: "section-panel",
-    class: "floating",
+    class: "side-panel",
     "aria-label": text("section"),
     hidden: true,
   });
-  private readonly rows = kAxes.map((axis) => this.makeRow(axis));
+  private readonly rows: Row[] = [...kAxes, null].map((axis) => this.makeRow(axis));
+  private readonly faceButton: HTMLButtonElement;
+  private readonly hint = element("p", { class: "muted", role: "status" });
   private open = false;
+  private shownModel = -1;
+  private picking = false;
 
   constructor(private readonly session: Session) {
-    this.node.append(...this.rows.map(({ row }) => row));
+    this.faceButton = button({
+      icon: "section",
+      label: text("section.face"),
+      wide: true,
+      id: "section-face",
+      press: () => this.setPicking(!this.picking),
+    });
+    this.node.append(
+      panelHeader(text("section"), () => this.toggle()),
+      ...this.rows.map(({ node }) => node),
+      this.faceButton,
+      this.hint,
+    );
     session.notifier.subscribe(() => this.update());
   }
 
   toggle(): void {
     this.open = !this.open;
-    const { model } = this.session.store;
-    this.set(this.open && model ? [{ axis: 1, flipped: false, fraction: 0.5 }] : []);
+    this.setPicking(false);
+    this.set(this.open && this.session.store.model ? [this.planeOf(1)] : []);
     if (this.open) this.rows[1].slider.focus();
   }
 
-  private makeRow(axis: Axis) {
-    const name = kAxisNames[axis];
+  /// Takes a click while a face is to be picked; returns false if none is.
+  click(pick: Pick | null): boolean {
+    if (!this.picking) return false;
+    const model = this.session.viewport.model;
+    const found = pick && model ? faceAt(model, pick) : null;
+    if (pick && found?.feature.kind !== "plane") {
+      this.session.onNote("note", text("section.curved"));
+      return true;
+    }
+    if (found?.feature.kind !== "plane") return true;
+    const { point, normal } = found.feature;
+    const [x, y, z] = normal.toArray();
+    // What is in front of the face is cut away.
+    const plane: SectionPlane = { axis: null, normal: [x, y, z], base: point.dot(normal), offset: 0, flipped: true };
+    this.setPicking(false);
+    this.set([...this.others(null).slice(-(kMaxPlanes - 1)), plane]);
+    return true;
+  }
+
+  private setPicking(picking: boolean): void {
+    this.picking = picking;
+    setText(this.hint, picking ? text("section.pick") : "");
+    this.faceButton.setAttribute("aria-pressed", String(picking));
+  }
+
+  private makeRow(axis: Axis | null): Row {
+    const name = axis === null ? text("section.byFace") : kAxisNames[axis];
+    const label = text(axis === null ? "section.position.face" : "section.position", { axis: name });
     const on = element("input", {
       type: "checkbox",
-      id: `section-${axis}`,
-      "aria-label": text("section.axis", { axis: name }),
+      id: `section-${axis ?? "plane"}`,
+      "aria-label": axis === null ? name : text("section.axis", { axis: name }),
     });
-    const slider = element("input", {
-      type: "range",
-      min: "0",
-      max: "1",
-      step: "0.002",
-      value: "0.5",
-      "aria-label": text("section.position", { axis: name }),
-    });
+    const slider = element("input", { type: "range", min: "0", max: "1", step: "0.002", "aria-label": label });
+    const number = element("input", { type: "number", step: "any", "aria-label": label });
+    const unit = element("span", { class: "muted" });
     const flip = button({
       icon: "redo",
       label: text("section.flip"),
-      press: () =>
-        this.edit(axis, (plane) => {
-          plane.flipped = !plane.flipped;
-        }),
+      press: () => this.edit(axis, (plane) => ({ ...plane, flipped: !plane.flipped })),
     });
     on.onchange = () => {
-      const others = this.session.store.planes.filter((plane) => plane.axis !== axis);
-      this.set(on.checked ? [...others, { axis, flipped: false, fraction: Number(slider.value) }] : others);
+      if (on.checked && axis !== null) this.set([...this.others(axis).slice(-(kMaxPlanes - 1)), this.planeOf(axis)]);
+      else this.set(this.others(axis));
     };
     slider.oninput = () =>
       this.edit(axis, (plane) => {
-        plane.fraction = Number(slider.value);
+        const [low, high] = this.rangeOf(plane);
+        return { ...plane, offset: low + Number(slider.value) * (high - low) };
       });
-    const row = element(
+    number.onchange = () => this.edit(axis, (plane) => ({ ...plane, offset: fromShown(Number(number.value) || 0) }));
+    const node = element(
       "div",
       { class: "section-row" },
       element("label", {}, on, element("span", {}, name)),
       slider,
+      number,
+      unit,
       flip,
     );
-    return { row, on, slider, flip };
+    return { axis, node, on, slider, number, unit, flip };
   }
 
-  private edit(axis: number, change: (plane: SectionPlane) => void): void {
-    const planes = this.session.store.planes.map((plane) => ({ ...plane }));
-    for (const plane of planes) if (plane.axis === axis) change(plane);
-    this.set(planes);
+  private planeOf(axis: Axis): SectionPlane {
+    const center = this.session.modelBox.getCenter(new Vector3());
+    const normal: [number, number, number] = [0, 0, 0];
+    normal[axis] = 1;
+    return { axis, normal, base: 0, offset: center.getComponent(axis), flipped: false };
+  }
+
+  private others(axis: Axis | null): SectionPlane[] {
+    return this.session.store.planes.filter((plane) => plane.axis !== axis);
+  }
+
+  /// The lowest and the highest offset at which a plane meets the model's box.
+  private rangeOf({ normal, base }: SectionPlane): [number, number] {
+    const { min, max }: Box3 = this.session.modelBox;
+    const end = (high: boolean) =>
+      kAxes.reduce((sum, k) => sum + normal[k] * (normal[k] > 0 === high ? max : min).getComponent(k), -base);
+    return [end(false), end(true)];
+  }
+
+  private edit(axis: Axis | null, change: (plane: SectionPlane) => SectionPlane): void {
+    this.set(this.session.store.planes.map((plane) => (plane.axis === axis ? change(plane) : plane)));
   }
 
   private set(planes: SectionPlane[]): void {
     this.session.change(() => {
       this.session.store.planes = planes;
     });
-    const { min, max } = this.session.modelBox;
     this.session.viewport.setPlanes(
-      planes.map(({ axis, flipped, fraction }) => {
-        const [low, high] = [min.getComponent(axis), max.getComponent(axis)];
-        const at = low + fraction * (high - low);
-        const normal = new Vector3().setComponent(axis, flipped ? -1 : 1);
-        return { normal, constant: flipped ? at : -at };
+      planes.map(({ normal, base, offset, flipped }) => {
+        const side = new Vector3(...normal).multiplyScalar(flipped ? -1 : 1);
+        return { normal: side, constant: flipped ? base + offset : -base - offset };
       }),
     );
   }
 
   private update(): void {
-    const { planes } = this.session.store;
-    if (planes.length === 0 && !this.rows.some(({ on }) => on === document.activeElement)) this.open = false;
+    const { planes, model } = this.session.store;
+    if (model && model.number !== this.shownModel) {
+      this.shownModel = model.number;
+      this.setPicking(false);
+      this.session.viewport.setPlanes([]);
+    }
+    if (planes.length === 0 && !this.node.contains(document.activeElement) && !this.picking) this.open = false;
+    if (!model) this.open = false;
     this.node.hidden = !this.open;
-    this.rows.forEach(({ on, slider, flip }, axis) => {
-      const plane = planes.find((candidate) => candidate.axis === axis);
-      on.checked = plane !== undefined;
-      slider.disabled = flip.disabled = plane === undefined;
-      if (plane) slider.value = String(plane.fraction);
-    });
+    for (const row of this.rows) {
+      const plane = planes.find(({ axis }) => axis === row.axis);
+      row.on.checked = plane !== undefined;
+      row.node.hidden = row.axis === null && !plane;
+      row.slider.disabled = row.number.disabled = row.flip.disabled = plane === undefined;
+      setText(row.unit, shownUnit());
+      if (plane) this.showPlane(row, plane);
+      else row.number.value = "";
+    }
+  }
+
+  private showPlane({ slider, number }: Row, plane: SectionPlane): void {
+    const [low, high] = this.rangeOf(plane);
+    slider.value = String(high > low ? (plane.offset - low) / (high - low) : 0);
+    slider.setAttribute("aria-valuetext", `${coordinateText(plane.offset)} ${shownUnit()}`);
+    if (document.activeElement !== number) number.value = String(Number(toShown(plane.offset).toFixed(4)));
   }
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
-import { lengthText, text } from "../strings.ts";
+import { text } from "../strings.ts";
+import { lengthText } from "../units.ts";
 
 const kMetricsInterval = 1000;
 
-/// The status line: component under the cursor, clearance, cost of a step and of a render, device, tolerance.
+/// The status line: component under the cursor, clearance, duration of a step, device, tolerance.
 export class StatusLine {
   readonly node: HTMLElement;
   private readonly parts = {
@@ -13,8 +14,6 @@ export class StatusLine {
     hint: element("span", { class: "hint" }),
     clearance: element("span", { id: "status-clearance" }),
     step: element("span", { id: "status-step" }),
-    rate: element("span"),
-    render: element("span", { id: "status-render" }),
     device: element("span", { id: "status-device" }),
     tolerance: element("span", { id: "status-tolerance" }),
     triangles: element("span"),
@@ -51,10 +50,12 @@ export class StatusLine {
       });
   }
 
+  /// What drawing costs is of interest where it is slow: the tooltip says it.
   private showRenderCost(): void {
     const { calls, milliseconds } = this.session.viewport.cost;
-    const time = milliseconds.toFixed(1);
-    setText(this.parts.render, this.session.store.model ? text("status.render", { calls, time }) : "");
+    const { frame } = this.session.store;
+    const rate = frame ? `, ${text("status.rate", { rate: frame.stepsPerSecond.toFixed(0) })}` : "";
+    this.parts.link.title = text("status.render", { calls, time: milliseconds.toFixed(1) }) + rate;
   }
 
   private update(): void {
@@ -67,7 +68,6 @@ export class StatusLine {
     const near = frame && !Number.isNaN(frame.clearance);
     setText(this.parts.clearance, near ? `${text("clearance")} ${clearanceText(frame.clearance)}` : "");
     setText(this.parts.step, frame ? text("status.step", { time: stepText(frame.stepTime) }) : "");
-    setText(this.parts.rate, frame ? text("status.rate", { rate: frame.stepsPerSecond.toFixed(0) }) : "");
     setText(this.parts.device, metrics ? metrics.device.toUpperCase() : "");
     setText(this.parts.tolerance, model ? text("status.tolerance", { value: lengthText(model.tolerance) }) : "");
     setText(

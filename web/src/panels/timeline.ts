@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, setText } from "../dom.ts";
 import { endOf, kSameTime } from "../moves.ts";
+import { showPath } from "../path_view.ts";
 import { Seeker } from "../seeker.ts";
 import type { Session } from "../session.ts";
 import { text } from "../strings.ts";
@@ -137,6 +138,9 @@ export class TimelinePanel {
     if (this.duration() === 0) return;
     const speed = sign * Number(this.speed.value);
     // Without a playback the time is the recording's end: playing forward starts at its beginning.
+    const time = this.time();
+    if (!state?.playback || time <= kSameTime || time >= this.duration() - kSameTime)
+      await showPath(this.session, this.source());
     if (!state?.playback)
       await this.session.send("seek", { time: sign > 0 ? 0 : this.duration(), source: this.source() });
     else if (sign > 0 && this.time() >= this.duration() - kSameTime) await this.session.send("seek", { time: 0 });
@@ -189,9 +193,11 @@ export class TimelinePanel {
   private showMoves(moves: Move[]): void {
     this.shownMoves = moves;
     this.blocks.replaceChildren(
-      ...moves.map((move) => {
+      ...moves.map((move, i) => {
         const label = text("timeline.move", { label: move.label, duration: move.duration.toFixed(1) });
-        const block = element("div", { class: "block", title: label }, element("span", {}, move.label));
+        // The number is what is left of it in a narrow block.
+        const name = `${i + 1}  ${this.session.groupedNamesOf(move.components)}`;
+        const block = element("div", { class: "block", title: `${i + 1}  ${label}` }, element("span", {}, name));
         block.style.flexGrow = String(Math.max(move.duration, 1e-3));
         return block;
       }),

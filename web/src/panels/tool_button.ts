@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, element, type IconName } from "../dom.ts";
+import { button, element, type IconName, relabel, setText } from "../dom.ts";
+import type { Notifier } from "../store.ts";
 import { type TextKey, text } from "../strings.ts";
+import { shownUnit } from "../units.ts";
 
 interface Tool {
-  icon: IconName;
+  icon?: IconName;
   label: TextKey;
   key?: string;
   wide?: boolean;
@@ -28,6 +30,7 @@ const kTools = {
   headset: { icon: "headset", label: "headset" },
   device: { icon: "puck", label: "device" },
   screenshot: { icon: "camera", label: "screenshot" },
+  units: { label: "units", key: "U" },
   theme: { icon: "theme", label: "theme", key: "T" },
   help: { icon: "help", label: "help", key: "H" },
 } as const satisfies Record<string, Tool>;
@@ -39,6 +42,22 @@ export type ToolName = keyof typeof kTools;
 export function toolButton(id: ToolName, press: () => void): HTMLButtonElement {
   const { icon, label, key, wide }: Tool = kTools[id];
   return button({ icon, label: text(label), key, wide, id, press });
+}
+
+/// The button that changes the unit in which lengths are shown.
+export function unitButton(notifier: Notifier, press: () => void): HTMLButtonElement {
+  const node = toolButton("units", press);
+  let shown = "";
+  const update = (): void => {
+    if (shown === shownUnit()) return;
+    shown = shownUnit();
+    relabel(node, text("units", { unit: shown }));
+    node.title += " (U)";
+    setText(node.lastElementChild!, shown);
+  };
+  update();
+  notifier.subscribe(update);
+  return node;
 }
 
 /// Groups tools in the toolbar.

@@ -6,7 +6,7 @@ import { hasHid } from "../input/devices.ts";
 import { text } from "../strings.ts";
 import type { Response } from "../wire/messages.ts";
 import { hasHeadset } from "../xr/headset.ts";
-import { type ToolName, toolButton, toolbarNode, toolGroup } from "./tool_button.ts";
+import { type ToolName, toolButton, toolbarNode, toolGroup, unitButton } from "./tool_button.ts";
 
 const kResponses: Response[] = ["slide", "touch", "stop"];
 
@@ -43,6 +43,7 @@ export class Toolbar {
     });
     this.responses = new Map(kResponses.map((response) => [response, this.radio(response)]));
     const { undo, redo, gizmo, section, measure, explode, plan, projection, save, reset, stereo } = this.buttons;
+    const units = unitButton(app.session.notifier, app.actions.units);
     this.node = toolbarNode(
       toolGroup(tool("open"), save, this.buttons.export),
       toolGroup(undo, redo, reset),
@@ -50,7 +51,7 @@ export class Toolbar {
       toolGroup(gizmo, section, measure, explode, plan),
       toolGroup(tool("fit"), projection, stereo),
       this.name,
-      toolGroup(this.headset, hasHid() ? tool("device") : null, tool("screenshot"), tool("theme"), tool("help")),
+      toolGroup(this.headset, hasHid() ? tool("device") : null, tool("screenshot"), units, tool("theme"), tool("help")),
     );
     app.session.notifier.subscribe(() => this.update());
   }

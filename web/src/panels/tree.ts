@@ -35,9 +35,13 @@ export class TreePanel {
   private readonly count = element("span", { class: "muted" });
   private readonly none = element("p", { class: "muted pad" }, text("tree.none"));
   private rows: Row[] = [];
+  private anchor: Row | null = null; // where a range starts
   private shownModel: ModelEvent | null = null;
   private shownSelection: number[] = [];
   private shown: unknown[] = [];
+
+  /// Opens a menu for components at a point of the page.
+  onMenu: (components: number[], x: number, y: number) => void = () => {};
 
   constructor(private readonly session: Session) {
     this.search.oninput = () => this.filter();
@@ -107,6 +111,7 @@ export class TreePanel {
   private rebuild(model: ModelEvent | null): void {
     this.shownModel = model;
     this.rows = [];
+    this.anchor = null;
     this.list.replaceChildren();
     if (!model) return;
     const children = new Map<number, number[]>();
@@ -179,7 +184,14 @@ export class TreePanel {
       eye,
     );
     if (component === null) item.setAttribute("aria-expanded", "true");
-    item.onclick = (event) => this.select(row, event.ctrlKey || event.shiftKey, event.target as Node);
+    item.onclick = (event) => this.select(row, event, event.target as Node);
+    item.oncontextmenu = (event) => {
+      event.preventDefault();
+      const box = item.getBoundingClientRect();
+      const byKey = event.clientX === 0 && event.clientY === 0;
+      if (row.components.length > 0)
+        this.onMenu(row.components, byKey ? box.left + 24 : event.clientX, byKey ? box.bottom : event.clientY);
+    };
     item.onpointerenter = () => this.session.hover(component);
     item.onpointerleave = () => this.session.hover(null);
     Object.assign(row, { item, name, parents, component, eye, xray, badge, open: true });
@@ -189,14 +201,25 @@ export class TreePanel {
     return row;
   }
 
-  private select(row: Row, adds: boolean, target: Node): void {
+  /// Selects a row; with Ctrl, adds or removes it; with Shift, selects all rows from the last one.
+  private select(row: Row, { ctrlKey, shiftKey }: { ctrlKey: boolean; shiftKey: boolean }, target: Node): void {
     if (row.eye.contains(target) || row.xray.contains(target)) return;
     const { selection } = this.session.store;
     this.setFocus(row);
-    if (!adds) return this.session.select(row.components);
+    if (shiftKey && this.anchor) return this.selectRange(this.anchor, row, ctrlKey ? selection : []);
+    this.anchor = row;
+    if (!ctrlKey) return this.session.select(row.components);
     const has = row.components.every((c) => selection.includes(c));
     const rest = selection.filter((c) => !row.components.includes(c));
     this.session.select(has ? rest : [...rest, ...row.components]);
+  }
+
+  private selectRange(from: Row, to: Row, before: number[]): void {
+    const shown = this.rows.filter((row) => !row.item.hidden);
+    const [first, last] = [shown.indexOf(from), shown.indexOf(to)].sort((a, b) => a - b);
+    if (first < 0) return this.session.select(to.components);
+    const range = shown.slice(first, last + 1).flatMap((row) => (row.component === null ? [] : row.components));
+    this.session.select([...new Set([...before, ...range])]);
   }
 
   private toggleShown(row: Row): void {
@@ -265,7 +288,7 @@ export class TreePanel {
       ArrowRight: () => row.component === null && this.toggleOpen(row, true),
       ArrowLeft: () =>
         row.component === null && row.open ? this.toggleOpen(row, false) : this.setFocus(row.parents[0] ?? row),
-      Enter: () => this.select(row, event.shiftKey || event.ctrlKey, row.item),
+      Enter: () => this.select(row, event, row.item),
       " ": () => this.toggleShown(row),
     };
     if (!moves[event.key]) return;

@@ -20,6 +20,8 @@ export interface View {
 }
 
 const kFieldOfView = MathUtils.degToRad(30);
+/// Room around what is fitted.
+const kFitMargin = 1.06;
 const kOrbitSpeed = 0.0075;
 const kFlightTime = 220;
 /// Angle that counts as a pixel in a headset [rad].
@@ -126,12 +128,23 @@ export class CameraRig {
   /// Shows a whole box, from the current direction or from `direction` (towards the eye).
   fit(box: Box3, direction?: Vector3): void {
     if (box.isEmpty()) return;
-    const radius = Math.max(1e-3, box.getSize(new Vector3()).length() / 2);
-    const narrow = Math.min(1, this.size.x / this.size.y);
-    this.fly({
-      focus: box.getCenter(new Vector3()),
-      orientation: direction ? orientationFrom(direction) : this.view.orientation.clone(),
-      distance: radius / Math.sin(Math.atan(Math.tan(kFieldOfView / 2) * narrow)),
+    const focus = box.getCenter(new Vector3());
+    const orientation = direction ? orientationFrom(direction) : this.view.orientation.clone();
+    const inverse = orientation.clone().invert();
+    const vertical = Math.tan(kFieldOfView / 2);
+    const horizontal = vertical * (this.size.x / this.size.y);
+    const distances = cornersOf(box).map((corner) => {
+      const { x, y, z } = corner.sub(focus).applyQuaternion(inverse);
+      return Math.max(Math.abs(x) / horizontal, Math.abs(y) / vertical) + (this.isParallel ? 0 : z);
+    });
+    this.fly({ focus, orientation, distance: kFitMargin * Math.max(1e-3, ...distances) });
+  }
+
+  /// True if a box is completely in the picture.
+  shows(box: Box3): boolean {
+    return cornersOf(box).every((corner) => {
+      const { x, y, z } = this.project(corner);
+      return x >= 0 && y >= 0 && x <= this.size.x && y <= this.size.y && z < 1;
     });
   }
 
@@ -216,6 +229,12 @@ export class CameraRig {
     }
     this.onChange();
   }
+}
+
+function cornersOf({ min, max }: Box3): Vector3[] {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map(
+    (k) => new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z),
+  );
 }
 
 /// Orientation of a camera that looks from `direction`. z is up on screen; y, if it looks along z.

@@ -45,6 +45,8 @@ export interface Pick {
   component: number;
   point: Vector3;
   distance: number;
+  /// The triangle of the component's drawn surface.
+  face: number;
 }
 
 /// Geometry shared by components of the same shape.
@@ -85,6 +87,8 @@ export class ComponentView {
   readonly object = new Group();
   /// The pose at which it is drawn.
   readonly worldFromAssembled = new Matrix4();
+  /// Displacement in the quick exploded view [mm].
+  private readonly displacement = new Vector3();
   /// Current appearance; see setAppearance.
   appearance: Readonly<Appearance> = kPlainAppearance;
   private readonly body: Mesh<BufferGeometry, ShaderMaterial>;
@@ -129,7 +133,18 @@ export class ComponentView {
   /// Sets the pose; null: assembled.
   setPose(pose: WirePose | null): void {
     this.worldFromAssembled.copy(matrixOf(pose));
+    this.place();
+  }
+
+  /// Draws the component away from its pose.
+  displace(by: Vector3): void {
+    this.displacement.copy(by);
+    this.place();
+  }
+
+  private place(): void {
     this.object.matrix.multiplyMatrices(this.worldFromAssembled, this.raw.assembledFromMesh);
+    this.object.matrix.premultiply(new Matrix4().makeTranslation(this.displacement));
     this.object.matrixWorldNeedsUpdate = true;
     this.batch.setMatrix(this.index, this.object.matrix);
   }
@@ -184,7 +199,7 @@ export class ComponentView {
     const hit = this.shape.rayTree.cast(ray);
     if (!hit) return null;
     const point = ray.at(hit.distance, new Vector3()).applyMatrix4(this.object.matrix);
-    return { component: this.index, point, distance: point.distanceTo(worldRay.origin) };
+    return { component: this.index, point, distance: point.distanceTo(worldRay.origin), face: hit.face };
   }
 
   dispose(): void {
@@ -293,6 +308,18 @@ export class ModelView {
     const box = new Box3();
     for (const component of this.components) if (component.visible) box.union(component.bounds());
     return box;
+  }
+
+  /// Draws components away from the centre of all of them, by `factor` times their distance from it.
+  explode(factor: number): void {
+    const center = new Box3();
+    for (const component of this.components) {
+      component.displace(new Vector3());
+      center.union(component.bounds());
+    }
+    const middle = center.getCenter(new Vector3());
+    for (const component of this.components)
+      component.displace(component.bounds().getCenter(new Vector3()).sub(middle).multiplyScalar(factor));
   }
 
   setPalette(palette: Palette): void {

@@ -12,6 +12,7 @@ import {
   type WebXRManager,
 } from "three";
 import { ArrowField } from "./arrow_field.ts";
+import { AxisTriad } from "./axis_triad.ts";
 import { CameraRig, kHomeDirection } from "./camera_rig.ts";
 import { Ghost } from "./ghost.ts";
 import { sharedUniforms } from "./materials.ts";
@@ -32,6 +33,7 @@ export interface ViewportOptions {
 export class Viewport {
   readonly rig = new CameraRig();
   readonly cube = new ViewCube();
+  readonly triad = new AxisTriad();
   /// Arrows of contacts, of free directions, and at blocking components.
   readonly contacts: ArrowField;
   readonly directions: ArrowField;
@@ -145,6 +147,7 @@ export class Viewport {
     const dark = new Color(palette.background[1]).getHSL({ h: 0, s: 0, l: 0 }).l < 0.5;
     if (dark) this.cube.setColors("#39424d", "#e8edf2", "#6d7885", palette.accent);
     else this.cube.setColors("#ffffff", "#303842", "#9aa3ad", palette.accent);
+    this.triad.setColor(dark ? "#e8edf2" : "#303842");
     this.model?.setPalette(palette);
     this.invalidate();
   }
@@ -267,7 +270,10 @@ export class Viewport {
       this.renderer.render(this.immersive.room, this.immersive.camera);
     } else if (this.stereoMode === "off") {
       this.renderer.render(this.scene, this.rig.camera);
-      if (this.model) this.cube.render(this.renderer, this.rig);
+      if (this.model) {
+        this.cube.render(this.renderer, this.rig);
+        this.triad.render(this.renderer, this.rig);
+      }
     } else {
       const { perspective, size } = this.rig;
       this.stereoRenderer.draw(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { GuideStep } from "../guide.ts";
 import { EventListeners } from "./event_listeners.ts";
 import type { Commands, Events } from "./messages.ts";
 import { type PoseFrame, readPoseFrame } from "./structs.ts";
@@ -23,6 +24,8 @@ export interface Transport {
   onLink: Listener<Link>;
   /// True if every command and request has been answered.
   readonly settled: boolean;
+  /// The steps of the path, if there is no server to request them from.
+  readonly steps?: GuideStep[];
   connect(): void;
   /// Drops the connection. It is restored as after any loss.
   reconnect(): void;

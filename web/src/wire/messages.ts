@@ -12,6 +12,8 @@ export type Source = "recording" | "guide";
 export interface ModelComponent {
   name: string;
   node: number;
+  /// The first component of the same shape.
+  shape: number;
   triangles: number;
   bounds: [Triple, Triple];
 }
@@ -71,14 +73,20 @@ export const kPreferences = ["direction", "upright", "groups", "support"] as con
 /// One of kPreferences.
 export type Preference = (typeof kPreferences)[number];
 
+/// Formats of work instructions.
+export type InstructionsFormat = "html" | "pdf";
+
 /// The planner's last result.
 export interface Search {
   kind: "plan" | "find_path" | "why";
   complete: boolean;
   out_of_time: boolean;
+  cancelled: boolean;
   seconds: number;
   steps: number;
   reasons: Reason[];
+  /// What has to be removed before the component, in order, and the direction in which it then leaves.
+  chain: { before: number[][]; direction: Triple } | null;
 }
 
 /// The complete state of the session.
@@ -111,6 +119,7 @@ export interface JobEvent {
   name: string;
   stage: string;
   fraction: number;
+  seconds: number;
   status: "running" | "done" | "failed" | "cancelled";
   error?: string;
 }
@@ -188,6 +197,20 @@ export interface Commands {
   plan: [{ targets?: number[]; fixed?: number[]; prefer?: Preference[] }, { job: number }];
   find_path: [Components, { job: number }];
   why: [Components, { job: number }];
+  instructions: [
+    {
+      format: InstructionsFormat;
+      paper?: "a4" | "letter";
+      source?: Source;
+      reverse?: boolean;
+      product?: string;
+      number?: string;
+      revision?: string;
+      author?: string;
+      date?: string;
+    },
+    { job: number },
+  ];
   play: [{ speed: number; source?: Source }, object];
   pause: [object, object];
   seek: [{ time: number; source?: Source }, object];

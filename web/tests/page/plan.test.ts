@@ -101,13 +101,56 @@ test("blockers are named, highlighted, and pointed at by arrows", async () => {
   await viewer.idle();
   const [reason] = (await search())!.reasons;
   assert.ok(reason.blockers.length > 0);
-  assert.match(await viewer.page.locator("#reason p").first().innerText(), /^Blocked along .* by/);
-  assert.equal(await arrows(), reason.blockers.length);
+  assert.match(await viewer.page.locator("#reason-sentence").innerText(), /^(Take off .* first|Blocked along .* by)/);
+  assert.equal(await arrows(), Math.min(6, reason.blockers.length));
+  await viewer.page.click("#reason summary");
   const marked = await viewer.page.locator("#reason li").allInnerTexts();
   assert.equal(marked.length, reason.blockers.length);
   assert.notEqual(await viewer.picture(), before);
   await viewer.select(kSlide);
   assert.equal(await arrows(), 0);
+});
+
+test("what has to come off first is the shortest chain that the planner finds", async () => {
+  await viewer.select("pinion bush");
+  await viewer.page.click("#why");
+  await waitForSearch("why");
+  await viewer.idle();
+  const { chain } = (await search())!;
+  assert.ok(chain !== null && chain.before.length > 0);
+  const sentence = await viewer.page.locator("#reason-sentence").innerText();
+  assert.match(sentence, /^Take off .* first; then it comes out along [+−near]/);
+  const { components } = await viewer.page.evaluate(() => window.dismantle!.app.session.store.model!);
+  assert.ok(sentence.includes(components[chain.before[0][0]].name.replace(/#\d+$/, "")), sentence);
+});
+
+test("the steps found until a plan is cancelled are kept, and it says how many and how long", async () => {
+  await viewer.page.focus("#view");
+  await viewer.press("l");
+  await viewer.page.click("#plan-find");
+  await banner("job")
+    .filter({ hasText: /planning, \d+ steps? found/ })
+    .waitFor();
+  await banner("job").locator("button").click();
+  await waitForSearch("plan");
+  await viewer.idle();
+  const found = (await search())!;
+  if (found.cancelled) {
+    assert.match(await viewer.page.locator("#plan-found").innerText(), /steps? found in [\d.]+ s, until you cancelled/);
+    assert.equal((await viewer.state()).guide!.moves.length, found.steps);
+    auditPath(await guidePath());
+  }
+  await viewer.click("#guide-close");
+  await viewer.press("l");
+});
+
+test("a search that cannot start says why", async () => {
+  await viewer.select("stage plate");
+  await viewer.page.keyboard.press("q");
+  await viewer.page.keyboard.press("n");
+  await viewer.page.locator(".toast.warning", { hasText: "another job is running" }).waitFor();
+  await waitForSearch("why");
+  await viewer.idle();
 });
 
 test("an automatic motion can be stopped", async () => {

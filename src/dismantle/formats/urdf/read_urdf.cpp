@@ -267,7 +267,8 @@ Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const 
     if (!mesh) return mesh.error();
     return std::move(mesh->parts);
   }
-  return malformed({{}, urdf}, "URDF", "mesh file " + in_quotes(address) + " is not there");
+  return Error{ErrorKind::Unreadable, urdf + " cannot be read (mesh file " + in_quotes(address) +
+                                          " is not there); keep the URDF and its meshes in one folder"};
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/server/uploaded_files.h"
+
+#include "dismantle/formats/import/file_formats.h"
+
+#include "apps/server/session_json.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dismantle::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMaxFiles = 20'000;
+constexpr std::size_t kMaxLine = 4096;
+constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+
+Error malformed(const std::string& why) {
+  return {ErrorKind::Usage, "the files were not understood (" + why + "); see docs/wire.md"};
+}
+
+/// A file of the body: a line of JSON, then its bytes.
+struct PackedFile {
+  fs::path path;
+  std::uint64_t bytes = 0;
+};
+
+/// True if a relative path stays in its folder and has no hidden parts.
+bool is_inside(const fs::path& path) {
+  if (path.empty() || path.is_absolute()) return false;
+  return std::none_of(path.begin(), path.end(), [](const fs::path& part) {
+    const std::string name = part.string();
+    return name.empty() || name[0] == '.' || name.find('\\') != std::string::npos;
+  });
+}
+
+Result<PackedFile> parse_line(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("path") || !json["path"].is_string() || !json.contains("bytes") ||
+      !json["bytes"].is_number_unsigned())
+    return malformed("a file has no line with its path and size");
+  PackedFile file{fs::path(json["path"].get<std::string>()), json["bytes"].get<std::uint64_t>()};
+  if (!is_inside(file.path)) return malformed("a path leaves the folder");
+  return file;
+}
+
+Result<Done> copy_bytes(std::istream& in, const fs::path& to, std::uint64_t bytes) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  std::ofstream out(to, std::ios::binary);
+  std::string buffer(kBufferBytes, '\0');
+  for (std::uint64_t left = bytes; left > 0 && in && out;) {
+    const auto part = static_cast<std::streamsize>(std::min<std::uint64_t>(left, buffer.size()));
+    if (!in.read(buffer.data(), part)) return malformed("a file is shorter than its line says");
+    out.write(buffer.data(), part);
+    left -= static_cast<std::uint64_t>(part);
+  }
+  out.close();
+  if (!out)
+    return Error{ErrorKind::Failed,
+                 "'" + to.filename().string() + "' cannot be stored (writing failed); free some space"};
+  return Done{};
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (std::error_code broken; at->is_regular_file(broken)) files.push_back(at->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Error several(const std::string& what) {
+  return {ErrorKind::Usage, "it is not clear what to open (there are " + what + "); open one of them"};
+}
+
+}  // namespace
+
+Result<Done> unpack_files(const fs::path& body, const fs::path& folder) {
+  std::ifstream in(body, std::ios::binary);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  std::size_t count = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.size() > kMaxLine) return malformed("a line is too long");
+    if (++count > kMaxFiles) return malformed("there are too many files");
+    const Result<PackedFile> file = parse_line(line);
+    if (!file) return file.error();
+    if (const Result<Done> copied = copy_bytes(in, folder / file->path, file->bytes); !copied) return copied.error();
+  }
+  if (count == 0) return malformed("there are none");
+  return Done{};
+}
+
+Result<fs::path> assembly_among(const fs::path& folder) {
+  std::vector<fs::path> assemblies, parts;
+  std::set<fs::path> part_folders;
+  for (const fs::path& file : files_below(folder)) {
+    const FormatEntry* format = format_of(file);
+    if (format == nullptr) continue;
+    // The COLLADA files of a URDF are its meshes.
+    (format->is_part || format->format == FileFormat::Collada ? parts : assemblies).push_back(file);
+    if (format->is_part) part_folders.insert(file.parent_path());
+  }
+  if (assemblies.size() == 1) return assemblies[0];
+  if (assemblies.size() > 1)
+    return several("several assemblies, such as " + assemblies[0].filename().string() + " and " +
+                   assemblies[1].filename().string());
+  if (parts.size() == 1) return parts[0];
+  if (part_folders.size() > 1) return several("meshes in several folders");
+  if (part_folders.size() == 1) return *part_folders.begin();
+  if (parts.size() > 1) return several("several COLLADA files");
+  return Error{ErrorKind::Usage, "there is nothing to open (no file has a known format); open " + format_names()};
+}
+
+}  // namespace dismantle::server
