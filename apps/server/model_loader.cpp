@@ -95,13 +95,10 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
     const Result<Done> declared = declare_allowances(states, *assembly, classify.declared);
     if (!declared) return declared.error();
   }
-<<<<<<< HEAD
-  model.session = std::make_unique<Session>(*assembly, states, engine);
-  if (options.drag_by_streams) model.session->set_drag_engine(streams_engine(*assembly, states, options));
-=======
   if (watch->keep_going()) model.session = std::make_unique<Session>(*assembly, states, engine);
+  if (options.drag_by_streams && watch->keep_going())
+    model.session->set_drag_engine(streams_engine(*assembly, states, options));
   if (!watch->finish()) return Error{ErrorKind::Failed, "cancelled"};
->>>>>>> help-b
   return model;
 }
 

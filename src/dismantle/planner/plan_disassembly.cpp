@@ -3,12 +3,9 @@
 
 #include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
-<<<<<<< HEAD
 #include "dismantle/fasteners/find_fasteners.h"
-#include "dismantle/joints/find_joints.h"
-=======
 #include "dismantle/files/number_text.h"
->>>>>>> help-b
+#include "dismantle/joints/find_joints.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/joint_relations.h"
 #include "dismantle/planner/joint_steps.h"
