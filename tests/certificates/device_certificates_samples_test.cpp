@@ -6,9 +6,9 @@
 namespace dismantle {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(On, DeviceCertificatesOfSamples, testing::ValuesIn(kCertificateDevices), name_of_device);
-
 using DeviceCertificatesOfSamples = DeviceCertificates;
+
+INSTANTIATE_TEST_SUITE_P(On, DeviceCertificatesOfSamples, testing::ValuesIn(kCertificateDevices), name_of_device);
 
 TEST_P(DeviceCertificatesOfSamples, PlayTheMicroscopesMotionLikeTheCpu) {
   const std::string sample = DISMANTLE_SOURCE_DIR "/samples/microscope";
