@@ -246,8 +246,9 @@ class CudaAppender final : public DeviceAppender {
     const Span<std::uint64_t> counts = room_for(queue_, counts_, cells + 1);
     const Span<std::uint64_t> offsets = room_for(queue_, offsets_, cells + 1);
     const auto scan = [&](void* scratch, std::size_t& bytes) {
-      check_cuda(cub::DeviceScan::ExclusiveSum(scratch, bytes, counts.data(), offsets.data(), cells + 1, queue_.stream()),
-                 "the scan");
+      check_cuda(
+          cub::DeviceScan::ExclusiveSum(scratch, bytes, counts.data(), offsets.data(), cells + 1, queue_.stream()),
+          "the scan");
     };
     std::size_t bytes = 0;
     scan(nullptr, bytes);

@@ -102,7 +102,8 @@ steps that it stops although nothing is in the way.
 
 constexpr const char* kNoGpu = "**No GPU was available: nothing here ran on one.**";
 constexpr const char* kNoGpuTimes =
-    "This machine has none. *streams* and *certificates* run on CUDA devices too ([docs/gpu.md](gpu.md)): the results of "
+    "This machine has none. *streams* and *certificates* run on CUDA devices too ([docs/gpu.md](gpu.md)): the results "
+    "of "
     "a machine with one are\nin [bench/RESULTS.md](../bench/RESULTS.md#gpu).";
 constexpr const char* kGpuTimes =
     "The rows *streams (elementary, CUDA)* and *certificates (CUDA)* under [All methods](#all-methods) are those of "

@@ -344,7 +344,8 @@ TEST_F(Cli, KeepsMotionsInDasmFilesOnly) {
   EXPECT_GT(fs::file_size(in("out.dasm")), 1000u);
   expect_error("convert parts -o out.glb --motion pull.motion.json", 2, ".dasm");
   write("other.motion.json",
-        R"({"format": "dismantle-motion", "version": 1, "moves": [{"components": ["ball"], "targets": []}]})");
+        R"({"format": "dismantle-motion", "version": 1, "moves": [{"components": ["ball"], "targets": [
+    {"t": 0.0, "position": [0, 0, 0], "rotation": [1, 0, 0, 0]}]}]})");
   expect_error("convert parts -o other.dasm --motion other.motion.json", 3, "ball");
   EXPECT_FALSE(fs::exists(in("other.dasm")));
   write("cut.dasm", read_all(in("out.dasm")).substr(0, 700));

@@ -29,6 +29,7 @@ class ServerUpload : public ServerScene {
   }
   /// The model that is open after files were uploaded.
   Json opened(Client& client, const std::string& name, const Files& files) const {
+    client.state();  // the block is open
     const HttpReply reply = post(name, packed(files));
     EXPECT_EQ(reply.status, 202u) << reply.body;
     const int job = Json::parse(reply.body).value("job", 0);
