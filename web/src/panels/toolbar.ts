@@ -19,6 +19,8 @@ export class Toolbar {
   private readonly buttons: Record<"undo" | "redo" | "save" | "export" | "reset" | ToggledTool, HTMLButtonElement>;
   private readonly responses: Map<Response, HTMLInputElement>;
   private readonly headset: HTMLButtonElement;
+  /// The response that was chosen and not confirmed yet: states that come meanwhile are older.
+  private chosen: Response | null = null;
 
   constructor(private readonly app: App) {
     const tool = (id: ToolName) => toolButton(id, app.actions[id]);
@@ -57,7 +59,15 @@ export class Toolbar {
   }
 
   private radio(response: Response): HTMLInputElement {
-    const press = () => void this.app.session.send("set_response", { response });
+    const press = async () => {
+      this.chosen = response;
+      try {
+        await this.app.session.send("set_response", { response });
+      } finally {
+        if (this.chosen === response) this.chosen = null;
+        this.update();
+      }
+    };
     return element("input", {
       type: "radio",
       name: "response",
@@ -112,7 +122,7 @@ export class Toolbar {
     this.headset.disabled = !state;
     this.headset.setAttribute("aria-pressed", String(this.app.headset.active));
     for (const [response, radio] of this.responses) {
-      radio.checked = (state?.response ?? "slide") === response;
+      radio.checked = (this.chosen ?? state?.response ?? "slide") === response;
       radio.disabled = !control || !state?.responses.includes(response);
     }
     setText(this.name, model?.name ?? "");

@@ -27,24 +27,26 @@ const kTexture = 64;
 export class AxisTriad {
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1.25, 1.25, 1.25, -1.25, 0.1, 10);
-  private readonly axes = kAxes.map((axis) => {
-    const end = new Vector3().setComponent(axis, kLength);
-    const line = new LineSegments(new BufferGeometry().setFromPoints([new Vector3(), end]), new LineBasicMaterial());
+  private readonly lines = new LineSegments(
+    new BufferGeometry().setFromPoints(
+      kAxes.flatMap((axis) => [new Vector3(), new Vector3().setComponent(axis, kLength)]),
+    ),
+    new LineBasicMaterial(),
+  );
+  private readonly letters = kAxes.map((axis) => {
     const letter = new Sprite(new SpriteMaterial({ depthTest: false }));
     letter.position.setComponent(axis, kLetterAt);
     letter.scale.setScalar(kLetterSize);
-    return { line, letter };
+    return letter;
   });
 
   constructor() {
-    const group = new Group();
-    for (const { line, letter } of this.axes) group.add(line, letter);
-    this.scene.add(group);
+    this.scene.add(new Group().add(this.lines, ...this.letters));
   }
 
   setColor(ink: string): void {
-    for (const [axis, { line, letter }] of this.axes.entries()) {
-      line.material.color.set(ink);
+    this.lines.material.color.set(ink);
+    for (const [axis, letter] of this.letters.entries()) {
       letter.material.map?.dispose();
       letter.material.map = labelTexture(kAxisNames[axis], {
         size: kTexture,

@@ -268,7 +268,7 @@ export class Headset {
     return (["slide", "touch", "stop"] as const).map((response) => ({
       id: response,
       label: text(`response.${response}`),
-      enabled: control && state !== null && state.responses.includes(response),
+      enabled: control && state?.responses.includes(response) === true,
       pressed: state?.response === response,
       press: () => void this.session.send("set_response", { response }),
     }));

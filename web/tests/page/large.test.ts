@@ -54,7 +54,7 @@ test("300 components of 600,000 triangles are drawn with few draw calls", async 
   const times = drawn.map(({ milliseconds }) => milliseconds).sort((a, b) => a - b);
   assert.ok(drawn.length > 0);
   for (const { calls, triangles: seen } of drawn) {
-    assert.ok(calls < 12, `${calls} calls`);
+    assert.ok(calls < 16, `${calls} calls`); // four of them for the axes in the corner
     assert.ok(seen >= triangles, `${seen} triangles`);
   }
   const [median, max] = [times[times.length >> 1], times[times.length - 1]];

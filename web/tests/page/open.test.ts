@@ -151,6 +151,8 @@ test("files of which none can be opened, or several, are refused with the reason
   await viewer.page.locator(".toast.warning", { hasText: "no file has a known format" }).waitFor();
   await choose({ "a.urdf": kArm, "b.urdf": kArm }, "#file-picker");
   await viewer.page.locator(".toast.warning", { hasText: "a.urdf and b.urdf" }).waitFor();
+  // The browser notes each refusal of the server.
+  for (const problem of viewer.problems.splice(0)) assert.match(problem, /status of 409/);
 });
 
 test("an error calls an uploaded file by its name, once", async () => {

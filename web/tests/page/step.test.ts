@@ -103,12 +103,13 @@ async function measure(): Promise<void> {
     );
     await viewer.page.mouse.click(x, y);
     await viewer.idle();
-    if (points.length === 1) assert.match(await label.innerText(), /second point/);
+    if (points.length === 1) assert.match(await label.innerText(), /second one/);
   }
   const [from, to] = points;
   const distance = Math.hypot(...from.map((value, k) => value - to[k]));
   const shown = Number(/([\d.]+) mm/.exec(await label.innerText())![1]);
-  assert.ok(distance > 1 && Math.abs(shown - distance) < 0.06, `${shown} ${distance}`);
+  // Of the faces or edges under the points, which are no further apart than the points.
+  assert.ok(distance > 1 && shown >= 0 && shown < distance + 0.06, `${shown} ${distance}`);
   await viewer.press("m");
   assert.equal(await label.isVisible(), false);
   assert.equal((await viewer.state()).moves.length, moves);
