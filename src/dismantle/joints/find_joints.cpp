@@ -215,6 +215,7 @@ class JointSearch {
   /// True if a component has an outer cylinder in the hole of a nut.
   bool fills(ComponentId c, const AxisFrame& frame, const Ends& ends, double radius) const {
     std::vector<double> positions;
+    positions.reserve(kNutPlanes);
     for (int k = 0; k < kNutPlanes; ++k)
       positions.push_back(ends.low + (k + 0.5) / kNutPlanes * (ends.high - ends.low));
     const AxialRays rays(assembly_[c], frame, positions);

@@ -132,15 +132,15 @@ test("the steps found until a plan is cancelled are kept, and it says how many a
     .filter({ hasText: /planning, [1-9]\d* steps? found/ })
     .waitFor();
   await banner("job").locator("button").click();
-  await waitForSearch("plan");
+  await banner("job").waitFor({ state: "hidden" });
   await viewer.idle();
-  const found = (await search())!;
-  if (found.cancelled) {
+  const found = await search();
+  if (found?.cancelled) {
     assert.match(await viewer.page.locator("#plan-found").innerText(), /steps? found in [\d.]+ s, until you cancelled/);
     assert.equal((await viewer.state()).guide!.moves.length, found.steps);
     auditPath(await guidePath());
   }
-  await viewer.click("#guide-close");
+  if (found) await viewer.click("#guide-close");
   await viewer.press("l");
 });
 
@@ -186,7 +186,7 @@ test("find a path removes the blockers, then the component; one undo entry each"
 });
 
 test("N finds a path during a blocked drag; after the release, a button does", async () => {
-  await viewer.press("1");
+  await viewer.press("1", "f"); // the picture may still show what was taken out
   await viewer.grab(kSlide, 0, 60);
   await banner("stuck")
     .filter({ hasText: /N: find a path/ })
@@ -199,7 +199,7 @@ test("N finds a path during a blocked drag; after the release, a button does", a
   await waitForRemoved(kSlide);
   await viewer.idle();
   await reset();
-  await viewer.press("1");
+  await viewer.press("1", "f");
   await viewer.grab(kSlide, 20, 0);
   await viewer.press("n");
   await waitForRemoved(kSlide);
