@@ -250,13 +250,16 @@ async function viewTools(): Promise<void> {
   await viewer.press("i", " ");
   assert.equal(await isDrawn(), false);
   await viewer.press(" ");
+  await viewer.select(chosen.name);
+  await viewer.page.focus("#view");
+  await viewer.press("f");
   const whole = await viewer.picture();
   await viewer.click("#xray");
-  assert.ok((await viewer.picture()) !== whole);
+  assert.ok((await viewer.picture()) !== whole, "X-ray");
   await viewer.click("#xray");
   await viewer.page.focus("#view");
   await viewer.press("s");
-  assert.ok((await viewer.picture()) !== whole);
+  assert.ok((await viewer.picture()) !== whole, "section");
   await viewer.press("s");
   await viewer.select(chosen.name);
   await viewer.page.locator("#pairs .badge").first().waitFor();
