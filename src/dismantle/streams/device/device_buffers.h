@@ -130,6 +130,39 @@ class Upload {
   std::size_t components_;
 };
 
+/// The number of triangle pairs that recordings sort and test: it follows what the steps need.
+class PairRoom {
+ public:
+  /// @param capacity of S_t
+  explicit PairRoom(std::size_t capacity) : size_(std::min(kMin, capacity)) {}
+
+  /// The number of pairs.
+  std::size_t size() const { return size_; }
+  /// True if all are tested in one round of the narrow phase: then their order does not matter.
+  bool one_round() const { return size_ <= narrow_phase_round_end(0); }
+  /// Makes room for the pairs of a step. @return true if there was too little: the narrow phase must be repeated
+  bool grow(std::size_t count, std::size_t capacity) {
+    if (count <= size_) return false;
+    size_ = std::min(count + count / 2, capacity);
+    return true;
+  }
+  /// Takes room back that steps have not needed for a while. @return true if it did
+  bool shrink(std::size_t count) {
+    steps_with_few_ = size_ > kMin && kShareOfFew * count < size_ ? steps_with_few_ + 1 : 0;
+    if (steps_with_few_ < kSteps) return false;
+    size_ = std::max(kMin, 2 * count);
+    steps_with_few_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kMin = 2048, kShareOfFew = 8;
+  static constexpr int kSteps = 64;
+
+  std::size_t size_;
+  int steps_with_few_ = 0;
+};
+
 /// The arrays that kernels append to, and those derived from them. Full arrays grow, and the step is run again.
 class Buffers {
  public:

@@ -38,9 +38,6 @@ class DeviceStreams {
 
  private:
   enum Mark { kBegin, kVertices, kRefit, kFront, kEnd };
-  static constexpr std::size_t kMinPairRoom = 2048;
-  static constexpr std::size_t kRoomForFewPairs = 8;  // of the pairs: more room is taken back
-  static constexpr int kStepsBeforeLessRoom = 64;
 
   const device_code::StepCounters& counters() const { return report_.on_host()[0].counters; }
   device_code::StepCounters* shared_counters() { return &report_.on_device().data()->counters; }
@@ -56,10 +53,6 @@ class DeviceStreams {
   void enqueue_narrow_phase();
   void enqueue_narrow_round(std::size_t count, const NarrowPhaseKernel& kernel, const device_code::NarrowSink& sink,
                             std::size_t begin);
-  /// True if all triangle pairs are tested in one round of the narrow phase: then their order does not matter.
-  bool one_round() const { return pair_room_ <= narrow_phase_round_end(0); }
-  bool grow_pair_room();
-  void watch_pair_count();
   void run_step();
   bool finish_front();
   void forget_recordings();
@@ -88,8 +81,7 @@ class DeviceStreams {
   std::size_t fresh_size_ = 0;  // of the front after the last restart
   std::size_t excess_ = 0;      // visits beyond that since then, summed over the steps
   std::size_t replays_ = 0;     // of the last step
-  std::size_t pair_room_;       // triangle pairs that the recordings sort and test
-  int steps_with_few_pairs_ = 0;
+  device_code::PairRoom pair_room_;
 };
 
 template <class Queue>
@@ -106,7 +98,7 @@ DeviceStreams<Queue>::DeviceStreams(Queue queue, const AssemblyTriangles& fixed,
       upload_(queue_, fixed.component_count()),
       report_(queue_, 1),
       buffers_(queue_, std::max<std::size_t>(options.initial_capacity, 1)),
-      pair_room_(std::min(kMinPairRoom, buffers_.triangle_pairs.size())) {
+      pair_room_(buffers_.triangle_pairs.size()) {
   report_.on_host()[0] = {};
   report_.copy_up(queue_);
   queue_.wait();
@@ -132,7 +124,7 @@ void DeviceStreams<Queue>::set_rules(PairRulesView rules) {
 template <class Queue>
 std::vector<std::uint64_t> DeviceStreams<Queue>::triangle_pairs() {
   const std::size_t count = counters().triangle_pairs;
-  if (!one_round()) return brought_down(queue_, buffers_.sorted_pairs, count);
+  if (!pair_room_.one_round()) return brought_down(queue_, buffers_.sorted_pairs, count);
   std::vector<std::uint64_t> pairs = brought_down(queue_, buffers_.triangle_pairs, count);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -164,7 +156,7 @@ StreamsStep DeviceStreams<Queue>::step(Span<const RigidTransform> next) {
   set_step_input(next);
   run_step();
   watch_front_size();
-  watch_pair_count();
+  if (pair_room_.shrink(counters().triangle_pairs)) forget_recordings();
   return result();
 }
 
@@ -215,7 +207,9 @@ void DeviceStreams<Queue>::run_step() {
     });
     queue_.wait();
   } while (!finish_front());
-  while (grow_pair_room()) {
+  while (pair_room_.grow(counters().triangle_pairs, buffers_.triangle_pairs.size())) {
+    ++replays_;
+    forget_recordings();
     enqueue_narrow_phase();
     queue_.wait();
   }
@@ -312,12 +306,12 @@ void DeviceStreams<Queue>::enqueue_front_end() {
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_narrow_phase() {
   device_code::StepCounters* counters = shared_counters();
-  const std::size_t max_pairs = pair_room_;
+  const std::size_t max_pairs = pair_room_.size();
   const Span<std::uint64_t> pairs = buffers_.triangle_pairs.view().subspan(0, max_pairs);
   const Span<std::uint64_t> sorted = buffers_.sorted_pairs.view().subspan(0, max_pairs);
   queue_.launch(max_pairs, device_code::BeginNarrowPhase{counters, pairs});
-  if (!one_round()) queue_.sort(pairs, sorted, geometry_.key_bits, buffers_.sort_scratch.view());
-  NarrowPhaseKernel kernel{one_round() ? pairs : sorted,
+  if (!pair_room_.one_round()) queue_.sort(pairs, sorted, geometry_.key_bits, buffers_.sort_scratch.view());
+  NarrowPhaseKernel kernel{pair_room_.one_round() ? pairs : sorted,
                            {vertices_[start_].view(), vertices_[1 - start_].view(), geometry_.faces.view()},
                            {displaced_.view(), margins_.view(), upload_.on_device().start(), upload_.on_device().end()},
                            bounds_.view(),
@@ -346,30 +340,6 @@ void DeviceStreams<Queue>::enqueue_narrow_round(std::size_t count, const NarrowP
   if (test_ == ElementaryTest::Elementary)
     queue_.launch(count, device_code::TestTrianglePairs<kElementaryTest>{kernel, sink, begin});
   if (has_discrete_rules_) queue_.launch(count, device_code::TestTrianglePairs<kDiscreteTest>{kernel, sink, begin});
-}
-
-/// Makes room for the triangle pairs of this step. @return true if there was too little: the narrow phase must be
-/// repeated
-template <class Queue>
-bool DeviceStreams<Queue>::grow_pair_room() {
-  const std::size_t count = counters().triangle_pairs;
-  if (count <= pair_room_) return false;
-  pair_room_ = std::min(count + count / 2, buffers_.triangle_pairs.size());
-  ++replays_;
-  forget_recordings();
-  return true;
-}
-
-/// Takes back room for triangle pairs that is not needed any more: all of it is sorted in each step.
-template <class Queue>
-void DeviceStreams<Queue>::watch_pair_count() {
-  const std::size_t count = counters().triangle_pairs;
-  const bool few = pair_room_ > kMinPairRoom && kRoomForFewPairs * count < pair_room_;
-  steps_with_few_pairs_ = few ? steps_with_few_pairs_ + 1 : 0;
-  if (steps_with_few_pairs_ < kStepsBeforeLessRoom) return;
-  pair_room_ = std::max(kMinPairRoom, 2 * count);
-  steps_with_few_pairs_ = 0;
-  forget_recordings();
 }
 
 /// Restarts a front that has grown too much, by the rule of Front.
