@@ -94,8 +94,8 @@ Play play(const std::string& method, const BenchScene& scene, const Settings& se
   return made;
 }
 
-/// What differs first of two steps; empty if nothing does. The size of a front is no result: one on a device has other
-/// nodes at rest.
+/// The name of the first result in which two steps differ; empty if they are equal. The size of the front is not
+/// compared: a device does not keep the nodes of resting pairs.
 std::string difference_of(const StepResult& a, const StepResult& b) {
   if (!(a.pose == b.pose && a.reached == b.reached && a.poses == b.poses)) return "poses";
   if (!(a.blocking_pairs == b.blocking_pairs && a.contact_points == b.contact_points)) return "contacts";

@@ -57,7 +57,7 @@ struct SearchRequest {
 /// The name of the job, for the user. @pre the request has a snapshot
 std::string search_name(const SearchRequest& request);
 
-/// What has to be removed before a component can be: as few others as possible.
+/// The shortest known sequence of removals that frees a component.
 struct RemovalChain {
   std::vector<std::vector<ComponentId>> before;  ///< Sets that go out together, in their order.
   Vec3 direction;                                ///< In which the component then leaves; unit.

@@ -80,7 +80,7 @@ std::optional<Motion> read_motion_bytes(ByteReader& in, const Assembly& assembly
   return in.ok() ? std::optional<Motion>(std::move(motion)) : std::nullopt;
 }
 
-/// What other readers make sure of while they build an assembly.
+/// Validates poses and coordinates. @return a description of the first fault; null if there is none
 const char* fault_of(const Assembly& assembly) {
   for (const Component& component : assembly.components) {
     if (!is_rigid(component.assembly_from_mesh)) return "a component's pose is no rigid motion";

@@ -16,7 +16,7 @@ PlanStep step_of(const RemovalMove& removal, const Leg& leg) {
   return step;
 }
 
-/// What is in its assembled pose relative to a removal, with what it moves.
+/// The moving set of a removal and the components that are still in their assembled poses relative to it.
 ComponentSet present_at(const WorkStep& step, const RemovalMove& removal) {
   ComponentSet present(step.before.size(), surroundings(step, removal));
   for (const ComponentId c : removal.components) present.insert(c);

@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// What steps of work instructions do to the joints of an assembly (find_joints()).
+/// Notes on the joints (find_joints()) that steps of work instructions release or leave holding.
 class JointNotes {
  public:
   /// @param fasteners find_fasteners()

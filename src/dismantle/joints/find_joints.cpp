@@ -178,7 +178,7 @@ class JointSearch {
     return found;
   }
 
-  /// What the thread of a screw is in, of what surrounds it, the most probable one first; null if that is nothing.
+  /// The component with the inner thread, out of those around a screw, the most likely first; null if there is none.
   template <class Iterator>
   const Surrounding* thread_of(Iterator first, Iterator last) const {
     const Surrounding* any = nullptr;

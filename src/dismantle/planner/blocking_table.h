@@ -117,7 +117,7 @@ class BlockingTable {
   bool may_pass(ComponentId moving, DirectionId d, ComponentId fixed) const;
   bool passes_along_axis(ComponentId a, ComponentId b) const { return only_along_.count(std::minmax(a, b)) > 0; }
   void remember_blocker(ComponentId moving, ComponentId blocker);
-  /// What blocks by a joint, if joints are followed.
+  /// The component to which a joint still holds `moving`; none unless the plan respects joints.
   std::optional<ComponentId> joint_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) const;
 
   const CertificateEngine& engine_;

@@ -32,7 +32,7 @@ class JointRelations {
   /// A component that has to go before `c` moves by itself along a unit direction: the fastener that holds it; for a
   /// fastener that would leave its thread across the axis, what it is screwed into.
   std::optional<ComponentId> blocker(ComponentId c, const Vec3& direction, const ComponentSet& present) const;
-  /// What moves along when `c` moves as part of a body: the rest of its joints.
+  /// The components that move along with `c` in a body: the rest of its joints.
   std::vector<ComponentId> tied_to(ComponentId c, const ComponentSet& present) const;
 
   /// What a motion of `components` out of `present` tears apart: fasteners that hold some of these and stay or hold
@@ -42,7 +42,7 @@ class JointRelations {
   /// any more.
   std::optional<Unscrewing> unscrewing(const PlanStep& step, const ComponentSet& present) const;
 
-  /// What is left of the stacks that a step began, in the order in which it comes off.
+  /// The remaining parts of the stacks that a step has begun to take off, in the order of removal.
   /// @param present without the components of the step
   std::vector<ComponentId> rest_of_stack(const PlanStep& step, const ComponentSet& present) const;
   /// Components that a person would remove next, after a step, the first one first: the rest of the stack that it

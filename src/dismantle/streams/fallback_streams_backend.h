@@ -61,7 +61,7 @@ class FallbackStreamsBackend final : public StreamsBackend {
   const MovingStreams& on_host() override { return used_->on_host(); }
 
  private:
-  /// What has to be done on the other backend once it has the state, ghosts and rules.
+  /// Work to repeat on the other backend after it has received the state, ghosts and rules.
   enum class Repeat { No, Call, AfterStep };
 
   template <class Call>

@@ -158,7 +158,7 @@ class CertificateSweeper {
   void for_each_part(std::size_t count, const Run& run) const;
   /// The pairs to be swept, with their fronts.
   std::vector<PairSweep> prepare_pairs(const ScrewMotion& motion, SweepBudget budget, CertificateSweep& result);
-  /// What the device did for a sweep.
+  /// Results of the device for one sweep.
   struct DeviceResults {
     bool merged = false;            ///< It merged the parts.
     Span<const PartResults> parts;  ///< Of each part; empty if the device is not used, or has failed.

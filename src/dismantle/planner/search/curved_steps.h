@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// What the searches for steps that are not straight work with; all must outlive them.
+/// Inputs of the searches for curved steps; all must outlive them.
 struct CurvedSearch {
   const RigidGroups& groups;           ///< Components that move together.
   Span<const ShapeFeatures> features;  ///< Of each component.
