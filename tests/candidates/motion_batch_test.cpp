@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candidate motions of a batch compared with the same motions swept one by one, on every executor and on a CUDA device
 // if there is one.
-#include "dismantle/candidates/motion_batch.h"
+#include "dismantle/candidates/fallback_motion_batch.h"
 
 #include "dismantle/candidates/candidate_kernel.h"
 #include "dismantle/math/screw.h"
@@ -125,6 +125,48 @@ TEST(MotionBatch, StopsScrewsWhereSweepsDoAndGivesTheSameBytesEverywhere) {
   }
   EXPECT_GT(free, 3u);
   EXPECT_GT(stopped_on_the_way, 3u);
+}
+
+/// A batch whose device fails in its n-th call.
+class FailingBatch final : public MotionBatch {
+ public:
+  FailingBatch(std::unique_ptr<MotionBatch> batch, int calls_before) : batch_(std::move(batch)), left_(calls_before) {}
+  void set_state(Span<const Pose> poses, Span<const ComponentId> moving) override { called().set_state(poses, moving); }
+  std::vector<FirstContact> straight_contacts(Span<const Vec3> displacements) override {
+    return called().straight_contacts(displacements);
+  }
+  std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override {
+    return called().screw_contacts(targets);
+  }
+
+ private:
+  MotionBatch& called() {
+    if (left_-- == 0) throw CudaError("a kernel failed (the device is lost)");
+    return *batch_;
+  }
+
+  std::unique_ptr<MotionBatch> batch_;
+  int left_;
+};
+
+TEST(FallbackMotionBatch, GivesTheSameContactsWhereverTheDeviceFails) {
+  std::mt19937_64 random(3);
+  RandomState scene(random);
+  const std::vector<Vec3> displacements{{30, 0, 0}, {0, -30, 0}, {0.1, 0.2, 30}};
+  const std::vector<Pose> targets{scenes::random_pose(random, 4, 0.4) * scene.poses[3]};
+  const auto make_on_cpu = [&] {
+    return make_motion_batch(scene.assembly, scene.states, Executor(), DeviceChoice::Cpu).batch;
+  };
+  const auto plain = make_on_cpu();
+  plain->set_state(scene.poses, scene.moving);
+  for (int calls = 0; calls < 3; ++calls) {
+    const auto failure = std::make_shared<DeviceFailure>();
+    FallbackMotionBatch batch(std::make_unique<FailingBatch>(make_on_cpu(), calls), make_on_cpu, failure);
+    batch.set_state(scene.poses, scene.moving);
+    EXPECT_EQ(batch.straight_contacts(displacements), plain->straight_contacts(displacements));
+    EXPECT_EQ(batch.screw_contacts(targets), plain->screw_contacts(targets));
+    EXPECT_EQ(failure->why, "a kernel failed (the device is lost)");
+  }
 }
 
 TEST(MotionBatch, NamesTheComponentAndTheFacesThatMeetFirst) {

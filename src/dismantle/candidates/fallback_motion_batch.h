@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/candidates/motion_batch.h"
+#include "dismantle/exec/device_fallback.h"
 
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,12 +14,12 @@ namespace dismantle {
 class FallbackMotionBatch final : public MotionBatch {
  public:
   /// Makes a batch.
-  using Make = std::function<std::unique_ptr<MotionBatch>()>;
+  using Make = DeviceFallback<MotionBatch>::Make;
 
   /// @param on_device used until it fails
   /// @param make_other makes the other one
   FallbackMotionBatch(std::unique_ptr<MotionBatch> on_device, Make make_other, std::shared_ptr<DeviceFailure> failure)
-      : used_(std::move(on_device)), make_other_(std::move(make_other)), failure_(std::move(failure)) {}
+      : fallback_(std::move(on_device), std::move(make_other), std::move(failure)) {}
 
   void set_state(Span<const Pose> poses, Span<const ComponentId> moving) override {
     poses_.assign(poses.begin(), poses.end());
@@ -40,21 +40,13 @@ class FallbackMotionBatch final : public MotionBatch {
  private:
   template <class Call>
   void try_on(const Call& call) {
-    try {
-      call(*used_);
-      return;
-    } catch (const CudaError& error) {
-      if (!make_other_) throw;
-      failure_->why = error.what();
-    }
-    used_ = std::exchange(make_other_, nullptr)();
-    used_->set_state(poses_, moving_);
-    call(*used_);
+    fallback_.try_on(call, [&](MotionBatch& other) {
+      other.set_state(poses_, moving_);
+      call(other);
+    });
   }
 
-  std::unique_ptr<MotionBatch> used_;
-  Make make_other_;  // empty once it is in use
-  std::shared_ptr<DeviceFailure> failure_;
+  DeviceFallback<MotionBatch> fallback_;
   std::vector<Pose> poses_;
   std::vector<ComponentId> moving_;
 };

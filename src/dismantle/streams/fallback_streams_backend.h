@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/exec/cuda_device.h"
+#include "dismantle/exec/device_fallback.h"
 #include "dismantle/streams/streams_backend.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -17,14 +16,14 @@ namespace dismantle {
 class FallbackStreamsBackend final : public StreamsBackend {
  public:
   /// Makes a backend.
-  using Make = std::function<std::unique_ptr<StreamsBackend>()>;
+  using Make = DeviceFallback<StreamsBackend>::Make;
 
   /// @param on_device used until it fails
   /// @param make_other makes the other one, with all components in the assembled state
   FallbackStreamsBackend(std::unique_ptr<StreamsBackend> on_device, Make make_other,
                          std::shared_ptr<DeviceFailure> failure)
-      : used_(std::move(on_device)), make_other_(std::move(make_other)), failure_(std::move(failure)) {
-    state_.assign(used_->state().begin(), used_->state().end());
+      : fallback_(std::move(on_device), std::move(make_other), std::move(failure)) {
+    state_.assign(fallback_.used().state().begin(), fallback_.used().state().end());
     next_ = state_;
   }
 
@@ -43,7 +42,7 @@ class FallbackStreamsBackend final : public StreamsBackend {
     return made;
   }
   void commit() override {
-    used_->commit();
+    fallback_.used().commit();
     state_ = next_;
   }
   void jump(Span<const RigidTransform> state) override {
@@ -51,14 +50,14 @@ class FallbackStreamsBackend final : public StreamsBackend {
     next_ = state_;
     try_on([&](StreamsBackend& backend) { backend.jump(state_); }, Repeat::No);
   }
-  Span<const RigidTransform> state() const override { return used_->state(); }
-  const AssemblyTriangles& fixed() const override { return used_->fixed(); }
+  Span<const RigidTransform> state() const override { return fallback_.used().state(); }
+  const AssemblyTriangles& fixed() const override { return fallback_.used().fixed(); }
   Span<const std::uint64_t> triangle_pairs() override {
     Span<const std::uint64_t> pairs;
     try_on([&](StreamsBackend& backend) { pairs = backend.triangle_pairs(); }, Repeat::AfterStep);
     return pairs;
   }
-  const MovingStreams& on_host() override { return used_->on_host(); }
+  const MovingStreams& on_host() override { return fallback_.used().on_host(); }
 
  private:
   /// Work to repeat on the other backend after it has received the state, ghosts and rules.
@@ -66,23 +65,17 @@ class FallbackStreamsBackend final : public StreamsBackend {
 
   template <class Call>
   void try_on(const Call& call, Repeat repeat = Repeat::Call) {
-    try {
-      call(*used_);
-      return;
-    } catch (const CudaError& error) {
-      if (!make_other_) throw;
-      failure_->why = error.what();
-    }
-    failed_ = std::exchange(used_, std::exchange(make_other_, nullptr)());
-    if (ghosts_ != nullptr) used_->set_ghosts(*ghosts_);
-    if (rules_) used_->set_rules(*rules_);
-    used_->jump(state_);
-    if (repeat == Repeat::AfterStep) used_->step(next_);
-    if (repeat != Repeat::No) call(*used_);
+    fallback_.try_on(call, [&](StreamsBackend& other) {
+      if (ghosts_ != nullptr) other.set_ghosts(*ghosts_);
+      if (rules_) other.set_rules(*rules_);
+      other.jump(state_);
+      if (repeat == Repeat::AfterStep) other.step(next_);
+      if (repeat != Repeat::No) call(other);
+    });
   }
 
-  std::unique_ptr<StreamsBackend> used_, failed_;  // fixed() of the failed one may still be in use
-  Make make_other_;                                // empty once it is in use
+  DeviceFallback<StreamsBackend> fallback_;
+  Make make_other_;  // empty once it is in use
   std::shared_ptr<DeviceFailure> failure_;
   const GhostVertices* ghosts_ = nullptr;
   std::optional<PairRulesView> rules_;
