@@ -4,7 +4,7 @@
 #include "dismantle/files/display_name.h"
 #include "dismantle/files/text_name.h"
 #include "dismantle/formats/gltf/write_glb.h"
-#include "dismantle/loading/load_isolated.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 #include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/surface/find_clashes.h"
@@ -67,7 +67,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
                          const ProgressCallback& progress) {
   ImportOptions import = options.import;
   import.progress = progress;
-  Result<Assembly> read = load_isolated(file, import);
+  Result<Assembly> read = load_assembly(file, import);
   if (!read) return read.error();
   Result<Assembly> ready = simplified(std::move(*read), options, progress);
   if (!ready) return ready.error();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/files/isolated_process.h"
+#include "dismantle/formats/import/file_formats.h"
+#include "dismantle/formats/import/import_options.h"
+
+#include <cstdint>
+
+namespace dismantle {
+
+/// What the process that reads a file of `bytes` may use: a multiple of what real files of its format take
+/// (docs/design/0019-confined-readers.md), or what the options' limits say. `entry` is null for a folder of meshes.
+IsolationLimits import_budget(const FormatEntry* entry, std::uint64_t bytes, const ImportLimits& limits);
+
+}  // namespace dismantle
