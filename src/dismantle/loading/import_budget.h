@@ -10,7 +10,8 @@
 namespace dismantle {
 
 /// What the process that reads a file of `bytes` may use: a multiple of what real files of its format take
-/// (docs/design/0019-confined-readers.md), or what the options' limits say. `entry` is null for a folder of meshes.
-IsolationLimits import_budget(const FormatEntry* entry, std::uint64_t bytes, const ImportLimits& limits);
+/// (docs/design/0014-confined-readers.md), eight times as much where a deflection is asked for, or what
+/// ImportOptions::limits say. `entry` is null for a folder of meshes.
+IsolationLimits import_budget(const FormatEntry* entry, std::uint64_t bytes, const ImportOptions& options);
 
 }  // namespace dismantle

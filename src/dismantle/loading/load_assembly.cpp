@@ -35,6 +35,12 @@ std::string format_name(const FormatEntry* entry) {
   return entry != nullptr ? std::string(entry->name) : "a folder of meshes";
 }
 
+/// What reads a file, for users.
+std::string reader_name(const FormatEntry* entry) {
+  if (entry == nullptr || !entry->by_cad_kernel) return "its reader";
+  return entry->format == FileFormat::Collada ? "Assimp" : "the CAD kernel";
+}
+
 /// The size of a file, or of all in a folder.
 std::uint64_t size_on_disk(const fs::path& file) {
   std::error_code error;
@@ -76,7 +82,7 @@ Error failure(const fs::path& file, const FormatEntry* entry, const IsolatedResu
     case IsolatedEnding::Crashed:
       break;
   }
-  return unreadable("its reader crashed on it" +
+  return unreadable(reader_name(entry) + " crashed on it" +
                     (result.signal ? ", signal " + std::to_string(result.signal) : std::string()) +
                     "; check it in the program that wrote it");
 }
@@ -93,7 +99,7 @@ Result<std::string> answer_of_reader(const fs::path& file, const FormatEntry* en
   program.request = bytes_of(ReaderRequest{DISMANTLE_VERSION, file, options});
   program.readable = reference_folders(file, options);
   program.readable.push_back(file);
-  const IsolationLimits limits = import_budget(entry, size_with_links(file, entry), options.limits);
+  const IsolationLimits limits = import_budget(entry, size_with_links(file, entry), options);
   const IsolatedResult result = run_isolated(program, limits, options.progress);
   if (result.ending != IsolatedEnding::Done) return failure(file, entry, result);
   return std::string(reinterpret_cast<const char*>(result.bytes.data()), result.bytes.size());

@@ -37,8 +37,9 @@ std::vector<LinkedFile> FreeCadArchives::linked_files() const {
 
 Result<Done> FreeCadArchives::open(const fs::path& file, Open& open) {
   if (file != root_) {
-    const Result<fs::path> linked = referenced_file(file.lexically_relative(root_.parent_path()), root_.parent_path(), folders_);
-    if (!linked) return linked.error();
+    const fs::path folder = root_.parent_path(), relative = file.lexically_relative(folder);
+    const Result<fs::path> linked = referenced_file(relative, folder, folders_);
+    if (!linked) return Error{ErrorKind::Unreadable, "it " + linked.error().message};
     Result<std::string> bytes = read_file(*linked, file_limit_);
     if (!bytes) {  // "<file> cannot be read (<why>); <what to do>"
       const std::string& message = bytes.error().message;

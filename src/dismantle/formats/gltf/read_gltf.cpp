@@ -15,7 +15,10 @@ Result<Assembly> read_gltf(const std::filesystem::path& file, const ImportOption
   const std::vector<std::filesystem::path> folders = reference_folders(file, options);
   const auto load = [&](const std::string& uri, std::size_t limit) -> Result<std::string> {
     const Result<std::filesystem::path> beside = referenced_file(uri, file.parent_path(), folders);
-    if (!beside) return unreadable_as(file.filename(), "glTF", beside.error());
+    if (!beside) {
+      const std::string why = "it refers to " + in_quotes(uri) + ", which " + beside.error().message;
+      return unreadable_as(file.filename(), "glTF", {ErrorKind::Unreadable, why});
+    }
     return read_file(*beside, limit);
   };
   Result<Assembly> assembly = import_gltf(*bytes, file.filename().string(), load, options);

@@ -13,10 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Error refused(const fs::path& address, const std::string& why, const std::string& advice) {
-  return {ErrorKind::Unreadable, "it refers to " + in_quotes(address.string()) + ", " + why + "; " + advice};
-}
-
 /// The same folder without links and dots; as it is where it does not exist.
 fs::path resolved(const fs::path& folder) {
   std::error_code error;
@@ -49,23 +45,25 @@ std::vector<fs::path> reference_folders(const fs::path& model, const ImportOptio
 }
 
 Result<fs::path> referenced_file(const fs::path& address, const fs::path& base, const std::vector<fs::path>& folders) {
-  if (address.native().find('\0') != std::string::npos)
-    return refused(address, "which is no file name", "export it again");
+  const auto refused = [](const std::string& why_and_advice) {
+    return Error{ErrorKind::Unreadable, why_and_advice};
+  };
+  if (address.native().find('\0') != std::string::npos) return refused("is no file name; export it again");
   const fs::path file = (resolved(base) / address).lexically_normal();
   const auto folder =
       std::find_if(folders.begin(), folders.end(), [&](const fs::path& place) { return is_inside(file, place); });
   if (folder == folders.end())
-    return refused(address, "outside its folder", "put the file beside it, or name the other folder with --references");
+    return refused("is not in its folder; put the file there, or name the other folder with --references");
   std::error_code error;
   fs::path step = *folder;
   for (const fs::path& name : file.lexically_relative(*folder)) {
     step /= name;
     if (fs::is_symlink(fs::symlink_status(step, error)))
-      return refused(address, "through a symbolic link", "put a copy in the place of " + in_quotes(step.string()));
+      return refused("is reached through a symbolic link; put a copy in the place of " + in_quotes(name.string()));
   }
   const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) return refused(address, "which is not there", "put the file where it is looked for");
-  if (!fs::is_regular_file(status)) return refused(address, "which is no file", "export it again");
+  if (!fs::exists(status)) return refused("is not there; keep both in one folder");
+  if (!fs::is_regular_file(status)) return refused("is no file; export it again");
   return file;
 }
 

@@ -16,7 +16,7 @@ std::vector<std::filesystem::path> reference_folders(const std::filesystem::path
 
 /// The regular file to which a model refers by `address`, a decoded path: absolute, or relative to `base`, a folder. It
 /// lies in one of the folders and is reached there through no symbolic link, so that a model that came from elsewhere
-/// reads only what belongs to it. Errors: Unreadable, "<why>; <what to do>".
+/// reads only what belongs to it. Errors: Unreadable, "is not ...; <what to do>", to be said of the address.
 Result<std::filesystem::path> referenced_file(const std::filesystem::path& address, const std::filesystem::path& base,
                                               const std::vector<std::filesystem::path>& folders);
 

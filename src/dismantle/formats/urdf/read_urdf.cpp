@@ -260,11 +260,11 @@ std::vector<fs::path> candidates(const std::string& address, const fs::path& fol
 Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const fs::path& urdf,
                                               const std::vector<fs::path>& folders, const ImportOptions& options) {
   const fs::path base = fs::absolute(urdf).lexically_normal().parent_path();
-  std::optional<Error> first;
+  std::string why;
   for (const fs::path& candidate : candidates(address, base)) {
     const Result<fs::path> file = referenced_file(candidate, base, folders);
     if (!file) {
-      if (!first) first = file.error();
+      if (why.empty()) why = file.error().message;
       continue;
     }
     if (!is_mesh_file(*file))
@@ -274,7 +274,8 @@ Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const 
     if (!mesh) return mesh.error();
     return std::move(mesh->parts);
   }
-  return unreadable_as(urdf.filename(), "URDF", *first);
+  return unreadable_as(urdf.filename(), "URDF",
+                       {ErrorKind::Unreadable, "it refers to " + in_quotes(address) + ", which " + why});
 }
 
 }  // namespace
