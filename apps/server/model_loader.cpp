@@ -17,6 +17,9 @@ namespace dismantle::server {
 
 namespace {
 
+/// CertificateOptions::depth_tests of a session: about half a second.
+constexpr std::size_t kDepthTests = 200'000;
+
 /// Reports the progress of making the session, from any thread. After finish() it neither reports nor cancels: the
 /// session's engine keeps the callback.
 class SessionProgress {
@@ -87,6 +90,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
+  engine.depth_tests = kDepthTests;
   const auto watch = std::make_shared<SessionProgress>(progress);
   engine.keep_going = [watch] { return watch->keep_going(); };
   PairStates states = pair_states(model.clashes, classify.rule);
