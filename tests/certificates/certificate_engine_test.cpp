@@ -285,6 +285,27 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
   }
 }
 
+TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBound) {
+  // A foil thinner than the tolerance across the end of a tube, pulled off aslant: no ghost, and nothing to bound its depth
+  // by but ever smaller pieces.
+  TriangleMesh ring = tube(1.5, 1, 0, 1, 36);
+  for (Vec3& p : ring.vertices) p = p + Vec3{0.5, 4, 8};
+  const Assembly assembly =
+      scenes::assembly({component("foil", box({0, 2.5, 8}, {3, 5.5, 8.02})), component("ring", std::move(ring))});
+  const PairStates states = states_of(assembly);
+  ASSERT_EQ(states.pairs.size(), 1u);
+  const auto step = [&](std::size_t depth_tests) {
+    CertificateOptions options;
+    options.depth_tests = depth_tests;
+    return Grabbed(assembly, states, 0, options).engine.step({{2.875, -2.5625, -0.6875}, {}}, ResponseKind::Slide);
+  };
+  constexpr std::size_t kMost = 50'000;
+  const StepResult bounded = step(kMost), unbounded = step(0);
+  ASSERT_GT(unbounded.cost.depth_tests, 2 * kMost);  // else it shows nothing
+  // A sweep ends within a piece or so of its share, and each may take the fewest.
+  EXPECT_LE(bounded.cost.depth_tests, kMost + bounded.sweeps * 6000);
+}
+
 TEST(CertificateEngine, DoesNotDependOnTheOrientationOfTheAssembly) {
   const Pose turn{{30, -20, 10}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)};
   Assembly turned = block_and_floor();
