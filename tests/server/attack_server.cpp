@@ -168,7 +168,7 @@ int run(const fs::path& folder) {
   table.run("malformed and oversized WebSocket frames", [&] { return attack_by_frames(at); });
   table.run("paths that lead out", [&] { return attack_by_paths(at, root, outside); });
   table.run("10,000 connections in a row", [&] { return attack_by_many_connections(at, 10'000); });
-  const std::size_t at_once = std::min<std::size_t>(descriptors - 50, 20'000);
+  const std::size_t at_once = std::min<std::size_t>(descriptors - 50, 10'000);
   table.run((std::to_string(at_once) + " connections at once").c_str(), [&] { return attack_at_once(at, at_once); });
   table.run("200 connections that send a byte a second", [&] { return attack_slowly(at, 200, 35); });
   table.run("5,000 clients with new keys", [&] { return attack_by_many_clients(at, 5000); });

@@ -99,9 +99,19 @@ std::string exchange(const ServerAddress& address, const std::string& bytes, std
   return connection.receive(quiet);
 }
 
+namespace {
+
+/// For all raw connections of a thread, of which one at a time waits: an io_context of its own takes three descriptors.
+asio::io_context& shared_io() {
+  thread_local asio::io_context io;
+  return io;
+}
+
+}  // namespace
+
 class RawConnection::Impl {
  public:
-  asio::io_context io;
+  asio::io_context& io = shared_io();
   asio::ip::tcp::socket socket{io};
   bool is_closed = false;
 };

@@ -97,7 +97,6 @@ class Planner {
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);
   }
-
   Explanation explain_assembled(ComponentId component) { return explanation(component, ComponentSet::all(count_)); }
 
  private:
@@ -176,16 +175,15 @@ class Planner {
       staying.erase(needed ? needed->members() : targets);
       const std::size_t steps = plan_.steps.size(), bodies = bodies_.size(), taken_out = taken_out_;
       left = take_away(body, staying, part_of, Effort::Any);
-      const auto first = plan_.steps.begin() + static_cast<std::ptrdiff_t>(steps);
-      const auto count = static_cast<std::size_t>(plan_.steps.end() - first);
-      if (stopped_ && count < given_up.size()) {  // what was found must not get less because the search was ended
-        plan_.steps.erase(first, plan_.steps.end());
-        plan_.steps.insert(plan_.steps.end(), given_up.begin(), given_up.end());
-      }
-      if (!needed || !left.has_any(targets) || stopped_) break;
-      // The engine refused a step; the table knows the reason now.
-      if (count > given_up.size()) given_up.assign(first, plan_.steps.end());
+      std::vector<PlanStep> found(plan_.steps.begin() + static_cast<std::ptrdiff_t>(steps), plan_.steps.end());
+      if (found.size() > given_up.size()) given_up = std::move(found);
+      if (!left.has_any(targets) || (!needed && !stopped_)) break;
       plan_.steps.resize(steps);
+      if (stopped_) {  // what was found must not get less because the search was ended
+        plan_.steps.insert(plan_.steps.end(), given_up.begin(), given_up.end());
+        break;
+      }
+      // The engine refused a step; the table knows the reason now.
       taken_out_ = taken_out;
       bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
@@ -351,7 +349,7 @@ class Planner {
   const Assembly& assembly_;
   const PlanOptions& options_;
   std::size_t count_;
-  ///@{ For keep_going(), which the constructors of the members below call already.
+  ///@{ For keep_going(), which constructors of the members below call already.
   Clock::time_point start_ = Clock::now();
   std::atomic<bool> stopped_ = false;
   std::mutex progress_mutex_;
