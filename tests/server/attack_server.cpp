@@ -49,7 +49,7 @@ AttackResult attack_slowly(const ServerAddress& address, int count, int seconds)
   const std::string head = "GET / HTTP/1.1\r\nHost: " + address.host() + "\r\nA: " + std::string(1000, 'x');
   std::vector<std::unique_ptr<RawConnection>> slow;
   for (int i = 0; i < count; ++i) slow.push_back(std::make_unique<RawConnection>(address));
-  Client owner(address);
+  Client owner(address, "a0000000000000000000000000000001");
   owner.state();
   double slowest = 0;
   for (int second = 0; second < seconds; ++second) {
@@ -71,7 +71,7 @@ AttackResult attack_slowly(const ServerAddress& address, int count, int seconds)
 /// As many connections at once as this process may have; the owner works meanwhile.
 AttackResult attack_at_once(const ServerAddress& address, std::size_t count) {
   AttackResult result;
-  Client owner(address);
+  Client owner(address, "a0000000000000000000000000000002");
   owner.state();
   std::vector<std::unique_ptr<RawConnection>> all;
   for (std::size_t i = 0; i < count; ++i) all.push_back(std::make_unique<RawConnection>(address));

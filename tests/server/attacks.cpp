@@ -291,7 +291,7 @@ AttackResult attack_by_paths(const ServerAddress& address, const fs::path& root,
                                     "/proc/self/environ",
                                     "/etc/passwd",
                                     std::string("../") + std::string(5000, 'a')};
-  Client client(address);
+  Client client(address, "a0000000000000000000000000000003");
   client.state();
   client.command("take_control");
   for (std::string path : paths) {
@@ -347,7 +347,7 @@ AttackResult attack_by_many_clients(const ServerAddress& address, int count) {
 
 AttackResult attack_by_large_commands(const ServerAddress& address, int count) {
   AttackResult result;
-  Client client(address);
+  Client client(address, "a0000000000000000000000000000004");
   client.state();
   // A megabyte of the JSON that takes most memory.
   std::string values = "[]";
