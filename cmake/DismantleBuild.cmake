@@ -90,6 +90,8 @@ function(dismantle_lane_kernel target source)
 endfunction()
 
 # dismantle_test(NAME SOURCES ... DEPENDS component ... [LIBRARIES ...]): one test program for one folder of tests.
+# Nearly all that a compiler does for a test is to read headers: the usual ones are precompiled, and tests are optimised less than
+# what they test. All programs of tests share one set of precompiled headers.
 function(dismantle_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
   set(target test_${name})
@@ -98,7 +100,21 @@ function(dismantle_test name)
     target_link_libraries(${target} PRIVATE dismantle_${dep})
   endforeach()
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+  if(TARGET dismantle_readers)
+    add_dependencies(${target} dismantle_readers)
+  endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0>)
+  if(NOT TARGET test_headers_precompiled)
+    file(WRITE ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp "")
+    add_library(test_headers_precompiled OBJECT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp)
+    target_link_libraries(test_headers_precompiled PRIVATE dismantle_build_settings GTest::gtest)
+    target_compile_options(test_headers_precompiled PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0> -fPIE)
+    set_target_properties(test_headers_precompiled PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_precompile_headers(test_headers_precompiled PRIVATE <gtest/gtest.h> <algorithm> <array> <chrono> <cmath> <filesystem>
+      <fstream> <functional> <map> <memory> <numbers> <optional> <random> <set> <string> <thread> <vector>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM test_headers_precompiled)
   target_compile_definitions(${target} PRIVATE
     DISMANTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DISMANTLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)

@@ -1,29 +1,137 @@
 // SPDX-License-Identifier: Apache-2.0
+// Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it.
+//   replay_TARGET [--seconds S] [--seed N] [--findings FOLDER] CORPUS_FOLDER...
+// Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is not 0.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <string>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Feeds every file of the folders to the fuzz target that this is linked with: the regression test of its corpus.
-int main(int argc, char** argv) {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kLongest = 65536;
+constexpr unsigned kSlow = 20;  // [s]
+
+Bytes g_input;            // what the target has now
+std::string g_finding;    // where it is written
+std::mt19937_64 g_random;
+
+void write_finding(int signal_number) {
+  const int file = open(g_finding.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (file >= 0 && write(file, g_input.data(), g_input.size()) >= 0) close(file);
+  std::signal(signal_number, SIG_DFL);
+  std::raise(signal_number == SIGALRM ? SIGABRT : signal_number);
+}
+
+void run(const Bytes& bytes) {
+  g_input = bytes;
+  alarm(kSlow);
+  LLVMFuzzerTestOneInput(g_input.data(), g_input.size());
+  alarm(0);
+}
+
+std::size_t below(std::size_t n) {
+  return n == 0 ? 0 : g_random() % n;
+}
+
+/// One small change: of a bit, a byte, a run of bytes, or with a part of another input.
+void change(Bytes& bytes, const Bytes& other) {
+  static constexpr std::uint8_t kSpecial[] = {0, 1, 0x7f, 0x80, 0xff, '0', '9', '-', '.', '"', '{', ']', ' ', '\n'};
+  const std::size_t at = below(bytes.size());
+  const std::size_t length = std::min(1 + below(16), bytes.size() - std::min(at, bytes.size()));
+  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  switch (below(6)) {
+    case 0:
+      if (!bytes.empty()) bytes[at] ^= static_cast<std::uint8_t>(1 << below(8));
+      break;
+    case 1:
+      if (!bytes.empty()) bytes[at] = kSpecial[below(std::size(kSpecial))];
+      break;
+    case 2:
+      bytes.erase(place, place + static_cast<std::ptrdiff_t>(length));
+      break;
+    case 3: {
+      const Bytes copy(place, place + static_cast<std::ptrdiff_t>(length));
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(below(bytes.size() + 1)), copy.begin(), copy.end());
+      break;
+    }
+    case 4:
+      bytes.insert(place, static_cast<std::uint8_t>(g_random()));
+      break;
+    default:
+      if (!other.empty()) {
+        const std::size_t from = below(other.size()), count = std::min(1 + below(64), other.size() - from);
+        const auto piece = other.begin() + static_cast<std::ptrdiff_t>(from);
+        bytes.insert(place, piece, piece + static_cast<std::ptrdiff_t>(count));
+      }
+  }
+  if (bytes.size() > kLongest) bytes.resize(kLongest);
+}
+
+std::vector<Bytes> inputs_in(const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> files;
-  for (int i = 1; i < argc; ++i)
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
+  for (const std::string& folder : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  std::vector<Bytes> inputs;
   for (const auto& file : files) {
-    std::printf("%s\n", file.c_str());
-    std::fflush(stdout);
     std::ifstream in(file, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    inputs.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
-  if (!files.empty()) return 0;
-  std::fputs("no files to replay\n", stderr);
-  return 1;
+  return inputs;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double seconds = 0;
+  std::string findings = ".";
+  std::vector<std::string> folders;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto value = [&] { return i + 1 < argc ? argv[++i] : ""; };
+    if (word == "--seconds")
+      seconds = std::atof(value());
+    else if (word == "--seed")
+      g_random.seed(std::strtoull(value(), nullptr, 10));
+    else if (word == "--findings")
+      findings = value();
+    else
+      folders.push_back(word);
+  }
+  std::error_code ignored;
+  std::filesystem::create_directories(findings, ignored);
+  g_finding = findings + "/" + std::filesystem::path(argv[0]).filename().string() + ".finding";
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(number, write_finding);
+  std::vector<Bytes> inputs = inputs_in(folders);
+  if (inputs.empty()) {
+    std::fputs("no files to replay\n", stderr);
+    return 1;
+  }
+  std::size_t count = inputs.size();
+  for (const Bytes& input : inputs) run(input);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  for (; std::chrono::steady_clock::now() < end; ++count) {
+    Bytes bytes = inputs[below(inputs.size())];
+    for (std::size_t changes = 1 + below(8); changes > 0; --changes) change(bytes, inputs[below(inputs.size())]);
+    run(bytes);
+  }
+  std::printf("%zu inputs, nothing found\n", count);
+  return 0;
 }

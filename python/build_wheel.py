@@ -18,6 +18,7 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NAME = "dismantle"
 PARTS = ("__init__.py", "_dismantle.pyi", "py.typed")
+READERS = ("dismantle-read", "dismantle-read-cad")  # programs that the module starts to read models
 
 
 def _version():
@@ -44,22 +45,28 @@ def _build(settings):
                         "-DDISMANTLE_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}", "-DDISMANTLE_BUILD_TESTS=OFF",
                         "-DDISMANTLE_BUILD_BENCH=OFF", "-DDISMANTLE_BUILD_EXAMPLES=OFF"], check=True)
     subprocess.run(["cmake", "--build", build, "--target", "dismantle_python"], check=True)
+    for reader in READERS:
+        shutil.copy2(build / "bin" / reader, build / "python" / NAME / reader)
     return build / "python" / NAME
+
+
+def _stripped(binary):
+    """The bytes of a program or module, without what is for debuggers if there is a strip."""
+    strip = shutil.which("strip")
+    if not strip:
+        return binary.read_bytes()
+    stripped = binary.with_name(binary.name + ".stripped")
+    subprocess.run([strip, "-S", "-o", stripped, binary], check=True)
+    data = stripped.read_bytes()
+    stripped.unlink()
+    return data
 
 
 def _files(package):
     """The contents of the wheel: {name: bytes}."""
     module = "_dismantle" + sysconfig.get_config_var("EXT_SUFFIX")
     files = {f"{NAME}/{part}": (package / part).read_bytes() for part in PARTS}
-    binary = package / module
-    strip = shutil.which("strip")
-    if strip:
-        stripped = package / (module + ".stripped")
-        subprocess.run([strip, "-S", "-o", stripped, binary], check=True)
-        files[f"{NAME}/{module}"] = stripped.read_bytes()
-        stripped.unlink()
-    else:
-        files[f"{NAME}/{module}"] = binary.read_bytes()
+    files.update({f"{NAME}/{binary}": _stripped(package / binary) for binary in (module, *READERS)})
     info = f"{NAME}-{_version()}.dist-info"
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: dismantle\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode()
@@ -83,7 +90,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
             entry = zipfile.ZipInfo(name)  # without a time: the same input, the same wheel
-            entry.external_attr = 0o644 << 16
+            entry.external_attr = (0o755 if name.split("/")[-1] in READERS else 0o644) << 16
             archive.writestr(entry, data, zipfile.ZIP_DEFLATED)
     os.replace(beside, pathlib.Path(wheel_directory) / wheel)
     return wheel

@@ -4,7 +4,7 @@
 #include "apps/batch/batch_result.h"
 #include "apps/batch/claim_folder.h"
 #include "apps/batch/stop_signal.h"
-#include "dismantle/files/isolated_process.h"
+#include "dismantle/files/forked_process.h"
 
 #include <unistd.h>
 
@@ -61,7 +61,7 @@ IsolatedResult run_work(const BatchJob& job, const BatchItem& item, Claim& claim
     line.write(summary->data(), summary->size());
     return Done{};
   };
-  return run_isolated(work, limits, [&](std::string_view, double) {
+  return run_forked(work, limits, [&](std::string_view, double) {
     claim.renew(job.lease_seconds);
     return !stop_requested();
   });

@@ -80,6 +80,28 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
                 "Leave out components that are identical with another one and in the same place")
       ->group(group);
   command
+      .add_option("--references", o.import.reference_folders,
+                  "Let the files that the input refers to be in this folder, too, and not only in its own")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  command
+      .add_option_function<double>(
+          "--import-memory",
+          [&o](double mebibytes) { o.import.limits.memory_bytes = static_cast<std::uint64_t>(mebibytes * (1 << 20)); },
+          "Memory that reading the input may take (default: by its size)")
+      ->type_name("MIB")
+      ->check(between(1, 1 << 24))
+      ->group(group);
+  command
+      .add_option("--import-time", o.import.limits.cpu_seconds,
+                  "Processor time that reading the input may take (default: by its size)")
+      ->type_name("S")
+      ->check(above_zero())
+      ->group(group);
+  command
       .add_option("--tolerance", o.tolerance,
                   "Penetration that still counts as contact (default: from size and deflection)")
       ->type_name("MM")

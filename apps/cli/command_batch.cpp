@@ -36,15 +36,21 @@ struct BatchCommand {
   bool check_only = false, retry = false;
 };
 
+std::string folders_text(const std::vector<fs::path>& folders) {
+  std::string text;
+  for (const fs::path& folder : folders) text += folder.string() + ';';
+  return text;
+}
+
 /// Everything but the input that a result depends on.
 std::string options_text(const BatchCommand& c) {
   return fmt::format(
       "dismantle {} units={} deflection={} angular={} solids={} drop-duplicates={} tolerance={} pairs={} simplify={} "
-      "clearance={} time-limit={} check-only={} memory={} cpu-time={}",
+      "clearance={} time-limit={} check-only={} memory={} cpu-time={} references={}",
       DISMANTLE_VERSION, c.common.import.units, c.common.import.deflection, c.common.import.angular_deflection,
       static_cast<int>(c.common.import.solids), c.common.import.drop_duplicates, c.common.tolerance,
       static_cast<int>(c.common.pairs), c.common.simplify, c.clearance, c.time_limit, c.check_only, c.limits.memory_gib,
-      c.limits.cpu_seconds);
+      c.limits.cpu_seconds, folders_text(c.common.import.reference_folders));
 }
 
 Result<Done> write_json(const fs::path& file, const Json& json) {

@@ -136,12 +136,19 @@ Result<Json> FileCommands::cancel(const Json& command) {
   return Json::object();
 }
 
+void FileCommands::add_reference_folders(const OpenedFile& file, ImportOptions& options) const {
+  std::vector<fs::path> folders = roots_.folders();
+  if (file.folder) folders = {file.folder->path()};
+  options.reference_folders.insert(options.reference_folders.end(), folders.begin(), folders.end());
+}
+
 Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file, const std::string& units) {
   const std::string name = file->name;
   return jobs_.start(name,
                      [this, file = std::move(file), units](const ProgressCallback& progress) -> Result<Jobs::Outcome> {
                        ModelOptions options = options_;
                        if (!units.empty()) options.import.units = units;
+                       add_reference_folders(*file, options.import);
                        Result<Model> model = load_model(file->path, options, progress);
                        if (!model) return Error{model.error().kind, without_folder(model.error().message, file->path)};
                        model->name = clean_name(file->name);

@@ -73,6 +73,8 @@ class FileCommands final : public ServerCommands {
   Result<Json> cancel(const Json& command);
   Result<Json> open_again(const Json& command);
   Result<std::uint32_t> start(std::shared_ptr<const OpenedFile> file, const std::string& units);
+  /// Lets what a file refers to be where clients may read: below the roots, or among the files that were sent with it.
+  void add_reference_folders(const OpenedFile& file, ImportOptions& options) const;
 
   Roots roots_;
   ModelOptions options_;

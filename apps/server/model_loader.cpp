@@ -4,7 +4,7 @@
 #include "dismantle/files/display_name.h"
 #include "dismantle/files/text_name.h"
 #include "dismantle/formats/gltf/write_glb.h"
-#include "dismantle/loading/load_isolated.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/simplify/simplify_assembly.h"
 #include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/surface/find_clashes.h"
@@ -16,6 +16,9 @@
 namespace dismantle::server {
 
 namespace {
+
+/// CertificateOptions::depth_tests of a session: about half a second.
+constexpr std::size_t kDepthTests = 200'000;
 
 /// Reports the progress of making the session, from any thread. After finish() it neither reports nor cancels: the
 /// session's engine keeps the callback.
@@ -67,7 +70,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
                          const ProgressCallback& progress) {
   ImportOptions import = options.import;
   import.progress = progress;
-  Result<Assembly> read = load_isolated(file, import);
+  Result<Assembly> read = load_assembly(file, import);
   if (!read) return read.error();
   Result<Assembly> ready = simplified(std::move(*read), options, progress);
   if (!ready) return ready.error();
@@ -87,6 +90,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
+  engine.depth_tests = kDepthTests;
   const auto watch = std::make_shared<SessionProgress>(progress);
   engine.keep_going = [watch] { return watch->keep_going(); };
   PairStates states = pair_states(model.clashes, classify.rule);

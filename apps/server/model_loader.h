@@ -21,8 +21,7 @@ struct ModelOptions {
   Executor executor;                         ///< Of simplification and of the session's engine.
 };
 
-/// Loads an assembly and makes its model, without a number. The file is parsed in a child process with limits on memory
-/// and time, so that a crash, a hang or malformed data becomes an error. Errors: of load_isolated, simplify_assembly,
+/// Loads an assembly and makes its model, without a number. Errors: of load_assembly, simplify_assembly,
 /// classify_pairs and glb_from_assembly; Failed if `progress` cancels.
 Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& options,
                          const ProgressCallback& progress);

@@ -26,6 +26,8 @@ class Roots {
   /// The roots of these folders. Errors: Usage if one is not a readable folder.
   static Result<Roots> create(const std::vector<std::filesystem::path>& folders);
 
+  /// The folders, with links resolved.
+  const std::vector<std::filesystem::path>& folders() const { return folders_; }
   /// The names of the roots for clients, by index.
   const std::vector<std::string>& names() const { return names_; }
   /// The file or folder `relative` in a root, with links resolved. Errors: Usage if there is none, or it is outside.

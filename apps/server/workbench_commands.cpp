@@ -3,6 +3,7 @@
 #include "apps/server/workbench.h"
 
 #include "dismantle/files/atomic_file.h"
+#include "dismantle/files/text_name.h"
 
 #include <algorithm>
 #include <array>
@@ -295,7 +296,7 @@ Result<Json> Workbench::execute(const Json& command) {
   const std::string name = command.value("command", "");
   const CommandEntry* entry = find_command(name);
   if (entry == nullptr)
-    return usage("the command was not understood", "there is no command '" + name + "'", "see docs/wire.md");
+    return usage("the command was not understood", "there is no command " + in_quotes(name), "see docs/wire.md");
   if (!model_) return usage("'" + name + "' cannot be done", "no assembly is open", "open one first");
   WorkbenchCommands commands(*this, command);
   Result<Json> result = (commands.*entry->execute)();

@@ -273,6 +273,9 @@ def load(
     solids: str = "split",
     drop_duplicates: bool = False,
     cache: bool = True,
+    references: Sequence[str] = (),
+    import_memory: float = 0.0,
+    import_time: float = 0.0,
     progress: _Progress = None,
 ) -> Assembly: ...
 def check(

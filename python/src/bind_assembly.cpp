@@ -31,6 +31,7 @@ struct ComponentView {
 
 std::shared_ptr<Assembly> load(const std::filesystem::path& file, const std::string& units, double deflection,
                                double angular_deflection, const std::string& solids, bool drop_duplicates, bool cache,
+                               const std::vector<std::string>& references, double import_memory, double import_time,
                                const py::object& progress) {
   PythonProgress watched(progress);
   ImportOptions options;
@@ -43,6 +44,11 @@ std::shared_ptr<Assembly> load(const std::filesystem::path& file, const std::str
                 "'join'");
   options.solids = solids == "join" ? Solids::Join : Solids::Split;
   options.drop_duplicates = drop_duplicates;
+  options.reference_folders.assign(references.begin(), references.end());
+  if (!(import_memory >= 0) || !(import_time >= 0))
+    raise_usage("the limits of reading make no sense (one is negative); give 0 for the default");
+  options.limits.memory_bytes = static_cast<std::uint64_t>(import_memory * (1 << 20));
+  options.limits.cpu_seconds = import_time;
   if (cache) options.cache_folder = user_cache_folder().value_or(std::filesystem::path());
   options.progress = watched.callback();
   Result<Assembly> assembly = without_gil([&] { return load_assembly(file, options); });
@@ -279,14 +285,16 @@ void bind_assembly(py::module_& module) {
   module.def(
       "load", &load, py::arg("file"), py::kw_only(), py::arg("units") = "", py::arg("deflection") = 0.0,
       py::arg("angular_deflection") = 0.0, py::arg("solids") = "split", py::arg("drop_duplicates") = false,
-      py::arg("cache") = true, py::arg("progress") = py::none(),
+      py::arg("cache") = true, py::arg("references") = std::vector<std::string>(), py::arg("import_memory") = 0.0,
+      py::arg("import_time") = 0.0, py::arg("progress") = py::none(),
       ("Reads a file (" + format_names() +
        "), or a folder of meshes. `units`: unit of the coordinates (mm, cm, "
        "m, um, in, ft; default: by the format). CAD files: `deflection` [mm] and `angular_deflection` [rad] of the "
        "tessellation; 0: default. `solids`: what a product with several solids gives, a "
        "component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
        "identical with another one and in the same place. `cache`: keeps the triangles of CAD files for the "
-       "next time.")
+       "next time. `references`: folders besides the file's own in which the files that it refers to may be. "
+       "`import_memory` [MiB], `import_time` [s]: what reading may take; 0: by the size of the file.")
           .c_str());
   module.def(
       "check", &check, py::arg("assembly"), py::kw_only(), py::arg("tolerance") = 0.0, py::arg("clearance") = 0.0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/formats/same_assembly.h"
@@ -32,7 +32,7 @@ TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
 
 Assembly read_shape(const ScratchFolder& folder, const TopoDS_Shape& shape, const ImportOptions& options = {}) {
   EXPECT_TRUE(BRepTools::Write(shape, (folder / "shape.brep").c_str()));
-  Result<Assembly> a = read_cad(folder / "shape.brep", options);
+  Result<Assembly> a = load_assembly(folder / "shape.brep", options);
   EXPECT_TRUE(a.ok()) << a.error().message;
   return a ? std::move(*a) : Assembly();
 }
@@ -47,7 +47,7 @@ TEST(ReadCadBrep, GivesTheComponentsOfTheStepFile) {
   writer.instance(top, ball_label, translation(0, 20, 0));
   writer.instance(top, writer.part("pin", pin), there);
   ASSERT_TRUE(writer.write(folder / "a.step"));
-  const Result<Assembly> step = read_cad(folder / "a.step", {});
+  const Result<Assembly> step = load_assembly(folder / "a.step", {});
   ASSERT_TRUE(step.ok());
 
   const TopoDS_Shape shape =
@@ -58,7 +58,7 @@ TEST(ReadCadBrep, GivesTheComponentsOfTheStepFile) {
   EXPECT_EQ(text.components[0].mesh, text.components[1].mesh);
 
   ASSERT_TRUE(BinTools::Write(shape, (folder / "binary.brp").c_str()));
-  const Result<Assembly> binary = read_cad(folder / "binary.brp", {});
+  const Result<Assembly> binary = load_assembly(folder / "binary.brp", {});
   ASSERT_TRUE(binary.ok()) << binary.error().message;
   expect_same_components(*step, *binary, 1e-6, 1e-6);
 }
@@ -109,7 +109,7 @@ TEST(ReadCadBrep, TakesTheUnitFromTheUser) {
 TEST(ReadCadBrep, SaysWhatIsWrongWithAFile) {
   const ScratchFolder folder;
   const auto error_of = [&](std::string_view bytes) {
-    const Result<Assembly> a = read_cad(folder.put("b.brep", bytes), {});
+    const Result<Assembly> a = load_assembly(folder.put("b.brep", bytes), {});
     return a ? std::string() : a.error().message;
   };
   ASSERT_TRUE(BRepTools::Write(BRepPrimAPI_MakeSphere(4.0).Shape(), (folder / "ball.brep").c_str()));
@@ -134,7 +134,7 @@ TEST(ReadCadBrep, RefusesCompoundsThatExplode) {
   ASSERT_TRUE(BRepTools::Write(level, (folder / "explodes.brep").c_str()));
   ImportOptions options;
   options.limits.components = 1000;
-  const Result<Assembly> a = read_cad(folder / "explodes.brep", options);
+  const Result<Assembly> a = load_assembly(folder / "explodes.brep", options);
   ASSERT_FALSE(a.ok());
   EXPECT_NE(a.error().message.find("more than 1000 components"), std::string::npos) << a.error().message;
 }

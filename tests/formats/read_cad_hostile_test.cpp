@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // IGES, BREP and FCStd files with changed bytes: they are read, or refused with one sentence, and the process survives.
 #include "dismantle/files/zip_archive.h"
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/support/scratch_folder.h"
@@ -34,7 +34,7 @@ std::string changed(std::string bytes, std::size_t begin, std::string_view alpha
 class CadHostile : public ::testing::Test {
  protected:
   void expect_read_or_refused(const std::filesystem::path& file) {
-    const Result<Assembly> a = read_cad(file, {});
+    const Result<Assembly> a = load_assembly(file, {});
     EXPECT_TRUE(a.ok() || a.error().message.find('\n') == std::string::npos) << a.error().message;
     EXPECT_TRUE(a.ok() || a.error().message.find("; ") != std::string::npos) << a.error().message;
     read_ += a.ok() ? 1 : 0;

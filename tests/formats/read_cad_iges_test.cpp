@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/formats/same_assembly.h"
@@ -45,7 +45,7 @@ TEST_P(IgesOfKind, GivesTheComponentsOfTheStepFile) {
   fill(writer);
   ASSERT_TRUE(writer.write(folder / "a.step"));
   ASSERT_TRUE(writer.write_iges(folder / "a.igs", GetParam()));
-  const Result<Assembly> step = read_cad(folder / "a.step", {}), iges = read_cad(folder / "a.igs", {});
+  const Result<Assembly> step = load_assembly(folder / "a.step", {}), iges = load_assembly(folder / "a.igs", {});
   ASSERT_TRUE(step.ok() && iges.ok()) << (iges ? "" : iges.error().message);
   expect_same_components(*step, *iges, 1e-3, 0.01);
   for (const Component& c : iges->components) EXPECT_TRUE(c.faults.bounds_solid()) << c.name;
@@ -58,7 +58,7 @@ TEST_P(IgesOfKind, ConvertsUnits) {
     CadWriter writer;
     writer.part("block", bored_block());
     ASSERT_TRUE(writer.write_iges(folder / "unit.iges", GetParam(), written));
-    const Result<Assembly> a = read_cad(folder / "unit.iges", {});
+    const Result<Assembly> a = load_assembly(folder / "unit.iges", {});
     ASSERT_TRUE(a.ok()) << a.error().message;
     EXPECT_EQ(a->source_units, name);
     ASSERT_EQ(a->components.size(), 1u);
@@ -76,7 +76,7 @@ TEST(ReadCadIges, KeepsNamesAndColours) {
   const TDF_Label pin = writer.part("pin", BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(50, 0, 0), gp_Dir(0, 0, 1)), 5, 30));
   writer.color(pin, 1, 0, 0);
   ASSERT_TRUE(writer.write_iges(folder / "a.igs", IgesSolids::TrimmedSurfaces));
-  const Result<Assembly> a = read_cad(folder / "a.igs", {});
+  const Result<Assembly> a = load_assembly(folder / "a.igs", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   ASSERT_TRUE(a->find("block") && a->find("pin"));
   EXPECT_NEAR((*a)[*a->find("pin")].color.r, 1, 0.01);
@@ -89,7 +89,7 @@ TEST(ReadCadIges, KeepsSheetsOpen) {
   TopExp_Explorer face(bored_block(), TopAbs_FACE);
   writer.part("sheet", face.Current());
   ASSERT_TRUE(writer.write_iges(folder / "sheet.igs", IgesSolids::TrimmedSurfaces));
-  const Result<Assembly> a = read_cad(folder / "sheet.igs", {});
+  const Result<Assembly> a = load_assembly(folder / "sheet.igs", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   ASSERT_EQ(a->components.size(), 1u);
   EXPECT_GT(a->components[0].faults.open_edges, 0u);
@@ -102,7 +102,7 @@ TEST(ReadCadIges, SaysWhatIsWrongWithAFile) {
   ASSERT_TRUE(writer.write_iges(folder / "a.igs", IgesSolids::Brep));
   const std::string whole = bytes_of(folder / "a.igs");
   const auto error_of = [&](std::string_view bytes) {
-    const Result<Assembly> a = read_cad(folder.put("b.igs", bytes), {});
+    const Result<Assembly> a = load_assembly(folder.put("b.igs", bytes), {});
     return a ? std::string() : a.error().message;
   };
   EXPECT_NE(error_of(whole.substr(0, whole.size() / 2)).find("ends too early"), std::string::npos);

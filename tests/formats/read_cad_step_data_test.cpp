@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // STEP files of other programs, from the test data beside the repository.
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 #include "tests/support/test_data.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<Component> components_of(const std::string& assembly) {
   std::sort(files.begin(), files.end());
   std::vector<Component> components;
   for (const std::filesystem::path& file : files) {
-    const Result<Assembly> a = read_cad(file, {});
+    const Result<Assembly> a = load_assembly(file, {});
     EXPECT_TRUE(a.ok()) << a.error().message;
     if (a) components.insert(components.end(), a->components.begin(), a->components.end());
   }
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Originals, StepData,
 TEST(StepDataSet, LeavesNoFaceOutOfFilesAsTheyArePublished) {
   DISMANTLE_NEED(data_folder() / "wild");
   for (const char* file : {"gripper_online_robotics", "klickswipe_probe", "odrive_pcb_v35", "stealthburner_bowden"}) {
-    const Result<Assembly> a = read_cad(data_folder() / "wild" / (std::string(file) + ".step"), {});
+    const Result<Assembly> a = load_assembly(data_folder() / "wild" / (std::string(file) + ".step"), {});
     ASSERT_TRUE(a.ok()) << a.error().message;
     // odrive's open part is drawn as sheets.
     const auto open = std::count_if(a->components.begin(), a->components.end(),
@@ -75,7 +75,7 @@ TEST(StepDataSet, MeshesTheBreakersPartsClosed) {
 
 TEST(StepDataSet, NamesTheProductsOfTheBracketAssembly) {
   DISMANTLE_NEED(kAssemblies);
-  const Result<Assembly> a = read_cad(kAssemblies / "as1_oc_214/original/as1-oc-214.stp", {});
+  const Result<Assembly> a = load_assembly(kAssemblies / "as1_oc_214/original/as1-oc-214.stp", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   for (const char* name : {"plate", "rod", "l-bracket", "l-bracket#2", "nut", "nut#8", "bolt", "bolt#6"})
     EXPECT_TRUE(a->find(name)) << name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are broken, truncated or malicious: one Error each, and the process survives.
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/support/scratch_folder.h"
@@ -24,7 +24,7 @@ std::string small_step(const ScratchFolder& folder) {
 
 /// The Error that reading the bytes gives; empty if they can be read.
 std::string error_of(const ScratchFolder& folder, std::string_view bytes) {
-  const Result<Assembly> a = read_cad(folder.put("hostile.step", bytes), {});
+  const Result<Assembly> a = load_assembly(folder.put("hostile.step", bytes), {});
   return a ? "" : a.error().message;
 }
 
@@ -40,7 +40,7 @@ TEST(ReadStepHostile, ReportsFilesThatAreNotStep) {
   EXPECT_NE(error_of(folder, "solid cube\nendsolid\n").find("does not begin with ISO-10303-21"), std::string::npos);
   EXPECT_NE(error_of(folder, std::string("\x1f\x8b\x08", 3) + "xyz").find("gzip"), std::string::npos);
   EXPECT_NE(error_of(folder, "PK\x03\x04 and so on").find("zip"), std::string::npos);
-  EXPECT_NE(read_cad(folder / "missing.step", {}).error().message.find("No such file"), std::string::npos);
+  EXPECT_NE(load_assembly(folder / "missing.step", {}).error().message.find("no such file"), std::string::npos);
 }
 
 TEST(ReadStepHostile, ReportsTruncatedFiles) {
@@ -98,7 +98,7 @@ TEST(ReadStepHostile, RefusesATreeThatExplodes) {
   ASSERT_TRUE(writer.write(folder / "explodes.step"));
   ImportOptions options;
   options.limits.components = 1000;
-  const Result<Assembly> a = read_cad(folder / "explodes.step", options);
+  const Result<Assembly> a = load_assembly(folder / "explodes.step", options);
   ASSERT_FALSE(a.ok());
   EXPECT_NE(a.error().message.find("more than 1000 components"), std::string::npos) << a.error().message;
 }
@@ -115,7 +115,7 @@ TEST(ReadStepHostile, ReadsOrRefusesFilesWithChangedBytesAndLines) {
     std::string changed = whole;
     for (int k = 0; k < 1 + round % 6; ++k)
       changed[body + random() % (whole.size() - body - 40)] = alphabet[random() % alphabet.size()];
-    const Result<Assembly> a = read_cad(folder.put("changed.step", changed), {});
+    const Result<Assembly> a = load_assembly(folder.put("changed.step", changed), {});
     EXPECT_TRUE(a.ok() || !a.error().message.empty());
     read += a.ok() ? 1 : 0;
   }

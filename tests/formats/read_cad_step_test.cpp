@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/support/scratch_folder.h"
@@ -80,7 +81,7 @@ class NestedStep : public ::testing::Test {
 };
 
 TEST_F(NestedStep, MakesAComponentOfEachOccurrenceOfASolid) {
-  const Result<Assembly> a = read_cad(file_, {});
+  const Result<Assembly> a = load_assembly(file_, {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_EQ(a->source_file, "nested.step");
   EXPECT_EQ(a->source_sha256.size(), 64u);
@@ -98,7 +99,7 @@ TEST_F(NestedStep, MakesAComponentOfEachOccurrenceOfASolid) {
 }
 
 TEST_F(NestedStep, PlacesInstancesAndSharesTheirMesh) {
-  const Result<Assembly> a = read_cad(file_, {});
+  const Result<Assembly> a = load_assembly(file_, {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   for (int i = 1; i < 4; ++i) EXPECT_EQ(a->components[0].mesh, a->components[static_cast<std::size_t>(i)].mesh);
   EXPECT_EQ(a->components[0].mesh->faces.size(), 12u);
@@ -111,7 +112,7 @@ TEST_F(NestedStep, PlacesInstancesAndSharesTheirMesh) {
 }
 
 TEST_F(NestedStep, TakesColoursFromTheInstanceThenTheProduct) {
-  const Result<Assembly> a = read_cad(file_, {});
+  const Result<Assembly> a = load_assembly(file_, {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   expect_color(a->components[0].color, 0.2, 0.4, 0.6);
   expect_color(a->components[1].color, 1, 0, 0);
@@ -121,17 +122,17 @@ TEST_F(NestedStep, TakesColoursFromTheInstanceThenTheProduct) {
 TEST_F(NestedStep, RefusesMoreComponentsOrTrianglesThanTheLimit) {
   ImportOptions options;
   options.limits.components = 4;
-  EXPECT_NE(read_cad(file_, options).error().message.find("more than 4 components"), std::string::npos);
+  EXPECT_NE(load_assembly(file_, options).error().message.find("more than 4 components"), std::string::npos);
   options.limits.components = 5;
   options.limits.triangles = 40;
-  EXPECT_NE(read_cad(file_, options).error().message.find("more than 40 triangles"), std::string::npos);
+  EXPECT_NE(load_assembly(file_, options).error().message.find("more than 40 triangles"), std::string::npos);
 }
 
 TEST_F(NestedStep, ReportsProgressAndCanBeCancelled) {
   ImportOptions options;
   int calls = 0;
   options.progress = [&](std::string_view, double) { return ++calls < 1; };
-  const Result<Assembly> a = read_cad(file_, options);
+  const Result<Assembly> a = load_assembly(file_, options);
   EXPECT_EQ(calls, 1);
   ASSERT_FALSE(a.ok());
   EXPECT_EQ(a.error().kind, ErrorKind::Failed);
@@ -139,7 +140,7 @@ TEST_F(NestedStep, ReportsProgressAndCanBeCancelled) {
 }
 
 TEST_F(NestedStep, ReadsTheSameBytesEveryTime) {
-  const Result<Assembly> a = read_cad(file_, {}), b = read_cad(file_, {});
+  const Result<Assembly> a = load_assembly(file_, {}), b = load_assembly(file_, {});
   ASSERT_TRUE(a.ok() && b.ok());
   for (std::size_t i = 0; i < a->components.size(); ++i) EXPECT_EQ(*a->components[i].mesh, *b->components[i].mesh);
 }
@@ -158,11 +159,11 @@ std::map<std::filesystem::path, std::uint64_t> files_in(const std::filesystem::p
 TEST_F(NestedStep, IsTheSameOutOfTheCache) {
   ImportOptions options;
   options.cache_folder = folder_ / "cache";
-  const Result<Assembly> fresh = read_cad(file_, options);
+  const Result<Assembly> fresh = load_assembly(file_, options);
   ASSERT_TRUE(fresh.ok());
   const auto first = files_in(options.cache_folder);
   EXPECT_EQ(first.size(), 1u);
-  const Result<Assembly> kept = read_cad(file_, options);
+  const Result<Assembly> kept = load_assembly(file_, options);
   ASSERT_TRUE(kept.ok());
   EXPECT_EQ(files_in(options.cache_folder), first);
   EXPECT_EQ(kept->source_sha256, fresh->source_sha256);
@@ -175,14 +176,14 @@ TEST_F(NestedStep, IsTheSameOutOfTheCache) {
   }
 
   options.deflection = 0.5;  // other triangles
-  EXPECT_TRUE(read_cad(file_, options).ok());
+  EXPECT_TRUE(load_assembly(file_, options).ok());
   EXPECT_EQ(files_in(options.cache_folder).size(), 2u);
   options.units = "cm";
-  EXPECT_TRUE(read_cad(file_, options).ok());
+  EXPECT_TRUE(load_assembly(file_, options).ok());
   const auto three = files_in(options.cache_folder);
   EXPECT_EQ(three.size(), 3u);
   for (const auto& [file, number] : three) std::filesystem::resize_file(file, 1000);
-  EXPECT_TRUE(read_cad(file_, options).ok());
+  EXPECT_TRUE(load_assembly(file_, options).ok());
   const auto after = files_in(options.cache_folder);
   EXPECT_EQ(after.size(), 3u);
   EXPECT_NE(after, three);
@@ -194,7 +195,7 @@ TEST(ReadStep, LeavesOutNoConicalFace) {
     ImportOptions options;
     options.deflection = deflection;
     const Result<Assembly> a =
-        read_cad(std::filesystem::path(DISMANTLE_SOURCE_DIR) / "tests/formats/chamfer.step", options);
+        load_assembly(std::filesystem::path(DISMANTLE_SOURCE_DIR) / "tests/formats/chamfer.step", options);
     ASSERT_TRUE(a.ok()) << a.error().message;
     ASSERT_EQ(a->components.size(), 1u);
     double area = 0;
@@ -212,7 +213,7 @@ TEST(ReadStep, MakesAComponentOfEachSolidOfAProductAndOneOfItsLooseFaces) {
   CadWriter writer;
   writer.part("mixed", compound_of({block(), ball, open}));
   ASSERT_TRUE(writer.write(folder / "mixed.stp"));
-  const Result<Assembly> a = read_cad(folder / "mixed.stp", {});
+  const Result<Assembly> a = load_assembly(folder / "mixed.stp", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   ASSERT_EQ(a->components.size(), 3u);
   EXPECT_EQ(a->components[0].name, "mixed");
@@ -229,9 +230,9 @@ TEST(ReadStep, JoinsTheSolidsOfAProductWhereAsked) {
   const std::filesystem::path file = folder / "solids.step";
   ASSERT_TRUE(writer.write(file));
   ImportOptions options;
-  EXPECT_EQ(read_cad(file, options)->components.size(), 3u);
+  EXPECT_EQ(load_assembly(file, options)->components.size(), 3u);
   options.solids = Solids::Join;
-  const Result<Assembly> joined = read_cad(file, options);
+  const Result<Assembly> joined = load_assembly(file, options);
   ASSERT_EQ(joined->components.size(), 2u);
   EXPECT_EQ(joined->components[0].name, "two");
   EXPECT_EQ(joined->components[0].mesh->faces.size(), 24u);
@@ -248,14 +249,14 @@ TEST(ReadStep, TakesTheColourOfTheLargestArea) {
   writer.color(part, 0, 0, 1);
   writer.color(part, faces.Current(), 1, 0, 0);
   ASSERT_TRUE(writer.write(folder / "painted.step"));
-  Result<Assembly> a = read_cad(folder / "painted.step", {});
+  Result<Assembly> a = load_assembly(folder / "painted.step", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   expect_color(a->components[0].color, 0, 0, 1);  // 1600 mm^2 of 2200
 
   faces.Next();
   writer.color(part, faces.Current(), 1, 0, 0);
   ASSERT_TRUE(writer.write(folder / "painted.step"));
-  a = read_cad(folder / "painted.step", {});
+  a = load_assembly(folder / "painted.step", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   expect_color(a->components[0].color, 1, 0, 0);  // 1200 mm^2 of 2200
 }
@@ -267,19 +268,19 @@ TEST(ReadStep, ConvertsUnitsAndLetsTheUserOverrideThem) {
     const TDF_Label top = writer.assembly("top");
     writer.instance(top, writer.part("block", block()), translation(254, 0, 0));
     ASSERT_TRUE(writer.write(folder / "unit.step", written));
-    const Result<Assembly> a = read_cad(folder / "unit.step", {});
+    const Result<Assembly> a = load_assembly(folder / "unit.step", {});
     ASSERT_TRUE(a.ok()) << a.error().message;
     EXPECT_EQ(a->source_units, name);
     expect_box(assembled_bounds(*a), {254, 0, 0}, {264, 20, 30}, 1e-6);
   }
   ImportOptions options;
   options.units = "in";  // the file is in centimetres
-  const Result<Assembly> a = read_cad(folder / "unit.step", options);
+  const Result<Assembly> a = load_assembly(folder / "unit.step", options);
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_EQ(a->source_units, "in");
   expect_box(assembled_bounds(*a), 2.54 * Vec3{254, 0, 0}, 2.54 * Vec3{264, 20, 30}, 1e-6);
   options.units = "furlong";
-  EXPECT_EQ(read_cad(folder / "unit.step", options).error().kind, ErrorKind::Usage);
+  EXPECT_EQ(load_assembly(folder / "unit.step", options).error().kind, ErrorKind::Usage);
 }
 
 TEST(ReadStep, MeshesCurvedFacesClosedAndWithinTheDeflection) {
@@ -295,7 +296,7 @@ TEST(ReadStep, MeshesCurvedFacesClosedAndWithinTheDeflection) {
   for (const double deflection : {0.2, 0.01}) {
     ImportOptions options;
     options.deflection = deflection;
-    const Result<Assembly> a = read_cad(folder / "curved.step", options);
+    const Result<Assembly> a = load_assembly(folder / "curved.step", options);
     ASSERT_TRUE(a.ok()) << a.error().message;
     EXPECT_EQ(a->deflection, deflection);
     ASSERT_EQ(a->components.size(), 4u);
@@ -325,7 +326,7 @@ TEST(ReadStep, UsesOneDocumentedDeflectionByDefault) {
   CadWriter writer;
   writer.part("block", block());
   ASSERT_TRUE(writer.write(folder / "block.step"));
-  const Result<Assembly> a = read_cad(folder / "block.step", {});
+  const Result<Assembly> a = load_assembly(folder / "block.step", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_NEAR(a->deflection, kDefaultRelativeDeflection * std::sqrt(100 + 400 + 900), 1e-6);
 }
@@ -338,11 +339,11 @@ TEST(ReadStep, RefinesByAngleWhatTheDeflectionLeavesCoarse) {
   ImportOptions options;
   options.deflection = 10;
   options.angular_deflection = 2 * kPi / 60;
-  const Result<Assembly> a = read_cad(folder / "pin.step", options);
+  const Result<Assembly> a = load_assembly(folder / "pin.step", options);
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_GE(a->components[0].mesh->vertices.size(), 120u);  // 60 per rim
   options.angular_deflection = 0;
-  EXPECT_GE(read_cad(folder / "pin.step", options)->components[0].mesh->vertices.size(), 36u);
+  EXPECT_GE(load_assembly(folder / "pin.step", options)->components[0].mesh->vertices.size(), 36u);
 }
 
 TEST(ReadStep, KeepsNamesOfOtherScripts) {
@@ -350,7 +351,7 @@ TEST(ReadStep, KeepsNamesOfOtherScripts) {
   CadWriter writer;
   writer.part("Gehäuse 螺栓 'x'", block());
   ASSERT_TRUE(writer.write(folder / "names.step"));
-  const Result<Assembly> a = read_cad(folder / "names.step", {});
+  const Result<Assembly> a = load_assembly(folder / "names.step", {});
   ASSERT_TRUE(a.ok()) << a.error().message;
   EXPECT_EQ(a->components[0].name, "Gehäuse 螺栓 'x'");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // VRML files that OpenCASCADE writes: the components of the STEP file of the same shapes.
-#include "dismantle/formats/cad/read_cad.h"
+#include "dismantle/loading/load_assembly.h"
 #include "dismantle/formats/vrml/read_vrml.h"
 
 #include "tests/formats/cad_writer.h"
@@ -31,7 +31,7 @@ TEST(ReadOpenCascadesVrml, GivesTheComponentsOfTheStepFile) {
     CadWriter writer;
     writer.part("part", shape);
     ASSERT_TRUE(writer.write(folder / "a.step"));
-    const Result<Assembly> step = read_cad(folder / "a.step", {});
+    const Result<Assembly> step = load_assembly(folder / "a.step", {});
     ASSERT_TRUE(step.ok());
     BRepMesh_IncrementalMesh(shape, 0.01, false, 0.2);
     VrmlAPI_Writer vrml;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/formats/collada/read_collada.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/support/scratch_folder.h"
 
@@ -46,7 +46,7 @@ class ReadCollada : public ::testing::Test {
     if (!a && a.error().message.find("built without Assimp") != std::string::npos) GTEST_SKIP() << "there is no Assimp";
   }
   Result<Assembly> read_text(const std::string& text, const ImportOptions& options = {}) const {
-    return read_collada(folder_.put("a.dae", text), options);
+    return load_assembly(folder_.put("a.dae", text), options);
   }
   std::string error_of(const std::string& text) const {
     const Result<Assembly> a = read_text(text);

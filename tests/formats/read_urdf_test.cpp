@@ -119,14 +119,18 @@ TEST(ReadUrdf, FindsMeshesNearTheFile) {
                        link("three", "<mesh filename=\"package://other/b.obj\"/>") +
                        link("four", "<mesh filename=\"file://" + (folder / "ws/other/b.obj").string() + "\"/>") +
                        link("five", "<mesh filename=\"package://renamed/meshes/a.obj\" scale=\"2 2 2\"/>")));
-  const auto assembly = load_assembly(file);
+  expect_unreadable(load_assembly(file), "which is not in its folder");  // "../meshes"
+  folder.put("ws/my_robot/package.xml", "<package/>");
+  expect_unreadable(load_assembly(file), "\"package://other/b.obj\", which is not");
+  ImportOptions options;
+  options.reference_folders = {folder / "ws"};
+  const auto assembly = load_assembly(file, options);
   ASSERT_TRUE(assembly.ok()) << message_of(assembly);
   ASSERT_EQ(assembly->components.size(), 5u);
   expect_near(assembled_bounds(assembly->components[0]), {0, 0, 0}, {1000, 1000, 1000});
   expect_near(assembled_bounds(assembly->components[4]), {0, 0, 0}, {2000, 2000, 2000});
   EXPECT_EQ(assembly->source_file, "arm.urdf");
 
-  ImportOptions options;
   options.units = "mm";
   const auto small = load_assembly(file, options);
   ASSERT_TRUE(small.ok());
@@ -141,9 +145,9 @@ TEST(ReadUrdf, SaysWhatIsWrongWithAMesh) {
     return load_assembly(folder.put("arm.urdf", robot(link("one", "<mesh filename=\"" + mesh + "\"/>"))));
   };
   expect_unreadable(load("a.dae"), "mesh \"a.dae\" is no OBJ, STL or PLY file");
-  expect_unreadable(load("none.obj"), "mesh file \"none.obj\" is not there");
+  expect_unreadable(load("none.obj"), "it refers to \"none.obj\", which is not there");
   expect_unreadable(load("package://none/none.obj"), "is not there");
-  expect_unreadable(load(""), "is not there");
+  expect_unreadable(load(""), "it refers to \"\"");
   expect_unreadable(load("b.obj"), "b.obj cannot be read as OBJ");
   expect_unreadable(load("arm.urdf"), "is no OBJ, STL or PLY file");
 }

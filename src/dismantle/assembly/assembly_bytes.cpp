@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/assembly/assembly_bytes.h"
 
-#include "dismantle/assembly/byte_stream.h"
+#include "dismantle/core/byte_stream.h"
 
 #include <unordered_map>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
-#include "dismantle/assembly/byte_stream.h"
+#include "dismantle/core/byte_stream.h"
 #include "dismantle/core/result.h"
 
 #include <cstddef>

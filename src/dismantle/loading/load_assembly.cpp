@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/loading/load_assembly.h"
 
-#include "dismantle/assembly/assembly_file.h"
 #include "dismantle/assembly/duplicates.h"
+#include "dismantle/files/file_cache.h"
+#include "dismantle/files/read_file.h"
+#include "dismantle/files/sha256.h"
 #include "dismantle/files/text_name.h"
 #include "dismantle/files/text_scan.h"
-#include "dismantle/formats/cad/read_cad.h"
-#include "dismantle/formats/collada/read_collada.h"
-#include "dismantle/formats/gltf/read_gltf.h"
 #include "dismantle/formats/import/assembly_builder.h"
 #include "dismantle/formats/import/file_formats.h"
+#include "dismantle/formats/import/mesh_source.h"
+#include "dismantle/formats/import/referenced_file.h"
 #include "dismantle/formats/import/units.h"
-#include "dismantle/formats/mesh/read_mesh.h"
-#include "dismantle/formats/threemf/read_3mf.h"
-#include "dismantle/formats/urdf/read_urdf.h"
-#include "dismantle/formats/vrml/read_vrml.h"
+#include "dismantle/loading/import_budget.h"
+#include "dismantle/loading/reader_messages.h"
+#include "dismantle/loading/reader_program.h"
 
-#include <map>
+#include <algorithm>
+#include <cstdio>
 #include <new>
 #include <stdexcept>
 
@@ -26,84 +27,156 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Cleans the meshes of an assembly, each shared one once, and scales everything by `scale`.
-void clean_and_scale(Assembly& assembly, double scale) {
-  std::map<std::shared_ptr<const TriangleMesh>, CleanedMesh> cleaned;
-  for (Component& component : assembly.components) {
-    const auto [at, is_new] = cleaned.try_emplace(component.mesh);
-    if (is_new) {
-      TriangleMesh scaled = *component.mesh;
-      for (Vec3& vertex : scaled.vertices) vertex *= scale;
-      at->second = clean_mesh(scaled);
-    }
-    const MeshFaults as_read = component.faults;
-    component.faults = at->second.faults;
-    component.faults.welded_vertices += as_read.welded_vertices;
-    component.faults.degenerate_faces += as_read.degenerate_faces;
-    component.assembly_from_mesh.translation *= scale;
-  }
-  std::map<const TriangleMesh*, std::shared_ptr<const TriangleMesh>> shared;
-  for (auto& [original, mesh] : cleaned)
-    shared[original.get()] = std::make_shared<const TriangleMesh>(std::move(mesh.mesh));
-  std::erase_if(assembly.components, [&](Component& component) {
-    component.mesh = shared[component.mesh.get()];
-    return component.mesh->faces.empty();
-  });
+/// Increased whenever the same file and options give another assembly, or a reader's answer another layout.
+constexpr int kImportVersion = 4;
+
+/// "STEP", or what a folder is read as.
+std::string format_name(const FormatEntry* entry) {
+  return entry != nullptr ? std::string(entry->name) : "a folder of meshes";
 }
 
-/// A `.dasm` file: it keeps the name and the hash of the file that it was converted from.
-Result<Assembly> read_dasm(const fs::path& file, const ImportOptions& options) {
-  Result<AssemblyFile> read = read_assembly_file(file, options.limits.file_bytes);
-  if (!read) return read.error();
-  Assembly& assembly = read->assembly;
-  const Result<double> scale = millimetres_per_unit(options.units.empty() ? "mm" : options.units);
-  if (!scale) return scale.error();
-  if (!options.units.empty()) assembly.source_units = options.units;
-  clean_and_scale(assembly, *scale);
-  const auto refused = [&file](const char* why, const char* advice) {
-    return Error{ErrorKind::Unreadable, file.string() + " cannot be loaded (" + why + "); " + advice};
+/// What reads a file, for users.
+std::string reader_name(const FormatEntry* entry) {
+  if (entry == nullptr || !entry->by_cad_kernel) return "its reader";
+  return entry->format == FileFormat::Collada ? "Assimp" : "the CAD kernel";
+}
+
+/// The size of a file, or of all in a folder.
+std::uint64_t size_on_disk(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_regular_file(file, error)) return fs::file_size(file, error);
+  std::uint64_t sum = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(file, error))
+    if (entry.is_regular_file(error)) sum += entry.file_size(error);
+  return sum;
+}
+
+/// The size of a file with all to which it may refer.
+std::uint64_t size_with_links(const fs::path& file, const FormatEntry* entry) {
+  if (entry == nullptr || !entry->has_links) return size_on_disk(file);
+  return size_on_disk(file.has_parent_path() ? file.parent_path() : fs::path("."));
+}
+
+/// The Error for a reader that ended without an answer.
+Error failure(const fs::path& file, const FormatEntry* entry, const IsolatedResult& result) {
+  const auto unreadable = [&](const std::string& why_and_advice) {
+    return unreadable_as(file, format_name(entry), {ErrorKind::Unreadable, why_and_advice});
   };
-  if (assembly.components.empty()) return refused("it has no component with triangles", "convert it again");
-  if (assembly.components.size() > options.limits.components || triangle_count(assembly) > options.limits.triangles)
-    return refused("it has too many components or triangles", "simplify it or load a part of it");
-  return std::move(assembly);
+  switch (result.ending) {
+    case IsolatedEnding::Refused:
+      return result.error;
+    case IsolatedEnding::OutOfMemory:
+      return unreadable(
+          "it takes more memory than files of its size do; simplify or split it, or allow more with --import-memory");
+    case IsolatedEnding::OutOfTime:
+    case IsolatedEnding::Silent:
+      return unreadable(
+          "it takes longer than files of its size do; simplify or split it, or allow more with --import-time");
+    case IsolatedEnding::Cancelled:
+      return cancelled();
+    case IsolatedEnding::NotStarted:
+      return {ErrorKind::Failed, file.string() +
+                                     " cannot be read (the system gave no process for it); close other programs and "
+                                     "try again"};
+    case IsolatedEnding::Done:
+    case IsolatedEnding::Crashed:
+      break;
+  }
+  return unreadable(reader_name(entry) + " crashed on it" +
+                    (result.signal ? ", signal " + std::to_string(result.signal) : std::string()) +
+                    "; check it in the program that wrote it");
 }
 
-Result<Assembly> dispatch(const fs::path& file, const ImportOptions& options) {
+/// Runs the reader of a file and returns its answer.
+Result<std::string> answer_of_reader(const fs::path& file, const FormatEntry* entry, const ImportOptions& options) {
+  const ReaderProgram kind = entry != nullptr && entry->by_cad_kernel ? ReaderProgram::Cad : ReaderProgram::Meshes;
+  IsolatedProgram program;
+  program.file = find_reader(kind);
+  if (program.file.empty())
+    return Error{ErrorKind::Failed, file.string() +
+                                        " cannot be read (the program that reads models, dismantle-read, is not where "
+                                        "dismantle is); install dismantle again"};
+  program.request = bytes_of(ReaderRequest{DISMANTLE_VERSION, file, options});
+  program.readable = reference_folders(file, options);
+  program.readable.push_back(file);
+  const IsolationLimits limits = import_budget(entry, size_with_links(file, entry), options);
+  const IsolatedResult result = run_isolated(program, limits, options.progress);
+  if (result.ending != IsolatedEnding::Done) return failure(file, entry, result);
+  return std::string(reinterpret_cast<const char*>(result.bytes.data()), result.bytes.size());
+}
+
+/// All that the result depends on, linked files apart.
+std::string cache_key(const fs::path& file, const FormatEntry& entry, const std::string& content,
+                      const ImportOptions& options) {
+  const auto number = [](double value) {
+    char digits[32];
+    return std::string(digits, static_cast<std::size_t>(std::snprintf(digits, sizeof digits, "%a", value)));
+  };
+  std::string key(entry.name);
+  for (const std::string& part :
+       {std::to_string(kImportVersion), std::string(DISMANTLE_VERSION), std::string(DISMANTLE_CAD_LIBRARIES), content,
+        file.stem().string(), options.units, number(options.deflection), number(options.angular_deflection),
+        std::to_string(static_cast<int>(options.solids)), std::to_string(options.limits.triangles),
+        std::to_string(options.limits.components)})
+    key += '\n' + part;
+  return key;
+}
+
+/// True if every linked file is as it was, and may still be read.
+bool is_current(std::string_view answer, const fs::path& file, const ImportOptions& options) {
+  const std::optional<std::vector<LinkedFile>> files = linked_files_in(answer);
+  const std::vector<fs::path> folders = reference_folders(file, options);
+  return files && std::all_of(files->begin(), files->end(), [&](const LinkedFile& linked) {
+           if (!referenced_file(linked.file, file.parent_path(), folders)) return false;
+           const Result<std::string> now = read_file(linked.file, options.limits.file_bytes);
+           return now && sha256(*now) == linked.sha256;
+         });
+}
+
+/// The assembly of a file, from the cache or its reader.
+Result<Assembly> read(const fs::path& file, const FormatEntry* entry, const ImportOptions& options) {
+  if (!report_progress(options.progress, "reading", 0)) return cancelled();
+  const bool is_kept = entry != nullptr && entry->by_cad_kernel && !options.cache_folder.empty();
+  const FileCache cache(is_kept ? options.cache_folder : fs::path(), is_kept ? kCacheBytes : 0);
+  std::string key, content;
+  if (is_kept) {
+    const Result<std::string> bytes = read_file(file, options.limits.file_bytes);
+    if (!bytes) return bytes.error();
+    content = sha256(*bytes);
+    key = cache_key(file, *entry, content, options);
+    const std::string kept = cache.find(key).value_or("");
+    if (is_current(kept, file, options))
+      if (std::optional<Assembly> assembly = assembly_in(kept)) {
+        assembly->source_file = file.filename().string();
+        return std::move(*assembly);
+      }
+  }
+  const Result<std::string> answer = answer_of_reader(file, entry, options);
+  if (!answer) return answer.error();
+  std::optional<Assembly> assembly = assembly_in(*answer);
+  const std::optional<std::vector<LinkedFile>> linked = linked_files_in(*answer);
+  if (!assembly || !linked) return failure(file, entry, {IsolatedEnding::Crashed, 0, {}, {}});
+  // Not if the file changed between the two readings.
+  const bool is_same = !linked->empty() || assembly->source_sha256 == content;
+  if (is_kept && is_same) cache.keep(key, *answer);
+  return std::move(*assembly);
+}
+
+/// The format of a file; null for a folder. Errors: Unreadable.
+Result<const FormatEntry*> format_to_read(const fs::path& file) {
   std::error_code ignored;
   const fs::file_status status = fs::status(file, ignored);
-  if (fs::is_directory(status)) return read_mesh_folder(file, options);
+  if (fs::is_directory(status)) return static_cast<const FormatEntry*>(nullptr);
   if (!fs::exists(status))
     return Error{ErrorKind::Unreadable, file.string() + " cannot be read (no such file); check the path"};
-
   const FormatEntry* entry = format_of(file);
+  if (entry != nullptr) return entry;
   const std::string extension = lower_case(file.extension().string());
-  if (entry == nullptr)
-    return Error{ErrorKind::Unreadable,
-                 file.string() + " cannot be read (" +
-                     (extension.empty() ? "it has no file extension"
-                                        : "dismantle cannot read files with the extension " + in_quotes(extension)) +
-                     "); convert it to " + format_names() + ", or give a folder of meshes"};
-  switch (entry->format) {
-    case FileFormat::Gltf:
-      return read_gltf(file, options);
-    case FileFormat::ThreeMf:
-      return read_3mf(file, options);
-    case FileFormat::Collada:
-      return read_collada(file, options);
-    case FileFormat::Vrml:
-      return read_vrml(file, options);
-    case FileFormat::Urdf:
-      return read_urdf(file, options);
-    case FileFormat::Dasm:
-      return read_dasm(file, options);
-    case FileFormat::Obj:
-    case FileFormat::Stl:
-    case FileFormat::Ply:
-      return read_mesh(file, options);
-    default:
-      return read_cad(file, options);
-  }
+  return Error{ErrorKind::Unreadable,
+               file.string() + " cannot be read (" +
+                   (extension.empty() ? "it has no file extension"
+                                      : "dismantle cannot read files with the extension " + in_quotes(extension)) +
+                   "); convert it to " + format_names() + ", or give a folder of meshes"};
 }
 
 /// Names from files may contain any bytes; after this they are safe in JSON and on a terminal.
@@ -116,8 +189,12 @@ void clean_names(Assembly& assembly) {
 }  // namespace
 
 Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
+  if (!options.units.empty())
+    if (const Result<double> known = millimetres_per_unit(options.units); !known) return known.error();
   try {
-    Result<Assembly> assembly = dispatch(file, options);
+    const Result<const FormatEntry*> format = format_to_read(file);
+    if (!format) return format.error();
+    Result<Assembly> assembly = read(file, *format, options);
     if (!assembly) return assembly;
     if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
     clean_names(*assembly);

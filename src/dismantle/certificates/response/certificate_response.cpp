@@ -26,6 +26,7 @@ CertificateResponse::CertificateResponse(CertificateSweeper& sweeper)
 StepResult CertificateResponse::step(const Pose& target, ResponseKind response) {
   const Clock::time_point start = Clock::now();
   StepResult result;
+  sweeper_.begin_step();
   result.pose = sweeper_.pose();
   if (result.pose == target) {
     result.reached = true;
@@ -34,6 +35,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   } else {
     go(target, response == ResponseKind::Touch, result);
   }
+  sweeper_.end_step();
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
   if (result.reached) result.blocking_pairs.clear();
@@ -45,6 +47,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
 CertificateSweep CertificateResponse::sweep(const ScrewMotion& motion, double window, SweepBudget budget,
                                             StepResult& result) {
   CertificateSweep found = sweeper_.sweep(motion, window, budget);
+  sweeper_.count_depth_tests(found.depth_tests);
   ++result.sweeps;
   result.cost.pairs = found.front;
   result.cost.triangle_pairs += found.triangle_tests;

@@ -98,6 +98,13 @@ class CertificateSweeper {
   /// Parts the pairs of the moving set that are apart at its pose.
   void part_others();
 
+  /// Begins a step: its sweeps share CertificateOptions::depth_tests. They have no limit outside a step.
+  void begin_step() { depth_tests_left_ = options_.depth_tests > 0 ? options_.depth_tests : kUnlimited; }
+  /// Takes what a sweep of the step examined from that.
+  void count_depth_tests(std::size_t count) { depth_tests_left_ -= std::min(count, depth_tests_left_); }
+  /// Ends the step.
+  void end_step() { depth_tests_left_ = kUnlimited; }
+
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return store_.solid(c); }
   /// The executor of the options.
@@ -190,7 +197,9 @@ class CertificateSweeper {
   std::size_t parted_count_ = 0;                      ///< Of the pairs in `guarded_`.
   std::vector<ComponentId> changed_;                  ///< Since find_parted() was last called.
   std::vector<bool> is_changed_;
-  Vec3 center_;  ///< Of a sphere around the moving set [mm, assembled].
+  static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+  std::size_t depth_tests_left_ = kUnlimited;  ///< Of the present step.
+  Vec3 center_;                                ///< Of a sphere around the moving set [mm, assembled].
   double radius_ = 0;
 };
 

@@ -14,6 +14,8 @@ namespace {
 
 /// Contacts of depths are found to within a motion of this share of the tolerance.
 constexpr double kResolution = 0.25;
+/// A sweep may examine this many points and pieces, however many the others of its step have.
+constexpr std::size_t kFewestTests = 4000;
 
 }  // namespace
 
@@ -23,9 +25,11 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
+  const std::size_t most =
+      std::min(kMaxSweptPieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
   const auto deep =
       first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_), kResolution * tolerance_ / way,
-                   kMaxSweptPieces, options_.keep_going, search_for, &result.depth_tests);
+                   most, options_.keep_going, search_for, &result.depth_tests);
   result.clearance = 0;
   if (!deep) return;
   const Screw screw = screw_between(motion.start, motion.end);

@@ -4,7 +4,7 @@
 #include "dismantle/core/result.h"
 #include "dismantle/formats/cad/product_tree.h"
 #include "dismantle/formats/import/import_options.h"
-#include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/imported_assembly.h"
 #include "dismantle/formats/import/units.h"
 
 #include <filesystem>

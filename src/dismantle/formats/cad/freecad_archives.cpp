@@ -3,6 +3,7 @@
 
 #include "dismantle/files/read_file.h"
 #include "dismantle/files/sha256.h"
+#include "dismantle/formats/import/referenced_file.h"
 
 #include <string_view>
 #include <utility>
@@ -11,8 +12,11 @@ namespace dismantle {
 
 namespace fs = std::filesystem;
 
-FreeCadArchives::FreeCadArchives(const CadSource& source, std::size_t file_limit)
-    : source_(source), root_(fs::absolute(source.file).lexically_normal()), file_limit_(file_limit) {}
+FreeCadArchives::FreeCadArchives(const CadSource& source, const ImportOptions& options)
+    : source_(source),
+      root_(fs::absolute(source.file).lexically_normal()),
+      file_limit_(options.limits.file_bytes),
+      folders_(reference_folders(source.file, options)) {}
 
 Result<std::string> FreeCadArchives::read(const fs::path& file, const std::string& entry) {
   const auto [place, is_new] = open_.try_emplace(file);
@@ -33,7 +37,10 @@ std::vector<LinkedFile> FreeCadArchives::linked_files() const {
 
 Result<Done> FreeCadArchives::open(const fs::path& file, Open& open) {
   if (file != root_) {
-    Result<std::string> bytes = read_file(file, file_limit_);
+    const fs::path folder = root_.parent_path(), relative = file.lexically_relative(folder);
+    const Result<fs::path> linked = referenced_file(relative, folder, folders_);
+    if (!linked) return Error{ErrorKind::Unreadable, "it " + linked.error().message};
+    Result<std::string> bytes = read_file(*linked, file_limit_);
     if (!bytes) {  // "<file> cannot be read (<why>); <what to do>"
       const std::string& message = bytes.error().message;
       const std::size_t why = message.find(" cannot be read (") + 17, end = message.rfind("); ");

@@ -4,7 +4,7 @@
 #include "dismantle/core/result.h"
 #include "dismantle/files/zip_archive.h"
 #include "dismantle/formats/cad/cad_model.h"
-#include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/imported_assembly.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -18,9 +18,9 @@ namespace dismantle {
 /// The archives of a FreeCAD document and of those that it links to, opened when they are first read.
 class FreeCadArchives {
  public:
-  /// @param source the document, whose bytes are at hand; must outlive this @param file_limit largest linked file
-  /// [bytes]
-  FreeCadArchives(const CadSource& source, std::size_t file_limit);
+  /// @param source the document, whose bytes are at hand; must outlive this @param options of the import: the largest
+  /// linked file, and where linked files may be
+  FreeCadArchives(const CadSource& source, const ImportOptions& options);
 
   /// The path of the document.
   const std::filesystem::path& root() const { return root_; }
@@ -40,6 +40,7 @@ class FreeCadArchives {
   const CadSource& source_;
   std::filesystem::path root_;
   std::size_t file_limit_;
+  std::vector<std::filesystem::path> folders_;  // see reference_folders()
   std::map<std::filesystem::path, Open> open_;
 };
 

@@ -110,7 +110,7 @@ class SceneWalker {
 }  // namespace
 
 Result<CadModel> read_freecad_model(const CadSource& source, const ImportOptions& options) {
-  FreeCadArchives archives(source, options.limits.file_bytes);
+  FreeCadArchives archives(source, options);
   const FreeCadEntryReader read = [&](const fs::path& file, const std::string& entry) {
     return archives.read(file, entry);
   };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/cad/cad_model.h"
-#include "dismantle/formats/cad/memory_file.h"
 #include "dismantle/formats/cad/sew_faces.h"
 #include "dismantle/formats/cad/shape_product_tree.h"
 #include "dismantle/formats/cad/stage_progress.h"
@@ -84,13 +83,11 @@ TopoDS_Shape free_shapes(const Handle(TDocStd_Document) & document, CadProduct& 
 
 Result<Done> read_document(const CadSource& source, const ProgressCallback& progress, IGESCAFControl_Reader& reader,
                            const Handle(TDocStd_Document) & document) {
-  const MemoryFile file(source.bytes);  // its reader takes no stream
-  if (!file) return unreadable("there is no memory for it; close other programs");
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(false);
   reader.SetReadVisible(true);
-  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone)
+  if (reader.ReadFile(source.file.c_str()) != IFSelect_RetDone)
     return unreadable("its entities break the grammar of IGES; export it again");
   report_progress(progress, "translating", 0);
   const Handle(StageProgress) indicator = new StageProgress(progress, "translating");

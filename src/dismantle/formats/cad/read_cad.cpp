@@ -2,11 +2,12 @@
 #include "dismantle/formats/cad/read_cad.h"
 
 #include "dismantle/files/read_file.h"
+#include "dismantle/files/sha256.h"
 #include "dismantle/formats/cad/cad_assembly.h"
 #include "dismantle/formats/cad/cad_frame.h"
 #include "dismantle/formats/cad/cad_model.h"
 #include "dismantle/formats/import/file_formats.h"
-#include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/mesh_source.h"
 #include "dismantle/formats/import/units.h"
 
 #include <Message.hxx>
@@ -15,7 +16,6 @@
 #include <OSD_Parallel.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
-#include <Standard_Version.hxx>
 #include <algorithm>
 #include <new>
 #include <string>
@@ -23,9 +23,6 @@
 namespace dismantle {
 
 namespace {
-
-/// Increased whenever the same file and options give another assembly, or its bytes another layout.
-constexpr int kImportVersion = 3;
 
 using ModelReader = Result<CadModel> (*)(const CadSource&, const ImportOptions&);
 
@@ -44,7 +41,15 @@ ModelReader model_reader(FileFormat format) {
   }
 }
 
-/// Runs in the child.
+/// The hash of a file and of those that it links to.
+std::string hash_with(const std::string& content, const std::vector<LinkedFile>& linked_files) {
+  if (linked_files.empty()) return content;
+  std::string all = content;
+  for (const LinkedFile& linked : linked_files) all += linked.sha256;
+  return sha256(all);
+}
+
+/// Errors: "<why>; <what to do>".
 Result<ImportedAssembly> import_cad(ModelReader read, const CadSource& source, const ImportOptions& options) {
   try {
     Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -72,30 +77,20 @@ bool is_cad_file(const std::filesystem::path& file) {
   return entry != nullptr && model_reader(entry->format) != nullptr;
 }
 
-Result<Assembly> read_cad(const std::filesystem::path& file, const ImportOptions& options) {
+Result<ImportedAssembly> read_cad(const std::filesystem::path& file, const ImportOptions& options) {
   DISMANTLE_EXPECT(is_cad_file(file));
   if (!options.units.empty())
     if (const Result<double> known = millimetres_per_unit(options.units); !known) return known.error();
   const FormatEntry& entry = *format_of(file);
   const Result<std::string> bytes = read_file(file, options.limits.file_bytes);
   if (!bytes) return bytes.error();
-  if (const Result<Done> frame = check_cad_frame(entry.format, *bytes); !frame) {
-    const std::string& message = frame.error().message;
-    const std::size_t split = message.rfind("; ");
-    return unreadable_as(file, entry.name, message.substr(0, split), message.substr(split + 2));
-  }
-
-  IsolatedImport importer;
-  importer.format = entry.name;
-  importer.reader = "the CAD kernel";
-  importer.version = std::to_string(kImportVersion) + '\n' + DISMANTLE_VERSION + '\n' + OCC_VERSION_COMPLETE;
-  importer.limits.memory_bytes = kCadMemoryBase + kCadMemoryPerByte * bytes->size();
-  importer.limits.cpu_seconds = kCadCpuSeconds;
-  importer.limits.silence_seconds = kCadSilenceSeconds;
-  importer.import = [&](const ImportOptions& child_options) {
-    return import_cad(model_reader(entry.format), {*bytes, file}, child_options);
-  };
-  return import_isolated(file, *bytes, importer, options);
+  if (const Result<Done> frame = check_cad_frame(entry.format, *bytes); !frame)
+    return unreadable_as(file, entry.name, frame.error());
+  Result<ImportedAssembly> imported = import_cad(model_reader(entry.format), {*bytes, file}, options);
+  if (!imported) return unreadable_as(file, entry.name, imported.error());
+  imported->assembly.source_file = file.filename().string();
+  imported->assembly.source_sha256 = hash_with(sha256(*bytes), imported->linked_files);
+  return imported;
 }
 
 }  // namespace dismantle

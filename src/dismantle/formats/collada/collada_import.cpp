@@ -9,7 +9,6 @@
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
-#include <assimp/version.h>
 #include <assimp/Importer.hpp>
 
 #include <algorithm>
@@ -115,11 +114,6 @@ class SceneConverter {
 };
 
 }  // namespace
-
-std::string collada_reader() {
-  return "Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
-         std::to_string(aiGetVersionPatch());
-}
 
 Result<Assembly> import_collada(std::string_view bytes, const std::string& name, const ImportOptions& options) {
   Assimp::Importer importer;

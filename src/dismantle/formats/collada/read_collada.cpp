@@ -2,40 +2,23 @@
 #include "dismantle/formats/collada/read_collada.h"
 
 #include "dismantle/files/read_file.h"
+#include "dismantle/files/sha256.h"
 #include "dismantle/formats/collada/collada_import.h"
-#include "dismantle/formats/import/isolated_import.h"
+#include "dismantle/formats/import/mesh_source.h"
 #include "dismantle/formats/import/units.h"
 
 namespace dismantle {
 
-namespace {
-
-/// Increased whenever the same file and options give another assembly.
-constexpr int kImportVersion = 1;
-
-}  // namespace
-
 Result<Assembly> read_collada(const std::filesystem::path& file, const ImportOptions& options) {
   if (!options.units.empty())
     if (const Result<double> known = millimetres_per_unit(options.units); !known) return known.error();
-  if (collada_reader().empty())
-    return unreadable_as(file, "COLLADA", "this dismantle was built without Assimp",
-                         "build it where libassimp-dev is installed, or convert the file to glTF");
   const Result<std::string> bytes = read_file(file, options.limits.file_bytes);
   if (!bytes) return bytes.error();
-
-  IsolatedImport importer;
-  importer.format = "COLLADA";
-  importer.reader = "Assimp";
-  importer.version = std::to_string(kImportVersion) + '\n' + DISMANTLE_VERSION + '\n' + collada_reader();
-  importer.limits.memory_bytes = kColladaMemoryBase + kColladaMemoryPerByte * bytes->size();
-  importer.limits.cpu_seconds = kColladaCpuSeconds;
-  importer.import = [&](const ImportOptions& child_options) -> Result<ImportedAssembly> {
-    Result<Assembly> assembly = import_collada(*bytes, file.filename().string(), child_options);
-    if (!assembly) return assembly.error();
-    return ImportedAssembly{std::move(*assembly), {}};
-  };
-  return import_isolated(file, *bytes, importer, options);
+  Result<Assembly> assembly = import_collada(*bytes, file.filename().string(), options);
+  if (!assembly) return unreadable_as(file, "COLLADA", assembly.error());
+  assembly->source_file = file.filename().string();
+  assembly->source_sha256 = sha256(*bytes);
+  return assembly;
 }
 
 }  // namespace dismantle

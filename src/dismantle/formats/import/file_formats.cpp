@@ -9,13 +9,13 @@ namespace dismantle {
 
 Span<const FormatEntry> file_formats() {
   static const std::vector<FormatEntry> kFormats = {
-      {FileFormat::Step, "STEP", {".step", ".stp"}},
-      {FileFormat::Iges, "IGES", {".iges", ".igs"}},
-      {FileFormat::Brep, "BREP", {".brep", ".brp"}},
-      {FileFormat::FreeCad, "FCStd", {".fcstd"}, false, true},
+      {FileFormat::Step, "STEP", {".step", ".stp"}, false, false, true},
+      {FileFormat::Iges, "IGES", {".iges", ".igs"}, false, false, true},
+      {FileFormat::Brep, "BREP", {".brep", ".brp"}, false, false, true},
+      {FileFormat::FreeCad, "FCStd", {".fcstd"}, false, true, true},
       {FileFormat::Gltf, "glTF", {".gltf", ".glb"}, false, true},
       {FileFormat::ThreeMf, "3MF", {".3mf"}},
-      {FileFormat::Collada, "COLLADA", {".dae"}},
+      {FileFormat::Collada, "COLLADA", {".dae"}, false, false, true},
       {FileFormat::Vrml, "VRML", {".wrl", ".vrml"}},
       {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
       {FileFormat::Dasm, "DASM", {".dasm"}},

@@ -20,6 +20,7 @@ struct FormatEntry {
   std::vector<std::string_view> extensions;  ///< In lower case, with the dot.
   bool is_part = false;    ///< One part a file: the files of a folder together are an assembly (OBJ, STL, PLY).
   bool has_links = false;  ///< A file may refer to other files.
+  bool by_cad_kernel = false;  ///< Read by OpenCASCADE or Assimp, which take time: what they made is kept in the cache.
 };
 
 /// All formats that dismantle reads: the one list of them, in the order in which users are told.

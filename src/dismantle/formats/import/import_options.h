@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace dismantle {
 
@@ -15,6 +16,8 @@ struct ImportLimits {
   std::size_t file_bytes = std::size_t{4} << 30;  ///< Largest file [bytes].
   std::size_t triangles = 50'000'000;             ///< Of the whole assembly.
   std::size_t components = 100'000;               ///< Of the whole assembly.
+  std::uint64_t memory_bytes = 0;  ///< Of the process that reads the file [bytes]; 0: as import_budget() has it.
+  double cpu_seconds = 0;          ///< Processor time of that process [s]; 0: as import_budget() has it.
 };
 
 /// Size of ImportOptions::cache_folder, at most [bytes].
@@ -37,6 +40,8 @@ struct ImportOptions {
   Solids solids = Solids::Split;  ///< CAD files: products with several solids.
   bool drop_duplicates = false;   ///< Leaves out components that find_duplicates() finds.
   ImportLimits limits;            ///< Refuses larger input.
+  /// Folders besides the file's own in which the files that it refers to may be.
+  std::vector<std::filesystem::path> reference_folders;
   /// CAD files: keeps the triangles of the files that were read (kCacheBytes of them), for the next time that a file is
   /// read with the same options; empty: keeps nothing.
   std::filesystem::path cache_folder;

@@ -5,6 +5,7 @@
 #include "dismantle/core/result.h"
 #include "dismantle/files/text_name.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,14 @@ struct MeshPart {
 inline Error malformed(const MeshSource& source, std::string_view format, std::string_view why) {
   return {ErrorKind::Unreadable,
           source.name + " cannot be read as " + std::string(format) + " (" + std::string(why) + "); export it again"};
+}
+
+/// The Error for a file that cannot be read as `format`, of one that says "<why>; <what to do>".
+inline Error unreadable_as(const std::filesystem::path& file, std::string_view format, const Error& error) {
+  const std::size_t end = error.message.rfind("; ");
+  const std::string advice = end == std::string::npos ? "check the file" : error.message.substr(end + 2);
+  return {ErrorKind::Unreadable, file.string() + " cannot be read as " + std::string(format) + " (" +
+                                     error.message.substr(0, end) + "); " + advice};
 }
 
 /// The Error for work that its progress callback cancelled.

@@ -5,6 +5,7 @@
 #include "dismantle/files/sha256.h"
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/referenced_file.h"
 #include "dismantle/formats/mesh/read_obj.h"
 #include "dismantle/formats/mesh/read_ply.h"
 #include "dismantle/formats/mesh/read_stl.h"
@@ -25,10 +26,13 @@ std::string extension_of(const fs::path& file) {
   return lower_case(file.extension().string());
 }
 
-/// Sets the colours of parts from the material files in `folder`; missing files are ignored.
-void apply_materials(ObjModel& model, const fs::path& folder) {
+/// Sets the colours of parts from the material files beside an OBJ file; missing files are ignored.
+void apply_materials(ObjModel& model, const fs::path& obj, const ImportOptions& options) {
   for (const std::string& name : model.material_files) {
-    const Result<std::string> text = read_file(folder / fs::path(name).filename(), kLargestMaterialFile);
+    const Result<fs::path> file =
+        referenced_file(fs::path(name).filename(), obj.parent_path(), reference_folders(obj, options));
+    if (!file) continue;
+    const Result<std::string> text = read_file(*file, kLargestMaterialFile);
     if (!text) continue;
     const std::unordered_map<std::string, Color> colors = parse_mtl(*text);
     for (MeshPart& part : model.parts)
@@ -49,7 +53,7 @@ Result<std::vector<MeshPart>> parse_parts(const fs::path& file, const MeshSource
   }
   Result<ObjModel> model = parse_obj(source, options);
   if (!model) return model.error();
-  apply_materials(*model, file.parent_path());
+  apply_materials(*model, file, options);
   return std::move(model->parts);
 }
 

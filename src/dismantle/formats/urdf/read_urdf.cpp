@@ -5,6 +5,7 @@
 #include "dismantle/files/sha256.h"
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/import/assembly_builder.h"
+#include "dismantle/formats/import/referenced_file.h"
 #include "dismantle/formats/mesh/read_mesh.h"
 #include "dismantle/formats/mesh/tessellate.h"
 #include "dismantle/formats/urdf/urdf_kinematics.h"
@@ -255,20 +256,26 @@ std::vector<fs::path> candidates(const std::string& address, const fs::path& fol
   return files;
 }
 
-/// Reads a mesh that a URDF in `folder` refers to.
-Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const std::string& urdf,
-                                              const fs::path& folder, const ImportOptions& options) {
-  std::error_code ignored;
-  for (const fs::path& file : candidates(address, folder)) {
-    if (!fs::is_regular_file(file, ignored)) continue;
-    if (!is_mesh_file(file))
-      return malformed({{}, urdf}, "URDF", "mesh " + in_quotes(address) + " is no OBJ, STL or PLY file");
-    Result<MeshFile> mesh = read_mesh_file(file, options);
+/// Reads a mesh that a URDF refers to.
+Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const fs::path& urdf,
+                                              const std::vector<fs::path>& folders, const ImportOptions& options) {
+  const fs::path base = fs::absolute(urdf).lexically_normal().parent_path();
+  std::string why;
+  for (const fs::path& candidate : candidates(address, base)) {
+    const Result<fs::path> file = referenced_file(candidate, base, folders);
+    if (!file) {
+      if (why.empty()) why = file.error().message;
+      continue;
+    }
+    if (!is_mesh_file(*file))
+      return malformed({{}, urdf.filename().string()}, "URDF",
+                       "mesh " + in_quotes(address) + " is no OBJ, STL or PLY file");
+    Result<MeshFile> mesh = read_mesh_file(*file, options);
     if (!mesh) return mesh.error();
     return std::move(mesh->parts);
   }
-  return Error{ErrorKind::Unreadable, urdf + " cannot be read (mesh file " + in_quotes(address) +
-                                          " is not there); keep the URDF and its meshes in one folder"};
+  return unreadable_as(urdf.filename(), "URDF",
+                       {ErrorKind::Unreadable, "it refers to " + in_quotes(address) + ", which " + why});
 }
 
 }  // namespace
@@ -280,13 +287,12 @@ Result<Assembly> parse_urdf(const MeshSource& source, const ImportOptions& optio
 Result<Assembly> read_urdf(const fs::path& file, const ImportOptions& options) {
   const Result<std::string> bytes = read_file(file, std::min(kLargestUrdf, options.limits.file_bytes));
   if (!bytes) return bytes.error();
-  std::error_code ignored;
-  const std::string name = file.filename().string();
-  const fs::path folder = fs::absolute(file, ignored).lexically_normal().parent_path();
   ImportOptions mesh_options = options;  // progress is reported a link at a time
   mesh_options.progress = nullptr;
-  return parse_urdf({*bytes, name}, options,
-                    [&](const std::string& address) { return load_named_mesh(address, name, folder, mesh_options); });
+  const std::vector<fs::path> folders = reference_folders(file, options);
+  return parse_urdf({*bytes, file.filename().string()}, options, [&](const std::string& address) {
+    return load_named_mesh(address, file, folders, mesh_options);
+  });
 }
 
 }  // namespace dismantle

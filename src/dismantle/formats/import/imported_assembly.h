@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/assembly/assembly.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dismantle {
+
+/// A file that another file refers to, as it was read.
+struct LinkedFile {
+  std::filesystem::path file;  ///< Absolute.
+  std::string sha256;          ///< Of its bytes.
+};
+
+/// What a reader made of a file.
+struct ImportedAssembly {
+  Assembly assembly;                     ///< As the file has it.
+  std::vector<LinkedFile> linked_files;  ///< Files that were read besides it and on which the assembly depends.
+};
+
+}  // namespace dismantle
