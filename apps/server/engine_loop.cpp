@@ -63,6 +63,15 @@ void EngineLoop::post_always(Task task) {
   wake_.notify_one();
 }
 
+void EngineLoop::request_state() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(state_requested_, true)) return;
+    tasks_.push_back([](Workbench& bench) { bench.request_state(); });
+  }
+  wake_.notify_one();
+}
+
 void EngineLoop::set_input(const DragInput& input) {
   {
     const std::lock_guard lock(mutex_);
@@ -97,6 +106,7 @@ bool EngineLoop::take_work(std::deque<Task>& tasks, std::optional<PendingInput>&
     wake_.wait_until(lock, next_step_, [this] { return stopping_ || !tasks_.empty(); });
   }
   tasks.swap(tasks_);
+  state_requested_ = false;
   input = std::exchange(input_, {});
   return !stopping_ || !tasks.empty();
 }

@@ -48,8 +48,11 @@ class EngineLoop {
 
   /// Queues a task, which runs on the loop's thread; tasks run in order. @return false if too many are queued
   bool post(Task task);
-  /// As post(), without the limit on queued tasks.
+  /// As post(), without the limit on queued tasks: for results of jobs, of which there is one at a time, and for HTTP
+  /// requests, of which each connection has one.
   void post_always(Task task);
+  /// Queues a task that has the event `state` emitted even if the state has not changed, unless one is queued already.
+  void request_state();
   /// Sets the target or the velocity of the dragged set; replaces an input that has not been processed yet.
   void set_input(const DragInput& input);
   /// Emits the event `state` if the state has changed, and a `log` event for a new warning. Called by tasks whose reply
@@ -82,7 +85,7 @@ class EngineLoop {
   std::condition_variable wake_;
   std::deque<Task> tasks_;
   std::optional<PendingInput> input_;
-  bool stopping_ = false;
+  bool stopping_ = false, state_requested_ = false;
   Clock::time_point next_step_ = Clock::now();
   std::optional<Clock::time_point> input_arrival_;  ///< Of the newest input, until a step has been made for it.
   std::thread thread_;

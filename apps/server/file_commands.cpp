@@ -8,8 +8,6 @@
 #include "dismantle/formats/import/units.h"
 #include "samples/bundled/bundled_sample.h"
 
-#include <stdlib.h>
-
 #include <array>
 
 namespace dismantle::server {
@@ -58,25 +56,19 @@ Result<Json> job_json(const Result<std::uint32_t>& job) {
 
 }  // namespace
 
-OpenedFile::OpenedFile(fs::path file) : path(std::move(file)), name(display_name(path)) {}
-
-OpenedFile::~OpenedFile() {
+Result<OpenedFile> unpack_upload(const fs::path& packed, const std::string& name,
+                                 std::shared_ptr<UploadFolder> folder) {
+  const fs::path files = folder->path() / "files";
+  if (const Result<Done> unpacked = unpack_files(packed, files); !unpacked) return unpacked.error();
+  folder->set_written();
+  const Result<fs::path> assembly = assembly_among(files);
+  if (!assembly) return assembly.error();
+  OpenedFile file{*assembly, name, std::move(folder)};
   std::error_code ignored;
-  if (!temporary_folder.empty()) fs::remove_all(temporary_folder, ignored);
-}
-
-void remove_with_folder(const fs::path& file) {
-  std::error_code ignored;
-  fs::remove(file, ignored);
-  fs::remove(file.parent_path(), ignored);
-}
-
-Result<fs::path> new_temporary_folder() {
-  std::error_code error;
-  std::string name = (fs::temp_directory_path(error) / "dismantle-XXXXXX").string();
-  if (error || mkdtemp(name.data()) == nullptr)
-    return Error{ErrorKind::Failed, "no temporary folder can be created (in " + name + "); free some space"};
-  return fs::path(name);
+  const bool is_folder = fs::is_directory(*assembly, ignored);
+  if (!is_folder || (name.empty() && *assembly != files)) file.name = assembly->filename().string();
+  if (file.name.empty()) file.name = "meshes";
+  return file;
 }
 
 bool FileCommands::knows(std::string_view command) const {
@@ -146,7 +138,7 @@ Result<Json> FileCommands::cancel(const Json& command) {
 
 void FileCommands::add_reference_folders(const OpenedFile& file, ImportOptions& options) const {
   std::vector<fs::path> folders = roots_.folders();
-  if (!file.temporary_folder.empty()) folders = {file.temporary_folder};
+  if (file.folder) folders = {file.folder->path()};
   options.reference_folders.insert(options.reference_folders.end(), folders.begin(), folders.end());
 }
 
@@ -160,7 +152,7 @@ Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file
                        Result<Model> model = load_model(file->path, options, progress);
                        if (!model) return Error{model.error().kind, without_folder(model.error().message, file->path)};
                        model->name = clean_name(file->name);
-                       if (file->temporary_folder.empty()) recent_.add(file->path);
+                       if (!file->folder) recent_.add(file->path);
                        // std::function requires copyable captures.
                        return Jobs::Outcome{[this, file, shared = std::make_shared<Model>(std::move(*model))] {
                          {
@@ -173,25 +165,15 @@ Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file
 }
 
 Result<std::uint32_t> FileCommands::open_file(const fs::path& file) {
-  return start(std::make_shared<OpenedFile>(file), {});
+  return start(std::make_shared<OpenedFile>(OpenedFile{file, display_name(file), nullptr}), {});
 }
 
-Result<std::uint32_t> FileCommands::open_upload(const fs::path& file) {
-  return start(std::make_shared<OpenedFile>(file, file.filename().string(), file.parent_path()), {});
+Result<std::uint32_t> FileCommands::open_upload(const fs::path& file, std::shared_ptr<UploadFolder> folder) {
+  return start(std::make_shared<OpenedFile>(OpenedFile{file, file.filename().string(), std::move(folder)}), {});
 }
 
-Result<std::uint32_t> FileCommands::open_packed(const fs::path& packed, const std::string& name) {
-  auto file = std::make_shared<OpenedFile>(packed, name, packed.parent_path());
-  const fs::path folder = packed.parent_path() / "files";
-  if (const Result<Done> unpacked = unpack_files(packed, folder); !unpacked) return unpacked.error();
-  const Result<fs::path> assembly = assembly_among(folder);
-  if (!assembly) return assembly.error();
-  file->path = *assembly;
-  std::error_code ignored;
-  const bool is_folder = fs::is_directory(*assembly, ignored);
-  if (!is_folder || (name.empty() && *assembly != folder)) file->name = assembly->filename().string();
-  if (file->name.empty()) file->name = "meshes";
-  return start(std::move(file), {});
+Result<std::uint32_t> FileCommands::open_unpacked(OpenedFile file) {
+  return start(std::make_shared<OpenedFile>(std::move(file)), {});
 }
 
 Result<Json> FileCommands::open_again(const Json& command) {
@@ -210,11 +192,12 @@ Result<Json> FileCommands::open_again(const Json& command) {
 Result<std::uint32_t> FileCommands::open_sample(const std::string& name) {
   const Result<std::string> step = bundled_sample_step(name);
   if (!step) return step.error();
-  const Result<fs::path> folder = new_temporary_folder();
+  const Result<std::shared_ptr<UploadFolder>> folder = uploads_.reserve({}, step->size());
   if (!folder) return folder.error();
-  const fs::path file = *folder / (name + ".step");
+  const fs::path file = (*folder)->path() / (name + ".step");
   if (const Result<Done> written = write_file(file, *step); !written) return written.error();
-  return open_upload(file);
+  (*folder)->set_written();
+  return open_upload(file, *folder);
 }
 
 }  // namespace dismantle::server

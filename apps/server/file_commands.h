@@ -6,6 +6,7 @@
 #include "apps/server/model_loader.h"
 #include "apps/server/recent_files.h"
 #include "apps/server/roots.h"
+#include "apps/server/upload_store.h"
 
 #include <filesystem>
 #include <functional>
@@ -15,24 +16,19 @@
 
 namespace dismantle::server {
 
-/// Removes a file and then its folder, if that is empty. Errors are ignored.
-void remove_with_folder(const std::filesystem::path& file);
-
 /// A file or a folder of meshes that is or was opened.
 struct OpenedFile {
-  std::filesystem::path path;              ///< Where it is.
-  std::string name;                        ///< For users.
-  std::filesystem::path temporary_folder;  ///< Removed with all that it holds at the end of this; empty: none.
-
-  /// Of a file that exists, with its own name.
-  explicit OpenedFile(std::filesystem::path file);
-  /// Of a file in a folder from new_temporary_folder().
-  OpenedFile(std::filesystem::path file, std::string display_name, std::filesystem::path folder)
-      : path(std::move(file)), name(std::move(display_name)), temporary_folder(std::move(folder)) {}
-  OpenedFile(const OpenedFile&) = delete;
-  OpenedFile& operator=(const OpenedFile&) = delete;
-  ~OpenedFile();
+  std::filesystem::path path;            ///< Where it is.
+  std::string name;                      ///< For users.
+  std::shared_ptr<UploadFolder> folder;  ///< Holds the file; null: the file is not an upload.
 };
+
+/// Unpacks several files that belong together, packed as docs/wire.md says, into a folder. For any thread.
+/// @param packed a file in the folder
+/// @param name of the folder that they are from; may be empty
+/// @return what to open. Errors: as unpack_files() and assembly_among()
+Result<OpenedFile> unpack_upload(const std::filesystem::path& packed, const std::string& name,
+                                 std::shared_ptr<UploadFolder> folder);
 
 /// The file commands of docs/wire.md: samples, files, recent, open, open_again, cancel. For the network's thread.
 class FileCommands final : public ServerCommands {
@@ -40,12 +36,15 @@ class FileCommands final : public ServerCommands {
   /// @param roots the folders that clients may read
   /// @param options for loading assemblies
   /// @param jobs runs the imports; must outlive this
+  /// @param uploads keeps bundled samples while they are open; must outlive this
   /// @param on_model receives each loaded model, on the job's thread
-  FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs& jobs, std::function<void(Model)> on_model)
+  FileCommands(Roots roots, ModelOptions options, RecentFiles recent, Jobs& jobs, UploadStore& uploads,
+               std::function<void(Model)> on_model)
       : roots_(std::move(roots)),
         options_(std::move(options)),
         recent_(std::move(recent)),
         jobs_(jobs),
+        uploads_(uploads),
         on_model_(std::move(on_model)) {}
 
   bool knows(std::string_view command) const override;
@@ -56,12 +55,11 @@ class FileCommands final : public ServerCommands {
   const Roots& roots() const { return roots_; }
   /// Starts a job that loads a file, below a root or not. @return the job's number. Errors: Usage if a job is running.
   Result<std::uint32_t> open_file(const std::filesystem::path& file);
-  /// As open_file(), and removes the file and its folder: where it cannot be loaded, when another file has been loaded,
-  /// and at the end.
-  Result<std::uint32_t> open_upload(const std::filesystem::path& file);
-  /// As open_upload(), for several files that belong together, packed as docs/wire.md says. @param name of the folder
-  /// that they are from; may be empty. Errors: also of unpack_files() and assembly_among().
-  Result<std::uint32_t> open_packed(const std::filesystem::path& packed, const std::string& name);
+  /// As open_file(), and keeps the folder of the file until the file cannot be loaded, another file has been loaded, or
+  /// the end.
+  Result<std::uint32_t> open_upload(const std::filesystem::path& file, std::shared_ptr<UploadFolder> folder);
+  /// As open_upload(), for files from unpack_upload().
+  Result<std::uint32_t> open_unpacked(OpenedFile file);
   /// As open_file(), for a bundled sample. Errors: also Usage if there is no such sample, Failed if no temporary file
   /// can be written.
   Result<std::uint32_t> open_sample(const std::string& name);
@@ -82,12 +80,10 @@ class FileCommands final : public ServerCommands {
   ModelOptions options_;
   RecentFiles recent_;
   Jobs& jobs_;
+  UploadStore& uploads_;
   std::function<void(Model)> on_model_;
   std::mutex mutex_;                          // of opened_, which jobs set
   std::shared_ptr<const OpenedFile> opened_;  // that of the present model; null: none
 };
-
-/// Creates a folder with a unique name in the system's folder for temporary files. Errors: Failed.
-Result<std::filesystem::path> new_temporary_folder();
 
 }  // namespace dismantle::server

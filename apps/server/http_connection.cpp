@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "apps/server/file_commands.h"
 #include "apps/server/http_headers.h"
 #include "apps/server/web_socket.h"
 
@@ -15,6 +14,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <limits>
 #include <memory>
 
@@ -27,7 +27,8 @@ namespace http = beast::http;
 using ErrorCode = boost::system::error_code;
 
 constexpr std::chrono::seconds kIdleTimeout{30};  // until the next request, or the next part of one
-constexpr std::chrono::minutes kUploadTimeout{30};
+constexpr std::chrono::seconds kCloseTimeout{2};
+constexpr std::size_t kDiscardBytes = 64 * 1024;
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::size_t kMinKeyLength = 16, kMaxKeyLength = 64;
 
@@ -40,20 +41,23 @@ bool is_client_key(std::string_view key) {
          std::all_of(key.begin(), key.end(), [](unsigned char c) { return std::isxdigit(c); });
 }
 
+/// True for errors of writing a file; others are those of a connection.
+bool is_of_disk(const ErrorCode& error) {
+  return error == boost::system::errc::no_space_on_device || error == boost::system::errc::file_too_large ||
+         error == boost::system::errc::io_error || error.value() == EDQUOT;
+}
+
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(boost::asio::ip::tcp::socket socket, Site& site, std::shared_ptr<const void> count)
       : stream_(std::move(socket)), site_(site), count_(std::move(count)) {}
-  ~HttpConnection() {
-    if (!upload_.file.empty()) remove_with_folder(upload_.file);  // incomplete
-  }
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
 
   void read_request() {
     header_.emplace();
     header_->header_limit(kMaxHeaderBytes);
-    header_->body_limit(std::numeric_limits<std::uint64_t>::max());  // receive_upload() sets the limit
+    header_->body_limit(std::numeric_limits<std::uint64_t>::max());  // begin_upload() knows the limit
     stream_.expires_after(kIdleTimeout);
     http::async_read_header(stream_, buffer_, *header_,
                             [self = shared_from_this()](ErrorCode error, std::size_t) { self->on_header(error); });
@@ -117,39 +121,40 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void receive_upload(const RequestTarget& target) {
-    const std::string client(view(headers()["X-Client"]));
-    auto target_file = site_.begin_upload(target, client);
-    if (auto* rejection = std::get_if<HttpResponse>(&target_file)) return send(*rejection, KeepAlive::No);
-    upload_ = {target, client, std::get<Site::UploadTarget>(target_file).file};
-    body_.emplace(std::move(*header_));
-    const std::uint64_t limit = std::get<Site::UploadTarget>(target_file).limit;
-    if (body_->content_length().value_or(0) > limit) return reject_size();
-    body_->body_limit(limit);
-    ErrorCode error;
-    body_->get().body().open(upload_.file.c_str(), beast::file_mode::write, error);
-    if (error)
-      return send(error_response(500, "the upload cannot be stored (" + error.message() + "); free some space"),
+    const boost::optional<std::uint64_t> length = header_->content_length();
+    if (!length)
+      return send(error_response(411, "the upload has no length (Content-Length is required); correct the client"),
                   KeepAlive::No);
-    stream_.expires_after(kUploadTimeout);
-    http::async_read(stream_, buffer_, *body_,
-                     [self = shared_from_this()](ErrorCode e, std::size_t) { self->on_body(e); });
+    auto begun = site_.begin_upload(target, std::string(view(headers()["X-Client"])), *length);
+    if (auto* rejection = std::get_if<HttpResponse>(&begun)) return send(*rejection, KeepAlive::No);
+    upload_ = std::move(std::get<Upload>(begun));
+    body_.emplace(std::move(*header_));
+    body_->body_limit(*length);
+    ErrorCode error;
+    body_->get().body().open(upload_.file.c_str(), beast::file_mode::write_new, error);
+    if (error) return reject_storage(error);
+    receive_part();
   }
 
-  void on_body(ErrorCode error) {
+  void receive_part() {
+    if (body_->is_done()) return finish_upload();
+    stream_.expires_after(kIdleTimeout);
+    http::async_read_some(stream_, buffer_, *body_, [self = shared_from_this()](ErrorCode error, std::size_t) {
+      if (!error) return self->receive_part();
+      if (is_of_disk(error)) self->reject_storage(error);
+    });
+  }
+
+  void finish_upload() {
     body_->get().body().close();
-    if (error) {
-      if (error == http::error::body_limit) reject_size();
-      return;
-    }
     Upload complete;
     std::swap(complete, upload_);
     site_.finish_upload(
         complete, [self = shared_from_this()](const HttpResponse& response) { self->send(response, KeepAlive::No); });
   }
 
-  void reject_size() {
-    send(error_response(413, "the file is too large (for an upload); put it into a folder that the server may read"),
-         KeepAlive::No);
+  void reject_storage(const ErrorCode& error) {
+    send(error_response(507, "the upload cannot be stored (" + error.message() + "); free some space"), KeepAlive::No);
   }
 
   enum class KeepAlive { Yes, No };
@@ -162,7 +167,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response->set(http::field::content_type, content.content_type);
     response->set(http::field::cache_control, "no-store");
     if (!content.file_name.empty())
-      response->set(http::field::content_disposition, "attachment; filename=\"" + content.file_name + "\"");
+      response->set(http::field::content_disposition, attachment_disposition(content.file_name));
     add_security_headers(response->base());
     response->body() = {sent_body_->data(), sent_body_->size()};
     response->keep_alive(keep_alive == KeepAlive::Yes && header_->is_done() && header_->get().keep_alive());
@@ -174,9 +179,20 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     });
   }
 
+  /// Ends the connection when the client has done so, or soon: closing it while an upload that was rejected still comes
+  /// would take the response away from the client.
   void close() {
     ErrorCode ignored;
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(kCloseTimeout);
+    discard();
+  }
+
+  void discard() {
+    buffer_.consume(buffer_.size());
+    stream_.async_read_some(buffer_.prepare(kDiscardBytes), [self = shared_from_this()](ErrorCode error, std::size_t) {
+      if (!error) self->discard();
+    });
   }
 
   beast::tcp_stream stream_;
@@ -185,7 +201,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   beast::flat_buffer buffer_{kMaxHeaderBytes + 64 * 1024};
   std::optional<http::request_parser<http::empty_body>> header_;
   std::optional<http::request_parser<http::file_body>> body_;
-  Upload upload_;
+  Upload upload_;         // that is being received; its folder goes with this if it stays incomplete
   SharedText sent_body_;  // of the response that is being sent
 };
 

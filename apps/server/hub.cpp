@@ -2,17 +2,25 @@
 #include "apps/server/hub.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace dismantle::server {
 
 namespace {
 
-constexpr std::size_t kMaxReplies = 256;
 constexpr int kMaxMalformed = 100;
+/// Warnings that are kept for the first client that connects.
+constexpr std::size_t kMaxUnheard = 8;
+constexpr int kMaxDepth = 32;
 /// A client that is disconnected for longer loses control.
 constexpr std::chrono::seconds kControlTimeout{10};
 /// A client that is disconnected for longer is forgotten.
 constexpr std::chrono::minutes kClientTimeout{10};
+/// Of more clients that are disconnected, those that left first are forgotten.
+constexpr std::size_t kMaxAbsent = 256;
+/// Commands that wait for the engine may take so much text; parsed, it is up to 50 times as much.
+constexpr std::size_t kMaxPendingBytes = std::size_t{4} << 20;
 
 SharedText shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -23,6 +31,26 @@ Error expired_reply() {
   return {ErrorKind::Failed,
           "the reply to this command is no longer stored (it was sent long ago); look at the "
           "state"};
+}
+
+/// True if JSON text is nested more deeply than any command: copying its value would exhaust the stack.
+bool is_too_deep(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '"') in_string = !in_string;
+    if (c == '\\' && in_string) ++i;
+    if (in_string) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kMaxDepth) return true;
+  }
+  return false;
+}
+
+Error too_many_pending() {
+  return {ErrorKind::Failed, "the command was rejected (too many are pending); try again"};
 }
 
 }  // namespace
@@ -46,14 +74,16 @@ void Hub::connect(const std::string& key, ClientSocket& socket) {
   if (client.socket != nullptr) client.socket->close(CloseReason::Replaced);
   client.socket = &socket;
   client.malformed_messages = 0;
+  forget_long_absent();
   if (controller_.empty()) controller_ = key;
 
   socket.send_text(hello_);
   send_control();
   if (model_) socket.send_text(model_);
   for (const auto& [job, text] : jobs_) socket.send_text(text);
+  for (const SharedText& text : std::exchange(unheard_, {})) socket.send_text(text);
   // While something moves, the last state is outdated.
-  engine_.post_always([](Workbench& bench) { bench.request_state(); });
+  engine_.request_state();
 }
 
 void Hub::disconnect(const std::string& key, ClientSocket& socket) {
@@ -69,14 +99,32 @@ void Hub::tick(Clock::time_point now) {
   if (controller != clients_.end() && controller->second.socket == nullptr &&
       now - controller->second.disconnected_at > kControlTimeout)
     give_control({});
-  std::erase_if(clients_, [&](const auto& entry) {
-    return entry.second.socket == nullptr && entry.first != controller_ &&
-           now - entry.second.disconnected_at > kClientTimeout;
-  });
+  std::vector<std::string> expired;
+  for (const auto& [key, client] : clients_)
+    if (client.socket == nullptr && key != controller_ && now - client.disconnected_at > kClientTimeout)
+      expired.push_back(key);
+  for (const std::string& key : expired) forget(key);
 }
 
-void Hub::give_control(const std::string& key) {
-  engine_.post_always([](Workbench& bench) { bench.stop_motion(); });
+void Hub::forget(const std::string& key) {
+  replies_.forget(key);
+  clients_.erase(key);
+}
+
+void Hub::forget_long_absent() {
+  while (absent_count() > kMaxAbsent) {
+    auto longest = clients_.end();
+    for (auto at = clients_.begin(); at != clients_.end(); ++at) {
+      if (at->second.socket != nullptr || at->first == controller_) continue;
+      if (longest == clients_.end() || at->second.disconnected_at < longest->second.disconnected_at) longest = at;
+    }
+    if (longest == clients_.end()) return;
+    forget(std::string(longest->first));
+  }
+}
+
+bool Hub::give_control(const std::string& key) {
+  if (!engine_.post([](Workbench& bench) { bench.stop_motion(); })) return false;
   controller_ = key;
   if (key.empty()) {  // to the client that has been known longest
     const Client* oldest = nullptr;
@@ -87,6 +135,7 @@ void Hub::give_control(const std::string& key) {
     }
   }
   send_control();
+  return true;
 }
 
 void Hub::send_control() {
@@ -103,14 +152,16 @@ Result<Json> Hub::take_control(const std::string& key) {
   if (key != controller_ && is_there && dragging_)
     return Error{ErrorKind::Usage,
                  "control cannot be taken (another page is dragging a component); wait until it is released"};
-  if (key != controller_) give_control(key);
+  if (key != controller_ && !give_control(key)) return too_many_pending();
   return Json::object();
 }
 
 void Hub::report_malformed(Client& client, const std::string& why) {
   if (client.socket == nullptr) return;
+  ++client.malformed_messages;
   client.socket->send_text(shared(text_of(Json{{"event", "error"}, {"error", why}})));
-  if (++client.malformed_messages >= kMaxMalformed) client.socket->close(CloseReason::Malformed);
+  const bool is_dropped = client.socket == nullptr;  // it left too much unread
+  if (!is_dropped && client.malformed_messages >= kMaxMalformed) client.socket->close(CloseReason::Malformed);
 }
 
 void Hub::receive_binary(const std::string& key, std::string_view bytes) {
@@ -132,31 +183,29 @@ void Hub::receive_text(const std::string& key, std::string_view text) {
   counters_.bytes_in += text.size();
   const auto found = clients_.find(key);
   if (found == clients_.end()) return;
-  const Json command = Json::parse(text, nullptr, false);
+  const Json command = is_too_deep(text) ? Json() : Json::parse(text, nullptr, false);
   if (!command.is_object() || !command.contains("id") || !command["id"].is_number_unsigned() ||
       !command.contains("command") || !command["command"].is_string())
     return report_malformed(
         found->second,
         "a text message was not understood (it is not a JSON object with an id and a command); correct the client");
-  receive_command(key, found->second, command);
+  receive_command(key, found->second, command, text.size());
 }
 
-void Hub::receive_command(const std::string& key, Client& client, const Json& command) {
+void Hub::receive_command(const std::string& key, Client& client, const Json& command, std::size_t bytes) {
   const auto id = command["id"].get<std::uint64_t>();
   if (id > client.last_id) {
     client.last_id = id;
-    return run_command(key, id, command);
+    return run_command(key, id, command, bytes);
   }
   // Repeated after a reconnect. A reply that is still pending goes to the new socket.
-  const auto known = client.replies.find(id);
-  if (known == client.replies.end()) return reply(key, id, expired_reply());
-  if (known->second) client.socket->send_text(known->second);
+  const std::optional<SharedText> known = replies_.find(key, id);
+  if (!known) return reply(key, id, expired_reply());
+  if (*known) client.socket->send_text(*known);
 }
 
-void Hub::run_command(const std::string& key, std::uint64_t id, const Json& command) {
-  Client& client = clients_.at(key);
-  client.replies[id] = nullptr;
-  while (client.replies.size() > kMaxReplies) client.replies.erase(client.replies.begin());
+void Hub::run_command(const std::string& key, std::uint64_t id, const Json& command, std::size_t bytes) {
+  replies_.add_pending(key, id);
 
   const auto name = command["command"].get<std::string>();
   if (name == "take_control") return reply(key, id, take_control(key));
@@ -166,19 +215,22 @@ void Hub::run_command(const std::string& key, std::uint64_t id, const Json& comm
         key, id,
         Error{ErrorKind::Usage, "'" + name + "' cannot be done (another page is in control); take control first"});
   if (commands_.knows(name)) return reply(key, id, commands_.execute(command));
-  post_to_engine(key, id, command);
+  post_to_engine(key, id, command, bytes);
 }
 
-void Hub::post_to_engine(const std::string& key, std::uint64_t id, const Json& command) {
+void Hub::post_to_engine(const std::string& key, std::uint64_t id, const Json& command, std::size_t bytes) {
+  if (pending_bytes_ + bytes > kMaxPendingBytes) return reply(key, id, too_many_pending());
   const bool is_metrics = command["command"] == "metrics";
-  const bool posted = engine_.post([this, key, id, command, is_metrics](Workbench& bench) {
+  const bool posted = engine_.post([this, key, id, command, bytes, is_metrics](Workbench& bench) {
     Result<Json> result = bench.execute(command);
     engine_.publish_state();  // the state precedes the reply
-    post_([this, key, id, is_metrics, result = std::move(result)] {
+    post_([this, key, id, bytes, is_metrics, result = std::move(result)] {
+      pending_bytes_ -= bytes;
       is_metrics&& result ? reply_metrics(key, id, *result) : reply(key, id, result);
     });
   });
-  if (!posted) reply(key, id, Error{ErrorKind::Failed, "the command was rejected (too many are pending); try again"});
+  if (!posted) return reply(key, id, too_many_pending());
+  pending_bytes_ += bytes;
 }
 
 void Hub::reply_metrics(const std::string& key, std::uint64_t id, Json json) {
@@ -189,6 +241,8 @@ void Hub::reply_metrics(const std::string& key, std::uint64_t id, Json json) {
   json["bytes_in"] = counters_.bytes_in;
   json["bytes_out"] = counters_.bytes_out;
   json["refused"] = counters_.refused;
+  json["absent_clients"] = absent_count();
+  json["reply_bytes"] = replies_.bytes();
   reply(key, id, json);
 }
 
@@ -202,7 +256,7 @@ void Hub::reply(const std::string& key, std::uint64_t id, const Result<Json>& re
     json["error"] = result.error().message;
   }
   SharedText text = shared(text_of(json));
-  if (const auto kept = found->second.replies.find(id); kept != found->second.replies.end()) kept->second = text;
+  replies_.set(key, id, text);
   if (found->second.socket != nullptr) found->second.socket->send_text(std::move(text));
 }
 
@@ -217,6 +271,9 @@ void Hub::broadcast_event(EngineEvent event) {
     model_ = text;
   } else if (event.kind == EngineEvent::Kind::State) {
     dragging_ = event.is_dragging;
+  } else if (client_count() == 0) {
+    unheard_.push_back(text);
+    if (unheard_.size() > kMaxUnheard) unheard_.pop_front();
   }
   broadcast(text);
 }

@@ -3,6 +3,7 @@
 
 #include "apps/server/client_socket.h"
 #include "apps/server/engine_loop.h"
+#include "apps/server/reply_store.h"
 
 #include <chrono>
 #include <cstdint>
@@ -73,6 +74,10 @@ class Hub {
   bool is_in_control(const std::string& key) const { return key == controller_; }
   /// Number of connected clients.
   std::size_t client_count() const;
+  /// Number of clients that may come back: their replies and control are kept.
+  std::size_t absent_count() const { return clients_.size() - client_count(); }
+  /// The replies that are kept for clients that come back.
+  const ReplyStore& replies() const { return replies_; }
   /// Counters, which the connections update too.
   HubCounters& counters() { return counters_; }
   /// Sets the event `hello`. @pre called before the first client connects
@@ -80,23 +85,26 @@ class Hub {
 
  private:
   struct Client {
-    ClientSocket* socket = nullptr;               ///< null: not connected
-    std::uint64_t last_id = 0;                    ///< Of the newest command.
-    std::map<std::uint64_t, SharedText> replies;  ///< Of the last commands, by id; null: pending.
-    int malformed_messages = 0;                   ///< Since the client connected.
-    std::uint64_t order = 0;                      ///< Position among the clients, by first connection.
+    ClientSocket* socket = nullptr;  ///< null: not connected
+    std::uint64_t last_id = 0;       ///< Of the newest command.
+    int malformed_messages = 0;      ///< Since the client connected.
+    std::uint64_t order = 0;         ///< Position among the clients, by first connection.
     Clock::time_point disconnected_at;
   };
 
-  void receive_command(const std::string& key, Client& client, const Json& command);
-  void run_command(const std::string& key, std::uint64_t id, const Json& command);
-  void post_to_engine(const std::string& key, std::uint64_t id, const Json& command);
+  void receive_command(const std::string& key, Client& client, const Json& command, std::size_t bytes);
+  void run_command(const std::string& key, std::uint64_t id, const Json& command, std::size_t bytes);
+  void post_to_engine(const std::string& key, std::uint64_t id, const Json& command, std::size_t bytes);
   void reply_metrics(const std::string& key, std::uint64_t id, Json engine);
   void reply(const std::string& key, std::uint64_t id, const Result<Json>& result);
   void broadcast(const SharedText& event);
   static void report_malformed(Client& client, const std::string& why);
   Result<Json> take_control(const std::string& key);
-  void give_control(const std::string& key);
+  /// Hands control over; to the client that has been known longest if `key` is empty. @return false if the engine is
+  /// too busy
+  bool give_control(const std::string& key);
+  void forget(const std::string& key);
+  void forget_long_absent();
   void send_control();
 
   EngineLoop& engine_;
@@ -104,11 +112,14 @@ class Hub {
   Post post_;
   Clock::time_point started_ = Clock::now();
   std::map<std::string, Client> clients_;
+  ReplyStore replies_;
+  std::size_t pending_bytes_ = 0;  ///< Of the commands that the engine has not executed yet.
   std::string controller_;
   bool dragging_ = false;  ///< As of the last event `state`.
   std::uint64_t known_clients_ = 0;
   SharedText hello_, model_;
   std::map<std::uint32_t, SharedText> jobs_;
+  std::deque<SharedText> unheard_;  ///< Events `log` from when no client was connected.
   HubCounters counters_;
 };
 

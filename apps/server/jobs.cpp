@@ -39,18 +39,20 @@ Result<std::uint32_t> Jobs::start(std::string name, Work work) {
   running_ = true;
   cancelled_ = false;
   ++last_;
-  thread_ = std::thread([this, name = std::move(name), work = std::move(work)] { run(name, work); });
+  thread_ =
+      std::thread([this, name = std::move(name), work = std::move(work)]() mutable { run(name, std::move(work)); });
   return last_.load();
 }
 
 Result<Done> Jobs::cancel(std::uint32_t job) {
+  const std::lock_guard lock(mutex_);  // no other job may start in between, and be cancelled
   if (!running_ || job != last_)
     return Error{ErrorKind::Usage, "nothing was cancelled (the job has ended); see its last event"};
   cancelled_ = true;
   return Done{};
 }
 
-void Jobs::run(const std::string& name, const Work& work) {
+void Jobs::run(const std::string& name, Work work) {
   using Clock = std::chrono::steady_clock;
   JobUpdate update{last_, name, "starting", -1, 0, JobUpdate::Status::Running, {}};
   on_update_(update);
@@ -69,6 +71,7 @@ void Jobs::run(const std::string& name, const Work& work) {
     return !cancelled_.load();
   });
 
+  work = nullptr;    // what it holds, such as an upload, goes before the job ends
   running_ = false;  // Finish may cause the start of another job; start() waits for this thread
   update.fraction = 1;
   update.seconds = seconds();

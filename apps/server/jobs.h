@@ -56,10 +56,10 @@ class Jobs {
   void stop();
 
  private:
-  void run(const std::string& name, const Work& work);
+  void run(const std::string& name, Work work);
 
   Listener on_update_;
-  std::mutex mutex_;  ///< Guards thread_ and stopped_.
+  std::mutex mutex_;  ///< Guards thread_, stopped_ and the start of jobs.
   std::thread thread_;
   bool stopped_ = false;
   std::atomic<std::uint32_t> last_ = 0;

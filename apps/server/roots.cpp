@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/roots.h"
 
+#include "dismantle/files/text_name.h"
 #include "dismantle/formats/import/file_formats.h"
 
 #include <algorithm>
@@ -24,9 +25,14 @@ bool is_below(const fs::path& folder, const fs::path& file) {
 }
 
 Error no_such_file(const std::string& relative) {
-  return {ErrorKind::Usage, "'" + relative +
+  return {ErrorKind::Usage, "'" + clean_name(relative) +
                                 "' cannot be opened (the server's folders have no such file); choose one of "
                                 "those that it lists"};
+}
+
+/// True if a name ends, for the system, before its end.
+bool has_nul(const std::string& name) {
+  return name.find('\0') != std::string::npos;
 }
 
 std::optional<RootEntry> entry_of(const fs::directory_entry& entry) {
@@ -65,7 +71,7 @@ Result<Roots> Roots::create(const std::vector<fs::path>& folders) {
 }
 
 Result<fs::path> Roots::find(std::uint64_t root, const std::string& relative) const {
-  if (root >= folders_.size() || fs::path(relative).is_absolute()) return no_such_file(relative);
+  if (root >= folders_.size() || fs::path(relative).is_absolute() || has_nul(relative)) return no_such_file(relative);
   std::error_code error;
   fs::path real = fs::canonical(folders_[root] / relative, error);
   if (error || !is_below(folders_[root], real)) return no_such_file(relative);
@@ -76,8 +82,8 @@ Result<fs::path> Roots::output_path(std::uint64_t root, const std::string& relat
   const fs::path requested(relative);
   const Result<fs::path> folder = find(root, requested.parent_path().string());
   const std::string name = requested.filename().string();
-  if (!folder || name.empty() || name == "." || name == "..")
-    return Error{ErrorKind::Usage, "'" + relative +
+  if (!folder || name.empty() || name == "." || name == ".." || has_nul(name))
+    return Error{ErrorKind::Usage, "'" + clean_name(relative) +
                                        "' cannot be written (the server's folders have no such path); choose "
                                        "one of those that it lists"};
   std::error_code error;

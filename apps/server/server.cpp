@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "apps/server/connection_acceptor.h"
 #include "apps/server/engine_loop.h"
 #include "apps/server/export_request.h"
 #include "apps/server/file_commands.h"
@@ -12,7 +13,6 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
@@ -35,6 +35,8 @@ constexpr int kMaxPortTries = 20;
 /// Further connections are closed at once; a page has a few.
 constexpr long kMaxConnections = 256;
 constexpr std::uint64_t kMaxUploadBytes = std::uint64_t{1} << 30, kMaxGuideBytes = std::uint64_t{256} << 20;
+/// What a packed upload and its files take together, over the size of the upload.
+constexpr std::uint64_t kUnpackedFactor = 2;
 /// Time limit for closing the sockets when the server stops.
 constexpr std::chrono::milliseconds kCloseTimeout{500};
 
@@ -64,13 +66,14 @@ class Server::Impl final : public Site, private EngineListener {
   Impl(ServerOptions options, Roots roots)
       : pages_(options.web_folder),
         idle_time_(options.idle_time),
+        uploads_(options.uploads),
         jobs_([this](const JobUpdate& update) { publish_job(update); }),
         engine_(*this, roots, journal_folder(options), jobs_),
-        files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), jobs_,
+        files_(std::move(roots), std::move(options.model), RecentFiles(options.state_folder), jobs_, uploads_,
                [this](Model model) { on_model(std::move(model)); }),
         hub_(engine_, files_, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
-        v4_(io_),
-        v6_(io_),
+        v4_(io_, [this](Tcp::socket socket) { on_socket(std::move(socket)); }),
+        v6_(io_, [this](Tcp::socket socket) { on_socket(std::move(socket)); }),
         tick_(io_) {}
 
   ~Impl() override {
@@ -83,16 +86,15 @@ class Server::Impl final : public Site, private EngineListener {
   Result<Done> listen(std::uint16_t port) {
     std::string why = "no free port was found";
     for (int tries = 0; tries < kMaxPortTries; ++tries) {
-      ErrorCode error = open(v4_, Tcp::endpoint(asio::ip::address_v4::loopback(), port));
+      ErrorCode error = v4_.listen({asio::ip::address_v4::loopback(), port});
       if (error) return cannot_listen(port, error.message());
-      const std::uint16_t chosen = v4_.local_endpoint().port();
-      error = open(v6_, Tcp::endpoint(asio::ip::address_v6::loopback(), chosen));
+      const std::uint16_t chosen = v4_.port();
+      error = v6_.listen({asio::ip::address_v6::loopback(), chosen});
       const bool has_v6 =
           error != asio::error::address_family_not_supported && error != boost::system::errc::address_not_available;
       if (error && has_v6) {  // taken on ::1
         if (port != 0) return cannot_listen(port, error.message());
-        ErrorCode ignored;
-        v4_.close(ignored);
+        v4_.close();
         continue;
       }
       rules_.emplace(chosen, random_token());
@@ -111,8 +113,8 @@ class Server::Impl final : public Site, private EngineListener {
                     {"version", DISMANTLE_VERSION},
                     {"roots", std::move(roots)},
                     {"extensions", std::move(extensions)}});
-    accept(v4_);
-    if (v6_.is_open()) accept(v6_);
+    v4_.start();
+    if (v6_.is_open()) v6_.start();
     tick();
     thread_ = std::thread([this] { io_.run(); });
   }
@@ -139,8 +141,8 @@ class Server::Impl final : public Site, private EngineListener {
     respond(not_found(target.path));
   }
 
-  std::variant<UploadTarget, HttpResponse> begin_upload(const RequestTarget& target,
-                                                        const std::string& client) override {
+  std::variant<Upload, HttpResponse> begin_upload(const RequestTarget& target, const std::string& client,
+                                                  std::uint64_t bytes) override {
     const bool is_guide = target.path == "/api/guide", is_packed = target.path == "/api/open_files";
     if (!is_guide && !is_packed && target.path != "/api/open") return not_found(target.path);
     if (!hub_.is_in_control(client))
@@ -148,17 +150,20 @@ class Server::Impl final : public Site, private EngineListener {
     const std::string base = is_packed ? "packed" : name_of(target);
     if (base.empty() || base[0] == '.')
       return error_response(400, "the upload has no name (its extension gives the format); give ?name=FILE");
-    const Result<fs::path> folder = new_temporary_folder();
-    if (!folder) return error_response(500, folder.error().message);
-    return UploadTarget{*folder / base, is_guide ? kMaxGuideBytes : kMaxUploadBytes};
+    if (bytes > (is_guide ? kMaxGuideBytes : kMaxUploadBytes))
+      return error_response(413,
+                            "the file is too large (for an upload); put it into a folder that the server may read");
+    const Result<std::shared_ptr<UploadFolder>> folder =
+        uploads_.reserve(client, is_packed ? kUnpackedFactor * bytes : bytes);
+    if (!folder) return error_response(507, folder.error().message);
+    return Upload{target, client, (*folder)->path() / base, *folder};
   }
 
   void finish_upload(const Upload& upload, ResponseCallback respond) override {
-    if (upload.target.path == "/api/guide") return open_guide(upload.file, std::move(respond));
-    const bool is_packed = upload.target.path == "/api/open_files";
-    const Result<std::uint32_t> job =
-        is_packed ? files_.open_packed(upload.file, name_of(upload.target)) : files_.open_upload(upload.file);
-    respond(job ? json_response(202, {{"job", *job}}) : error_response(409, job.error().message));
+    if (upload.target.path == "/api/open_files") return open_packed(upload, std::move(respond));
+    upload.folder->set_written();
+    if (upload.target.path == "/api/guide") return open_guide(upload, std::move(respond));
+    respond(job_response(files_.open_upload(upload.file, upload.folder)));
   }
 
  private:
@@ -172,28 +177,8 @@ class Server::Impl final : public Site, private EngineListener {
     return error_response(404, "there is no " + path + " (no file of the page has this name); see docs/wire.md");
   }
 
-  static ErrorCode open(Tcp::acceptor& acceptor, const Tcp::endpoint& endpoint) {
-    ErrorCode error;
-    acceptor.open(endpoint.protocol(), error);
-    if (error) return error;
-    acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
-    if (endpoint.protocol() == Tcp::v6()) acceptor.set_option(asio::ip::v6_only(true), error);
-    acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error) {
-      ErrorCode ignored;
-      acceptor.close(ignored);
-    }
-    return error;
-  }
-
-  void accept(Tcp::acceptor& acceptor) {
-    acceptor.async_accept([this, &acceptor](ErrorCode error, Tcp::socket socket) {
-      if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
-      if (!error && connections_.use_count() <= kMaxConnections)
-        serve_connection(std::move(socket), *this, connections_);
-      accept(acceptor);
-    });
+  void on_socket(Tcp::socket socket) {
+    if (connections_.use_count() <= kMaxConnections) serve_connection(std::move(socket), *this, connections_);
   }
 
   void tick() {
@@ -206,9 +191,8 @@ class Server::Impl final : public Site, private EngineListener {
   }
 
   void begin_stop() {
-    ErrorCode ignored;
-    v4_.close(ignored);
-    v6_.close(ignored);
+    v4_.close();
+    v6_.close();
     hub_.close_all(CloseReason::Stopping);
     tick_.expires_after(kCloseTimeout);
     tick_.async_wait([this](ErrorCode) { io_.stop(); });
@@ -251,7 +235,7 @@ class Server::Impl final : public Site, private EngineListener {
   void export_file(const ExportRequest& request, ResponseCallback respond) {
     engine_.post_always([this, request, respond = std::move(respond)](Workbench& bench) {
       auto source = std::make_shared<const Result<ExportSource>>(export_source(request, bench.model()));
-      asio::post(export_thread_, [this, request, source, respond] {
+      asio::post(worker_, [this, request, source, respond] {
         HttpResponse response =
             *source ? export_response(request, **source) : error_response(409, source->error().message);
         asio::post(io_, [respond, response] { respond(response); });
@@ -259,10 +243,24 @@ class Server::Impl final : public Site, private EngineListener {
     });
   }
 
-  void open_guide(const fs::path& file, ResponseCallback respond) {
-    engine_.post_always([this, file, respond = std::move(respond)](Workbench& bench) {
-      const Result<Done> opened = bench.open_guide(file, file.filename().string());
-      remove_with_folder(file);
+  static HttpResponse job_response(const Result<std::uint32_t>& job) {
+    return job ? json_response(202, {{"job", *job}}) : error_response(409, job.error().message);
+  }
+
+  /// The files are unpacked on another thread: the network must not wait for the disk.
+  void open_packed(const Upload& upload, ResponseCallback respond) {
+    asio::post(worker_, [this, upload, respond = std::move(respond)] {
+      auto file =
+          std::make_shared<Result<OpenedFile>>(unpack_upload(upload.file, name_of(upload.target), upload.folder));
+      asio::post(io_, [this, file, respond] {
+        respond(job_response(*file ? files_.open_unpacked(std::move(**file)) : file->error()));
+      });
+    });
+  }
+
+  void open_guide(const Upload& upload, ResponseCallback respond) {
+    engine_.post_always([this, upload, respond = std::move(respond)](Workbench& bench) {
+      const Result<Done> opened = bench.open_guide(upload.file, upload.file.filename().string());
       engine_.publish_state();
       HttpResponse response = opened ? json_response(200, Json::object()) : error_response(422, opened.error().message);
       asio::post(io_, [respond, response] { respond(response); });
@@ -274,11 +272,16 @@ class Server::Impl final : public Site, private EngineListener {
     return *options.state_folder / "sessions";
   }
 
-  /// On the job's thread.
+  /// On the job's thread. The last event of a job follows what the job changed, which the engine's thread publishes.
   void publish_job(const JobUpdate& update) {
     const bool running = update.status == JobUpdate::Status::Running;
-    asio::post(io_, [this, job = update.job, text = text_of(job_event(update)), running] {
-      hub_.broadcast_job(job, text, running);
+    const auto broadcast = [this, job = update.job, text = text_of(job_event(update)), running] {
+      asio::post(io_, [this, job, text, running] { hub_.broadcast_job(job, text, running); });
+    };
+    if (running) return broadcast();
+    engine_.post_always([this, broadcast](Workbench&) {
+      engine_.publish_state();
+      broadcast();
     });
   }
 
@@ -328,12 +331,13 @@ class Server::Impl final : public Site, private EngineListener {
   fs::path first_guide_;  ///< Guide of the first model; used by the job's thread.
   SharedText glb_;
   std::uint32_t model_number_ = 0;
+  UploadStore uploads_;
   Jobs jobs_;
   EngineLoop engine_;
   FileCommands files_;
   Hub hub_;
-  asio::thread_pool export_thread_{1};
-  Tcp::acceptor v4_, v6_;
+  asio::thread_pool worker_{1};  ///< Makes exports and unpacks uploads.
+  ConnectionAcceptor v4_, v6_;
   asio::steady_timer tick_;
   std::thread thread_;
 };

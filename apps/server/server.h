@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/server/model_loader.h"
+#include "apps/server/upload_store.h"
 
 #include <chrono>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct ServerOptions {
   ModelOptions model;                                 ///< For loading assemblies.
   std::optional<std::filesystem::path> state_folder;  ///< For journals and recent files; none: not stored.
   std::optional<std::filesystem::path> web_folder;    ///< Serves the page from this folder; none: embedded.
+  UploadLimits uploads;                               ///< How much of the disk uploads may take.
   /// A silent WebSocket is pinged after half of this time, and dropped if there is no response in the other half.
   std::chrono::milliseconds idle_time{20'000};
 };

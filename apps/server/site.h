@@ -4,14 +4,17 @@
 #include "apps/server/access_rules.h"
 #include "apps/server/client_socket.h"
 #include "apps/server/hub.h"
+#include "apps/server/upload_store.h"
 #include "apps/server/url.h"
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace dismantle::server {
 
@@ -30,9 +33,10 @@ HttpResponse json_response(unsigned status, const Json& json);
 
 /// A received upload.
 struct Upload {
-  RequestTarget target;        ///< Of the POST request.
-  std::string client;          ///< The header X-Client.
-  std::filesystem::path file;  ///< The received body; empty: none.
+  RequestTarget target;                  ///< Of the POST request.
+  std::string client;                    ///< The header X-Client.
+  std::filesystem::path file;            ///< The received body.
+  std::shared_ptr<UploadFolder> folder;  ///< Holds the file.
 };
 
 /// The server as its connections see it: access rules, clients, and responses to HTTP requests. For the network's
@@ -51,17 +55,13 @@ class Site {
   virtual std::chrono::milliseconds idle_time() const = 0;
   /// Responds to a GET request, now or later, on the network's thread.
   virtual void get(const RequestTarget& target, ResponseCallback respond) = 0;
-  /// The file that receives the body of a POST request.
-  struct UploadTarget {
-    std::filesystem::path file;  ///< To be created, in a new folder of its own.
-    std::uint64_t limit = 0;     ///< Maximum size [bytes].
-  };
-  /// Accepts or rejects a POST request before its body is read. @return the file for the body, or the rejection
+  /// Accepts or rejects a POST request before its body is read. @return what receives the body in a file that is to be
+  /// created, or the rejection
   /// @param client the header X-Client
-  virtual std::variant<UploadTarget, HttpResponse> begin_upload(const RequestTarget& target,
-                                                                const std::string& client) = 0;
-  /// Processes a complete upload and responds, now or later, on the network's thread. Takes over the file and removes
-  /// it with its folder.
+  /// @param bytes size of the body
+  virtual std::variant<Upload, HttpResponse> begin_upload(const RequestTarget& target, const std::string& client,
+                                                          std::uint64_t bytes) = 0;
+  /// Processes a complete upload and responds, now or later, on the network's thread.
   virtual void finish_upload(const Upload& upload, ResponseCallback respond) = 0;
 };
 

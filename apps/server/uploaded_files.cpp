@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxFiles = 20'000;
+constexpr std::size_t kMaxFiles = 20'000;  // with their folders
 constexpr std::size_t kMaxLine = 4096;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 
@@ -29,6 +29,7 @@ Error malformed(const std::string& why) {
 struct PackedFile {
   fs::path path;
   std::uint64_t bytes = 0;
+  std::streamoff start = 0;  ///< Of the bytes.
 };
 
 /// True if a relative path stays in its folder and has no hidden parts.
@@ -36,7 +37,7 @@ bool is_inside(const fs::path& path) {
   if (path.empty() || path.is_absolute()) return false;
   return std::none_of(path.begin(), path.end(), [](const fs::path& part) {
     const std::string name = part.string();
-    return name.empty() || name[0] == '.' || name.find('\\') != std::string::npos;
+    return name.empty() || name[0] == '.' || name.find_first_of(std::string("\\\0", 2)) != std::string::npos;
   });
 }
 
@@ -45,7 +46,7 @@ Result<PackedFile> parse_line(const std::string& line) {
   if (!json.is_object() || !json.contains("path") || !json["path"].is_string() || !json.contains("bytes") ||
       !json["bytes"].is_number_unsigned())
     return malformed("a file has no line with its path and size");
-  PackedFile file{fs::path(json["path"].get<std::string>()), json["bytes"].get<std::uint64_t>()};
+  PackedFile file{fs::path(json["path"].get<std::string>()), json["bytes"].get<std::uint64_t>(), 0};
   if (!is_inside(file.path)) return malformed("a path leaves the folder");
   return file;
 }
@@ -81,21 +82,55 @@ Error several(const std::string& what) {
   return {ErrorKind::Usage, "it is not clear what to open (there are " + what + "); open one of them"};
 }
 
+/// The files and folders that a body makes.
+class UnpackedEntries {
+ public:
+  /// Counts a file and those of its folders that are new. @return false if these are too many
+  bool add(const fs::path& file) {
+    ++files_;
+    for (fs::path folder = file.parent_path(); !folder.empty() && files_ + folders_.size() <= kMaxFiles;
+         folder = folder.parent_path())
+      if (!folders_.insert(folder).second) break;
+    return files_ + folders_.size() <= kMaxFiles;
+  }
+
+ private:
+  std::size_t files_ = 0;
+  std::set<fs::path> folders_;
+};
+
+/// The files of a body, all of which is looked through before anything is written.
+Result<std::vector<PackedFile>> list_files(std::istream& in, std::uint64_t size) {
+  std::vector<PackedFile> files;
+  UnpackedEntries entries;
+  for (std::string line; std::getline(in, line);) {
+    if (line.size() > kMaxLine) return malformed("a line is too long");
+    Result<PackedFile> file = parse_line(line);
+    if (!file) return file.error();
+    if (!entries.add(file->path)) return malformed("there are too many files and folders");
+    file->start = in.tellg();
+    if (file->start < 0 || file->bytes > size - static_cast<std::uint64_t>(file->start))
+      return malformed("a file is shorter than its line says");
+    in.seekg(static_cast<std::streamoff>(file->bytes), std::ios::cur);
+    files.push_back(std::move(*file));
+  }
+  if (files.empty()) return malformed("there are none");
+  return files;
+}
+
 }  // namespace
 
 Result<Done> unpack_files(const fs::path& body, const fs::path& folder) {
   std::ifstream in(body, std::ios::binary);
+  const Result<std::vector<PackedFile>> files = list_files(in, fs::file_size(body));
+  if (!files) return files.error();
   std::error_code error;
   fs::create_directories(folder, error);
-  std::size_t count = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (line.size() > kMaxLine) return malformed("a line is too long");
-    if (++count > kMaxFiles) return malformed("there are too many files");
-    const Result<PackedFile> file = parse_line(line);
-    if (!file) return file.error();
-    if (const Result<Done> copied = copy_bytes(in, folder / file->path, file->bytes); !copied) return copied.error();
+  in.clear();
+  for (const PackedFile& file : *files) {
+    in.seekg(file.start);
+    if (const Result<Done> copied = copy_bytes(in, folder / file.path, file.bytes); !copied) return copied.error();
   }
-  if (count == 0) return malformed("there are none");
   return Done{};
 }
 

@@ -45,8 +45,9 @@ void Workbench::set_model(Model model) {
   search_result_.reset();
   instructions_.reset();
   drop_input();
-  const Result<bool> attached = journals_.attach(session());
-  is_resumed_ = attached && *attached;
+  const Result<RestoredSession> attached = journals_.attach(session());
+  is_resumed_ = attached && attached->is_restored;
+  if (attached && !attached->warning.empty()) warning_ = attached->warning;
   is_resumable_ = journals_.can_resume(session());
   journal_failed_ = !attached;
   if (!attached) warning_ = attached.error().message;
@@ -275,8 +276,7 @@ std::optional<std::string> Workbench::recording_text() const {
 }
 
 std::string Workbench::recording_name() const {
-  std::string stem = model_ ? std::filesystem::path(model_->assembly->source_file).stem().string() : "";
-  std::erase_if(stem, [](unsigned char c) { return c < 0x20 || c >= 0x7f || c == '"' || c == '\\' || c == '/'; });
+  const std::string stem = model_ ? std::filesystem::path(model_->assembly->source_file).stem().string() : "";
   return (stem.empty() ? "assembly" : stem) + ".path.json";
 }
 

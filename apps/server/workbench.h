@@ -86,7 +86,7 @@ class Workbench {
   std::chrono::microseconds step_interval() const;
   /// The recording as a path file (docs/formats.md); none if no assembly is open.
   std::optional<std::string> recording_text() const;
-  /// A name for the file of the recording, in printable ASCII.
+  /// A name for the file of the recording, after that of the assembly.
   std::string recording_name() const;
   /// Makes the next take_state() return the state even if it has not changed: for new clients.
   void request_state() { changed_ = true; }

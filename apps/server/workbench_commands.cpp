@@ -151,9 +151,11 @@ class WorkbenchCommands {
     return Json::object();
   }
   Result<Json> resume() {
-    const Result<Done> done = bench_.journals_.resume(session_);
-    bench_.is_resumed_ |= done.ok();
-    return empty_reply(done);
+    const Result<RestoredSession> resumed = bench_.journals_.resume(session_);
+    if (!resumed) return resumed.error();
+    bench_.is_resumed_ = true;
+    if (!resumed->warning.empty()) bench_.warn(resumed->warning);
+    return Json::object();
   }
   Result<Json> open_path() {
     const auto file = find_file(&Roots::find);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <set>
+#include <tuple>
 
 namespace dismantle::server {
 namespace {
@@ -87,6 +88,25 @@ TEST_F(ServerAccess, GivesExportsOfWhatIsOpenToWhoeverHasTheToken) {
   EXPECT_EQ(page.headers.at("Content-Type"), "application/octet-stream") << "it is downloaded, never displayed";
   EXPECT_NE(get(address(), "/api/export/bom.csv").body.find(",block,"), std::string::npos);
   EXPECT_EQ(Json::parse(get(address(), "/api/export/bom.json").body)["items"].size(), 2u);
+}
+
+TEST_F(ServerAccess, NamesDownloadsAfterFilesOfAnyName) {
+  const std::string disposition = "Content-Disposition";
+  Client client(address());
+  client.state();
+  EXPECT_EQ(get(address(), "/api/path.json").headers.at(disposition), "attachment; filename=\"block.path.json\"");
+  for (const auto& [name, ascii, encoded] :
+       {std::tuple("a\"; x=y \\.obj", "a_; x=y _", "a%22%3B%20x%3Dy%20%5C"),
+        std::tuple("Getriebegeh\u00e4use 100%.obj", "Getriebegeh__use 100_", "Getriebegeh%C3%A4use%20100%25"),
+        std::tuple("a\r\nSet-Cookie: b.obj", "a__Set-Cookie: b", "a__Set-Cookie%3A%20b")}) {
+    std::filesystem::copy_file(root() / "block.obj", root() / name);
+    ASSERT_TRUE(server_->open_file(root() / name).ok());
+    client.event_where("job", [](const Json& j) { return j["job"] > 1 && j["status"] == "done"; });
+    const HttpReply reply = get(address(), "/api/path.json");
+    EXPECT_EQ(reply.headers.at(disposition), std::string("attachment; filename=\"") + ascii +
+                                                 ".path.json\"; filename*=UTF-8''" + encoded + ".path.json");
+    EXPECT_EQ(reply.headers.count("Set-Cookie"), 0u);
+  }
 }
 
 TEST_F(ServerAccess, SaysWhyItHasNoExport) {

@@ -1,70 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program as a separate process: killed during a drag, and stopped by a signal.
+#include "dismantle/session/journal_records.h"
 #include "dismantle/session/session_path.h"
 #include "tests/server/server_scene.h"
-
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "tests/server/viewer_process.h"
 
 #include <csignal>
+#include <fstream>
+#include <thread>
 
 namespace dismantle::server {
 namespace {
 
+namespace fs = std::filesystem;
 using testing_client::Client;
-using testing_client::ServerAddress;
-
-/// `dismantle view` on block.obj.
-class ViewerProcess {
- public:
-  ViewerProcess(const std::filesystem::path& assembly, const std::filesystem::path& state) {
-    int ends[2] = {-1, -1};
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    std::string program = DISMANTLE_PROGRAM, view = "view", file = assembly.string(), browser = "--no-browser",
-                quiet = "--quiet", place = "XDG_STATE_HOME=" + state.string();
-    char* arguments[] = {program.data(), view.data(), file.data(), browser.data(), quiet.data(), nullptr};
-    char* environment[] = {place.data(), nullptr};
-    const int status = posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments, environment);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    if (status != 0) throw std::runtime_error("the program cannot be started");
-    std::string url;
-    for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) url += c;
-    close(ends[0]);
-    const std::size_t colon = url.find(':', 7), mark = url.find("#token=");
-    if (mark == std::string::npos) throw std::runtime_error("it printed no URL but: " + url);
-    address_ = {static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1))), url.substr(mark + 7)};
-  }
-  ~ViewerProcess() {
-    if (process_ > 0) end(SIGKILL);
-  }
-  ViewerProcess(const ViewerProcess&) = delete;
-  ViewerProcess& operator=(const ViewerProcess&) = delete;
-
-  const ServerAddress& address() const { return address_; }
-  /// Sends a signal and waits. @return the exit code; 128 + the signal if that ended it
-  int end(int signal) {
-    kill(process_, signal);
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t process_ = 0;
-  ServerAddress address_;
-};
+using testing_client::ViewerProcess;
 
 class ServerCrash : public ServerScene {
  protected:
   void SetUp() override { write_block_and_wall(); }
-  ViewerProcess start_process() const { return ViewerProcess(root() / "block.obj", folder_ / "state"); }
+  ViewerProcess start_process() const { return ViewerProcess(root() / "block.obj", folder_.path()); }
 };
 
 TEST_F(ServerCrash, ResumesAfterItWasKilledDuringADrag) {
@@ -137,12 +92,104 @@ TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
   EXPECT_EQ(client.state()["components"][0]["pose"][0], -5.0);
 }
 
+/// Appends records to the only journal.
+void append_to_journal(const fs::path& state, const std::string& records) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(state))
+    if (entry.path().extension() == ".journal")
+      std::ofstream(entry.path(), std::ios::binary | std::ios::app) << records;
+}
+
+TEST_F(ServerCrash, SaysWhatItDoesNotRestore) {
+  SessionEntry broken{"move block", {ComponentId(0)}, {{0, {{-5, 0, 0}, {}}}}, {false}, {}};
+  SessionEntry deep = broken;
+  broken.frames[0].pose.rotation = {2, 0, 0, 0};
+  deep.frames.push_back({1, {{12, 0, 0}, {}}});  // into the wall
+  const auto records = [](const SessionEntry& entry) {
+    return begin_record(entry) + (entry.frames.size() > 1 ? frames_record({&entry.frames[1], 1}) : "") +
+           end_record(entry);
+  };
+  for (const auto& [entry, why] :
+       {std::pair(broken, "a rotation is not of unit length"),
+        std::pair(deep, "'block' is 1.5 mm deep in 'wall', which is more than is allowed")}) {
+    {
+      ViewerProcess viewer = start_process();
+      Client client(viewer.address());
+      client.state();
+      drag(client, hold(client, 0), {}, {-5, 0, 0}, 5);
+      client.command("release");
+      viewer.end(SIGKILL);
+    }
+    append_to_journal(folder_ / "state", records(entry));
+    for (const bool is_told : {true, false}) {  // the journal is whole from then on
+      ViewerProcess viewer = start_process();
+      Client client(viewer.address());
+      const Json state = client.event_where("state", [](const Json& s) { return s["resumed"]; });
+      EXPECT_EQ(state["components"][0]["pose"][0], -5.0);
+      EXPECT_EQ(state["moves"].size(), 1u);
+      EXPECT_TRUE(state["redo"].is_null());
+      if (is_told) {
+        const std::string text = client.event("log")["text"];
+        EXPECT_NE(text.find("restored only up to its last valid state, with 1 move ("), std::string::npos) << text;
+        EXPECT_NE(text.find(why), std::string::npos) << text;
+      }
+      viewer.end(SIGKILL);
+    }
+    fs::remove_all(folder_ / "state");
+  }
+}
+
+TEST_F(ServerCrash, RemovesTheUploadsOfAViewerThatWasKilled) {
+  fs::path left;
+  {
+    ViewerProcess viewer = start_process();
+    Client client(viewer.address());
+    client.state();
+    const std::string head = "POST /api/open?name=a.obj HTTP/1.1\r\nHost: " + viewer.address().host() +
+                             "\r\nAuthorization: Bearer " + viewer.address().token +
+                             "\r\nX-Client: " + testing_client::kClientKey + "\r\nContent-Length: 1000\r\n\r\nv 0";
+    testing_client::RawConnection upload(viewer.address());
+    upload.send(head);
+    EXPECT_EQ(upload.receive(), "");
+    viewer.end(SIGKILL);
+    left = *fs::directory_iterator(viewer.temporary_folder());
+    EXPECT_TRUE(fs::exists(left / "1/a.obj"));
+  }
+  ViewerProcess viewer = start_process();
+  EXPECT_FALSE(fs::exists(left));
+}
+
+TEST_F(ServerCrash, DoesNotSpinWhenItHasNoMoreDescriptors) {
+  ViewerProcess viewer(root() / "block.obj", folder_.path(), 64);
+  Client client(viewer.address());
+  client.state();
+  std::vector<std::unique_ptr<testing_client::RawConnection>> idle;
+  for (int i = 0; i < 80; ++i) idle.push_back(std::make_unique<testing_client::RawConnection>(viewer.address()));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const double before = viewer.processor_seconds();
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_LT(viewer.processor_seconds() - before, 0.3);
+  EXPECT_TRUE(client.command("check")["ok"]) << "who is connected is not concerned";
+  int refused = 0;
+  for (const auto& connection : idle) {
+    connection->receive(std::chrono::milliseconds(1));
+    refused += connection->is_closed();
+  }
+  EXPECT_GE(refused, 20);
+  EXPECT_LT(refused, 80);
+  const std::string messages = viewer.messages();
+  EXPECT_EQ(messages.find("connections are refused for now"), messages.rfind("connections are refused for now"));
+  EXPECT_NE(messages.find("connections are refused for now"), std::string::npos) << messages;
+  idle.clear();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(testing_client::request(viewer.address(), "GET", "/").status, 200u);
+}
+
 TEST_F(ServerCrash, OpensAPathFileWithTheAssemblyBesideIt) {
   const Result<Assembly> assembly = load_assembly(root() / "block.obj");
   Path path = empty_path(*assembly, PairStates{0.01, {}});
   path.moves = {{"pull the block", {"block"}, {{0, {}}, {1, {{-5, 0, 0}, {}}}}}};
   ASSERT_TRUE(write_path(root() / "pull.path.json", path).ok());
-  ViewerProcess viewer(root() / "pull.path.json", folder_ / "state");
+  ViewerProcess viewer(root() / "pull.path.json", folder_.path());
   Client client(viewer.address());
   const Json state = client.event_where("state", [](const Json& s) { return !s["guide"].is_null(); });
   EXPECT_EQ(state["guide"]["name"], "pull.path.json");

@@ -10,6 +10,7 @@ namespace {
 using testing_client::Client;
 using testing_client::HttpReply;
 using testing_client::kClientKey;
+using testing_client::RawConnection;
 using testing_client::request;
 
 using Files = std::vector<std::pair<std::string, std::string>>;
@@ -65,14 +66,27 @@ TEST_F(ServerUpload, OpensAUrdfWithItsMeshes) {
   EXPECT_EQ(model["components"].size(), 1u);
 }
 
+TEST_F(ServerUpload, RefusesMoreFoldersThanFiles) {
+  // Each file has 100 folders of its own.
+  std::string deep;
+  for (int i = 0; i < 99; ++i) deep += "/d";
+  Files files;
+  for (int i = 0; i < 300; ++i) files.emplace_back(std::to_string(i) + deep + "/a.obj", "");
+  Client client(address());
+  client.state();
+  const HttpReply reply = post("", packed(files));
+  EXPECT_EQ(reply.status, 409u);
+  EXPECT_NE(reply.body.find("too many files and folders"), std::string::npos) << reply.body;
+}
+
 TEST_F(ServerUpload, RefusesWhatIsMalformedOrNotClear) {
   Client client(address());
   client.state();
   const std::string mesh = cube("a");
   for (const Files& files :
        {Files{}, Files{{"../a.obj", mesh}}, Files{{"/etc/a.obj", mesh}}, Files{{"x/../../a.obj", mesh}},
-        Files{{".bashrc", mesh}}, Files{{"", mesh}}, Files{{"a.txt", mesh}}, Files{{"a.urdf", "x"}, {"b.urdf", "x"}},
-        Files{{"x/a.obj", mesh}, {"y/b.obj", mesh}}}) {
+        Files{{".bashrc", mesh}}, Files{{std::string("a.obj\0.txt", 10), mesh}}, Files{{"", mesh}},
+        Files{{"a.txt", mesh}}, Files{{"a.urdf", "x"}, {"b.urdf", "x"}}, Files{{"x/a.obj", mesh}, {"y/b.obj", mesh}}}) {
     const HttpReply reply = post("", packed(files));
     EXPECT_EQ(reply.status, 409u) << reply.body;
   }
@@ -81,6 +95,90 @@ TEST_F(ServerUpload, RefusesWhatIsMalformedOrNotClear) {
                                   std::string("{\"path\": \"a.obj\", \"bytes\": -1}\nx"), std::string(10000, '{')})
     EXPECT_EQ(post("", body).status, 409u) << body.substr(0, 40);
   EXPECT_EQ(client.state()["components"].size(), 2u);
+}
+
+/// A client may upload 100 kB, and all together 150 kB.
+class ServerUploadLimits : public ServerScene {
+ protected:
+  void SetUp() override {
+    ServerOptions options;
+    options.uploads = {100'000, 150'000, 0};
+    start_with_block_and_wall(std::move(options));
+  }
+  /// The start of an upload as it goes over the socket.
+  std::string head(std::size_t bytes, const std::string& target = "/api/open?name=a.obj",
+                   const std::string& key = kClientKey) const {
+    return "POST " + target + " HTTP/1.1\r\nHost: " + address().host() + "\r\nAuthorization: Bearer " +
+           address().token + "\r\nX-Client: " + key + "\r\nContent-Length: " + std::to_string(bytes) + "\r\n\r\n";
+  }
+  std::string refusal(const std::string& request) const {
+    const std::string reply = testing_client::exchange(address(), request);
+    return reply.substr(0, 12) == "HTTP/1.1 507" ? reply : "";
+  }
+};
+
+TEST_F(ServerUploadLimits, HoldBeforeAnythingIsSent) {
+  Client client(address());
+  client.state();
+  EXPECT_NE(refusal(head(100'001)).find("the uploads of this page would take more than"), std::string::npos);
+  EXPECT_NE(refusal(head(50'001, "/api/open_files?name=a")), "") << "it is there twice while it is unpacked";
+  RawConnection open(address());
+  open.send(head(90'000) + "v 0 0 0\n");
+  EXPECT_EQ(open.receive(), "") << "it waits for the rest";
+  EXPECT_NE(refusal(head(20'000)), "");
+  const std::string other = "ffeeddccbbaa99887766554433221100";
+  Client second(address(), other);
+  second.state();
+  ASSERT_TRUE(second.command("take_control")["ok"]);
+  EXPECT_NE(refusal(head(70'000, "/api/open?name=a.obj", other)).find("all uploads together"), std::string::npos);
+}
+
+TEST_F(ServerUploadLimits, AreToldToAClientThatSendsOn) {
+  Client client(address());
+  client.state();
+  const HttpReply reply = request(address(), "POST", "/api/open?name=a.obj",
+                                  {{"Authorization", "Bearer " + address().token}, {"X-Client", kClientKey}},
+                                  std::string(std::size_t{50} << 20, '\n'));
+  EXPECT_EQ(reply.status, 507u);
+}
+
+TEST_F(ServerUploadLimits, AreReleasedWhenTheClientLeaves) {
+  Client client(address());
+  client.state();
+  {
+    RawConnection open(address());
+    open.send(head(90'000) + "v 0 0 0\n");
+    open.receive();
+  }
+  bool is_free = false;
+  for (int tries = 0; tries < 100 && !is_free; ++tries) {
+    RawConnection again(address());
+    again.send(head(90'000));
+    is_free = again.receive(std::chrono::milliseconds(50)).empty();
+  }
+  EXPECT_TRUE(is_free);
+}
+
+TEST_F(ServerUploadLimits, LetsOneUploadFollowAnother) {
+  Client client(address());
+  client.state();
+  const std::string mesh = *read_file(root() / "block.obj", 1 << 20) + std::string(40'000, '\n');
+  for (int i = 0; i < 5; ++i) {
+    const HttpReply reply = request(address(), "POST", "/api/open?name=a.obj",
+                                    {{"Authorization", "Bearer " + address().token}, {"X-Client", kClientKey}}, mesh);
+    ASSERT_EQ(reply.status, 202u) << reply.body;
+    const int job = Json::parse(reply.body).value("job", 0);
+    const auto is_over = [&](const Json& j) { return j["job"] == job && j["status"] != "running"; };
+    EXPECT_EQ(client.event_where("job", is_over)["status"], "done");
+  }
+}
+
+TEST_F(ServerUploadLimits, TakeNoUploadWithoutALength) {
+  Client client(address());
+  client.state();
+  std::string chunked = head(0);
+  chunked.replace(chunked.find("Content-Length: 0"), 17, "Transfer-Encoding: chunked");
+  EXPECT_EQ(testing_client::exchange(address(), chunked + "1\r\nv\r\n").substr(0, 12), "HTTP/1.1 411");
 }
 
 }  // namespace

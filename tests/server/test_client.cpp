@@ -94,34 +94,63 @@ HttpReply get(const ServerAddress& address, const std::string& target) {
 }
 
 std::string exchange(const ServerAddress& address, const std::string& bytes, std::chrono::milliseconds quiet) {
-  asio::io_context io;
-  beast::tcp_stream stream(io);
-  connect(stream, address.port);
-  ErrorCode ignored;
-  asio::write(stream.socket(), asio::buffer(bytes), ignored);
-  std::string reply(std::size_t{1} << 16, '\0');
-  std::size_t size = 0;
-  bool done = false;
-  stream.expires_after(quiet);
-  asio::async_read(stream, asio::buffer(reply), [&](ErrorCode, std::size_t count) {
-    size = count;
-    done = true;
-  });
-  run_until(
-      io, [&] { return done; }, "the end of an exchange");
-  return reply.substr(0, size);
+  RawConnection connection(address);
+  connection.send(bytes);
+  return connection.receive(quiet);
 }
 
-class SilentConnection::Impl {
+namespace {
+
+/// For all raw connections of a thread, of which one at a time waits: an io_context of its own takes three descriptors.
+asio::io_context& shared_io() {
+  thread_local asio::io_context io;
+  return io;
+}
+
+}  // namespace
+
+class RawConnection::Impl {
  public:
-  asio::io_context io;
-  beast::tcp_stream stream{io};
+  asio::io_context& io = shared_io();
+  asio::ip::tcp::socket socket{io};
+  bool is_closed = false;
 };
 
-SilentConnection::SilentConnection(const ServerAddress& address) : impl_(std::make_unique<Impl>()) {
-  connect(impl_->stream, address.port);
+RawConnection::RawConnection(const ServerAddress& address) : impl_(std::make_unique<Impl>()) {
+  impl_->socket.connect({asio::ip::address_v4::loopback(), address.port});
 }
-SilentConnection::~SilentConnection() = default;
+RawConnection::~RawConnection() = default;
+
+bool RawConnection::send(const std::string& bytes) {
+  ErrorCode error;
+  asio::write(impl_->socket, asio::buffer(bytes), error);
+  impl_->is_closed |= static_cast<bool>(error);
+  return !error;
+}
+
+std::string RawConnection::receive(std::chrono::milliseconds quiet) {
+  std::string reply, part(std::size_t{1} << 16, '\0');
+  for (bool is_over = false; !is_over;) {
+    bool done = false;
+    impl_->socket.async_read_some(asio::buffer(part), [&](ErrorCode error, std::size_t count) {
+      reply.append(part, 0, count);
+      done = true;
+      is_over = static_cast<bool>(error);
+      impl_->is_closed |= error && error != asio::error::operation_aborted;
+    });
+    impl_->io.restart();
+    impl_->io.run_for(quiet);
+    if (done) continue;
+    impl_->socket.cancel();
+    impl_->io.restart();
+    impl_->io.run();
+  }
+  return reply;
+}
+
+bool RawConnection::is_closed() const {
+  return impl_->is_closed;
+}
 
 class Client::Impl {
  public:

@@ -44,11 +44,18 @@ HttpReply get(const ServerAddress& address, const std::string& target);
 std::string exchange(const ServerAddress& address, const std::string& bytes,
                      std::chrono::milliseconds quiet = std::chrono::milliseconds(300));
 
-/// Connects and sends nothing.
-class SilentConnection {
+/// A connection that sends what it is told to.
+class RawConnection {
  public:
-  explicit SilentConnection(const ServerAddress& address);
-  ~SilentConnection();
+  /// Connects and sends nothing.
+  explicit RawConnection(const ServerAddress& address);
+  ~RawConnection();
+  /// Sends bytes. @return false if the server has closed the connection
+  bool send(const std::string& bytes);
+  /// Everything received until the connection ends or is silent for `quiet`.
+  std::string receive(std::chrono::milliseconds quiet = std::chrono::milliseconds(300));
+  /// True if receive() or send() found that the server has closed the connection.
+  bool is_closed() const;
 
  private:
   class Impl;

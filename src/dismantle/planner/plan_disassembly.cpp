@@ -97,7 +97,6 @@ class Planner {
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);
   }
-
   Explanation explain_assembled(ComponentId component) { return explanation(component, ComponentSet::all(count_)); }
 
  private:
@@ -169,15 +168,23 @@ class Planner {
   void take_out(const ComponentSet& body, const std::vector<ComponentId>& targets, std::uint32_t part_of) {
     const ComponentSet never(count_, fixed_);
     ComponentSet left = body;
+    std::vector<PlanStep> given_up;  // of the longest attempt
     for (;;) {
       const auto needed = needed_for(targets, body, never);
       ComponentSet staying = body;
       staying.erase(needed ? needed->members() : targets);
-      const std::size_t steps = plan_.steps.size(), bodies = bodies_.size();
+      const std::size_t steps = plan_.steps.size(), bodies = bodies_.size(), taken_out = taken_out_;
       left = take_away(body, staying, part_of, Effort::Any);
-      if (!needed || !left.has_any(targets) || stopped_) break;
-      // The engine refused a step; the table knows the reason now.
+      std::vector<PlanStep> found(plan_.steps.begin() + static_cast<std::ptrdiff_t>(steps), plan_.steps.end());
+      if (found.size() > given_up.size()) given_up = std::move(found);
+      if (!left.has_any(targets) || (!needed && !stopped_)) break;
       plan_.steps.resize(steps);
+      if (stopped_) {  // what was found must not get less because the search was ended
+        plan_.steps.insert(plan_.steps.end(), given_up.begin(), given_up.end());
+        break;
+      }
+      // The engine refused a step; the table knows the reason now.
+      taken_out_ = taken_out;
       bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
     for (const ComponentId target : targets)
@@ -342,10 +349,13 @@ class Planner {
   const Assembly& assembly_;
   const PlanOptions& options_;
   std::size_t count_;
+  ///@{ For keep_going(), which constructors of the members below call already.
   Clock::time_point start_ = Clock::now();
   std::atomic<bool> stopped_ = false;
   std::mutex progress_mutex_;
   std::size_t taken_out_ = 0;
+  Plan plan_;
+  ///@}
   RigidGroups groups_;
   std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
@@ -369,7 +379,6 @@ class Planner {
     std::uint32_t part_of;
   };
   std::vector<Body> bodies_;
-  Plan plan_;
 };
 
 }  // namespace

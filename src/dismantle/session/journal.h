@@ -30,10 +30,15 @@ struct JournalContents {
   std::size_t done_count = 0;         ///< Number of entries in effect; those after them were undone.
   bool is_open = false;               ///< The last entry was still in progress.
   bool is_closed = false;             ///< The session ended normally.
-  std::size_t whole_bytes = 0;        ///< Length of the complete records [bytes].
+  std::size_t whole_bytes = 0;        ///< Length of the valid records [bytes].
+  /// Why the record after these is none, such as "a rotation is not of unit length"; empty if there is none, or its end
+  /// is missing.
+  std::string invalid;
 };
 
-/// Parses a journal up to the first incomplete record: its tail may be torn anywhere. None if the header is incomplete.
+/// Parses a journal up to the first record that is incomplete (its tail may be torn anywhere) or no valid state: in the
+/// entries, poses are finite with rotations of unit length, times ascend, components are known, and each entry starts
+/// where its components are. None if the header is incomplete.
 std::optional<JournalContents> parse_journal(std::string_view bytes);
 
 /// A write-ahead log of a session, so that it can be resumed after a crash: append-only, each record with a hash. Data

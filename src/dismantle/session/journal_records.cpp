@@ -4,6 +4,9 @@
 #include "dismantle/files/byte_order.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 namespace dismantle {
 
@@ -101,10 +104,53 @@ class Source {
   bool ok_ = true;
 };
 
+/// Largest difference of a rotation's length from 1, and of the poses at the end of an entry and the start of the next
+/// one, relative to their size: far more than rounding.
+constexpr double kPoseTolerance = 1e-6;
+
+bool is_finite(const Frame& f) {
+  const auto& [p, q] = f.pose;
+  return std::isfinite(f.time + p.x + p.y + p.z + q.w + q.x + q.y + q.z);
+}
+
+bool is_near(const Pose& a, const Pose& b) {
+  const Quat &p = a.rotation, &q = b.rotation;
+  const double cosine = std::abs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z);
+  return length(a.position - b.position) <= kPoseTolerance * (1 + length(a.position)) && cosine >= 1 - kPoseTolerance;
+}
+
+/// Why the frames of an entry from a given one on are invalid; empty if they are valid.
+std::string problem_of(const std::vector<Frame>& frames, std::size_t from) {
+  for (std::size_t i = from; i < frames.size(); ++i) {
+    const Quat& q = frames[i].pose.rotation;
+    if (!is_finite(frames[i])) return "a pose is not finite";
+    if (std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) > kPoseTolerance)
+      return "a rotation is not of unit length";
+    if (i > 0 && frames[i].time < frames[i - 1].time) return "the times of a motion descend";
+  }
+  return {};
+}
+
 /// Replays the records.
 class JournalReplay {
  public:
   bool take(std::string_view payload) {
+    const bool is_valid = replay(payload);
+    if (!is_valid && contents_.invalid.empty()) contents_.invalid = "it is malformed";
+    return is_valid;
+  }
+  void set_invalid(std::string why) { contents_.invalid = std::move(why); }
+
+  bool has_header() const { return has_header_; }
+  /// Ends an entry that was in progress when the records ended.
+  JournalContents finish() {
+    contents_.is_open = open_ && has_effect(*open_);
+    end_open();
+    return std::move(contents_);
+  }
+
+ private:
+  bool replay(std::string_view payload) {
     Source in(payload.substr(1));
     const auto kind = static_cast<JournalRecord>(payload[0]);
     if (kind == JournalRecord::Header) return take_header(in);
@@ -121,14 +167,15 @@ class JournalReplay {
         return drop();
       case JournalRecord::Undo:
         end_open();
-        return contents_.done_count > 0 && contents_.done_count-- > 0;
+        return undo();
       case JournalRecord::Redo:
         end_open();
-        return contents_.done_count < contents_.entries.size() && ++contents_.done_count > 0;
+        return redo();
       case JournalRecord::Reset:
         contents_.entries.clear();
         contents_.done_count = 0;
         open_.reset();
+        poses_.clear();
         return true;
       case JournalRecord::Close:
         return contents_.is_closed = true;
@@ -138,19 +185,34 @@ class JournalReplay {
     return false;
   }
 
-  bool has_header() const { return has_header_; }
-  /// Ends an entry that was in progress when the records ended.
-  JournalContents finish() {
-    contents_.is_open = open_ && has_effect(*open_);
-    end_open();
-    return std::move(contents_);
+  bool undo() {
+    if (contents_.done_count == 0) return false;
+    const SessionEntry& entry = contents_.entries[--contents_.done_count];
+    put(entry, entry.frames.front().pose);
+    return true;
   }
 
- private:
+  bool redo() {
+    if (contents_.done_count == contents_.entries.size()) return false;
+    const SessionEntry& entry = contents_.entries[contents_.done_count++];
+    put(entry, entry.frames.back().pose);
+    return true;
+  }
+
+  void put(const SessionEntry& entry, const Pose& pose) {
+    for (const ComponentId c : entry.components) poses_[c] = pose;
+  }
+
+  bool refuse(std::string why) {
+    contents_.invalid = std::move(why);
+    return false;
+  }
+
   /// There is no record of its end, as the process ended.
   void end_open() {
     if (open_ && has_effect(*open_)) {
       contents_.entries.resize(contents_.done_count);
+      put(*open_, open_->frames.back().pose);
       contents_.entries.push_back(std::move(*open_));
       ++contents_.done_count;
     }
@@ -181,7 +243,13 @@ class JournalReplay {
     entry.frames = {in.frame()};
     if (has_pairs_) in.skip_pairs();
     if (!in.ok() || !in.is_at_end() || entry.components.empty()) return false;
+    if (std::string problem = problem_of(entry.frames, 0); !problem.empty()) return refuse(std::move(problem));
     end_open();
+    for (const ComponentId c : entry.components) {
+      const auto known = poses_.find(c);
+      if (!is_near(known == poses_.end() ? Pose{} : known->second, entry.frames[0].pose))
+        return refuse("a motion does not start where its components are");
+    }
     open_ = std::move(entry);
     return true;
   }
@@ -189,8 +257,12 @@ class JournalReplay {
   bool add_frames(Source& in) {
     const std::size_t count = in.count(sizeof(double) * 8);
     if (!open_ || !in.ok()) return false;
+    const std::size_t before = open_->frames.size();
     for (std::size_t i = 0; i < count; ++i) open_->frames.push_back(in.frame());
-    return in.is_at_end();
+    std::string problem = problem_of(open_->frames, before);
+    if (problem.empty() && in.is_at_end()) return true;
+    open_->frames.resize(before);
+    return refuse(problem.empty() ? "it is malformed" : std::move(problem));
   }
 
   bool end(Source& in) {
@@ -210,6 +282,7 @@ class JournalReplay {
 
   std::optional<SessionEntry> open_;
   JournalContents contents_;
+  std::map<ComponentId, Pose> poses_;  ///< Of the components that were moved.
   bool has_header_ = false, has_pairs_ = false;
 };
 
@@ -258,7 +331,11 @@ std::optional<JournalContents> parse_journal(std::string_view bytes) {
     const auto hash = number_at<std::uint32_t>(&bytes[at + 4], std::endian::little);
     if (length == 0 || length > bytes.size() - at - kHeadBytes) break;
     const std::string_view payload = bytes.substr(at + kHeadBytes, length);
-    if (hash_of(payload) != hash || !replay.take(payload)) break;
+    if (hash_of(payload) != hash) {
+      replay.set_invalid("its bytes were changed");
+      break;
+    }
+    if (!replay.take(payload)) break;
     at += kHeadBytes + length;
   }
   if (!replay.has_header()) return {};

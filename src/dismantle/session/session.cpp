@@ -257,8 +257,13 @@ void Session::close_journal() {
   journal_.reset();
 }
 
-void Session::restore(JournalContents contents) {
+RestorableState Session::restore(JournalContents contents) {
   DISMANTLE_EXPECT(entries_.empty() && contents.header == journal_header());
+  PairStates allowed = pairs_;
+  allowed.raise_allowances(engine_->overlapping_pairs());
+  const RestorableState state = last_valid_state(*assembly_, allowed, contents);
+  if (state.too_deep) contents.entries.resize(state.done_count);
+  contents.done_count = state.done_count;
   entries_ = std::move(contents.entries);
   done_count_ = contents.done_count;
   std::vector<Pose> all(poses().size());
@@ -269,7 +274,12 @@ void Session::restore(JournalContents contents) {
     }
   }
   engine_->jump(all);
+  return state;
+}
+
+void Session::rewrite_journal() {
   if (!journal_) return;
+  journal_->reset();
   for (const SessionEntry& entry : entries_) {
     journal_->begin(entry);
     if (has_moved(entry)) journal_->add_frames({entry.frames.data() + 1, entry.frames.size() - 1});

@@ -7,6 +7,7 @@
 #include "dismantle/session/exit_search.h"
 #include "dismantle/session/journal.h"
 #include "dismantle/session/playback.h"
+#include "dismantle/session/restored_state.h"
 #include "dismantle/session/session_entry.h"
 #include "dismantle/session/visibility.h"
 
@@ -132,9 +133,12 @@ class Session {
   const Journal* journal() const { return journal_.get(); }
   /// Records a normal end of the session and stops writing.
   void close_journal();
-  /// Restores the state of a journal; a motion that was in progress has ended. If this session has a journal,
-  /// everything is written to it. @pre nothing is recorded; the contents' header is journal_header()
-  void restore(JournalContents contents);
+  /// Restores the last valid state of a journal (last_valid_state()), without the entries after it if it is not the
+  /// last one; a motion that was in progress has ended. @return the state that was restored
+  /// @pre nothing is recorded; the contents' header is journal_header()
+  RestorableState restore(JournalContents contents);
+  /// Writes everything that is recorded to the journal, in place of what it has.
+  void rewrite_journal();
 
   /// Starts to move a set out along `direction`, or along the shortest free direction, to outside the assembly's
   /// bounding box and clear of later removals; it then counts as removed. Errors: Usage as of hold(), and if a

@@ -124,6 +124,26 @@ test("what has to come off first is the shortest chain that the planner finds", 
   assert.ok(sentence.includes(components[chain.before[0][0]].name.replace(/#\d+$/, "")), sentence);
 });
 
+test("the steps found until a plan is cancelled are kept, and it says how many and how long", async () => {
+  await viewer.page.focus("#view");
+  await viewer.press("l");
+  await viewer.page.click("#plan-find");
+  await banner("job")
+    .filter({ hasText: /planning, [1-9]\d* steps? found/ })
+    .waitFor();
+  await banner("job").locator("button").click();
+  await banner("job").waitFor({ state: "hidden" });
+  const found = await search(); // the state came before the end of the job
+  assert.equal(found?.kind, "plan");
+  if (found!.cancelled) {
+    assert.match(await viewer.page.locator("#plan-found").innerText(), /steps? found in [\d.]+ s, until you cancelled/);
+    assert.equal((await viewer.state()).guide!.moves.length, found!.steps);
+    auditPath(await guidePath());
+  }
+  await viewer.click("#guide-close");
+  await viewer.press("l");
+});
+
 test("a search that cannot start says why", async () => {
   await viewer.select("stage plate");
   await viewer.page.keyboard.press("q");
