@@ -77,7 +77,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Pose block = workbench.model()->session->poses()[0], wall = workbench.model()->session->poses()[1];
     const bool is_before = block.rotation == Quat{} && wall == Pose{} && std::abs(block.position.y) < 40 &&
                            std::abs(block.position.z) < 40 && block.position.x + 10 < 21 + 1e-9;
-    if (is_before) fuzz::require(block.position.x + 10 <= 20.5 + 0.0101, "the block no deeper in the wall than allowed");
+    if (is_before)
+      fuzz::require(block.position.x + 10 <= 20.5 + 0.0101, "the block no deeper in the wall than allowed");
   }
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What passes between dismantle and its reader programs: the first byte says which message.
-#include "dismantle/files/isolated_line.h"
-#include "dismantle/files/isolated_request.h"
+#include "dismantle/isolation/isolated_line.h"
+#include "dismantle/isolation/isolated_request.h"
 #include "dismantle/loading/reader_messages.h"
 #include "fuzz/fuzz_input.h"
 
@@ -16,7 +16,8 @@ void take_line(const std::byte* data, std::size_t size) {
   IsolatedLineReader whole, pieces;
   const bool is_valid = whole.take(data, size);
   bool still_valid = true;
-  for (std::size_t at = 0; at < size && still_valid; at += 7) still_valid = pieces.take(data + at, std::min<std::size_t>(7, size - at));
+  for (std::size_t at = 0; at < size && still_valid; at += 7)
+    still_valid = pieces.take(data + at, std::min<std::size_t>(7, size - at));
   fuzz::require(is_valid == still_valid, "the same verdict however the bytes arrive");
   if (is_valid) fuzz::require(whole.bytes() == pieces.bytes() && whole.stage() == pieces.stage(), "the same messages");
 }

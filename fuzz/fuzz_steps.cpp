@@ -18,8 +18,8 @@ using namespace dismantle;
 constexpr std::size_t kRecord = 4, kMostTargets = 6;
 constexpr double kDeepest = 0.05;  // [mm]
 
-/// A box, cylinder, tube or thin plate whose sizes and place are multiples of 0.5 mm: faces that touch, lie in one plane, and
-/// fit without clearance are common.
+/// A box, cylinder, tube or thin plate whose sizes and place are multiples of 0.5 mm: faces that touch, lie in one
+/// plane, and fit without clearance are common.
 Component solid(std::size_t index, const std::uint8_t* b) {
   const double size = 1 + (b[0] % 8) * 0.5;
   const Vec3 at{(b[1] % 20) * 0.5, (b[2] % 20) * 0.5, (b[3] % 20) * 0.5};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it.
 //   replay_TARGET [--seconds S] [--seed N] [--findings FOLDER] CORPUS_FOLDER...
-// Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is not 0.
+// Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is
+// not 0.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -27,8 +28,8 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kLongest = 65536;
 constexpr unsigned kSlow = 20;  // [s]
 
-Bytes g_input;            // what the target has now
-std::string g_finding;    // where it is written
+Bytes g_input;          // what the target has now
+std::string g_finding;  // where it is written
 std::mt19937_64 g_random;
 
 void write_finding(int signal_number) {

@@ -4,7 +4,7 @@
 #include "apps/batch/batch_result.h"
 #include "apps/batch/claim_folder.h"
 #include "apps/batch/stop_signal.h"
-#include "dismantle/files/forked_process.h"
+#include "dismantle/isolation/forked_process.h"
 
 #include <unistd.h>
 

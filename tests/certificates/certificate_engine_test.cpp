@@ -286,8 +286,8 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
 }
 
 TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBound) {
-  // A foil thinner than the tolerance across the end of a tube, pulled off aslant: no ghost, and nothing to bound its depth
-  // by but ever smaller pieces.
+  // A foil thinner than the tolerance across the end of a tube, pulled off aslant: no ghost, and nothing to bound its
+  // depth by but ever smaller pieces.
   TriangleMesh ring = tube(1.5, 1, 0, 1, 36);
   for (Vec3& p : ring.vertices) p = p + Vec3{0.5, 4, 8};
   const Assembly assembly =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // VRML files that OpenCASCADE writes: the components of the STEP file of the same shapes.
-#include "dismantle/loading/load_assembly.h"
 #include "dismantle/formats/vrml/read_vrml.h"
+#include "dismantle/loading/load_assembly.h"
 
 #include "tests/formats/cad_writer.h"
 #include "tests/formats/same_assembly.h"

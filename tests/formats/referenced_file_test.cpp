@@ -67,7 +67,9 @@ TEST(ReferencedFile, AGltfReadsOnlyWhatBelongsToIt) {
   folder.put("tetrahedron.bin", tetrahedron_bytes());
   folder.put("model/tetrahedron.bin", tetrahedron_bytes());
   const auto load = [&](const std::string& uri, const ImportOptions& options = {}) {
-    return load_assembly(folder.put("model/a.gltf", tetrahedron_json("{\"mesh\": 0}", "", R"({"byteLength": 72, "uri": ")" + uri + "\"}")), options);
+    return load_assembly(folder.put("model/a.gltf", tetrahedron_json("{\"mesh\": 0}", "",
+                                                                     R"({"byteLength": 72, "uri": ")" + uri + "\"}")),
+                         options);
   };
   EXPECT_TRUE(load("tetrahedron.bin").ok());
   EXPECT_TRUE(load("%74etrahedron.bin").ok());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/loading/import_budget.h"
 
-#include "dismantle/files/confinement.h"
+#include "dismantle/isolation/confinement.h"
 #include "dismantle/loading/load_assembly.h"
 #include "tests/formats/gltf_files.h"
 #include "tests/support/parse_expectations.h"

@@ -47,8 +47,8 @@ struct CertificateOptions {
   /// yet, and no more ghosts are searched for: what the engine says is still true, but says less.
   KeepGoing keep_going = {};
   /// Most points and pieces of surfaces that a step examines to bound the depth of pairs without ghosts, or 0 for no
-  /// limit but that of a single sweep: the motion of a person's hand must go on. Once they are used up, each sweep still
-  /// gets a few, and counts as too deep where it does not know.
+  /// limit but that of a single sweep: the motion of a person's hand must go on. Once they are used up, each sweep
+  /// still gets a few, and counts as too deep where it does not know.
   std::size_t depth_tests = 0;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/files/isolated_process.h"
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/import/import_options.h"
+#include "dismantle/isolation/isolated_process.h"
 
 #include <cstdint>
 

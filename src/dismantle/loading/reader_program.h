@@ -12,8 +12,8 @@ enum class ReaderProgram {
 };
 
 /// The path of a reader program: in the folder that the environment variable DISMANTLE_READERS names, or beside the
-/// program or Python module that calls this, in `../libexec/dismantle` seen from there, where this build put it, or where
-/// it is installed. Empty if it is nowhere.
+/// program or Python module that calls this, in `../libexec/dismantle` seen from there, where this build put it, or
+/// where it is installed. Empty if it is nowhere.
 std::filesystem::path find_reader(ReaderProgram program);
 
 }  // namespace dismantle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/loading/run_reader.h"
 
-#include "dismantle/files/isolated_child.h"
+#include "dismantle/isolation/isolated_child.h"
 #include "dismantle/loading/reader_messages.h"
 
 #include <new>

@@ -14,8 +14,8 @@ namespace dismantle {
 using ModelReader =
     std::function<Result<ImportedAssembly>(const std::filesystem::path& file, const ImportOptions& options)>;
 
-/// The main() of a reader program: serves the request of load_assembly(), confined to reading the model. Returns the exit
-/// code.
+/// The main() of a reader program: serves the request of load_assembly(), confined to reading the model. Returns the
+/// exit code.
 int run_reader(const ModelReader& read);
 
 }  // namespace dismantle

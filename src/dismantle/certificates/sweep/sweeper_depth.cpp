@@ -25,8 +25,8 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
-  const std::size_t most =
-      std::min(kMaxSweptPieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
+  const std::size_t most = std::min(
+      kMaxSweptPieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
   const auto deep =
       first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_), kResolution * tolerance_ / way,
                    most, options_.keep_going, search_for, &result.depth_tests);

@@ -5,7 +5,9 @@
 namespace dismantle {
 
 Result<Assembly> import_collada(std::string_view, const std::string&, const ImportOptions&) {
-  return Error{ErrorKind::Unreadable, "this dismantle was built without Assimp; build it where libassimp-dev is installed, or convert the file to glTF"};
+  return Error{ErrorKind::Unreadable,
+               "this dismantle was built without Assimp; build it where libassimp-dev is installed, or convert the "
+               "file to glTF"};
 }
 
 }  // namespace dismantle

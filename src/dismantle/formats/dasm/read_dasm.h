@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// Reads an assembly from a `.dasm` file (assembly/assembly_file.h), in which it keeps the name and the hash of the file
-/// that it was converted from; a motion in it is left out. Errors: Unreadable; Usage for unknown units.
+/// Reads an assembly from a `.dasm` file (assembly/assembly_file.h), in which it keeps the name and the hash of the
+/// file that it was converted from; a motion in it is left out. Errors: Unreadable; Usage for unknown units.
 Result<Assembly> read_dasm(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace dismantle

@@ -45,9 +45,7 @@ std::vector<fs::path> reference_folders(const fs::path& model, const ImportOptio
 }
 
 Result<fs::path> referenced_file(const fs::path& address, const fs::path& base, const std::vector<fs::path>& folders) {
-  const auto refused = [](const std::string& why_and_advice) {
-    return Error{ErrorKind::Unreadable, why_and_advice};
-  };
+  const auto refused = [](const std::string& why_and_advice) { return Error{ErrorKind::Unreadable, why_and_advice}; };
   if (address.native().find('\0') != std::string::npos) return refused("is no file name; export it again");
   const fs::path file = (resolved(base) / address).lexically_normal();
   const auto folder =

@@ -10,8 +10,8 @@
 namespace dismantle {
 
 /// The folders in which a model's references are looked up, with links resolved: its own, and
-/// ImportOptions::reference_folders. A URDF file's own folder is its ROS package: the nearest folder at or above it that
-/// has a package.xml, if there is one. Empty for formats whose files refer to nothing.
+/// ImportOptions::reference_folders. A URDF file's own folder is its ROS package: the nearest folder at or above it
+/// that has a package.xml, if there is one. Empty for formats whose files refer to nothing.
 std::vector<std::filesystem::path> reference_folders(const std::filesystem::path& model, const ImportOptions& options);
 
 /// The regular file to which a model refers by `address`, a decoded path: absolute, or relative to `base`, a folder. It

@@ -290,9 +290,8 @@ Result<Assembly> read_urdf(const fs::path& file, const ImportOptions& options) {
   ImportOptions mesh_options = options;  // progress is reported a link at a time
   mesh_options.progress = nullptr;
   const std::vector<fs::path> folders = reference_folders(file, options);
-  return parse_urdf({*bytes, file.filename().string()}, options, [&](const std::string& address) {
-    return load_named_mesh(address, file, folders, mesh_options);
-  });
+  return parse_urdf({*bytes, file.filename().string()}, options,
+                    [&](const std::string& address) { return load_named_mesh(address, file, folders, mesh_options); });
 }
 
 }  // namespace dismantle

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/isolated_process.h"
+#include "dismantle/isolation/isolated_process.h"
 
-#include "dismantle/files/confinement.h"
-#include "dismantle/files/isolated_request.h"
+#include "dismantle/isolation/confinement.h"
+#include "dismantle/isolation/isolated_request.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/child_process.h"
+#include "dismantle/isolation/child_process.h"
 
-#include "dismantle/files/confinement.h"
+#include "dismantle/isolation/confinement.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -105,7 +105,6 @@ IsolatedResult listen_to_child(pid_t child, int descriptor, const IsolationLimit
     if (!report_progress(progress, listener.stage(), listener.fraction())) return kill_as(IsolatedEnding::Cancelled);
   }
 }
-
 
 bool follow_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/forked_process.h"
+#include "dismantle/isolation/forked_process.h"
 
-#include "dismantle/files/child_process.h"
+#include "dismantle/isolation/child_process.h"
 
 #include <fcntl.h>
 #include <unistd.h>

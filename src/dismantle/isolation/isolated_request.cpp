@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/isolated_request.h"
+#include "dismantle/isolation/isolated_request.h"
 
 #include "dismantle/core/byte_stream.h"
 

@@ -21,7 +21,8 @@ enum class LineMessage : std::uint8_t {
   End = 4,      ///< The result is whole.
 };
 
-/// The child's end of the message channel to its parent. Thread-safe. Ends the process where the parent no longer reads.
+/// The child's end of the message channel to its parent. Thread-safe. Ends the process where the parent no longer
+/// reads.
 class IsolatedLine {
  public:
   /// A channel that writes to an open file descriptor, which the caller keeps open.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/isolated_child.h"
+#include "dismantle/isolation/isolated_child.h"
 
-#include "dismantle/files/child_process.h"
-#include "dismantle/files/confinement.h"
-#include "dismantle/files/isolated_request.h"
+#include "dismantle/isolation/child_process.h"
+#include "dismantle/isolation/confinement.h"
+#include "dismantle/isolation/isolated_request.h"
 
 #include <unistd.h>
 
@@ -30,7 +30,8 @@ int run_isolated_child(const IsolatedWork& work) {
   const std::optional<IsolatedRequest> request =
       isatty(STDIN_FILENO) ? std::nullopt : request_from(read_standard_input());
   if (!request) {
-    std::fputs("this program reads models for dismantle (it is no command of its own); run dismantle instead\n", stderr);
+    std::fputs("this program reads models for dismantle (it is no command of its own); run dismantle instead\n",
+               stderr);
     return kExitUsage;
   }
   if (!follow_parent(static_cast<pid_t>(request->parent))) return kExitException;

@@ -47,10 +47,10 @@ struct IsolatedResult {
 };
 
 /// Runs a program in a child process and waits for it: a crash, an endless loop or exhausted memory ends the child and
-/// not the caller. The child confines itself before it looks at anything (isolated_child.h); it has none of the parent's
-/// files and sockets, its standard output and error are discarded, it leaves no core file, and it dies with the calling
-/// thread. Safe to call in a process with threads. Under the sanitizers, which reserve address space of their own, memory
-/// is not limited. `progress` is called on the calling thread, at least ten times a second.
+/// not the caller. The child confines itself before it looks at anything (isolated_child.h); it has none of the
+/// parent's files and sockets, its standard output and error are discarded, it leaves no core file, and it dies with
+/// the calling thread. Safe to call in a process with threads. Under the sanitizers, which reserve address space of
+/// their own, memory is not limited. `progress` is called on the calling thread, at least ten times a second.
 IsolatedResult run_isolated(const IsolatedProgram& program, const IsolationLimits& limits,
                             const ProgressCallback& progress);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program that isolated_process_test.cpp runs in a child process: its request is a command and its argument, with a space
-// between.
-#include "dismantle/files/isolated_child.h"
+// The program that isolated_process_test.cpp runs in a child process: its request is a command and its argument, with a
+// space between.
+#include "dismantle/isolation/isolated_child.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

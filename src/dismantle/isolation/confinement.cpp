@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/confinement.h"
+#include "dismantle/isolation/confinement.h"
 
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -60,19 +60,67 @@ bool confine_files(const std::vector<std::filesystem::path>& readable) {
 }
 
 /// The system calls of reading, computing and threads. Those with conditions are in allow_some().
-constexpr int kAllowed[] = {
-    SCMP_SYS(access), SCMP_SYS(brk), SCMP_SYS(clock_getres), SCMP_SYS(clock_gettime), SCMP_SYS(clock_nanosleep),
-    SCMP_SYS(close), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(faccessat), SCMP_SYS(faccessat2), SCMP_SYS(fcntl),
-    SCMP_SYS(fstat), SCMP_SYS(fstatfs), SCMP_SYS(futex), SCMP_SYS(getcwd), SCMP_SYS(getdents64), SCMP_SYS(getegid),
-    SCMP_SYS(geteuid), SCMP_SYS(getgid), SCMP_SYS(getpid), SCMP_SYS(getppid), SCMP_SYS(getrandom), SCMP_SYS(getrlimit),
-    SCMP_SYS(getrusage), SCMP_SYS(gettid), SCMP_SYS(gettimeofday), SCMP_SYS(getuid), SCMP_SYS(lseek), SCMP_SYS(lstat),
-    SCMP_SYS(madvise), SCMP_SYS(membarrier), SCMP_SYS(mremap), SCMP_SYS(munmap), SCMP_SYS(nanosleep),
-    SCMP_SYS(newfstatat), SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(pread64), SCMP_SYS(read), SCMP_SYS(readlink),
-    SCMP_SYS(readlinkat), SCMP_SYS(readv), SCMP_SYS(restart_syscall), SCMP_SYS(rseq), SCMP_SYS(rt_sigaction),
-    SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn), SCMP_SYS(sched_getaffinity), SCMP_SYS(sched_getparam),
-    SCMP_SYS(sched_getscheduler), SCMP_SYS(sched_yield), SCMP_SYS(set_robust_list), SCMP_SYS(sigaltstack), SCMP_SYS(stat),
-    SCMP_SYS(statx), SCMP_SYS(sysinfo), SCMP_SYS(time), SCMP_SYS(times), SCMP_SYS(uname), SCMP_SYS(write),
-    SCMP_SYS(writev)};
+constexpr int kAllowed[] = {SCMP_SYS(access),
+                            SCMP_SYS(brk),
+                            SCMP_SYS(clock_getres),
+                            SCMP_SYS(clock_gettime),
+                            SCMP_SYS(clock_nanosleep),
+                            SCMP_SYS(close),
+                            SCMP_SYS(exit),
+                            SCMP_SYS(exit_group),
+                            SCMP_SYS(faccessat),
+                            SCMP_SYS(faccessat2),
+                            SCMP_SYS(fcntl),
+                            SCMP_SYS(fstat),
+                            SCMP_SYS(fstatfs),
+                            SCMP_SYS(futex),
+                            SCMP_SYS(getcwd),
+                            SCMP_SYS(getdents64),
+                            SCMP_SYS(getegid),
+                            SCMP_SYS(geteuid),
+                            SCMP_SYS(getgid),
+                            SCMP_SYS(getpid),
+                            SCMP_SYS(getppid),
+                            SCMP_SYS(getrandom),
+                            SCMP_SYS(getrlimit),
+                            SCMP_SYS(getrusage),
+                            SCMP_SYS(gettid),
+                            SCMP_SYS(gettimeofday),
+                            SCMP_SYS(getuid),
+                            SCMP_SYS(lseek),
+                            SCMP_SYS(lstat),
+                            SCMP_SYS(madvise),
+                            SCMP_SYS(membarrier),
+                            SCMP_SYS(mremap),
+                            SCMP_SYS(munmap),
+                            SCMP_SYS(nanosleep),
+                            SCMP_SYS(newfstatat),
+                            SCMP_SYS(poll),
+                            SCMP_SYS(ppoll),
+                            SCMP_SYS(pread64),
+                            SCMP_SYS(read),
+                            SCMP_SYS(readlink),
+                            SCMP_SYS(readlinkat),
+                            SCMP_SYS(readv),
+                            SCMP_SYS(restart_syscall),
+                            SCMP_SYS(rseq),
+                            SCMP_SYS(rt_sigaction),
+                            SCMP_SYS(rt_sigprocmask),
+                            SCMP_SYS(rt_sigreturn),
+                            SCMP_SYS(sched_getaffinity),
+                            SCMP_SYS(sched_getparam),
+                            SCMP_SYS(sched_getscheduler),
+                            SCMP_SYS(sched_yield),
+                            SCMP_SYS(set_robust_list),
+                            SCMP_SYS(sigaltstack),
+                            SCMP_SYS(stat),
+                            SCMP_SYS(statx),
+                            SCMP_SYS(sysinfo),
+                            SCMP_SYS(time),
+                            SCMP_SYS(times),
+                            SCMP_SYS(uname),
+                            SCMP_SYS(write),
+                            SCMP_SYS(writev)};
 
 constexpr unsigned kWriting = O_ACCMODE | O_CREAT | O_TRUNC;
 

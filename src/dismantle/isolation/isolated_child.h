@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/core/result.h"
-#include "dismantle/files/isolated_line.h"
+#include "dismantle/isolation/isolated_line.h"
 
 #include <functional>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/files/isolated_process.h"
+#include "dismantle/isolation/isolated_process.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/files/isolated_line.h"
-#include "dismantle/files/isolated_process.h"
+#include "dismantle/isolation/isolated_line.h"
+#include "dismantle/isolation/isolated_process.h"
 
 #include <sys/types.h>
 
@@ -15,8 +15,8 @@ namespace dismantle {
 /// The exit codes of a child; every other one is a crash.
 inline constexpr int kExitDone = 0, kExitOutOfMemory = 17, kExitException = 18;
 
-/// In the parent: receives until the child ends; kills it if it is silent, cancelled, or sends malformed messages or more
-/// than it could have held. `descriptor` is the end of the channel to read from.
+/// In the parent: receives until the child ends; kills it if it is silent, cancelled, or sends malformed messages or
+/// more than it could have held. `descriptor` is the end of the channel to read from.
 IsolatedResult listen_to_child(pid_t child, int descriptor, const IsolationLimits& limits,
                                const ProgressCallback& progress);
 

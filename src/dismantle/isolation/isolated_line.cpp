@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/files/isolated_line.h"
+#include "dismantle/isolation/isolated_line.h"
 
 #include <unistd.h>
 
