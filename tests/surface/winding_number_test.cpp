@@ -63,6 +63,64 @@ TEST(WindingNumber, ChangesNoFasterThanItSays) {
   }
 }
 
+/// A strip without its long faces, whose holes are narrow; and a box without neighbouring faces, whose holes are bent.
+std::vector<TriangleMesh> meshes_with_holes() {
+  const TriangleMesh tube = scenes::tube(5, 3, -4, 4, 17, 3), strip = scenes::box({-5, -0.3, -0.2}, {5, 0.3, 0.2});
+  const TriangleMesh box = scenes::box({-4, -3, -2}, {4, 3, 2});
+  TriangleMesh bent = box, narrow = strip;
+  for (int i = 0; i < 3; ++i) bent.faces.pop_back(), narrow.faces.pop_back();
+  return {scenes::without_face(tube, 7),
+          scenes::without_face(scenes::without_face(tube, 50), 7),
+          scenes::torn_apart(box),
+          scenes::torn_apart(box, 0.5),
+          scenes::without_face(box, 3),
+          scenes::without_face(strip, 2),
+          scenes::sheet(4, 0),
+          bent,
+          narrow};
+}
+
+TEST(WindingNumber, IsBoundedWhereAPointSeesTheSurfaceAndItsFansFromOutside) {
+  std::mt19937_64 random(13);
+  int near_half = 0, finite = 0;
+  for (const TriangleMesh& mesh : meshes_with_holes()) {
+    const Shape shape(mesh);
+    ASSERT_FALSE(shape.winding.closed());
+    for (int i = 0; i < 1500; ++i) {
+      // Around a corner, near it or far.
+      const Vec3 corner = mesh.vertices[random() % mesh.vertices.size()];
+      const Vec3 center = corner + scenes::random_vector(random, std::exp2(-static_cast<double>(i % 8)) * 8);
+      const double clear =
+          std::min(shape.surface.distance(center).distance, shape.winding.fans()->distance(center).distance);
+      const double radius = i % 3 == 0 ? 0.05 * clear : 0.999 * clear;
+      const double bound = shape.winding.bound_outside_fans(center, radius);
+      if (bound > 1) continue;
+      ++finite;
+      for (int k = 0; k < 8; ++k) {
+        const Vec3 q = center + radius * normalized(scenes::random_vector(random, 1));
+        const double winding = std::abs(oracle::winding_number(mesh, q));
+        ASSERT_LE(winding, bound + 1e-9) << "point " << i << " of a mesh of " << mesh.faces.size();
+        near_half += winding > 0.4;
+      }
+    }
+  }
+  EXPECT_GT(finite, 3000);
+  EXPECT_GT(near_half, 100);
+}
+
+TEST(WindingNumber, TellsTheSideOfPointsNearHoles) {
+  std::mt19937_64 random(14);
+  for (const TriangleMesh& mesh : meshes_with_holes()) {
+    const Shape shape(mesh);
+    for (int i = 0; i < 600; ++i) {
+      const Vec3 corner = mesh.vertices[random() % mesh.vertices.size()];
+      const Vec3 p = corner + scenes::random_vector(random, std::exp2(-static_cast<double>(i % 8)) * 8);
+      const double truth = std::abs(oracle::winding_number(mesh, p));
+      if (std::abs(truth - 0.5) > 1e-9) EXPECT_EQ(shape.winding.inside(p), truth > 0.5) << truth;
+    }
+  }
+}
+
 TEST(WindingNumber, IsAnIntegerWithCracksAndNotWithHoles) {
   const TriangleMesh box = scenes::box({-4, -3, -2}, {4, 3, 2});
   EXPECT_TRUE(Shape(box).winding.closed());
