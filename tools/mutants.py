@@ -45,6 +45,10 @@ class Mutant:
     end: int
     text: str
 
+    def applied_to(self, text):
+        """The text of the file with the change."""
+        return text[:self.begin] + self.text + text[self.end:]
+
     @property
     def key(self):
         """What a record of results knows a mutant by, wherever its lines have moved."""

@@ -36,6 +36,7 @@ SOURCES = {
     "src/dismantle/fits/CMakeLists.txt": "dismantle_component(fits SOURCES fits.cpp)\n",
     "src/dismantle/fits/fits.cpp": """
         // True where a < b.
+        #include "halvings.h"
         bool fits(double size, double margin) {
           return size + margin < 10;
         }
@@ -43,6 +44,11 @@ SOURCES = {
           return n > 3;
         }
         int halvings(unsigned n) {
+          return count_halvings(n);
+        }
+        """,
+    "src/dismantle/fits/halvings.h": """
+        inline int count_halvings(unsigned n) {
           int count = 0;
           while (n > 0) n /= 2, ++count;
           return count;
@@ -74,12 +80,12 @@ class Tiny:
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (self.folder / name).write_text(textwrap.dedent(text).lstrip())
         subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
-        self.file = "src/dismantle/fits/fits.cpp"
-        self.original = (self.folder / self.file).read_text()
-        self.copy = self.folder / "build" / "mutants" / "tree" / self.file
+        self.file, self.header = "src/dismantle/fits/fits.cpp", "src/dismantle/fits/halvings.h"
+        self.original = {file: (self.folder / file).read_text() for file in (self.file, self.header)}
+        self.copy = self.folder / "build" / "mutants" / "tree"
 
     def command(self, *arguments):
-        return [sys.executable, "-B", str(ROOT / "tools" / "mutate"), "--source", str(self.folder), "--patience", "1", *arguments, self.file]
+        return [sys.executable, "-B", str(ROOT / "tools" / "mutate"), "--source", str(self.folder), "--patience", "1", *arguments, self.file, self.header]
 
     def run(self, *arguments):
         return subprocess.run(self.command(*arguments), capture_output=True, text=True, check=False)
@@ -108,11 +114,11 @@ class Runs(unittest.TestCase):
             self.assertEqual(record["return n >= 3;"], ("alive", ""))
             self.assertEqual(record["return n <= 3;"], ("alive", ""))
             self.assertIn("return n > 3;\n+ return n >= 3;", done.stdout)
-            self.assertEqual((project.folder / project.file).read_text(), project.original)
-            self.assertEqual(project.copy.read_text(), project.original)
+            for file, text in project.original.items():
+                self.assertEqual(((project.folder / file).read_text(), (project.copy / file).read_text()), (text, text))
 
             again = project.run("--kinds", "boundary,drop,negate")  # all are known
-            self.assertEqual(again.stdout.count("fits.cpp:"), 0)
+            self.assertEqual(again.stdout.count("fits/"), 0)
             retried = project.run("--kinds", "boundary", "--retry")  # the one that is alive
             self.assertEqual(retried.stdout.count("fits.cpp:"), 1)
 
@@ -127,13 +133,14 @@ class Runs(unittest.TestCase):
             # The loop of this mutant never ends.
             process = subprocess.Popen(project.command("--kinds", "boundary"), stdout=subprocess.PIPE, text=True)
             deadline = time.monotonic() + 60
-            while not (project.copy.exists() and "while (n >= 0)" in project.copy.read_text()) and time.monotonic() < deadline:
+            copy = project.copy / project.header
+            while not (copy.exists() and "while (n >= 0)" in copy.read_text()) and time.monotonic() < deadline:
                 time.sleep(0.02)
-            self.assertTrue(project.copy.exists() and "while (n >= 0)" in project.copy.read_text())
+            self.assertTrue(copy.exists() and "while (n >= 0)" in copy.read_text())
             process.send_signal(signal.SIGTERM)
             process.communicate(timeout=60)
             self.assertEqual(process.returncode, 128 + signal.SIGTERM)
-            self.assertEqual(project.copy.read_text(), project.original)
+            self.assertEqual(copy.read_text(), project.original[project.header])
 
     def test_what_cannot_be_run_is_said_in_one_sentence(self):
         with tiny() as project:
