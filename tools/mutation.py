@@ -174,7 +174,8 @@ class Scratch:
         """The words of the command that links a program."""
         if target not in self.links:
             done = subprocess.run(["ninja", "-C", self.build, "-t", "commands", target], capture_output=True, text=True, check=True)
-            self.links[target] = shlex.split(done.stdout.strip().splitlines()[-1].removeprefix(": && ").removesuffix(" && :"))
+            words = shlex.split(done.stdout.strip().splitlines()[-1].removeprefix(": && "))
+            self.links[target] = words[:words.index("&&")]
         return self.links[target]
 
     @staticmethod
@@ -224,8 +225,9 @@ def failed_test(output, program):
 
 
 def suites_of(scratch, mutant, program):
-    """The test suites in the files of tests that include the header of the mutant's file."""
-    header = str(pathlib.Path(mutant.file).with_suffix(".h")).removeprefix("src/")
+    """The test suites in the files of tests that include the mutant's file, or the header that it includes first."""
+    first = re.search(r'^#include "(.*)"', (scratch.tree / mutant.file).read_text(encoding="utf-8"), re.MULTILINE)
+    header = first[1] if first and mutant.file.endswith(".cpp") else mutant.file.removeprefix("src/")
     texts = [path.read_text(encoding="utf-8") for path in sorted((scratch.tree / program.folder).glob("*_test.cpp"))]
     found = (re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.MULTILINE) for text in texts if f'#include "{header}"' in text)
     return sorted({suite for suites in found for suite in suites})
