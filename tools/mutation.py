@@ -7,7 +7,6 @@ import math
 import os
 import pathlib
 import re
-import resource
 import shlex
 import shutil
 import signal
@@ -137,6 +136,13 @@ class Scratch:
             return None, ""
         return (None if code in (-signal.SIGXCPU, -signal.SIGKILL) else code), output
 
+    def measure(self, path, arguments, limit):
+        """As run(), with the seconds of processor time."""
+        timed = ["-c", 'TIMEFORMAT="%U %S"; time "$@"', "bash", path, *arguments]
+        code, output = self.run("bash", timed, limit)
+        times = re.search(r"^([\d.]+) ([\d.]+)\s*$", output, re.MULTILINE)
+        return code, output, float(times[1]) + float(times[2]) if times else math.inf
+
     def call(self, command, timeout=None):
         """Runs a command in the build folder. @return its exit code and its output"""
         with subprocess.Popen(command, cwd=self.build, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
@@ -196,21 +202,19 @@ def measure(scratch, mutant, programs, options):
     """Runs the programs that test a file with the sources as they are, unless they have passed before. @return the runs that take at most
     --longest, as (Program, arguments). Raises Failure."""
     path, runs = scratch.build / "measured.json", []
-    known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     for program in programs:
         for arguments in runs_of(scratch, mutant, program, options.quick):
             key = " ".join([program.hash, *arguments])
+            with scratch.guard:
+                known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
             if key not in known:
-                scratch.make(program.target)  # without the last mutant
-                before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                code, output = scratch.run(program.path(scratch.build), arguments, options.longest + options.patience)
-                after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+                code, output, known[key] = scratch.measure(program.path(scratch.build), arguments, options.longest + options.patience)
                 if code not in (0, None):
                     raise Failure(f"{program.target} fails with the sources as they are ({failed_test(output, program)}); mend them first")
-                known[key] = seconds
-                path.write_text(json.dumps(known), encoding="utf-8")
-                print(f"{program.target} {arguments[-1]}: {seconds:.1f} s" + ("" if seconds <= options.longest else ", left out"), flush=True)
+                with scratch.guard:
+                    known |= json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+                    path.write_text(json.dumps(known), encoding="utf-8")
+                print(f"{program.target} {arguments[-1]}: {known[key]:.1f} s" + ("" if known[key] <= options.longest else ", left out"), flush=True)
             if known[key] <= options.longest:
                 program.seconds[tuple(arguments)] = known[key]
                 runs.append((program, arguments))
