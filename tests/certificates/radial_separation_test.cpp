@@ -123,6 +123,19 @@ TEST(RadialSweep, ClaimsNoMoreWhereAShaftIsPastTheEndsOfItsBore) {
   }
 }
 
+TEST(RadialSweep, ClaimsNoMoreOfAThinShaftThatLeansOverTheRimOfAWideBore) {
+  // Nearest to the rim is what is a little past it, and it is nearer to the wall than what is beside the bore.
+  const Body bush(scenes::tube(14, 10, 0, 10, 64, 1)), shaft(scenes::tube(1, 0, 10.05, 25, 24, 1));
+  const Vec3 rim{0, 0, 10.05};
+  for (const double heading : {0.0, 0.6, 2.2}) {
+    const Vec3 axis{-std::sin(heading), std::cos(heading), 0};
+    const Pose start = Pose{rim, {}} * Pose{{}, quat_about(axis, 0.095)} * Pose{-rim, {}};
+    const Pose end = Pose{{0, 0, 0.01}, {}} * start;
+    EXPECT_GT(expect_true(shaft, bush, start, end), 100);
+    EXPECT_GT(expect_true(bush, shaft, inverse(start), inverse(end)), 100);
+  }
+}
+
 TEST(RadialSweep, SeparatesAWholeShaftFromItsBore) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const bool bush_moves : {false, true}) {
