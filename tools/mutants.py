@@ -262,6 +262,7 @@ def mutants_of(file, text):
 VERDICTS = {
     "equivalent": "no input tells it from the original",
     "stricter": "it is only slower, or stops earlier: nothing gets through that should not",
+    "killed since": "a test that was written after the record kills it",
     "open": "no test tells it from the original, and it may matter",
 }
 

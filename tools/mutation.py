@@ -115,6 +115,9 @@ class Scratch:
                 path.unlink()
 
     def configure(self):
+        """Configures the build, once: afterwards ninja does where a CMakeLists.txt changes. Raises Failure."""
+        if (self.build / "build.ninja").exists():
+            return
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         command = ["cmake", "-G", "Ninja", "-S", self.tree, "-B", self.build, *SETTINGS, *launcher]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -85,7 +85,7 @@ class Mutation(unittest.TestCase):
             self.assertEqual(make_results.mutation_section_of(folder, verdicts), "")
             (folder / "surface.jsonl").write_text("".join(json.dumps(entry) + "\n" for entry in entries))
             section = make_results.mutation_section_of(folder, verdicts)
-            for part in ("| surface | 3 | 1 | 0 | 0 | 0 | 1 | 0 | 1 |", "| surface/a.cpp:1 | `x + slack` | `x - slack` | no verdict |"):
+            for part in ("| surface | 3 | 1 | 0 | 0 | 0 | 0 | 1 | 0 | 1 |", "| surface/a.cpp:1 | `x + slack` | `x - slack` | no verdict |"):
                 self.assertIn(part, section)
             (folder / "surface.jsonl").write_text("{}\n")
             with self.assertRaisesRegex(make_results.mutants.Failure, "is no record of mutants"):
