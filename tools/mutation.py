@@ -232,11 +232,14 @@ def failed_test(output, program):
 
 
 def suites_of(scratch, mutant, program):
-    """The test suites in the files of tests that include the mutant's file, or the header that it includes first."""
+    """The test suites in the file of tests of the same name, and in those that include the mutant's file, or the header that it includes
+    first."""
     first = re.search(r'^#include "(.*)"', (scratch.tree / mutant.file).read_text(encoding="utf-8"), re.MULTILINE)
     header = first[1] if first and mutant.file.endswith(".cpp") else mutant.file.removeprefix("src/")
-    texts = [path.read_text(encoding="utf-8") for path in sorted((scratch.tree / program.folder).glob("*_test.cpp"))]
-    found = (re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.MULTILINE) for text in texts if f'#include "{header}"' in text)
+    own = pathlib.Path(mutant.file).stem + "_test.cpp"
+    texts = {path.name: path.read_text(encoding="utf-8") for path in sorted((scratch.tree / program.folder).glob("*_test.cpp"))}
+    found = (re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.MULTILINE)
+             for name, text in texts.items() if name == own or f'#include "{header}"' in text)
     return sorted({suite for suites in found for suite in suites})
 
 
