@@ -151,5 +151,21 @@ TEST_F(SurfacePieces, DoNotPassClearWhereOnlyTheirChordsDo) {
   EXPECT_TRUE(passes_clear(piece_, {}, below, 0));
 }
 
+TEST(ClosestPoint, IsOnTheTriangleAndAsNearAsThat) {
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal;
+  const auto vector = [&](double size) { return size * Vec3{normal(random), normal(random), normal(random)}; };
+  for (int i = 0; i < 20000; ++i) {
+    Triangle t{{vector(1), vector(1), vector(1)}};
+    if (i % 5 == 1) t[2] = t[0] + 0.3 * (t[1] - t[0]) + vector(1e-5);         // a needle
+    if (i % 5 == 2) t = {{{0, 0, 0}, {2, 0, 0}, {i % 2 ? 1.0 : 3.0, 0, 0}}};  // on a line
+    if (i % 5 == 3) t[1] = t[2] = t[0];
+    const Vec3 point = vector(i % 3 ? 3 : 0.3);
+    const Vec3 closest = audit::closest_point(t, point);
+    EXPECT_LE(audit::distance_to_triangle(t, closest), 1e-7) << i;
+    EXPECT_NEAR(length(closest - point), audit::distance_to_triangle(t, point), 1e-7) << i;
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -23,6 +23,7 @@ def load(name):
     return module
 
 
+sys.path.insert(0, str(ROOT / "tools"))  # what the tools import
 run_all = load("bench/run_all")
 make_results = load("tools/make_results")
 
@@ -72,6 +73,23 @@ class Gpu(unittest.TestCase):
             self.write(pathlib.Path(name), "\n{}\n")
             with self.assertRaisesRegex(make_results.Failure, "is not what tools/gpu_check writes"):
                 make_results.gpu_section_of(pathlib.Path(name))
+
+
+class Mutation(unittest.TestCase):
+    def test_what_no_test_kills_is_counted_by_its_verdict_and_listed_where_open(self):
+        mutant = {"file": "src/dismantle/surface/a.cpp", "line": 1, "kind": "drop", "before": "x + slack", "by": "", "seconds": 3}
+        entries = [dict(mutant, after="x", result="alive"), dict(mutant, after="x - slack", result="alive"), dict(mutant, after="y", result="killed")]
+        verdicts = {("src/dismantle/surface/a.cpp", "x + slack", "x"): ("equivalent", "it is 0")}
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertEqual(make_results.mutation_section_of(folder, verdicts), "")
+            (folder / "surface.jsonl").write_text("".join(json.dumps(entry) + "\n" for entry in entries))
+            section = make_results.mutation_section_of(folder, verdicts)
+            for part in ("| surface | 3 | 1 | 0 | 0 | 0 | 0 | 1 | 0 | 1 |", "| surface/a.cpp:1 | `x + slack` | `x - slack` | no verdict |"):
+                self.assertIn(part, section)
+            (folder / "surface.jsonl").write_text("{}\n")
+            with self.assertRaisesRegex(make_results.mutants.Failure, "is no record of mutants"):
+                make_results.mutation_section_of(folder, verdicts)
 
 
 class Commands(unittest.TestCase):

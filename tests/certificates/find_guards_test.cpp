@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dismantle {
 namespace {
@@ -121,6 +122,46 @@ TEST(FindGuards, NoGhostIsDeeperInItsSolidThanThePairMayBe) {
     }
   }
   EXPECT_GE(ghosts, 20);
+}
+
+/// A block at some height over the upper face of a floor; both with the ghosts that they have against all others.
+struct BlockOverFloor {
+  Assembly assembly = scenes::assembly({scenes::component("block", scenes::box({0, 0, 0}, {5, 5, 5})),
+                                        scenes::component("floor", scenes::box({-20, -20, -9}, {20, 20, 0}))});
+  FrontStore store{assembly, kGhostLength* kTolerance, Executor()};
+  SolidShape shapes[2] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
+  ComponentAt at(std::uint32_t c, double height = 0) {
+    const ComponentId id(c);
+    return {&store.solid(id), &store.ghost(id, id), {{}, {0, 0, height}}, [this, c] { return &shapes[c]; }};
+  }
+};
+
+TEST(UsualGhosts, MeetWhereTwoOverlapByMoreThanTheirFacesAreRetracted) {
+  BlockOverFloor scene;
+  const double retracted = kGhostLength * kTolerance / std::sqrt(3.0);  // all vertices are corners of boxes
+  for (const auto& [height, apart] :
+       {std::pair(1.0, true), {0.0, true}, {-0.9, true}, {-1.1, false}, {-300.0, false}}) {
+    EXPECT_EQ(usual_ghosts_apart(scene.at(0, height * retracted), scene.at(1), kTolerance), apart) << height;
+    EXPECT_EQ(usual_ghosts_apart(scene.at(1), scene.at(0, height * retracted), kTolerance), apart) << height;
+  }
+}
+
+TEST(FurtherApart, IsTrueOutsideOfEachOtherAndFromThatDistanceOn) {
+  BlockOverFloor scene;
+  const auto apart = [&](double height, double distance) {
+    const bool result = further_apart(scene.at(0, height), scene.at(1), distance);
+    EXPECT_EQ(further_apart(scene.at(1), scene.at(0, height), distance), result) << height << " " << distance;
+    return result;
+  };
+  for (const double distance : {0.001, 0.1, 3.0}) {
+    EXPECT_TRUE(apart(1.01 * distance, distance));
+    EXPECT_TRUE(apart(1.99 * distance, distance));
+    EXPECT_TRUE(apart(50 * distance + 50, distance));
+    EXPECT_FALSE(apart(0.99 * distance, distance));
+    EXPECT_FALSE(apart(0, distance));
+    EXPECT_FALSE(apart(-1, distance));
+    EXPECT_FALSE(apart(-7, distance)) << "within the floor, 2 mm from its faces";
+  }
 }
 
 TEST(FindGuards, BoundsDepthsByTheStartAndTheToleranceLessWhatArcsTake) {

@@ -103,6 +103,39 @@ TEST(RadialSweep, NeverClaimsMoreThanTheGapOfTriangles) {
   }
 }
 
+TEST(RadialSweep, ClaimsNoMoreWhereAShaftIsPastTheEndsOfItsBore) {
+  std::mt19937_64 random(8);
+  const Body bush(scenes::tube(14, 10, -10, 10, 20, 2));
+  for (int trial = 0; trial < 6; ++trial) {
+    // Facets of both, at the rim where a tilt brings them next to each other; the shaft begins before the end of the
+    // bore or behind it.
+    const double from = 10 + 0.4 * (trial - 2);
+    const Body shaft(scenes::tube(trial % 2 ? 9.9 : 9, 7, from, from + 6, 18, 1));
+    const Vec3 rim{0, 0, from};
+    const auto tilted = [&](double along) {
+      const Pose tilt{{}, quat_about(normalized(scenes::random_vector(random, 1)), 0.06)};
+      const Vec3 moved = rim + scenes::random_vector(random, 0.2) + Vec3{0, 0, along};
+      return Pose{moved, {}} * tilt * Pose{-rim, {}};
+    };
+    const Pose start = tilted(0), end = tilted(trial < 3 ? -1 : 0.5);
+    EXPECT_GT(expect_true(shaft, bush, start, end), 100);
+    EXPECT_GT(expect_true(bush, shaft, inverse(start), inverse(end)), 100);
+  }
+}
+
+TEST(RadialSweep, ClaimsNoMoreOfAThinShaftThatLeansOverTheRimOfAWideBore) {
+  // Nearest to the rim is what is a little past it, and it is nearer to the wall than what is beside the bore.
+  const Body bush(scenes::tube(14, 10, 0, 10, 64, 1)), shaft(scenes::tube(1, 0, 10.05, 25, 24, 1));
+  const Vec3 rim{0, 0, 10.05};
+  for (const double heading : {0.0, 0.6, 2.2}) {
+    const Vec3 axis{-std::sin(heading), std::cos(heading), 0};
+    const Pose start = Pose{rim, {}} * Pose{{}, quat_about(axis, 0.095)} * Pose{-rim, {}};
+    const Pose end = Pose{{0, 0, 0.01}, {}} * start;
+    EXPECT_GT(expect_true(shaft, bush, start, end), 100);
+    EXPECT_GT(expect_true(bush, shaft, inverse(start), inverse(end)), 100);
+  }
+}
+
 TEST(RadialSweep, SeparatesAWholeShaftFromItsBore) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const bool bush_moves : {false, true}) {

@@ -63,6 +63,66 @@ TEST(WindingNumber, ChangesNoFasterThanItSays) {
   }
 }
 
+TriangleMesh without_faces(TriangleMesh mesh, std::initializer_list<std::size_t> from_the_last_on) {
+  for (const std::size_t f : from_the_last_on) mesh = scenes::without_face(mesh, f);
+  return mesh;
+}
+
+/// Holes that are small, long and narrow, torn, and bent: the fans of those without a side and a part of the next one
+/// are bowls, from within which more than half of what can be seen is the fan.
+std::vector<TriangleMesh> meshes_with_holes() {
+  const TriangleMesh tube = scenes::tube(5, 3, -4, 4, 17, 3), strip = scenes::box({-5, -0.3, -0.2}, {5, 0.3, 0.2});
+  const TriangleMesh box = scenes::box({-4, -3, -2}, {4, 3, 2}), cube = scenes::box({-3, -3, -3}, {3, 3, 3});
+  return {without_faces(tube, {7}),          without_faces(tube, {50, 7}),
+          scenes::torn_apart(box),           scenes::torn_apart(box, 0.5),
+          without_faces(box, {3}),           without_faces(strip, {2}),
+          without_faces(strip, {3, 2}),      scenes::sheet(4, 0),
+          without_faces(cube, {6, 3, 2}),    without_faces(box, {7, 6, 3, 2}),
+          without_faces(cube, {11, 7, 3, 2})};
+}
+
+TEST(WindingNumber, IsBoundedWhereAPointSeesTheSurfaceAndItsFansFromOutside) {
+  std::mt19937_64 random(13);
+  int near_half = 0, finite = 0;
+  for (const TriangleMesh& mesh : meshes_with_holes()) {
+    const Shape shape(mesh);
+    ASSERT_FALSE(shape.winding.closed());
+    for (int i = 0; i < 1500; ++i) {
+      // Around a corner, near it or far, or anywhere.
+      const Vec3 corner = i % 2 ? mesh.vertices[random() % mesh.vertices.size()] : Vec3{};
+      const Vec3 center =
+          corner + scenes::random_vector(random, i % 2 ? std::exp2(-static_cast<double>(i % 8)) * 8 : 4);
+      const double clear =
+          std::min(shape.surface.distance(center).distance, shape.winding.fans()->distance(center).distance);
+      const double radius = i % 3 == 0 ? 0.05 * clear : 0.999 * clear;
+      const double bound = shape.winding.bound_outside_fans(center, radius);
+      if (bound > 1) continue;
+      ++finite;
+      for (int k = 0; k < 8; ++k) {
+        const Vec3 q = center + radius * normalized(scenes::random_vector(random, 1));
+        const double winding = std::abs(oracle::winding_number(mesh, q));
+        ASSERT_LE(winding, bound + 1e-9) << "point " << i << " of a mesh of " << mesh.faces.size();
+        near_half += winding > 0.4;
+      }
+    }
+  }
+  EXPECT_GT(finite, 3000);
+  EXPECT_GT(near_half, 100);
+}
+
+TEST(WindingNumber, TellsTheSideOfPointsNearHoles) {
+  std::mt19937_64 random(14);
+  for (const TriangleMesh& mesh : meshes_with_holes()) {
+    const Shape shape(mesh);
+    for (int i = 0; i < 600; ++i) {
+      const Vec3 corner = mesh.vertices[random() % mesh.vertices.size()];
+      const Vec3 p = corner + scenes::random_vector(random, std::exp2(-static_cast<double>(i % 8)) * 8);
+      const double truth = std::abs(oracle::winding_number(mesh, p));
+      if (std::abs(truth - 0.5) > 1e-9) EXPECT_EQ(shape.winding.inside(p), truth > 0.5) << truth;
+    }
+  }
+}
+
 TEST(WindingNumber, IsAnIntegerWithCracksAndNotWithHoles) {
   const TriangleMesh box = scenes::box({-4, -3, -2}, {4, 3, 2});
   EXPECT_TRUE(Shape(box).winding.closed());
