@@ -35,9 +35,7 @@ TEST(ReaderMessages, ARequestComesBackAsItWasAndRefusesEveryPartOfItself) {
 
 TEST(ReaderMessages, AnAnswerComesBackAsItWasAndRefusesEveryPartOfItself) {
   ImportedAssembly imported;
-  imported.assembly.components.push_back({});
-  imported.assembly.components[0].name = "box";
-  imported.assembly.components[0].mesh = std::make_shared<const TriangleMesh>(scenes::box({0, 0, 0}, {1, 1, 1}));
+  imported.assembly = scenes::assembly({scenes::component("box", scenes::box({0, 0, 0}, {1, 1, 1}))});
   imported.linked_files = {{"/a", std::string(64, 'a')}, {"/b", std::string(64, 'b')}};
   std::string bytes;
   write_answer(imported, [&](const void* data, std::size_t n) { bytes.append(static_cast<const char*>(data), n); });

@@ -79,9 +79,11 @@ TEST_F(ServerCrash, OffersToContinueASessionThatEndedInOrder) {
 }
 
 TEST_F(ServerCrash, KeepsTheSessionsOfTwoViewersApart) {
-  ViewerProcess one = start_process(), two = start_process();
-  Client first(one.address()), second(two.address());
-  first.state();
+  ViewerProcess one = start_process();
+  Client first(one.address());
+  first.state();  // so that the journal is its own
+  ViewerProcess two = start_process();
+  Client second(two.address());
   second.state();
   drag(first, hold(first, 0), {}, {-5, 0, 0}, 5);
   drag(second, hold(second, 0), {}, {0, 5, 0}, 5);
