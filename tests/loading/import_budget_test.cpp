@@ -45,5 +45,14 @@ TEST(ImportBudget, EndsAReadThatTakesMore) {
   expect_unreadable(load_assembly(file, options), "it takes more memory than files of its size do");
 }
 
+TEST(ImportBudget, IsNotTakenForAFaultOfTheFile) {
+  if (kUnderSanitizer) GTEST_SKIP() << "memory is not limited under the sanitizers";
+  ImportOptions options;
+  for (const std::uint64_t mebibytes : {10, 30, 60}) {  // OpenCASCADE goes on without what it did not get
+    options.limits.memory_bytes = mebibytes << 20;
+    expect_unreadable(load_assembly(DISMANTLE_SOURCE_DIR "/samples/lathe.step", options), "it takes more memory");
+  }
+}
+
 }  // namespace
 }  // namespace dismantle
