@@ -6,17 +6,18 @@
 
 namespace dismantle {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 /// True where a sanitizer watches the process: it needs memory, files and system calls of its own.
-inline constexpr bool kUnderSanitizer = true;
+inline constexpr bool kUnderSanitizer =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    true;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool kUnderSanitizer = true;
+    true;
 #else
-inline constexpr bool kUnderSanitizer = false;
+    false;
 #endif
 #else
-inline constexpr bool kUnderSanitizer = false;
+    false;
 #endif
 
 /// What the kernel holds a confined process to.
