@@ -133,7 +133,7 @@ test("a URDF is opened with the meshes of its folder", async () => {
 
 test("a URDF without its meshes is refused with what to do", async () => {
   await choose({ "arm.urdf": kArm }, "#file-picker");
-  await viewer.page.locator(".toast.warning", { hasText: "keep the URDF and its meshes in one folder" }).waitFor();
+  await viewer.page.locator(".toast.warning", { hasText: "keep both in one folder" }).waitFor();
 });
 
 test("several files dropped on the page are opened together", async () => {
