@@ -130,6 +130,9 @@ bool allow_some(scmp_filter_ctx filter) {
   const auto allow = [&](int call, scmp_arg_cmp when) {
     return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, when) == 0;
   };
+  const auto equals = [](unsigned argument, scmp_datum_t value) {
+    return scmp_arg_cmp{argument, SCMP_CMP_EQ, value, 0};
+  };
   const auto self = static_cast<scmp_datum_t>(getpid());
   return allow(SCMP_SYS(open), SCMP_A1(SCMP_CMP_MASKED_EQ, kWriting, O_RDONLY)) &&
          allow(SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, kWriting, O_RDONLY)) &&
@@ -138,9 +141,8 @@ bool allow_some(scmp_filter_ctx filter) {
          allow(SCMP_SYS(mmap), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_WRITE | PROT_EXEC, PROT_WRITE)) &&
          allow(SCMP_SYS(mmap), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_WRITE | PROT_EXEC, PROT_EXEC)) &&
          allow(SCMP_SYS(mprotect), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)) &&
-         allow(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, self)) && allow(SCMP_SYS(kill), SCMP_A0(SCMP_CMP_EQ, self)) &&
-         allow(SCMP_SYS(prlimit64), SCMP_A2(SCMP_CMP_EQ, 0)) &&
-         allow(SCMP_SYS(prctl), SCMP_A0(SCMP_CMP_EQ, PR_SET_NAME)) &&
+         allow(SCMP_SYS(tgkill), equals(0, self)) && allow(SCMP_SYS(kill), equals(0, self)) &&
+         allow(SCMP_SYS(prlimit64), equals(2, 0)) && allow(SCMP_SYS(prctl), equals(0, PR_SET_NAME)) &&
          // The C library then takes clone(), whose flags can be seen.
          seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0) == 0;
 }

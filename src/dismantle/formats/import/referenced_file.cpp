@@ -51,7 +51,7 @@ Result<fs::path> referenced_file(const fs::path& address, const fs::path& base, 
   const auto folder =
       std::find_if(folders.begin(), folders.end(), [&](const fs::path& place) { return is_inside(file, place); });
   if (folder == folders.end())
-    return refused("is not in its folder; put the file there, or name the other folder with --references");
+    return refused("is not in its folder; keep both in one folder, or name the other one with --references");
   std::error_code error;
   fs::path step = *folder;
   for (const fs::path& name : file.lexically_relative(*folder)) {
