@@ -17,7 +17,7 @@ namespace dismantle {
 namespace {
 
 constexpr int kExitUsage = 2;
-constexpr double kNearLimit = 0.75;  // of the limit, in memory that was in use at one time
+constexpr double kNearLimit = 0.9;  // of the limit, in memory that was in use at one time
 
 std::string read_standard_input() {
   std::string bytes;
