@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands of a client in control, a line each, to a session of a block before a wall: whatever they are, the session
+// Sends commands of a client in control, one per line, to a session of a block in front of a wall. Always, the session
 // stays sound and the block outside the wall.
 #include "apps/server/workbench.h"
 #include "fuzz/fuzz_input.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes between dismantle and its reader programs: the first byte says which message.
+// The messages between dismantle and its reader programs. The first byte selects the kind of message.
 #include "dismantle/isolation/isolated_line.h"
 #include "dismantle/isolation/isolated_request.h"
 #include "dismantle/loading/reader_messages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client sends besides JSON: binary frames, and the target of a request line.
+// The input from a client that is not JSON: binary frames, and the target of a request line.
 #include "apps/server/access_rules.h"
 #include "apps/server/url.h"
 #include "apps/server/wire.h"

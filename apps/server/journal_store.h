@@ -9,7 +9,7 @@
 
 namespace dismantle::server {
 
-/// What was restored of a session.
+/// The part of a session that was restored.
 struct RestoredSession {
   bool is_restored = false;  ///< The session has its entries.
   std::string warning;       ///< One sentence if a part of it is no valid state and was left out; else empty.

@@ -18,7 +18,7 @@ struct ReplyLimits {
   std::size_t total_bytes = std::size_t{64} << 20;  ///< Of all clients [bytes], with kReplyOverhead for each.
 };
 
-/// What a reply takes besides its text [bytes]; an upper bound for its nodes in the store.
+/// Memory of a reply besides its text [bytes]: an upper bound for its nodes in the store.
 inline constexpr std::size_t kReplyOverhead = 512;
 
 /// The last replies to the commands of each client, for clients that lose their connection and repeat a command. The
@@ -36,7 +36,7 @@ class ReplyStore {
   std::optional<SharedText> find(const std::string& client, std::uint64_t id) const;
   /// Forgets all replies of a client.
   void forget(const std::string& client);
-  /// What the replies take [bytes].
+  /// Memory of all replies [bytes].
   std::size_t bytes() const { return bytes_; }
 
  private:

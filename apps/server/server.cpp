@@ -35,7 +35,7 @@ constexpr int kMaxPortTries = 20;
 /// Further connections are closed at once; a page has a few.
 constexpr long kMaxConnections = 256;
 constexpr std::uint64_t kMaxUploadBytes = std::uint64_t{1} << 30, kMaxGuideBytes = std::uint64_t{256} << 20;
-/// What a packed upload and its files take together, over the size of the upload.
+/// Disk space of a packed upload and its unpacked files, relative to the size of the upload.
 constexpr std::uint64_t kUnpackedFactor = 2;
 /// Time limit for closing the sockets when the server stops.
 constexpr std::chrono::milliseconds kCloseTimeout{500};

@@ -51,10 +51,14 @@ std::uint64_t size_on_disk(const fs::path& file) {
   return sum;
 }
 
+/// Bytes of other files that a model's budget counts, at most: a small file may lie among large ones.
+constexpr std::uint64_t kMostOfLinks = std::uint64_t{64} << 20;
+
 /// The size of a file with all to which it may refer.
 std::uint64_t size_with_links(const fs::path& file, const FormatEntry* entry) {
   if (entry == nullptr || !entry->has_links) return size_on_disk(file);
-  return size_on_disk(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  return size_on_disk(file) + std::min(size_on_disk(folder), kMostOfLinks);
 }
 
 /// The Error for a reader that ended without an answer.

@@ -15,7 +15,7 @@ struct LinkedFile {
   std::string sha256;          ///< Of its bytes.
 };
 
-/// What a reader made of a file.
+/// The result of reading a file.
 struct ImportedAssembly {
   Assembly assembly;                     ///< As the file has it.
   std::vector<LinkedFile> linked_files;  ///< Files that were read besides it and on which the assembly depends.
