@@ -30,6 +30,13 @@ if(DISMANTLE_SANITIZE)
   add_compile_options(-fsanitize=${DISMANTLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${DISMANTLE_SANITIZE})
 endif()
+# The 160 programs of a checked build are linked in half the time by gold.
+if(DISMANTLE_CONTRACTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  find_program(DISMANTLE_GOLD ld.gold)
+  if(DISMANTLE_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
 install(TARGETS dismantle_build_settings EXPORT dismantleTargets)
 
 # dismantle_component(NAME

@@ -210,7 +210,10 @@ export class Viewer {
     await this.select(name);
     await this.page.click("#take-out");
     await this.page.waitForFunction(
-      (i) => window.dismantle!.app.session.store.state!.components[i].removed,
+      (i) => {
+        const { components, automatic } = window.dismantle!.app.session.store.state!;
+        return automatic === null && components[i].removed;
+      },
       await this.index(name),
     );
     await this.idle();
