@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
+#include <mutex>
+#include <tuple>
 
 namespace dismantle {
 
@@ -22,12 +25,16 @@ void append(std::vector<AuditViolation>& to, std::vector<AuditViolation> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// Progress runs from 0 to 1 over the assembled state and the moves, in equal parts.
+double stages_of(const Path& path) {
+  return static_cast<double>(path.moves.size()) + 1;
+}
+
 bool audit_moves(audit::DepthContext& context, AuditReport& report) {
   const Assembly& assembly = context.assembly;
   const Path& path = context.path;
   std::vector<Pose> poses(assembly.components.size());
-  const double stages = static_cast<double>(path.moves.size()) + 1;
-  if (!audit::find_initial_depths(context, 0, 1 / stages)) return false;
+  const double stages = stages_of(path);
   append(report.violations, audit::apply_path_pairs(context));
   for (std::size_t m = 0; m < path.moves.size(); ++m) {
     const Move& move = path.moves[m];
@@ -59,28 +66,74 @@ std::string message_of(const Assembly& assembly, const audit::LedgerEntry& entry
 
 }  // namespace
 
-AuditReport audit_path(const Assembly& assembly, const Path& path, const AuditOptions& options) {
+/// What all audits of an assembly share.
+struct PathAuditor::Known {
+  /// What the depths in the assembled state depend on, besides the assembly.
+  struct Key {
+    double tolerance = 0, slack = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> free;
+    friend bool operator<(const Key& p, const Key& q) {
+      return std::tie(p.tolerance, p.slack, p.free) < std::tie(q.tolerance, q.slack, q.free);
+    }
+  };
+
+  /// The depths in the assembled state, found by the first audit that needs them; null where that was cancelled.
+  const audit::InitialDepths* initial_depths(const audit::DepthContext& context, double progress_to) {
+    Key key{context.path.tolerance, context.slack, audit::free_pairs(context.assembly, context.path)};
+    const std::lock_guard lock(mutex);
+    const auto known = depths.find(key);
+    if (known != depths.end()) return &known->second;
+    std::optional<audit::InitialDepths> found = audit::find_initial_depths(context, key.free, 0, progress_to);
+    return found ? &depths.emplace(std::move(key), std::move(*found)).first->second : nullptr;
+  }
+
+  std::vector<std::unique_ptr<const audit::SolidBody>> bodies;
+  std::mutex mutex;
+  std::map<Key, audit::InitialDepths> depths;
+};
+
+PathAuditor::PathAuditor(const Assembly& assembly, const Executor& executor)
+    : assembly_(&assembly), known_(std::make_unique<Known>()) {
+  known_->bodies.resize(assembly.components.size());
+  executor.for_each_heavy(known_->bodies.size(), [&](std::size_t c) {
+    known_->bodies[c] = std::make_unique<const audit::SolidBody>(assembly.components[c]);
+  });
+}
+
+PathAuditor::~PathAuditor() = default;
+PathAuditor::PathAuditor(PathAuditor&&) noexcept = default;
+PathAuditor& PathAuditor::operator=(PathAuditor&&) noexcept = default;
+
+AuditReport PathAuditor::audit(const Path& path, const AuditOptions& options) const {
   const auto start = std::chrono::steady_clock::now();
   AuditReport report;
   report.tolerance = path.tolerance;
-  report.slack = slack_of(assembly, path);
-  report.violations = audit::check_declarations(assembly, path);
+  report.slack = slack_of(*assembly_, path);
+  report.violations = audit::check_declarations(*assembly_, path);
 
-  audit::DepthContext context{assembly, path, {}, {}, {}, report.slack, 0, options.executor, options.progress};
-  context.bodies.resize(assembly.components.size());
-  options.executor.for_each_heavy(context.bodies.size(), [&](std::size_t c) {
-    context.bodies[c] = std::make_unique<const audit::SolidBody>(assembly.components[c]);
-  });
-  report.complete = audit_moves(context, report);
+  audit::DepthContext context{*assembly_,      path, known_->bodies, {}, {}, report.slack, 0, options.executor,
+                              options.progress};
+  const audit::InitialDepths* initial = known_->initial_depths(context, 1 / stages_of(path));
+  if (initial) {
+    audit::enter_initial_depths(context, *initial);
+    report.complete = audit_moves(context, report);
+  }
 
   for (const auto& body : context.bodies) report.sheets += body->solid() ? 0 : 1;
   report.pieces = context.pieces;
   for (auto& [key, entry] : context.ledger) {
     if (entry.listed()) report.pairs.push_back(entry.pair);
     if (!entry.violated) continue;
-    entry.violation.message = message_of(assembly, entry);
+    entry.violation.message = message_of(*assembly_, entry);
     report.violations.push_back(entry.violation);
   }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+AuditReport audit_path(const Assembly& assembly, const Path& path, const AuditOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  AuditReport report = PathAuditor(assembly, options.executor).audit(path, options);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

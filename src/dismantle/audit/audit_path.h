@@ -7,6 +7,8 @@
 #include "dismantle/core/progress.h"
 #include "dismantle/exec/executor.h"
 
+#include <memory>
+
 namespace dismantle {
 
 /// The slack of an audit relative to the tolerance.
@@ -39,5 +41,24 @@ struct AuditOptions {
 ///      than the allowance plus the slack (AuditViolationKind::Crossing). What passes between these points is not seen.
 /// It shares no collision code with what makes paths.
 AuditReport audit_path(const Assembly& assembly, const Path& path, const AuditOptions& options = {});
+
+/// Audits many paths of one assembly: its solids are built once, and the depths in the assembled state are found once
+/// for all paths of the same tolerance and free pairs. Several threads may audit at the same time.
+class PathAuditor {
+ public:
+  /// @param assembly must live as long as the auditor
+  explicit PathAuditor(const Assembly& assembly, const Executor& executor = {});
+  ~PathAuditor();
+  PathAuditor(PathAuditor&&) noexcept;
+  PathAuditor& operator=(PathAuditor&&) noexcept;
+
+  /// The report of audit_path(), apart from the time.
+  AuditReport audit(const Path& path, const AuditOptions& options = {}) const;
+
+ private:
+  struct Known;
+  const Assembly* assembly_;
+  std::unique_ptr<Known> known_;
+};
 
 }  // namespace dismantle

@@ -58,17 +58,6 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_boxes(const Ass
   return pairs;
 }
 
-/// The pairs that the path lists as free, in order.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> free_pairs(const DepthContext& context) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (const PathPair& pair : context.path.pairs) {
-    const auto a = context.assembly.find(pair.a), b = context.assembly.find(pair.b);
-    if (a && b && pair.state == PathPairState::Free) pairs.push_back(std::minmax(a->value, b->value));
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 }  // namespace
 
 DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b,
@@ -90,26 +79,47 @@ DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, 
   return pair;
 }
 
-bool find_initial_depths(DepthContext& context, double progress_from, double progress_to) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> free_pairs(const Assembly& assembly, const Path& path) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const PathPair& pair : path.pairs) {
+    const auto a = assembly.find(pair.a), b = assembly.find(pair.b);
+    if (a && b && pair.state == PathPairState::Free) pairs.push_back(std::minmax(a->value, b->value));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::optional<InitialDepths> find_initial_depths(const DepthContext& context,
+                                                 Span<const std::pair<std::uint32_t, std::uint32_t>> free,
+                                                 double progress_from, double progress_to) {
   auto pairs = overlapping_boxes(context.assembly);
-  const auto free = free_pairs(context);
   std::erase_if(pairs, [&](const auto& pair) { return std::binary_search(free.begin(), free.end(), pair); });
   std::vector<DepthFindings> found(2 * pairs.size());
   const bool completed = context.run(found.size(), progress_from, progress_to, [&](std::size_t i) {
     found[i] = initial_depth(context, pairs[i / 2], i % 2 == 1);
   });
+  if (!completed) return {};
+  InitialDepths depths;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const DepthFindings& of_a = found[2 * i];
     const DepthFindings& of_b = found[2 * i + 1];
-    context.pieces += of_a.samples + of_b.samples;
+    depths.pieces += of_a.samples + of_b.samples;
     if (of_a.first.depth == 0 && of_b.first.depth == 0) continue;
-    AuditPair& pair = context.ledger[pairs[i]].pair;
-    pair.a = ComponentId(pairs[i].first);
-    pair.b = ComponentId(pairs[i].second);
-    pair.initial_depth = std::max(of_a.first.depth > 0 ? of_a.bound : 0, of_b.first.depth > 0 ? of_b.bound : 0);
+    depths.overlapping.push_back(
+        {pairs[i], std::max(of_a.first.depth > 0 ? of_a.bound : 0, of_b.first.depth > 0 ? of_b.bound : 0)});
+  }
+  return depths;
+}
+
+void enter_initial_depths(DepthContext& context, const InitialDepths& depths) {
+  context.pieces += depths.pieces;
+  for (const InitialDepth& initial : depths.overlapping) {
+    AuditPair& pair = context.ledger[initial.pair].pair;
+    pair.a = ComponentId(initial.pair.first);
+    pair.b = ComponentId(initial.pair.second);
+    pair.initial_depth = initial.depth;
     pair.allowed = pair.initial_depth + context.path.tolerance;
   }
-  return completed;
 }
 
 DepthFindings search_assembled(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b, bool of_b,

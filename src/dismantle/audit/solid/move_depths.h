@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,14 +32,27 @@ struct LedgerEntry {
 /// The pairs of a path, by (a, b) with a < b.
 using DepthLedger = std::map<std::pair<std::uint32_t, std::uint32_t>, LedgerEntry>;
 
+/// A pair that overlaps in the assembled state.
+struct InitialDepth {
+  std::pair<std::uint32_t, std::uint32_t> pair;  ///< a < b.
+  double depth = 0;                              ///< An upper bound [mm].
+};
+
+/// The depths in the assembled state of all pairs but the free ones: they depend on the assembly, the tolerance and the
+/// slack alone.
+struct InitialDepths {
+  std::vector<InitialDepth> overlapping;  ///< Those deeper than the tolerance, by pair.
+  std::size_t pieces = 0;                 ///< AuditReport::pieces.
+};
+
 /// The data that all searches of an audit of depths share.
 struct DepthContext {
   ///@{ The arguments of the audit.
   const Assembly& assembly;
   const Path& path;
   ///@}
-  std::vector<std::unique_ptr<const SolidBody>> bodies;  ///< Of each component.
-  DepthLedger ledger;                                    ///< Pairs with allowances of their own, or violations.
+  const std::vector<std::unique_ptr<const SolidBody>>& bodies;  ///< Of each component.
+  DepthLedger ledger;                                           ///< Pairs with allowances of their own, or violations.
   /// Points of the first component followed in the frame of the second.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<FollowedPoint>> followed;
   double slack = 0;        ///< AuditReport::slack [mm].
@@ -70,9 +84,16 @@ DepthPair make_depth_pair(const DepthContext& context, std::pair<std::uint32_t, 
 DepthFindings search_assembled(const DepthContext& context, std::pair<std::uint32_t, std::uint32_t> a_and_b, bool of_b,
                                const DepthGoal& goal);
 
-/// Finds the depths in the assembled state of all pairs but those that the path lists as free, and enters those that
-/// overlap in the ledger, with their depth plus the tolerance for an allowance; false where it was cancelled.
-bool find_initial_depths(DepthContext& context, double progress_from, double progress_to);
+/// The pairs that the path lists as free, in order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> free_pairs(const Assembly& assembly, const Path& path);
+
+/// Finds the depths in the assembled state of all pairs but `free`, which are in order; nothing where it was cancelled.
+std::optional<InitialDepths> find_initial_depths(const DepthContext& context,
+                                                 Span<const std::pair<std::uint32_t, std::uint32_t>> free,
+                                                 double progress_from, double progress_to);
+
+/// Enters the pairs that overlap in the ledger, with their depth plus the tolerance for an allowance.
+void enter_initial_depths(DepthContext& context, const InitialDepths& depths);
 
 /// Enters the allowances of the pairs that the path lists in the ledger, and compares them with the depths found.
 /// @return where the path claims or allows more than these justify, or leaves out a pair that overlaps
