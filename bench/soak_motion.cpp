@@ -24,11 +24,16 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace dismantle::soak {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The batches of all assemblies are run in so many rounds: what is recorded of a soak that was ended is of all of
+/// them.
+constexpr int kRounds = 20;
 
 struct Settings {
   std::size_t steps = 17'000;  // of all assemblies together
@@ -100,12 +105,13 @@ class Soak {
 };
 
 /// Prints the row of an assembly. @return true if it has batches and nothing is wrong with any of them
-bool print_row(const Input& input, const Assembly& assembly, const PairStates& states, const Record& record) {
+bool print_row(const Input& input, const Assembly& assembly, const Record& record) {
   const BatchResult sum = record.of(input.name);
   std::printf("%s\t%zu\t%zu\t%.4g\t%zu\t%zu\t%.1f\t%.1f\t%.1f\t%zu\t%zu\t%zu\t%zu\t%zu\t%zu\t%.0f\t%.0f\n",
-              input.name.c_str(), assembly.components.size(), triangle_count(assembly), states.tolerance, sum.steps,
-              sum.reached, sum.times.quantile(0.5), sum.times.quantile(0.99), sum.longest_us, sum.front, sum.batches,
-              sum.violations, sum.audits_cut, sum.straight_motions, sum.stuck, sum.engine_seconds, sum.audit_seconds);
+              input.name.c_str(), assembly.components.size(), triangle_count(assembly), default_tolerance(assembly),
+              sum.steps, sum.reached, sum.times.quantile(0.5), sum.times.quantile(0.99), sum.longest_us, sum.front,
+              sum.batches, sum.violations, sum.audits_cut, sum.straight_motions, sum.stuck, sum.engine_seconds,
+              sum.audit_seconds);
   std::fflush(stdout);
   return sum.batches > 0 && sum.good();
 }
@@ -140,7 +146,8 @@ std::vector<Input> find_inputs(const Settings& settings) {
 struct Loaded {
   Input input;
   Assembly assembly;
-  double weight = 0;  // of its share of the steps
+  double weight = 0;                 // of its share of the steps
+  std::optional<PairStates> states;  // once they are needed
 };
 
 bool parse(int argc, char** argv, Settings& settings) {
@@ -169,32 +176,41 @@ bool load(const Settings& settings, std::vector<Loaded>& loaded) {
       return false;
     }
     const double weight = 1 / std::sqrt(static_cast<double>(std::max<std::size_t>(triangle_count(*assembly), 1)));
-    loaded.push_back({input, std::move(*assembly), weight});
+    loaded.push_back({input, std::move(*assembly), weight, {}});
   }
   return true;
 }
 
-bool run(const Settings& settings, Record& record, const std::vector<Loaded>& loaded) {
+bool run(const Settings& settings, Record& record, std::vector<Loaded>& loaded) {
   const bench::Stopwatch watch;
   double weights = 0;
   for (const Loaded& one : loaded) weights += one.weight;
-  bool good = true;
-  std::size_t left = 0;
-  for (const auto& [input, assembly, weight] : loaded) {
-    const double steps = static_cast<double>(settings.steps) * weight / weights;
-    const auto count = static_cast<std::uint64_t>(std::ceil(steps / (kDragsPerBatch * settings.batch.targets)));
-    const Result<PairStates> states = classify_pairs(assembly, {});
-    if (!states) {
-      std::fprintf(stderr, "soak_motion: %s\n", states.error().message.c_str());
-      return false;
+  const auto count_of = [&](const Loaded& one, int round) {
+    const double steps = static_cast<double>(settings.steps) * one.weight / weights * round / kRounds;
+    return static_cast<std::uint64_t>(std::ceil(steps / (kDragsPerBatch * settings.batch.targets)));
+  };
+  for (int round = 1; round <= kRounds; ++round)
+    for (Loaded& one : loaded) {
+      if (record.of(one.input.name).batches >= count_of(one, round) || watch.seconds() >= settings.seconds) continue;
+      if (!one.states) {
+        Result<PairStates> states = classify_pairs(one.assembly, {});
+        if (!states) {
+          std::fprintf(stderr, "soak_motion: %s\n", states.error().message.c_str());
+          return false;
+        }
+        one.states = std::move(*states);
+      }
+      if (!Soak(settings, one.input.name, one.assembly, *one.states, record).run(count_of(one, round), watch))
+        return false;
     }
-    if (record.of(input.name).batches < count && watch.seconds() < settings.seconds)
-      good = Soak(settings, input.name, assembly, *states, record).run(count, watch) && good;
-    const std::size_t done = record.of(input.name).batches;
+  bool good = true;
+  std::uint64_t left = 0;
+  for (const Loaded& one : loaded) {
+    const std::uint64_t done = record.of(one.input.name).batches, count = count_of(one, kRounds);
     left += done < count ? count - done : 0;
-    good = print_row(input, assembly, *states, record) && good;
+    good = print_row(one.input, one.assembly, record) && good;
   }
-  if (left > 0) std::fprintf(stderr, "soak_motion: %zu batches are left (--seconds)\n", left);
+  if (left > 0) std::fprintf(stderr, "soak_motion: %llu batches are left\n", static_cast<unsigned long long>(left));
   return good;
 }
 

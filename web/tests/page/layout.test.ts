@@ -80,7 +80,8 @@ test("playing everything stays in the picture, and the guide follows", async () 
 });
 
 test("the blocks of the timeline have the number and the name of each step", async () => {
-  await viewer.click("#guide-play");
+  await viewer.page.click("#guide-play");
+  await viewer.page.locator("#timeline .block").first().waitFor();
   const blocks = await viewer.page.locator("#timeline .block").allInnerTexts();
   assert.ok(
     blocks.every((block, i) => block.startsWith(`${i + 1} `)),
