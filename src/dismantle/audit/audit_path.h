@@ -49,8 +49,10 @@ class PathAuditor {
   /// @param assembly must live as long as the auditor
   explicit PathAuditor(const Assembly& assembly, const Executor& executor = {});
   ~PathAuditor();
-  PathAuditor(PathAuditor&&) noexcept;
-  PathAuditor& operator=(PathAuditor&&) noexcept;
+  /// Takes over what `other` knows; `other` must not be used afterwards.
+  PathAuditor(PathAuditor&& other) noexcept;
+  /// Replaces what is known by what `other` knows; `other` must not be used afterwards.
+  PathAuditor& operator=(PathAuditor&& other) noexcept;
 
   /// The report of audit_path(), apart from the time.
   AuditReport audit(const Path& path, const AuditOptions& options = {}) const;
