@@ -90,7 +90,8 @@ std::vector<AcknowledgedPose> drag_randomly(Client& client, KillDice& dice, doub
     for (std::uint32_t number = 1; Clock::now() < end; ++number) {
       position.x = std::clamp(position.x + dice.between(-0.5, 0.5), -2.0, 2.0);
       position.z = std::clamp(position.z + dice.between(-0.4, 0.6), -2.0, 30.0);
-      client.send_binary(server::encode(server::TargetMessage{held["grip"], number, {position, {}}}));
+      client.send_binary(
+          server::encode(server::TargetMessage{held["grip"].get<std::uint32_t>(), number, {position, {}}}));
       const server::PoseMessage pose = client.pose_for_target(number);
       poses.push_back({Clock::now(), pose.pose});
     }
@@ -147,7 +148,8 @@ void KilledServer::kill_during_drag(KillRow& row, KillDice& dice) {
     const auto viewer = start();
     Client client(viewer->address());
     client.state();
-    Killer killer(*viewer, dice.moment(kDragSeconds), dice.toss());
+    const double moment = dice.moment(kDragSeconds);
+    Killer killer(*viewer, moment, dice.toss());
     poses = drag_randomly(client, dice, kDragSeconds);
     row.before_end += client.is_open() ? 0 : 1;
     killed = killer.wait();
@@ -168,10 +170,13 @@ void KilledServer::kill_during_search(KillRow& row, KillDice& dice) {
     const auto viewer = start();
     Client client(viewer->address());
     client.state();
-    drag_randomly(client, dice, 0.05);
-    client.command("release");
-    recording = recording_of(*viewer);
-    Killer killer(*viewer, dice.moment(seconds_[static_cast<int>(job)]), dice.toss());
+    while (recording.empty() || Json::parse(recording)["moves"].empty()) {
+      drag_randomly(client, dice, 0.05);
+      client.command("release");
+      recording = recording_of(*viewer);
+    }
+    const double moment = dice.moment(seconds_[static_cast<int>(job)]);
+    Killer killer(*viewer, moment, dice.toss());
     bool has_ended = false;
     try {
       start_job(client, job);
@@ -195,10 +200,11 @@ void KilledServer::check_restart(KillRow& row, const std::vector<AcknowledgedPos
     Client client(viewer->address());
     const Json state = client.state();
     // A job that has opened another file has ended the session in order.
-    const bool is_resumed =
-        state["resumed"] || (!recording.empty() && state["resumable"] && client.command("resume")["ok"]);
-    if (!is_resumed && (!poses.empty() || !recording.empty()))
-      row.violate(row.failed_reruns, "the session was not resumed");
+    const bool is_resumed = state["resumed"].get<bool>() || (state["resumable"].get<bool>() && !recording.empty() &&
+                                                             client.command("resume")["ok"].get<bool>());
+    const bool has_moved =
+        std::any_of(poses.begin(), poses.end(), [](const AcknowledgedPose& pose) { return !are_equal(pose.pose, {}); });
+    if (!is_resumed && (has_moved || !recording.empty())) row.violate(row.failed_reruns, "the session was not resumed");
     const std::string text = recording_of(*viewer);
     const Result<Path> path = parse_path(text, "recording");
     if (!path || !audit_path(assembly_, *path).holds()) {

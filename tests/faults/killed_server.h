@@ -46,7 +46,6 @@ class KilledServer {
   enum class Job { Plan, Open };
   static server::Json start_job(server::testing_client::Client& client, Job job);
   void remember_durations();
-  void kill_viewer(KillDice& dice, server::testing_client::ViewerProcess& viewer) const;
   void check_restart(KillRow& row, const std::vector<AcknowledgedPose>& poses,
                      std::chrono::steady_clock::time_point killed, const std::string& recording) const;
   void count_files_left(KillRow& row) const;
