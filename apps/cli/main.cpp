@@ -67,10 +67,11 @@ Error error_of_exception() {
 }
 
 /// Flushes what was printed. @return the exit code: `code`, or Failed if not all of it arrived
-ExitCode finish_output(ExitCode code) {
-  errno = 0;
+/// @param earlier_error errno, if something was flushed before
+ExitCode finish_output(ExitCode code, int earlier_error) {
+  errno = earlier_error;
   const bool is_whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  return is_whole ? code : report(output_error(errno != 0 ? std::strerror(errno) : "it failed before"));
+  return is_whole ? code : report(output_error(errno != 0 ? std::strerror(errno) : "not all of it arrived"));
 }
 
 }  // namespace
@@ -114,14 +115,17 @@ int main(int argc, char** argv) {
   if (const std::optional<dismantle::Error> unknown = unknown_command(app, arguments))
     return static_cast<int>(report(*unknown));
 
+  int print_error = 0;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
+    errno = 0;
     exit_code = static_cast<ExitCode>(app.exit(help));
+    print_error = errno;
   } catch (const CLI::ParseError& error) {
     return static_cast<int>(report(usage_error(app, error, arguments)));
   } catch (...) {
     return static_cast<int>(report(error_of_exception()));
   }
-  return static_cast<int>(finish_output(exit_code));
+  return static_cast<int>(finish_output(exit_code, print_error));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/path_file.h"
 #include "dismantle/loading/write_assembly.h"
+#include "dismantle/session/session_path.h"
 #include "tests/faults/killed_command.h"
 #include "tests/planner/plan_scenes.h"
 
