@@ -25,6 +25,13 @@ Error output_error(const std::string& why) {
   return {ErrorKind::Failed, "the standard output cannot be written (" + why + "); check the free space"};
 }
 
+/// True for the text of an exception that a library throws where it gets no further thread or memory.
+bool tells_of_shortage(const std::string& text) {
+  for (const int error : {EAGAIN, ENOMEM})
+    if (text.find(std::strerror(error)) != std::string::npos) return true;
+  return false;
+}
+
 /// The error for the exception that is being handled.
 Error error_of_exception() {
   const Error no_memory{ErrorKind::Failed,
@@ -37,11 +44,11 @@ Error error_of_exception() {
     return {ErrorKind::Failed, std::string("the CUDA device failed (") + error.what() + "); try --device cpu"};
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return output_error(error.code().message());
-    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
-    if (no_thread || error.code() == std::errc::not_enough_memory) return no_memory;
+    if (tells_of_shortage(error.code().message())) return no_memory;
     return {ErrorKind::Failed,
             std::string("internal failure (") + error.what() + "); please report it with the command line"};
   } catch (const std::exception& error) {
+    if (tells_of_shortage(error.what())) return no_memory;
     return {ErrorKind::Failed,
             std::string("internal failure (") + error.what() + "); please report it with the command line"};
   } catch (...) {

@@ -75,7 +75,7 @@ TEST_F(LittleMemory, IsAnErrorOfACommandWhereverItStrikes) {
 struct ViewerEnd {
   bool has_started = false, has_ended = false;
   int exit_code = 0;
-  std::string messages;
+  std::string messages, lost;
   std::size_t poses = 0;
 };
 
@@ -93,7 +93,8 @@ ViewerEnd work_in(const KilledServer& server, std::size_t bytes, KillDice& dice)
         get(viewer->address(), "/api/export/" + std::string(what));
       client.command("open", {{"root", 0}, {"file", "tooling.step"}});
       client.event_where("job", [](const Json& j) { return j["status"] != "running"; });
-    } catch (const std::runtime_error&) {  // it has ended
+    } catch (const std::runtime_error& error) {  // it has ended, or what was asked for failed
+      end.lost = error.what();
     }
     const std::optional<int> code = viewer->program().wait_for(0.5);
     end.has_ended = code.has_value();
@@ -113,7 +114,7 @@ TEST_F(LittleMemory, EndsTheViewerByASentenceIfAtAllAndKeepsTheSession) {
     SCOPED_TRACE("in " + std::to_string(bytes / kMegabyte) + " MB");
     fs::remove_all(server.folder() / "state");
     const ViewerEnd end = work_in(server, bytes, dice);
-    if (end.has_started && !end.has_ended && end.poses == 0) ADD_FAILURE() << "it neither works nor ends";
+    if (end.has_started && !end.has_ended && end.poses == 0) ADD_FAILURE() << "it neither works nor ends: " << end.lost;
     started += end.has_started ? 1 : 0;
     if (!end.has_started || end.has_ended) {
       ++failed;
