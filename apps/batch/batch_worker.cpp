@@ -67,6 +67,13 @@ IsolatedResult run_work(const BatchJob& job, const BatchItem& item, Claim& claim
   });
 }
 
+/// True if the work could not write its output: no failure of the item, which another run would not do again.
+bool lacks_output(const IsolatedResult& result, const Claim& claim) {
+  const std::string folder = claim.scratch_folder().string();
+  return result.ending == IsolatedEnding::Refused && result.error.kind == ErrorKind::Failed &&
+         result.error.message.compare(0, folder.size(), folder) == 0;
+}
+
 /// Does the work on a claimed item. @return true if its result exists now
 Result<bool> make_result(const BatchJob& job, const BatchItem& item, Claim& claim) {
   const auto start = std::chrono::steady_clock::now();
@@ -82,6 +89,7 @@ Result<bool> make_result(const BatchJob& job, const BatchItem& item, Claim& clai
   } else {
     const IsolatedResult isolated = run_work(job, item, claim);
     if (was_stopped(isolated)) return false;
+    if (lacks_output(isolated, claim)) return isolated.error;
     if (isolated.ending == IsolatedEnding::Done) {
       result.summary.assign(reinterpret_cast<const char*>(isolated.bytes.data()), isolated.bytes.size());
     } else {

@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace dismantle::batch {
 
@@ -32,13 +34,15 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// Start time of a process in ticks since boot: distinguishes processes with the same id.
+/// Start time of a process in ticks since boot: distinguishes processes with the same id. Empty if there is no such
+/// process, "ended" if it has ended and its parent has not asked for that yet, which may take forever.
 std::string start_of(const std::string& pid) {
   const std::string stat = first_line("/proc/" + pid + "/stat");
   std::istringstream fields(stat.substr(stat.rfind(')') + 1));  // the process name before may contain anything
-  std::string field;
-  for (int k = 0; k < 20; ++k) fields >> field;
-  return field;
+  std::string state, field;
+  fields >> state;
+  for (int k = 1; k < 20; ++k) fields >> field;
+  return state == "Z" || state == "X" ? "ended" : field;
 }
 
 /// Identifies this boot of the machine and the container: the scope in which process ids are valid.
@@ -66,6 +70,35 @@ bool is_dead(const std::string& owner) {
 std::string owner_of(const fs::path& link) {
   std::error_code ignored;
   return fs::read_symlink(link, ignored).string();
+}
+
+/// True for a folder ITEM.old.PROCESS.TIME, which remove_result() makes.
+bool is_replaced_result(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  fs::path name = entry.path().filename();
+  for (int k = 0; k < 2; ++k, name = name.stem())
+    if (const std::string number = name.extension().string();
+        number.size() < 2 || number.find_first_not_of("0123456789", 1) != std::string::npos)
+      return false;
+  return name.extension() == ".old" && entry.is_directory(ignored) && !entry.is_symlink(ignored);
+}
+
+/// The number N of FOLDER/ITEM.claim.N, if that is the name of a claim on the item of `base`.
+std::optional<int> attempt_of(const std::string& name, const fs::path& base) {
+  const std::string prefix = base.filename().string() + ".claim.";
+  if (name.compare(0, prefix.size(), prefix) != 0) return {};
+  const std::string number = name.substr(prefix.size());
+  if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos) return {};
+  return std::stoi(number);
+}
+
+/// The latest attempt at an item, 0 if there is none. A killed process may have removed the first ones only.
+int latest_attempt(const fs::path& base) {
+  int latest = 0;
+  std::error_code error;
+  for (fs::directory_iterator i(base.parent_path(), error), end; !error && i != end; i.increment(error))
+    latest = std::max(latest, attempt_of(i->path().filename().string(), base).value_or(0));
+  return latest;
 }
 
 /// Time at which a link was created or touched last.
@@ -120,7 +153,7 @@ bool ClaimFolder::is_expired(const std::string& item, int attempt, const fs::pat
 
 std::optional<Claim> ClaimFolder::try_claim(const std::string& item) {
   const fs::path base = folder_ / item;
-  int attempt = 1;
+  int attempt = latest_attempt(base) + 1;
   while (fs::is_symlink(link_of(base, attempt))) ++attempt;
   if (attempt > 1 && !is_expired(item, attempt - 1, link_of(base, attempt - 1))) return {};
 
@@ -131,6 +164,17 @@ std::optional<Claim> ClaimFolder::try_claim(const std::string& item) {
   if (failure == ENOENT) fs::create_directories(folder_, ignored);  // for the next attempt
   if (failure != 0 && (failure != EEXIST || owner_of(link) != owner_)) return {};
   return Claim(base, attempt, owner_);
+}
+
+void ClaimFolder::remove_abandoned() const {
+  std::vector<fs::path> abandoned;
+  std::error_code error, ignored;
+  for (fs::directory_iterator i(folder_, error), end; !error && i != end; i.increment(error)) {
+    const bool is_dead_claim = i->is_symlink(ignored) && is_dead(owner_of(i->path()));
+    if (is_dead_claim) abandoned.push_back(i->path().string() + ".work");
+    if (is_dead_claim || is_replaced_result(*i)) abandoned.push_back(i->path());
+  }
+  for (const fs::path& one : abandoned) fs::remove_all(one, ignored);
 }
 
 }  // namespace dismantle::batch

@@ -48,6 +48,9 @@ class ClaimFolder {
 
   /// Claims an item; none if a live worker has it.
   std::optional<Claim> try_claim(const std::string& item);
+  /// Removes what processes of this machine that have ended left: claims with their scratch folders, and replaced
+  /// results.
+  void remove_abandoned() const;
 
  private:
   struct Seen {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/batch/run_batch.h"
 
+#include "apps/batch/claim_folder.h"
 #include "apps/batch/stop_signal.h"
 
 #include <fcntl.h>
@@ -166,6 +167,7 @@ Result<BatchTables> run_batch(const BatchJob& job, const BatchRunOptions& option
   if (Result<Done> done = supervise(job, options); !done) return done.error();
   Result<BatchTables> tables = write_tables(job);
   std::error_code ignored;
+  ClaimFolder(job.work_folder(), job.lease_seconds).remove_abandoned();
   fs::remove(job.work_folder(), ignored);  // fails if another worker still uses it
   return tables;
 }

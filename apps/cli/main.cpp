@@ -3,15 +3,91 @@
 #include "apps/cli/usage_error.h"
 #include "dismantle/exec/cuda_device.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
+
+namespace dismantle::cli {
+namespace {
+
+Error output_error(const std::string& why) {
+  return {ErrorKind::Failed, "the standard output cannot be written (" + why + "); check the free space"};
+}
+
+/// True for the text of an exception that a library throws where it gets no further thread or memory.
+bool tells_of_shortage(const std::string& text) {
+  for (const int error : {EAGAIN, ENOMEM})
+    if (text.find(std::strerror(error)) != std::string::npos) return true;
+  return false;
+}
+
+/// The error for the exception that is being handled.
+Error error_of_exception() {
+  const Error no_memory{ErrorKind::Failed,
+                        "out of memory (the assembly is too large for this machine); try --simplify N"};
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return no_memory;
+  } catch (const CudaError& error) {
+    return {ErrorKind::Failed, std::string("the CUDA device failed (") + error.what() + "); try --device cpu"};
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return output_error(error.code().message());
+    if (tells_of_shortage(error.code().message())) return no_memory;
+    return {ErrorKind::Failed,
+            std::string("internal failure (") + error.what() + "); please report it with the command line"};
+  } catch (const std::exception& error) {
+    if (tells_of_shortage(error.what())) return no_memory;
+    return {ErrorKind::Failed,
+            std::string("internal failure (") + error.what() + "); please report it with the command line"};
+  } catch (...) {
+    return {ErrorKind::Failed, "internal failure (an unknown exception); please report it with the command line"};
+  }
+}
+
+/// Ends the program in order where an exception leaves a thread: journals are whole then, as after a kill.
+[[noreturn]] void end_by_exception() {
+  static std::atomic<bool> is_ending{false};
+  thread_local bool is_mine = false;
+  constexpr int kFailed = static_cast<int>(ExitCode::Failed);
+  if (is_mine) {  // no memory was left for what follows
+    constexpr char kText[] = "dismantle: out of memory (nothing is left to say more); free memory\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof kText - 1);
+    std::_Exit(kFailed);
+  }
+  while (is_ending.exchange(true)) ::pause();  // another thread is at it
+  is_mine = true;
+  if (!std::current_exception()) std::abort();
+  report(error_of_exception());
+  std::_Exit(kFailed);
+}
+
+/// Flushes what was printed. @return the exit code: `code`, or Failed if not all of it arrived
+/// @param earlier_error errno, if something was flushed before
+ExitCode finish_output(ExitCode code, int earlier_error) {
+  errno = earlier_error;
+  const bool is_whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return is_whole ? code : report(output_error(errno != 0 ? std::strerror(errno) : "not all of it arrived"));
+}
+
+}  // namespace
+}  // namespace dismantle::cli
 
 int main(int argc, char** argv) {
   using namespace dismantle::cli;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
+  std::set_terminate(end_by_exception);
   CLI::App app{
       "dismantle: virtual disassembly of CAD assemblies, with continuous collision handling.\n"
       "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' lists the options of a command.",
@@ -46,21 +122,17 @@ int main(int argc, char** argv) {
   if (const std::optional<dismantle::Error> unknown = unknown_command(app, arguments))
     return static_cast<int>(report(*unknown));
 
+  int print_error = 0;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    errno = 0;
+    exit_code = static_cast<ExitCode>(app.exit(help));
+    print_error = errno;
   } catch (const CLI::ParseError& error) {
     return static_cast<int>(report(usage_error(app, error, arguments)));
-  } catch (const std::bad_alloc&) {
-    return static_cast<int>(report({dismantle::ErrorKind::Failed,
-                                    "out of memory (the assembly is too large for this machine); try --simplify N"}));
-  } catch (const dismantle::CudaError& error) {
-    return static_cast<int>(report({dismantle::ErrorKind::Failed,
-                                    std::string("the CUDA device failed (") + error.what() + "); try --device cpu"}));
-  } catch (const std::exception& error) {
-    return static_cast<int>(report({dismantle::ErrorKind::Failed, std::string("internal failure (") + error.what() +
-                                                                      "); please report it with the command line"}));
+  } catch (...) {
+    return static_cast<int>(report(error_of_exception()));
   }
-  return static_cast<int>(exit_code);
+  return static_cast<int>(finish_output(exit_code, print_error));
 }

@@ -4,6 +4,8 @@
 #include "apps/server/viewer_files.h"
 #include "dismantle/documents/path_file.h"
 
+#include <new>
+
 namespace dismantle::server {
 
 namespace {
@@ -68,9 +70,13 @@ HttpResponse export_response(const ExportRequest& request, const ExportSource& s
   ExportOptions options;
   options.direction = request.direction;
   options.viewer = viewer_files();
-  Result<std::string> file = exported_file(request.format, *source.assembly, source.path, options);
-  if (!file) return error_response(500, file.error().message);
-  return {200, request.content_type, std::make_shared<const std::string>(std::move(*file)), {}};
+  try {
+    Result<std::string> file = exported_file(request.format, *source.assembly, source.path, options);
+    if (!file) return error_response(500, file.error().message);
+    return {200, request.content_type, std::make_shared<const std::string>(std::move(*file)), {}};
+  } catch (const std::bad_alloc&) {
+    return error_response(507, "the export cannot be made (out of memory); simplify the assembly or free memory");
+  }
 }
 
 }  // namespace dismantle::server

@@ -271,11 +271,16 @@ void Hub::broadcast_event(EngineEvent event) {
     model_ = text;
   } else if (event.kind == EngineEvent::Kind::State) {
     dragging_ = event.is_dragging;
-  } else if (client_count() == 0) {
-    unheard_.push_back(text);
-    if (unheard_.size() > kMaxUnheard) unheard_.pop_front();
+  } else {
+    keep_if_unheard(text);
   }
   broadcast(text);
+}
+
+void Hub::keep_if_unheard(const SharedText& text) {
+  if (client_count() > 0) return;
+  unheard_.push_back(text);
+  if (unheard_.size() > kMaxUnheard) unheard_.pop_front();
 }
 
 void Hub::broadcast_job(std::uint32_t job, std::string text, bool running) {

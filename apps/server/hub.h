@@ -64,6 +64,8 @@ class Hub {
   void broadcast_pose(std::string bytes);
   /// Sends an event `job` to all clients, and to those that connect while the job runs.
   void broadcast_job(std::uint32_t job, std::string text, bool running);
+  /// Keeps an event for the client that connects next, if none is connected.
+  void keep_if_unheard(const SharedText& text);
   /// Passes on the control of a client that has been disconnected for too long, and forgets old clients. Call about
   /// once a second.
   void tick(Clock::time_point now);

@@ -275,8 +275,13 @@ class Server::Impl final : public Site, private EngineListener {
   /// On the job's thread. The last event of a job follows what the job changed, which the engine's thread publishes.
   void publish_job(const JobUpdate& update) {
     const bool running = update.status == JobUpdate::Status::Running;
-    const auto broadcast = [this, job = update.job, text = text_of(job_event(update)), running] {
-      asio::post(io_, [this, job, text, running] { hub_.broadcast_job(job, text, running); });
+    const bool failed = update.status == JobUpdate::Status::Failed;
+    const auto broadcast = [this, job = update.job, text = text_of(job_event(update)), running, failed] {
+      asio::post(io_, [this, job, text, running, failed] {
+        hub_.broadcast_job(job, text, running);
+        // Such as that of the file of the command line, before the page is there.
+        if (failed) hub_.keep_if_unheard(std::make_shared<const std::string>(text));
+      });
     };
     if (running) return broadcast();
     engine_.post_always([this, broadcast](Workbench&) {

@@ -50,6 +50,55 @@ TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
   EXPECT_TRUE(fs::is_empty(root_));
 }
 
+TEST_F(Claims, OfAKilledProcessThatNobodyHasWaitedForAreTakenOver) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+    kill(getpid(), SIGKILL);
+  }
+  siginfo_t ended{};
+  waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // it stays a zombie
+  const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+  waitpid(child, nullptr, 0);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->attempt(), 2);
+}
+
+TEST_F(Claims, AreHeldWhereOnlyALaterOneOfAKilledProcessIsLeft) {
+  const pid_t child = fork();  // killed in release(), after the first claim was removed
+  if (child == 0) {
+    std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+    fs::rename(root_ / "item.claim.1", root_ / "item.claim.2");
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->attempt(), 3);
+  EXPECT_TRUE(claim->is_held());
+  claim->release();
+  EXPECT_TRUE(fs::is_empty(root_));
+}
+
+TEST_F(Claims, AreRemovedWhereTheirProcessesHaveEnded) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+    fs::create_directories(claim->scratch_folder());
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  fs::create_directories(root_ / "item.old.12.34");
+  ClaimFolder folder(root_, kLongLease);
+  const std::optional<Claim> living = folder.try_claim("a.old.1.2");
+  ASSERT_TRUE(living);
+  fs::create_directories(living->scratch_folder());
+  folder.remove_abandoned();
+  EXPECT_TRUE(living->is_held());
+  EXPECT_TRUE(fs::exists(living->scratch_folder()));
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_), fs::directory_iterator()), 2);
+}
+
 TEST_F(Claims, OfAnotherMachineExpireWithoutRenewal) {
   claim_from_elsewhere();
   ClaimFolder folder(root_, 0.05);

@@ -88,6 +88,18 @@ TEST_F(RunBatch, RecordsACrashAnErrorAndAnExceptionAsFailures) {
   EXPECT_EQ(attempts("d"), 1u);
 }
 
+TEST_F(RunBatch, EndsWhereAnOutputCannotBeWrittenAndDoesTheItemAgain) {
+  const BatchWork full_disk = [](const BatchItem&, const fs::path& folder) -> Result<std::string> {
+    return Error{ErrorKind::Failed, (folder / "check.json").string() + " cannot be written (No space left on device)"};
+  };
+  EXPECT_FALSE(run_batch(job(2, full_disk), {1, false, {}}).ok());
+  EXPECT_TRUE(fs::is_empty(root_ / "out" / ".batch")) << "no claims and no partial results";
+  const Result<BatchTables> tables = run_batch(job(2, work()), {2, false, {}});
+  ASSERT_TRUE(tables.ok()) << tables.error().message;
+  EXPECT_EQ(tables->failed, 0u);
+  EXPECT_EQ(attempts("a"), 1u);
+}
+
 TEST_F(RunBatch, StopsAnItemThatExceedsItsTime) {
   BatchJob batch = job(2, [good = work()](const BatchItem& item, const fs::path& folder) {
     volatile bool forever = item.name == "a";

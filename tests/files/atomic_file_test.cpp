@@ -4,8 +4,13 @@
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 
 namespace dismantle {
 
@@ -35,6 +40,40 @@ TEST(AtomicFile, LeavesTheOldFileAloneWhenItIsDropped) {
   }
   EXPECT_EQ(bytes_of(folder / "a.txt"), "old");
   EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+/// True if the file system of a folder has files without a name.
+bool has_unnamed_files(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (descriptor >= 0) ::close(descriptor);
+  return descriptor >= 0;
+}
+
+TEST(AtomicFile, LeavesNothingWhenItsProcessIsKilled) {
+  const ScratchFolder folder;
+  if (!has_unnamed_files(folder.path())) GTEST_SKIP() << "the file system has no files without a name";
+  folder.put("old.txt", "old");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto fresh = AtomicFile::create(folder / "new.txt");
+    auto replacing = AtomicFile::create(folder / "old.txt");
+    fresh->write(std::string(3'000'000, 'x'));
+    replacing->write(std::string(3'000'000, 'x'));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(folder.entry_count(), 1u);
+  EXPECT_EQ(bytes_of(folder / "old.txt"), "old");
+}
+
+TEST(AtomicFile, HasTheModeOfOtherNewFiles) {
+  const ScratchFolder folder;
+  const mode_t mask = ::umask(027);
+  ASSERT_TRUE(write_file(folder / "a.txt", "text").ok());
+  ::umask(mask);
+  EXPECT_EQ(std::filesystem::status(folder / "a.txt").permissions(), std::filesystem::perms(0640));
 }
 
 TEST(AtomicFile, ReplacesAndKeepsTheModeOfTheOldFile) {

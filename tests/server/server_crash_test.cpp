@@ -161,7 +161,9 @@ TEST_F(ServerCrash, RemovesTheUploadsOfAViewerThatWasKilled) {
 }
 
 TEST_F(ServerCrash, DoesNotSpinWhenItHasNoMoreDescriptors) {
-  ViewerProcess viewer(root() / "block.obj", folder_.path(), 64);
+  testing_client::SpawnOptions limits;
+  limits.max_descriptors = 64;
+  ViewerProcess viewer(root() / "block.obj", folder_.path(), limits);
   Client client(viewer.address());
   client.state();
   std::vector<std::unique_ptr<testing_client::RawConnection>> idle;

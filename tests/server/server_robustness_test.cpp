@@ -11,6 +11,17 @@
 namespace dismantle::server {
 namespace {
 
+TEST_F(ServerScene, TellsTheFirstPageWhyAFileWasNotOpenedBeforeItCame) {
+  start();
+  std::ofstream(root() / "broken.step") << "this is no STEP file";
+  ASSERT_TRUE(server_->open_file(root() / "broken.step").ok());
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  testing_client::Client client(address());
+  const Json job = client.event("job");
+  EXPECT_EQ(job["status"], "failed");
+  EXPECT_NE(job["error"].get<std::string>().find("broken.step"), std::string::npos) << job;
+}
+
 namespace fs = std::filesystem;
 using testing_client::Client;
 using testing_client::exchange;

@@ -2,9 +2,6 @@
 #include "tests/server/viewer_process.h"
 
 #include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -17,29 +14,17 @@ namespace dismantle::server::testing_client {
 
 namespace fs = std::filesystem;
 
-ViewerProcess::ViewerProcess(const fs::path& file, const fs::path& folder, int max_descriptors) : folder_(folder) {
+ViewerProcess::ViewerProcess(const fs::path& file, const fs::path& folder, SpawnOptions limits) : folder_(folder) {
   fs::create_directories(temporary_folder());
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  const std::string errors = (folder_ / "messages").string();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const std::string limit = max_descriptors > 0 ? "ulimit -n " + std::to_string(max_descriptors) + "; " : "";
-  std::vector<std::string> texts = {"/bin/sh", "-c", limit + R"(exec "$0" view "$1" --no-browser --quiet)",
-                                    DISMANTLE_PROGRAM, file.string()};
-  std::vector<std::string> places = {"XDG_STATE_HOME=" + (folder_ / "state").string(),
-                                     "TMPDIR=" + temporary_folder().string()};
-  std::vector<char*> arguments, environment;
-  for (std::string& text : texts) arguments.push_back(text.data());
-  for (std::string& place : places) environment.push_back(place.data());
-  arguments.push_back(nullptr);
-  environment.push_back(nullptr);
-  const int status = posix_spawn(&process_, arguments[0], &actions, nullptr, arguments.data(), environment.data());
-  posix_spawn_file_actions_destroy(&actions);
+  limits.environment.push_back("XDG_STATE_HOME=" + (folder_ / "state").string());
+  limits.environment.push_back("TMPDIR=" + temporary_folder().string());
+  limits.err = folder_ / "messages";
+  limits.out_pipe = ends[1];
+  program_ = std::make_unique<SpawnedProgram>(
+      std::vector<std::string>{"view", file.string(), "--no-browser", "--quiet"}, limits);
   close(ends[1]);
-  if (status != 0) throw std::runtime_error("the program cannot be started");
   std::string url;
   for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) url += c;
   close(ends[0]);
@@ -48,16 +33,9 @@ ViewerProcess::ViewerProcess(const fs::path& file, const fs::path& folder, int m
   address_ = {static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1))), url.substr(mark + 7)};
 }
 
-ViewerProcess::~ViewerProcess() {
-  if (process_ > 0) end(SIGKILL);
-}
-
 int ViewerProcess::end(int signal) {
-  kill(process_, signal);
-  int status = 0;
-  waitpid(process_, &status, 0);
-  process_ = 0;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  program_->signal(signal);
+  return program_->wait();
 }
 
 std::string ViewerProcess::messages() const {
@@ -66,7 +44,7 @@ std::string ViewerProcess::messages() const {
 }
 
 fs::path ViewerProcess::proc(const std::string& name) const {
-  return fs::path("/proc") / std::to_string(process_) / name;
+  return fs::path("/proc") / std::to_string(program_->id()) / name;
 }
 
 std::size_t ViewerProcess::memory() const {

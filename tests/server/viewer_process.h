@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tests/server/spawned_program.h"
 #include "tests/server/test_client.h"
-
-#include <sys/types.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace dismantle::server::testing_client {
@@ -14,16 +14,15 @@ namespace dismantle::server::testing_client {
 /// The program `dismantle view` as a process of its own.
 class ViewerProcess {
  public:
-  /// Starts it on a file and waits for its URL.
+  /// Starts it on a file and waits for its URL. Throws std::runtime_error if it prints none. It is killed at the end of
+  /// the scope.
   /// @param folder for its state, temporary files and messages
-  /// @param max_descriptors its limit of open files; 0: that of this process
-  ViewerProcess(const std::filesystem::path& file, const std::filesystem::path& folder, int max_descriptors = 0);
-  /// Kills it.
-  ~ViewerProcess();
-  ViewerProcess(const ViewerProcess&) = delete;
-  ViewerProcess& operator=(const ViewerProcess&) = delete;
+  /// @param limits its limits; where it runs and its files are set here
+  ViewerProcess(const std::filesystem::path& file, const std::filesystem::path& folder, SpawnOptions limits = {});
 
   const ServerAddress& address() const { return address_; }
+  /// The process. Others may only send signals to it.
+  SpawnedProgram& program() { return *program_; }
   /// Sends a signal and waits. @return the exit code; 128 + the signal if that ended it
   int end(int signal);
   /// What it printed on its standard error.
@@ -41,7 +40,7 @@ class ViewerProcess {
   std::filesystem::path proc(const std::string& name) const;
 
   std::filesystem::path folder_;
-  pid_t process_ = 0;
+  std::unique_ptr<SpawnedProgram> program_;
   ServerAddress address_;
 };
 

@@ -20,15 +20,33 @@ namespace {
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr int kNameAttempts = 1000;
 
-/// Opens a new file in `folder` under a unique name; its mode follows the umask.
-std::pair<int, fs::path> open_temporary(const fs::path& folder) {
+fs::path temporary_name(const fs::path& folder) {
   static std::atomic<unsigned> counter{0};
+  return folder / (".dismantle-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+}
+
+/// The name by which a file without a name can be linked.
+std::string link_source(int descriptor) {
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+/// Opens a new file in `folder`, without a name if the system can give it one later, else under a unique name; its mode
+/// follows the umask.
+std::pair<int, fs::path> open_temporary(const fs::path& folder) {
+  const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (unnamed >= 0 && ::access(link_source(unnamed).c_str(), F_OK) == 0) return {unnamed, {}};
+  if (unnamed >= 0) ::close(unnamed);
   for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
-    fs::path name = folder / (".dismantle-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+    fs::path name = temporary_name(folder);
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0 || errno != EEXIST) return {descriptor, std::move(name)};
   }
   return {-1, {}};
+}
+
+/// Gives a file without a name one that is free. @return false with errno if that is impossible
+bool link_to(int descriptor, const fs::path& name) {
+  return ::linkat(AT_FDCWD, link_source(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
 void sync_folder(const fs::path& folder) {
@@ -58,6 +76,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& file) {
   const fs::file_status status = fs::status(result.target_, ignored);
   if (fs::is_directory(status)) return result.failure("it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
+    result.is_direct_ = true;
     result.descriptor_ = ::open(result.target_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
     std::tie(result.descriptor_, result.temporary_) = open_temporary(folder_of(result.target_));
@@ -78,6 +97,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept {
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
+  std::swap(is_direct_, other.is_direct_);
   std::swap(buffer_, other.buffer_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(error_number_, other.error_number_);
@@ -114,19 +134,38 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
+/// Puts the temporary file in the place of the target. @return 0, or the error number
+int AtomicFile::publish() {
+  if (::fsync(descriptor_) != 0) return errno;
+  if (temporary_.empty()) {
+    if (link_to(descriptor_, target_)) return 0;
+    if (errno != EEXIST) return errno;
+    for (int attempt = 0; attempt < kNameAttempts && temporary_.empty(); ++attempt) {
+      const fs::path name = temporary_name(folder_of(target_));
+      if (link_to(descriptor_, name)) {
+        temporary_ = name;
+      } else if (errno != EEXIST) {
+        return errno;
+      }
+    }
+  }
+  if (temporary_.empty()) return EEXIST;
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) return errno;
+  temporary_.clear();
+  return 0;
+}
+
 Result<Done> AtomicFile::commit() {
   DISMANTLE_EXPECT(descriptor_ >= 0);
   flush();
-  if (error_number_ == 0 && !temporary_.empty() && ::fsync(descriptor_) != 0) error_number_ = errno;
-  if (::close(std::exchange(descriptor_, -1)) != 0 && error_number_ == 0) error_number_ = errno;
-  if (error_number_ == 0 && !temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
-    error_number_ = errno;
+  if (error_number_ == 0 && !is_direct_) error_number_ = publish();
+  const bool is_closed = ::close(std::exchange(descriptor_, -1)) == 0;
+  if (!is_closed && is_direct_ && error_number_ == 0) error_number_ = errno;
   if (error_number_ != 0) {
     discard();
     return failure(std::strerror(error_number_));
   }
-  if (!temporary_.empty()) sync_folder(folder_of(target_));
-  temporary_.clear();
+  if (!is_direct_) sync_folder(folder_of(target_));
   return Done{};
 }
 

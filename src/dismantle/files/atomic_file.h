@@ -12,8 +12,9 @@ namespace dismantle {
 
 /// A file that appears under its name whole or not at all: it is written to a temporary file in the same folder,
 /// flushed to the disk and renamed by commit(). Without commit() the temporary file is removed and the file that had
-/// the name before is unchanged. A target that is not a regular file (a pipe, /dev/stdout) is written to directly,
-/// never replaced.
+/// the name before is unchanged. Where the file system can do it, the temporary file has no name until commit(), so
+/// that a process that is killed leaves none. A target that is not a regular file (a pipe, /dev/stdout) is written to
+/// directly, never replaced.
 class AtomicFile {
  public:
   /// Opens the temporary file beside `file`. Errors: Failed where the folder is missing or not writable, or `file` is a
@@ -36,12 +37,14 @@ class AtomicFile {
  private:
   AtomicFile() = default;
   void flush();
+  int publish();
   void discard();
   Error failure(std::string_view what) const;
 
   std::filesystem::path target_;
-  std::filesystem::path temporary_;  // empty where the target is written to directly
+  std::filesystem::path temporary_;  // empty where it has no name, or the target is written to directly
   std::string buffer_;
+  bool is_direct_ = false;
   int descriptor_ = -1;
   int error_number_ = 0;  // of the first write that failed
 };
