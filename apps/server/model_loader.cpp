@@ -5,6 +5,7 @@
 #include "dismantle/files/text_name.h"
 #include "dismantle/formats/gltf/write_glb.h"
 #include "dismantle/loading/load_assembly.h"
+#include "dismantle/session/step_limit.h"
 #include "dismantle/simplify/simplify_assembly.h"
 #include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/surface/find_clashes.h"
@@ -16,9 +17,6 @@
 namespace dismantle::server {
 
 namespace {
-
-/// CertificateOptions::depth_tests of a session: about half a second.
-constexpr std::size_t kDepthTests = 200'000;
 
 /// Reports the progress of making the session, from any thread. After finish() it neither reports nor cancels: the
 /// session's engine keeps the callback.
@@ -90,7 +88,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
-  engine.depth_tests = kDepthTests;
+  engine.depth_tests = kSessionDepthTests;
   const auto watch = std::make_shared<SessionProgress>(progress);
   engine.keep_going = [watch] { return watch->keep_going(); };
   PairStates states = pair_states(model.clashes, classify.rule);

@@ -3,6 +3,7 @@
 
 #include "bench/timing.h"
 #include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/session/step_limit.h"
 #include "tests/support/random_scenes.h"
 
 #include <algorithm>
@@ -155,6 +156,7 @@ Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAu
 
   const bench::Stopwatch engine_watch;
   CertificateOptions engine_options;
+  engine_options.depth_tests = kSessionDepthTests;
   if (options.threads > 1) engine_options.executor = Executor(ExecutorKind::Threads, options.threads);
   CertificateEngine engine(assembly, states, engine_options);
   Result<PlayedMotion> played = play_motion(assembly, states, batch.motion, engine);
