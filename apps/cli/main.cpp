@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "apps/cli/usage_error.h"
+#include "apps/server/lack_of_memory.h"
 #include "dismantle/exec/cuda_device.h"
 
+#include <execinfo.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -25,30 +26,18 @@ Error output_error(const std::string& why) {
   return {ErrorKind::Failed, "the standard output cannot be written (" + why + "); check the free space"};
 }
 
-/// True for the text of an exception that a library throws where it gets no further thread or memory.
-bool tells_of_shortage(const std::string& text) {
-  for (const int error : {EAGAIN, ENOMEM})
-    if (text.find(std::strerror(error)) != std::string::npos) return true;
-  return false;
-}
-
 /// The error for the exception that is being handled.
 Error error_of_exception() {
   const Error no_memory{ErrorKind::Failed,
                         "out of memory (the assembly is too large for this machine); try --simplify N"};
   try {
     throw;
-  } catch (const std::bad_alloc&) {
-    return no_memory;
   } catch (const CudaError& error) {
     return {ErrorKind::Failed, std::string("the CUDA device failed (") + error.what() + "); try --device cpu"};
-  } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0) return output_error(error.code().message());
-    if (tells_of_shortage(error.code().message())) return no_memory;
-    return {ErrorKind::Failed,
-            std::string("internal failure (") + error.what() + "); please report it with the command line"};
   } catch (const std::exception& error) {
-    if (tells_of_shortage(error.what())) return no_memory;
+    if (server::is_lack_of_memory(error)) return no_memory;
+    const auto* system = dynamic_cast<const std::system_error*>(&error);
+    if (system != nullptr && std::ferror(stdout) != 0) return output_error(system->code().message());
     return {ErrorKind::Failed,
             std::string("internal failure (") + error.what() + "); please report it with the command line"};
   } catch (...) {
@@ -88,6 +77,9 @@ int main(int argc, char** argv) {
   using namespace dismantle::cli;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
   std::set_terminate(end_by_exception);
+  // Has the system load what it needs to end a thread: without memory it would find that missing, and abort.
+  void* frame = nullptr;
+  backtrace(&frame, 1);
   CLI::App app{
       "dismantle: virtual disassembly of CAD assemblies, with continuous collision handling.\n"
       "Lengths are millimetres, angles radians. 'dismantle COMMAND --help' lists the options of a command.",

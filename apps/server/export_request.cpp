@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/export_request.h"
 
+#include "apps/server/lack_of_memory.h"
 #include "apps/server/viewer_files.h"
 #include "dismantle/documents/path_file.h"
 
-#include <new>
+#include <exception>
 
 namespace dismantle::server {
 
@@ -74,7 +75,8 @@ HttpResponse export_response(const ExportRequest& request, const ExportSource& s
     Result<std::string> file = exported_file(request.format, *source.assembly, source.path, options);
     if (!file) return error_response(500, file.error().message);
     return {200, request.content_type, std::make_shared<const std::string>(std::move(*file)), {}};
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& error) {
+    if (!is_lack_of_memory(error)) throw;
     return error_response(507, "the export cannot be made (out of memory); simplify the assembly or free memory");
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/server/jobs.h"
 
+#include "apps/server/lack_of_memory.h"
+
 #include <chrono>
 #include <exception>
 
@@ -15,9 +17,9 @@ constexpr std::chrono::milliseconds kUpdateInterval{100};
 Result<Jobs::Outcome> run_guarded(const std::string& name, const Jobs::Work& work, const ProgressCallback& progress) {
   try {
     return work(progress);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::Failed, "'" + name + "' failed (out of memory); simplify the assembly or free memory"};
   } catch (const std::exception& error) {
+    if (is_lack_of_memory(error))
+      return Error{ErrorKind::Failed, "'" + name + "' failed (out of memory); simplify the assembly or free memory"};
     return Error{ErrorKind::Failed, "'" + name + "' failed (" + error.what() + "); please report it"};
   }
 }

@@ -68,9 +68,7 @@ TEST_F(ClockJump, ChangesNothingInASession) {
       EXPECT_LT(move["duration"], 10);
     }
     set(2 * kDecade);
-    const Json job = client.command("plan");
-    const Json end =
-        client.event_where("job", [&](const Json& j) { return j["job"] == job["job"] && j["status"] != "running"; });
+    const Json end = end_of_job(client, client.command("plan"));
     EXPECT_EQ(end["status"], "done");
     EXPECT_LT(end["seconds"], 60);
     EXPECT_GE(end["seconds"], 0);

@@ -79,6 +79,10 @@ double loss_of(const std::vector<AcknowledgedPose>& poses, const Path& path, Clo
   return 0;
 }
 
+Json end_of_job(Client& client, const Json& reply) {
+  return client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
+}
+
 std::vector<AcknowledgedPose> drag_randomly(Client& client, KillDice& dice, double seconds) {
   std::vector<AcknowledgedPose> poses;
   const Clock::time_point end =
@@ -131,9 +135,7 @@ void KilledServer::remember_durations() {
     Client client(viewer->address());
     client.state();
     const Clock::time_point begun = Clock::now();
-    const Json reply = start_job(client, job);
-    const Json end =
-        client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
+    const Json end = end_of_job(client, start_job(client, job));
     if (end["status"] != "done") throw std::runtime_error("a job failed undisturbed: " + end.dump());
     seconds = std::chrono::duration<double>(Clock::now() - begun).count();
   }
@@ -179,8 +181,7 @@ void KilledServer::kill_during_search(KillRow& row, KillDice& dice) {
     Killer killer(*viewer, moment, dice.toss());
     bool has_ended = false;
     try {
-      start_job(client, job);
-      client.event_where("job", [](const Json& j) { return j["status"] != "running"; });
+      end_of_job(client, start_job(client, job));
       has_ended = true;
     } catch (const std::runtime_error&) {  // the server is gone
     }

@@ -56,6 +56,9 @@ class KilledServer {
   double seconds_[2] = {0, 0};  ///< Duration of each Job; 0: not measured yet.
 };
 
+/// Waits for the end of the job that a command has started. @return its last event
+server::Json end_of_job(server::testing_client::Client& client, const server::Json& reply);
+
 /// Drags a component of the stack along a random path until the server is gone, or for `seconds`.
 std::vector<AcknowledgedPose> drag_randomly(server::testing_client::Client& client, KillDice& dice, double seconds);
 
