@@ -57,7 +57,7 @@ TEST_F(LittleMemory, IsAnErrorOfACommandWhereverItStrikes) {
   const std::size_t least = least_memory();
   for (const std::vector<std::string>& arguments : commands) {
     std::size_t failures = 0;
-    for (std::size_t bytes = least; bytes < kMuch; bytes += (failures < 10 ? 1 : 4) * kMegabyte) {
+    for (std::size_t bytes = least; bytes < kMuch; bytes += (failures < 8 ? 2 : 12) * kMegabyte) {
       SCOPED_TRACE(arguments[0] + " in " + std::to_string(bytes / kMegabyte) + " MB");
       const CommandEnd end = run(arguments, memory(bytes));
       if (end.exit_code == 0) break;
@@ -123,7 +123,7 @@ TEST_F(LittleMemory, EndsTheViewerByASentenceIfAtAllAndKeepsTheSession) {
   const KilledServer server(folder_ / "viewer");
   KillDice dice(8);
   std::size_t started = 0, failed = 0;
-  for (std::size_t bytes = least_memory(); bytes < kMuch && started < 12; bytes += 24 * kMegabyte) {
+  for (std::size_t bytes = least_memory(); bytes < kMuch && started < 12; bytes += 40 * kMegabyte) {
     SCOPED_TRACE("in " + std::to_string(bytes / kMegabyte) + " MB");
     fs::remove_all(server.folder() / "state");
     const ViewerEnd end = work_in(server, bytes, dice);
