@@ -80,6 +80,7 @@ double loss_of(const std::vector<AcknowledgedPose>& poses, const Path& path,
 }
 
 Json end_of_job(Client& client, const Json& reply) {
+  if (!reply["ok"].get<bool>()) throw std::runtime_error(reply.dump());
   return client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
 }
 

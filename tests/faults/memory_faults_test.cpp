@@ -105,7 +105,7 @@ ViewerEnd work_in(const KilledServer& server, std::size_t bytes, KillDice& dice)
       end.poses = drag_randomly(client, dice, 0.1).size();
       for (const char* what : {"page.html", "animation.glb", "path.json"})
         get(viewer->address(), "/api/export/" + std::string(what));
-      end_of_job(client, client.command("open", {{"root", 0}, {"file", "tooling.step"}}));
+      end_of_job(client, client.command("open", {{"root", 0}, {"file", "stack.obj"}}));
     } catch (const std::runtime_error& error) {  // it has ended, or what was asked for failed
       end.lost = error.what();
     }
