@@ -41,7 +41,7 @@ std::vector<FaultCommand> fault_commands(const fs::path& folder, const std::stri
                   fs::copy_options::overwrite_existing);
     commands = {{kind, {"convert", "tooling.step", "-o", "out/tooling.dasm"}, {}, {}}};
   } else if (kind == "plan") {
-    demand(write_assembly(folder / "product.dasm", scenes::stations(100)));
+    demand(write_assembly(folder / "product.dasm", scenes::stations(25)));
     commands = {{kind, {"plan", "product.dasm", "-o", "out/product.path.json", "--graph", "out/product.svg"}, {}, {}}};
   } else if (kind == "export") {
     write_stack(folder, 4);
@@ -49,7 +49,7 @@ std::vector<FaultCommand> fault_commands(const fs::path& folder, const std::stri
       commands.push_back({kind, {"export", "stack.dasm", "stack.path.json", "-o", file}, {}, {}});
   } else if (kind == "batch") {
     fs::create_directories(folder / "products");
-    demand(write_assembly(folder / "products/first.dasm", scenes::stations(60)));
+    demand(write_assembly(folder / "products/first.dasm", scenes::stations(15)));
     demand(write_assembly(folder / "products/second.dasm", scenes::stack_in_tube(4)));
     commands = {{kind,
                  {"batch", "products", "-o", "out", "--workers", "2"},

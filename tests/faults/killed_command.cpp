@@ -12,15 +12,14 @@
 namespace dismantle::faults {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using server::testing_client::processes_with;
 using server::testing_client::SpawnedProgram;
 using server::testing_client::SpawnOptions;
 
 namespace {
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::string new_mark() {
@@ -45,7 +44,7 @@ std::size_t finished_items(const FolderContents& contents) {
 }  // namespace
 
 void check_processes_left(KillRow& row, const std::string& variable) {
-  const Clock::time_point start = Clock::now();
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::vector<pid_t> left = processes_with(variable);
   while (!left.empty() && seconds_since(start) < kMaxAfterlife) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -20,7 +20,6 @@
 namespace dismantle::faults {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using server::Json;
 using server::testing_client::Client;
 using server::testing_client::SpawnOptions;
@@ -44,20 +43,20 @@ class Killer {
   Killer(ViewerProcess& viewer, double seconds, bool whole_group)
       : thread_([this, &viewer, seconds, whole_group] {
           std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-          killed_ = Clock::now();
+          killed_ = std::chrono::steady_clock::now();
           whole_group ? viewer.program().signal_group(SIGKILL) : viewer.program().signal(SIGKILL);
         }) {}
   ~Killer() { wait(); }
   Killer(const Killer&) = delete;
   Killer& operator=(const Killer&) = delete;
   /// Waits for the kill. @return when it was
-  Clock::time_point wait() {
+  std::chrono::steady_clock::time_point wait() {
     if (thread_.joinable()) thread_.join();
     return killed_;
   }
 
  private:
-  Clock::time_point killed_;
+  std::chrono::steady_clock::time_point killed_;
   std::thread thread_;
 };
 
@@ -67,7 +66,8 @@ std::string recording_of(const ViewerProcess& viewer) {
 
 }  // namespace
 
-double loss_of(const std::vector<AcknowledgedPose>& poses, const Path& path, Clock::time_point killed) {
+double loss_of(const std::vector<AcknowledgedPose>& poses, const Path& path,
+               std::chrono::steady_clock::time_point killed) {
   const std::vector<Frame> none;
   const std::vector<Frame>& frames = path.moves.empty() ? none : path.moves.back().frames;
   for (const AcknowledgedPose& pose : poses) {
@@ -80,24 +80,26 @@ double loss_of(const std::vector<AcknowledgedPose>& poses, const Path& path, Clo
 }
 
 Json end_of_job(Client& client, const Json& reply) {
+  if (!reply["ok"].get<bool>()) throw std::runtime_error(reply.dump());
   return client.event_where("job", [&](const Json& j) { return j["job"] == reply["job"] && j["status"] != "running"; });
 }
 
 std::vector<AcknowledgedPose> drag_randomly(Client& client, KillDice& dice, double seconds) {
   std::vector<AcknowledgedPose> poses;
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const std::chrono::steady_clock::time_point end =
+      std::chrono::steady_clock::now() +
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
   try {
     const Json held = client.command("hold", {{"components", {kHighestBox}}});
     if (!held["ok"]) throw std::logic_error("the box cannot be held");
     Vec3 position;
-    for (std::uint32_t number = 1; Clock::now() < end; ++number) {
+    for (std::uint32_t number = 1; std::chrono::steady_clock::now() < end; ++number) {
       position.x = std::clamp(position.x + dice.between(-0.5, 0.5), -2.0, 2.0);
       position.z = std::clamp(position.z + dice.between(-0.4, 0.6), -2.0, 30.0);
       client.send_binary(
           server::encode(server::TargetMessage{held["grip"].get<std::uint32_t>(), number, {position, {}}}));
       const server::PoseMessage pose = client.pose_for_target(number);
-      poses.push_back({Clock::now(), pose.pose});
+      poses.push_back({std::chrono::steady_clock::now(), pose.pose});
     }
   } catch (const std::runtime_error&) {  // the server is gone
   }
@@ -134,10 +136,10 @@ void KilledServer::remember_durations() {
     const auto viewer = start();
     Client client(viewer->address());
     client.state();
-    const Clock::time_point begun = Clock::now();
+    const std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
     const Json end = end_of_job(client, start_job(client, job));
     if (end["status"] != "done") throw std::runtime_error("a job failed undisturbed: " + end.dump());
-    seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
 }
 
@@ -145,7 +147,7 @@ void KilledServer::kill_during_drag(KillRow& row, KillDice& dice) {
   ++row.kills;
   fs::remove_all(folder_ / "state");
   std::vector<AcknowledgedPose> poses;
-  Clock::time_point killed;
+  std::chrono::steady_clock::time_point killed;
   {
     const auto viewer = start();
     Client client(viewer->address());
@@ -194,8 +196,8 @@ void KilledServer::kill_during_search(KillRow& row, KillDice& dice) {
   count_files_left(row);
 }
 
-void KilledServer::check_restart(KillRow& row, const std::vector<AcknowledgedPose>& poses, Clock::time_point killed,
-                                 const std::string& recording) const {
+void KilledServer::check_restart(KillRow& row, const std::vector<AcknowledgedPose>& poses,
+                                 std::chrono::steady_clock::time_point killed, const std::string& recording) const {
   try {
     const auto viewer = start();
     Client client(viewer->address());

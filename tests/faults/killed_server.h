@@ -56,7 +56,8 @@ class KilledServer {
   double seconds_[2] = {0, 0};  ///< Duration of each Job; 0: not measured yet.
 };
 
-/// Waits for the end of the job that a command has started. @return its last event
+/// Waits for the end of the job that a command has started. Throws std::runtime_error if it was refused.
+/// @return its last event
 server::Json end_of_job(server::testing_client::Client& client, const server::Json& reply);
 
 /// Drags a component of the stack along a random path until the server is gone, or for `seconds`.
