@@ -28,8 +28,7 @@ Error output_error(const std::string& why) {
 
 /// The error for the exception that is being handled.
 Error error_of_exception() {
-  const Error no_memory{ErrorKind::Failed,
-                        "out of memory (the assembly is too large for this machine); try --simplify N"};
+  Error no_memory{ErrorKind::Failed, "out of memory (the assembly is too large for this machine); try --simplify N"};
   try {
     throw;
   } catch (const CudaError& error) {
