@@ -7,9 +7,8 @@
 // batches run at the same time, each with --threads. --record: the batches that FILE has are not run again, and those
 // that are run are added to it. --seconds: starts no batch after that time, and says what is left. --keep writes the
 // motion and path of each failure. One row an assembly, tab-separated, of all its batches; times of a step are exact to
-// 5%, the longest is exact. Exit code 1 where an audit found a violation or a component was stuck. audits_cut: audits
-// that took longer than
-// --audit-seconds and do not count as passed.
+// 5%, the longest is exact. Exit code 1 where an audit found a violation, a component was stuck, or batches are
+// left. audits_cut: audits that took longer than --audit-seconds and do not count as passed.
 #include "bench/assembly_files.h"
 #include "bench/command_line.h"
 #include "bench/soak/record.h"
@@ -211,7 +210,7 @@ bool run(const Settings& settings, Record& record, std::vector<Loaded>& loaded) 
     good = print_row(one.input, one.assembly, record) && good;
   }
   if (left > 0) std::fprintf(stderr, "soak_motion: %llu batches are left\n", static_cast<unsigned long long>(left));
-  return good;
+  return good && left == 0;
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ int main(int argc, char** argv) {
   using namespace dismantle::cli;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
   std::set_terminate(end_by_exception);
-  // Has the system load what it needs to end a thread: without memory it would find that missing, and abort.
+  // glibc loads libgcc_s when a thread is first unwound, and aborts if there is no memory for it then; backtrace()
+  // loads it now.
   void* frame = nullptr;
   backtrace(&frame, 1);
   CLI::App app{

@@ -40,10 +40,6 @@ MotionMove random_drag(std::mt19937_64& random, const Assembly& assembly, int ta
   return move;
 }
 
-double diagonal_of(const Assembly& assembly) {
-  return diagonal(assembled_bounds(assembly));
-}
-
 /// The moving component and what is within `reach` of it, as they are at these poses, as an assembled state.
 Assembly surroundings(const Assembly& assembly, Span<const Pose> poses, ComponentId moving, double reach) {
   const auto placed = [&](std::size_t c) {
@@ -70,8 +66,9 @@ Path strict_path(const Assembly& now, const Assembly& assembly, const PairStates
   for (const ComponentPair& pair : joined) {
     const std::string &a = assembly[pair.a].name, &b = assembly[pair.b].name;
     if (!now.find(a) || !now.find(b)) continue;
-    path.pairs.push_back({a, b, PathPairState::Declared, 0,
-                          kStuckAllowance * std::min(pair.allowed_depth, states.tolerance + diagonal_of(assembly))});
+    path.pairs.push_back(
+        {a, b, PathPairState::Declared, 0,
+         kStuckAllowance * std::min(pair.allowed_depth, states.tolerance + diagonal(assembled_bounds(assembly)))});
   }
   return path;
 }

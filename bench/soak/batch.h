@@ -14,7 +14,7 @@
 /// Random drags over assemblies, every path audited (bench/soak_motion.cpp).
 namespace dismantle::soak {
 
-/// What batches are made of.
+/// Settings of a batch.
 struct BatchOptions {
   int targets = 50;           ///< Of a drag.
   int threads = 1;            ///< Of the engine.
@@ -39,7 +39,7 @@ class TimeHistogram {
   std::map<int, std::size_t> bins_;
 };
 
-/// What one batch found, or several together.
+/// The result of one batch, or the sum of several.
 struct BatchResult {
   std::size_t batches = 0;           ///< How many.
   std::size_t steps = 0;             ///< Of the engine.
@@ -56,7 +56,7 @@ struct BatchResult {
   std::string message;               ///< The first violation.
   /// True if nothing is wrong.
   bool good() const { return violations == 0 && stuck == 0; }
-  /// Adds what other batches found.
+  /// Adds the result of other batches.
   void add(const BatchResult& other);
 };
 

@@ -21,23 +21,16 @@ struct Arguments {
   std::vector<std::string> kinds;
 };
 
-Arguments parse(int argc, char** argv) {
-  Arguments arguments;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (word == "--kills" && has_value) {
-      arguments.kills = std::atoi(argv[++i]);
-    } else if (word == "--seed" && has_value) {
-      arguments.seed = std::strtoull(argv[++i], nullptr, 10);
-    } else if (word == "--json" && has_value) {
-      arguments.json = argv[++i];
-    } else {
-      arguments.kinds.push_back(word);
-    }
-  }
+/// @return false where the command line is wrong
+bool parse(int argc, char** argv, Arguments& arguments) {
+  bench::CommandLine line("kill_at_random [--kills N] [--seed S] [--json FILE] [KIND...]");
+  line.option("--kills", arguments.kills, 1);
+  line.option("--seed", arguments.seed, 0);
+  line.option("--json", arguments.json);
+  line.words(arguments.kinds, kill_kinds());
+  if (!line.parse(argc, argv)) return false;
   if (arguments.kinds.empty()) arguments.kinds = kill_kinds();
-  return arguments;
+  return true;
 }
 
 std::string names_text(const KillRow& row) {
@@ -93,13 +86,15 @@ int run(const Arguments& arguments, const std::filesystem::path& folder) {
 }  // namespace dismantle::faults
 
 int main(int argc, char** argv) {
+  dismantle::faults::Arguments arguments;
+  if (!dismantle::faults::parse(argc, argv, arguments)) return dismantle::bench::kExitUsage;
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("dismantle-kills-" + std::to_string(getpid()));
-  int status = 1;
+  int status = dismantle::bench::kExitFailed;
   try {
-    status = dismantle::faults::run(dismantle::faults::parse(argc, argv), folder);
+    status = dismantle::faults::run(arguments, folder);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\nusage: kill_at_random [--kills N] [--seed S] [--json FILE] [KIND...]\n", error.what());
+    std::fprintf(stderr, "kill_at_random: %s\n", error.what());
   }
   std::filesystem::remove_all(folder);
   return status;

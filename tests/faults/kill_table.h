@@ -11,7 +11,7 @@
 /// The program is killed at random moments; what is found afterwards is compared with what docs/faults.md promises.
 namespace dismantle::faults {
 
-/// What the kills of one kind left.
+/// The result of the kills of one kind.
 struct KillRow {
   std::string kind;
   int kills = 0;                        ///< All rounds.

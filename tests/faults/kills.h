@@ -9,7 +9,7 @@
 
 namespace dismantle::faults {
 
-/// What can be killed: import, plan, export, batch, drag, search.
+/// The kinds of work during which the program is killed: import, plan, export, batch, drag, search.
 const std::vector<std::string>& kill_kinds();
 
 /// Kills the program `kills` times while it does work of a kind. Throws std::runtime_error if there is no such kind, or

@@ -72,7 +72,7 @@ TEST_F(LittleMemory, IsAnErrorOfACommandWhereverItStrikes) {
   }
 }
 
-/// What a viewer with little memory came to.
+/// How a viewer with little memory worked and ended.
 struct ViewerEnd {
   bool has_started = false, has_model = false, has_ended = false;
   int exit_code = 0;

@@ -66,9 +66,9 @@ std::string message_of(const Assembly& assembly, const audit::LedgerEntry& entry
 
 }  // namespace
 
-/// What all audits of an assembly share.
+/// The data that all audits of an assembly share.
 struct PathAuditor::Known {
-  /// What the depths in the assembled state depend on, besides the assembly.
+  /// The arguments on which the depths in the assembled state depend, besides the assembly.
   struct Key {
     double tolerance = 0, slack = 0;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> free;
@@ -77,14 +77,18 @@ struct PathAuditor::Known {
     }
   };
 
-  /// The depths in the assembled state, found by the first audit that needs them; null where that was cancelled.
+  /// The depths in the assembled state, found now unless an audit has found them; null where that was cancelled. The
+  /// search runs unlocked: it may use threads that begin another audit. Audits that begin together find the same.
   const audit::InitialDepths* initial_depths(const audit::DepthContext& context, double progress_to) {
     Key key{context.path.tolerance, context.slack, audit::free_pairs(context.assembly, context.path)};
-    const std::lock_guard lock(mutex);
-    const auto known = depths.find(key);
-    if (known != depths.end()) return &known->second;
+    {
+      const std::lock_guard lock(mutex);
+      if (const auto known = depths.find(key); known != depths.end()) return &known->second;
+    }
     std::optional<audit::InitialDepths> found = audit::find_initial_depths(context, key.free, 0, progress_to);
-    return found ? &depths.emplace(std::move(key), std::move(*found)).first->second : nullptr;
+    if (!found) return nullptr;
+    const std::lock_guard lock(mutex);
+    return &depths.emplace(std::move(key), std::move(*found)).first->second;
   }
 
   std::vector<std::unique_ptr<const audit::SolidBody>> bodies;

@@ -38,8 +38,8 @@ struct InitialDepth {
   double depth = 0;                              ///< An upper bound [mm].
 };
 
-/// The depths in the assembled state of all pairs but the free ones: they depend on the assembly, the tolerance and the
-/// slack alone.
+/// The depths in the assembled state of all pairs but the free ones: they depend on the assembly, the free pairs, the
+/// tolerance and the slack alone.
 struct InitialDepths {
   std::vector<InitialDepth> overlapping;  ///< Those deeper than the tolerance, by pair.
   std::size_t pieces = 0;                 ///< AuditReport::pieces.
