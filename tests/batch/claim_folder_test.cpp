@@ -17,6 +17,17 @@ constexpr double kLongLease = 1000;  // [s]: longer than any test, so that expir
 
 class Claims : public BatchFolder {
  protected:
+  /// Starts a process that claims the item, does `work`, and is killed. @return its id, which is still to be waited for
+  template <class Work>
+  pid_t killed_after(const Work& work) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
+      work(*claim);
+      kill(getpid(), SIGKILL);
+    }
+    return child;
+  }
   /// The link of the first attempt, as a process on another machine would have made it.
   void claim_from_elsewhere() const { fs::create_symlink("another-machine 1 1", root_ / "item.claim.1"); }
 };
@@ -35,13 +46,8 @@ TEST_F(Claims, BelongToOneProcessOnly) {
 }
 
 TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
-    fs::create_directories(claim->scratch_folder());
-    kill(getpid(), SIGKILL);
-  }
-  waitpid(child, nullptr, 0);
+  const auto make_scratch_folder = [](const Claim& claim) { fs::create_directories(claim.scratch_folder()); };
+  waitpid(killed_after(make_scratch_folder), nullptr, 0);
   std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 2);
@@ -51,11 +57,7 @@ TEST_F(Claims, OfAKilledProcessAreTakenOverAtOnceWithItsFiles) {
 }
 
 TEST_F(Claims, OfAKilledProcessThatNobodyHasWaitedForAreTakenOver) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
-    kill(getpid(), SIGKILL);
-  }
+  const pid_t child = killed_after([](const Claim&) {});
   siginfo_t ended{};
   waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // it stays a zombie
   const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
@@ -65,13 +67,9 @@ TEST_F(Claims, OfAKilledProcessThatNobodyHasWaitedForAreTakenOver) {
 }
 
 TEST_F(Claims, AreHeldWhereOnlyALaterOneOfAKilledProcessIsLeft) {
-  const pid_t child = fork();  // killed in release(), after the first claim was removed
-  if (child == 0) {
-    std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
-    fs::rename(root_ / "item.claim.1", root_ / "item.claim.2");
-    kill(getpid(), SIGKILL);
-  }
-  waitpid(child, nullptr, 0);
+  // As if killed in release(), after the first of two claims was removed.
+  const auto rename_claim = [&](const Claim&) { fs::rename(root_ / "item.claim.1", root_ / "item.claim.2"); };
+  waitpid(killed_after(rename_claim), nullptr, 0);
   std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->attempt(), 3);
@@ -81,13 +79,8 @@ TEST_F(Claims, AreHeldWhereOnlyALaterOneOfAKilledProcessIsLeft) {
 }
 
 TEST_F(Claims, AreRemovedWhereTheirProcessesHaveEnded) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::optional<Claim> claim = ClaimFolder(root_, kLongLease).try_claim("item");
-    fs::create_directories(claim->scratch_folder());
-    kill(getpid(), SIGKILL);
-  }
-  waitpid(child, nullptr, 0);
+  const auto make_scratch_folder = [](const Claim& claim) { fs::create_directories(claim.scratch_folder()); };
+  waitpid(killed_after(make_scratch_folder), nullptr, 0);
   fs::create_directories(root_ / "item.old.12.34");
   ClaimFolder folder(root_, kLongLease);
   const std::optional<Claim> living = folder.try_claim("a.old.1.2");

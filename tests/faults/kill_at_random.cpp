@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kills the program with SIGKILL at random moments and prints the table of docs/faults.md: what was lost, half-written
 // or left. Ends with 1 if a promise of that page was broken.
+#include "bench/command_line.h"
 #include "tests/faults/kills.h"
 
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
