@@ -25,6 +25,8 @@ export class Session {
   onFrame: ((frame: PoseFrame) => void)[] = [];
 
   private loading: Promise<void> | null = null;
+  /// Number of running actions of several requests.
+  private actions = 0;
 
   constructor(
     readonly viewport: Viewport,
@@ -182,9 +184,16 @@ export class Session {
     return groupedNamesText(this.store.model, components);
   }
 
-  /// True if all commands are answered and everything received is shown.
+  /// Keeps the session unsettled until an action of several requests has ended.
+  async during(action: Promise<void>): Promise<void> {
+    ++this.actions;
+    await action.finally(() => --this.actions);
+  }
+
+  /// True if all commands are answered, all actions have ended and everything received is shown.
   get settled(): boolean {
-    return this.loading === null && this.connection.settled && ![...this.store.jobs.values()].some(isRunning);
+    const answered = this.actions === 0 && this.connection.settled;
+    return this.loading === null && answered && ![...this.store.jobs.values()].some(isRunning);
   }
 
   /// The current pose of a component; null: assembled.
@@ -247,6 +256,10 @@ export class Session {
 
   /// Assembles everything and makes the recording the guide.
   async followRecording(): Promise<void> {
+    return this.during(this.makeGuide());
+  }
+
+  private async makeGuide(): Promise<void> {
     try {
       const path = await (await this.connection.request("/api/path.json")).blob();
       const name = `${this.fileStem}.path.json`;

@@ -79,8 +79,8 @@ export class ExplodePanel {
   }
 
   toggle(): void {
-    if (this.session.store.exploding) void this.close();
-    else void this.open();
+    const { session } = this;
+    void session.during(session.store.exploding ? this.close() : this.open());
   }
 
   private source(): Source {
@@ -189,7 +189,8 @@ export class ExplodePanel {
     this.slider.disabled = this.before.disabled = this.after.disabled = !control;
     const shown = Math.ceil(position - kSamePosition);
     const step = { step: shown, count: moves.length, label: moves[shown - 1]?.label ?? "" };
-    const status = text(shown === 0 ? "explode.assembled" : "explode.step", step);
+    // Before the first seek is answered, no step is shown yet.
+    const status = state?.playback ? text(shown === 0 ? "explode.assembled" : "explode.step", step) : "";
     setText(this.status, status);
     this.slider.setAttribute("aria-valuetext", status);
   }

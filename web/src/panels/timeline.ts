@@ -51,7 +51,7 @@ export class TimelinePanel {
         icon: "playBack",
         label: text("timeline.reverse"),
         id: "play-reverse",
-        press: () => this.play(-1),
+        press: () => void session.during(this.play(-1)),
       }),
       pause: button({
         icon: "pause",
@@ -59,7 +59,13 @@ export class TimelinePanel {
         id: "play-pause",
         press: () => void session.send("pause", {}),
       }),
-      play: button({ icon: "play", label: text("timeline.play"), key: "P", id: "play", press: () => this.play(1) }),
+      play: button({
+        icon: "play",
+        label: text("timeline.play"),
+        key: "P",
+        id: "play",
+        press: () => void session.during(this.play(1)),
+      }),
       next: button({ icon: "stepOn", label: text("timeline.next"), id: "play-next", press: () => this.step(1) }),
       end: button({
         icon: "end",
@@ -104,7 +110,7 @@ export class TimelinePanel {
   /// Toggles between playing and pausing.
   toggle(): void {
     if (this.session.store.state?.playback?.playing) void this.session.send("pause", {});
-    else this.play(1);
+    else void this.session.during(this.play(1));
   }
 
   /// Seeks to the end of the current move (1), or to its start (-1).
