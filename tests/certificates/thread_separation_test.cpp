@@ -66,15 +66,22 @@ double min_distance(const SolidTree& moving, std::uint32_t m, const SolidTree& f
   return minimum;
 }
 
-/// @return the number of pairs of small nodes with a claim
-int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& start, const Pose& end,
-                std::uint64_t seed) {
+/// Pairs of small nodes with a claim.
+struct Claims {
+  int found = 0;  ///< By a sweep itself.
+  int kept = 0;   ///< By a later sweep, from what the first one found.
+};
+
+/// Expects the claims of a sweep, and those that it keeps for another motion, to be true.
+Claims expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose (&first)[2], const Pose (&later)[2],
+                   std::uint64_t seed) {
   const std::vector<ThreadMatch> matches =
       match_threads(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin);
   EXPECT_EQ(matches.size(), 1u);
-  const ThreadSweep sweep(matches.at(0), 0, motion_of(moving, fixed, start, end));
+  const ThreadSweep sweep(matches.at(0), 0, motion_of(moving, fixed, first[0], first[1]));
+  const ThreadSweep next(matches.at(0), 0, motion_of(moving, fixed, later[0], later[1]));
   std::mt19937_64 random(seed);
-  int claims = 0;
+  Claims claims;
   const auto count = [](const SolidTree& solid) {
     std::vector<std::size_t> counts(solid.tree.nodes.size(), 0);
     for (std::uint32_t n = 0; n < counts.size(); ++n)
@@ -84,14 +91,19 @@ int expect_true(const SolidTree& moving, const SolidTree& fixed, const Pose& sta
   };
   const std::vector<std::size_t> of_moving = count(moving), of_fixed = count(fixed);
   // Claims for large and small nodes; nodes that are far apart test little.
-  for (int trial = 0; trial < 30000 && claims < 60; ++trial) {
+  for (int trial = 0; trial < 30000 && claims.found < 60; ++trial) {
     const auto m = static_cast<std::uint32_t>(random() % moving.tree.nodes.size());
     const auto f = static_cast<std::uint32_t>(random() % fixed.tree.nodes.size());
-    const double claimed = sweep.gap(m, f);
-    if (!(claimed > 0) || of_moving[m] * of_fixed[f] > 3000) continue;
-    const double gap = min_distance(moving, m, fixed, f, start, end);
-    EXPECT_GE(gap, claimed - 1e-6) << m << ' ' << f;
-    claims += gap < 1;
+    const ThreadSweep::Gap claimed = sweep.gap(m, f);
+    if (!(claimed.during > 0) || of_moving[m] * of_fixed[f] > 3000) continue;
+    const double gap = min_distance(moving, m, fixed, f, first[0], first[1]);
+    EXPECT_GE(gap, claimed.during - 1e-6) << m << ' ' << f;
+    claims.found += gap < 1;
+    const double kept = next.kept_gap(static_cast<float>(claimed.in_place), static_cast<float>(sweep.phase()));
+    if (!(kept > 0) || !next.useful()) continue;
+    const double later_gap = min_distance(moving, m, fixed, f, later[0], later[1]);
+    EXPECT_GE(later_gap, kept - 1e-6) << m << ' ' << f;
+    claims.kept += later_gap < 1;
   }
   return claims;
 }
@@ -104,9 +116,19 @@ TEST(ThreadSweep, NeverClaimsMoreThanTheGapOfTriangles) {
     const auto nearly = [&](double angle) {
       return frame * (scenes::random_pose(random, 0.01, 0.002) * scenes::unscrewed(angle)) * inverse(frame);
     };
-    const Pose start = nearly(0.1), end = nearly(0.1 + 0.3 * trial);
-    EXPECT_GT(expect_true(pair.bolt(), pair.nut(), start, end, random()), 20) << trial;
-    EXPECT_GT(expect_true(pair.nut(), pair.bolt(), inverse(start), inverse(end), random()), 20) << trial;
+    const Pose motion[] = {nearly(0.1), nearly(0.1 + 0.3 * trial)}, back[] = {inverse(motion[0]), inverse(motion[1])};
+    // Some turns further on, and shifted along the axis besides.
+    const double turned = static_cast<double>(random() % 1000) / 100, shift = 0.02 * (trial % 3);
+    const auto shifted = [&](double angle) {
+      return frame * (Pose{{0, 0, shift}, {}} * inverse(frame) * nearly(angle));
+    };
+    const Pose later[] = {shifted(turned), shifted(turned + 0.2)},
+               later_back[] = {inverse(later[0]), inverse(later[1])};
+    const Claims of_bolt = expect_true(pair.bolt(), pair.nut(), motion, later, random()),
+                 of_nut = expect_true(pair.nut(), pair.bolt(), back, later_back, random());
+    EXPECT_GT(of_bolt.found, 20) << trial;
+    EXPECT_GT(of_nut.found, 20) << trial;
+    EXPECT_GT(of_bolt.kept + of_nut.kept, 10) << trial;
   }
 }
 
@@ -143,7 +165,7 @@ TEST(ThreadSweep, SeparatesTheFlanksOfAWholeBoltFromThoseOfItsNut) {
         const ThreadMatch::Side &own = matches[0].sides[nut_moves ? 1 : 0],
                                 &other = matches[0].sides[nut_moves ? 0 : 1];
         if (own.nodes[m].max_radius > 5 || other.nodes[f].max_radius > 5) continue;
-        EXPECT_GT(sweep.gap(m, f), 0.01) << m << ' ' << f;
+        EXPECT_GT(sweep.gap(m, f).during, 0.01) << m << ' ' << f;
         ++parted;
       }
     EXPECT_GE(parted, 16);

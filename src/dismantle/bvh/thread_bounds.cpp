@@ -131,11 +131,16 @@ bool bounded(const ThreadBounds& node) {
   return node.high[0] < kInfinity;
 }
 
-void extend(ThreadBounds& node, const ThreadBounds& other, const ThreadFrame& frame) {
+/// Widens the distances and positions of a node by those of another.
+void widen(ThreadBounds& node, const ThreadBounds& other) {
   node.min_radius = std::min(node.min_radius, other.min_radius);
   node.max_radius = std::max(node.max_radius, other.max_radius);
   node.begin = std::min(node.begin, other.begin);
   node.end = std::max(node.end, other.end);
+}
+
+void extend(ThreadBounds& node, const ThreadBounds& other, const ThreadFrame& frame) {
+  widen(node, other);
   if (!bounded(node) || !bounded(other)) {
     std::fill(std::begin(node.low), std::end(node.low), -kInfinity);
     std::fill(std::begin(node.high), std::end(node.high), kInfinity);
@@ -164,6 +169,7 @@ void ThreadFrame::add_direction(ProfileDirection direction) {
 ThreadBoundsList::ThreadBoundsList(const ThreadFrame& frame, Span<const Vec3> vertices, Span<const Face> faces,
                                    Span<const ObbNode> nodes)
     : slots_(nodes.size(), 0), nodes_(1, unknown()) {
+  whole_ = {kInfinity, 0, kInfinity, -kInfinity, {}, {}};
   std::vector<std::uint32_t> order, waiting{0};  // a node, then all under its first child, then under its second
   order.reserve(nodes.size());
   while (!waiting.empty()) {
@@ -190,6 +196,7 @@ ThreadBoundsList::ThreadBoundsList(const ThreadFrame& frame, Span<const Vec3> ve
       done.back().count += first.count;
     }
     if (done.back().count < kLargeNode) continue;
+    if (bounded(done.back().node)) widen(whole_, done.back().node);
     slots_[*i] = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back(done.back().node);
   }

@@ -49,6 +49,8 @@ class ThreadBoundsList {
 
   /// The bounds of a node.
   const ThreadBounds& operator[](std::uint32_t node) const { return nodes_[slots_[node]]; }
+  /// Distances and positions along the axis of all nodes that are bounded along the directions.
+  const ThreadBounds& whole() const { return whole_; }
   ///@{ Prefetch the memory of a node's bounds: first the slot that they are found by, some calls later the bounds.
   void prefetch_slot(std::uint32_t node) const { __builtin_prefetch(&slots_[node]); }
   void prefetch(std::uint32_t node) const { __builtin_prefetch(&nodes_[slots_[node]]); }
@@ -57,6 +59,7 @@ class ThreadBoundsList {
  private:
   std::vector<std::uint32_t> slots_;  // of each node, among the large ones; 0 for a small one
   std::vector<ThreadBounds> nodes_;   // the first stands for the small ones
+  ThreadBounds whole_;
 };
 
 }  // namespace dismantle

@@ -235,4 +235,8 @@ bool threads_mate(const ThreadAxis& x, const ThreadAxis& y) {
          length(AxisFrame(y.point, y.direction).across(x.point)) <= kMatingShare * lead;
 }
 
+const ThreadAxis& better_known(const ThreadAxis& x, const ThreadAxis& y) {
+  return x.end - x.begin >= y.end - y.begin ? x : y;
+}
+
 }  // namespace dismantle

@@ -52,6 +52,10 @@ std::vector<ThreadAxis> thread_axes(Span<const Vec3> vertices, Span<const Face> 
 /// of starts and nearly the same axis.
 bool threads_mate(const ThreadAxis& x, const ThreadAxis& y);
 
+/// The longer one of two threads that mate: the axis and the lead of a screw in its nut, which are measured the better
+/// the longer the thread is.
+const ThreadAxis& better_known(const ThreadAxis& x, const ThreadAxis& y);
+
 /// The part of a thread's profile that each face belongs to: a number for each flank, for the crests and for the roots
 /// of each thread; 0 for all other faces. Faces of one number are close together in the profile, wherever they are
 /// around the axis. Shape [face_count]; empty if there are no threads.

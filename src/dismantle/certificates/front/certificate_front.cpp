@@ -71,7 +71,7 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
   FrontSweep result;
   Work work;
   if (known) {
-    take_failing(part, *known, work, result);
+    take_failing(part, sweep, *known, work, result);
   } else {
     find_failing(part, sweep, kernels, work, result);
   }
@@ -87,16 +87,32 @@ void CertificateFront::find_failing(const CertificatePart& part, const PreparedS
   work.failing.resize(part.size());
   const CertificateCheck check = kernels.check_certificates(part.blocks(), part.size(), sweep, work.failing.data());
   result.min_gap = std::min(result.min_gap, check.min_gap);
-  for (std::size_t k = 0; k < check.failing; ++k) add_item(part, work.failing[k], work);
+  for (std::size_t k = 0; k < check.failing; ++k)
+    if (!still_apart(part, work.failing[k], sweep, result)) add_item(part, work.failing[k], work);
   work.front_count = work.items.size();
 }
 
-void CertificateFront::take_failing(const CertificatePart& part, const PartResults& known, Work& work,
-                                    FrontSweep& result) {
+bool CertificateFront::still_apart(const CertificatePart& part, std::uint32_t slot, const PreparedSweep& sweep,
+                                   FrontSweep& result) const {
+  if (sweep.threads.empty() || part.kind(slot) != NodeHull::kNone) return false;
+  const Vec3f kept = part.center(slot);
+  for (const ThreadSweep& thread : sweep.threads) {
+    if (static_cast<float>(&thread.match() - threads_.data()) != kept.x) continue;
+    const double gap = thread.kept_gap(kept.y, kept.z);
+    if (gap < static_cast<double>(sweep.error)) return false;
+    result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
+    return true;
+  }
+  return false;
+}
+
+void CertificateFront::take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& known,
+                                    Work& work, FrontSweep& result) const {
   result.min_gap = std::min(result.min_gap, known.min_gap);
   work.known_pairs = known.pairs;
   work.known_tests = known.tests;
   for (const std::uint32_t root : known.roots) {
+    if (still_apart(part, known.pairs[root].slot, sweep, result)) continue;
     add_item(part, known.pairs[root].slot, work);
     work.items.back().known = root;
   }

@@ -119,7 +119,11 @@ class CertificateFront {
   void find_failing(const CertificatePart& part, const PreparedSweep& sweep, const FrontKernels& kernels, Work& work,
                     FrontSweep& result) const;
   /// As find_failing(), from the results of a device.
-  static void take_failing(const CertificatePart& part, const PartResults& known, Work& work, FrontSweep& result);
+  void take_failing(const CertificatePart& part, const PreparedSweep& sweep, const PartResults& known, Work& work,
+                    FrontSweep& result) const;
+  /// True if the pair is still separated by threads, by what was found when its certificate was made.
+  bool still_apart(const CertificatePart& part, std::uint32_t slot, const PreparedSweep& sweep,
+                   FrontSweep& result) const;
   static void add_item(const CertificatePart& part, std::uint32_t slot, Work& work);
   /// True if a part merges in this sweep.
   bool merge_due(std::size_t part) const;
@@ -139,9 +143,10 @@ class CertificateFront {
                      FrontSweep& result) const;
   void separate_boxes(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
   void separate_triangles(Work& work, const PreparedSweep& sweep, const FrontKernels& kernels) const;
-  /// True if the two nodes are separated as surfaces of revolution or as threads. They get no certificate: this test is
-  /// cheap, and holds for large nodes.
-  bool separated_radially(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep, FrontSweep& result) const;
+  /// The certificate of two nodes that are separated as surfaces of revolution or as threads; it is not that of a
+  /// plane.
+  std::optional<Certificate> separate_radially(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep,
+                                               FrontSweep& result) const;
   /// Prefetches the memory that separated_radially() needs for items list[k + ...], which is scattered over the trees.
   void prefetch_radial(const Work& work, const std::vector<std::uint32_t>& list, std::size_t k,
                        const PreparedSweep& sweep) const;

@@ -60,8 +60,8 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
     prefetch_radial(work, opened, k, sweep);
     const std::uint32_t i = opened[k];
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
-    if (separated_radially(a, b, sweep, result)) {
-      work.prove(work.items[i], Certificate::radial());
+    if (const auto certificate = separate_radially(a, b, sweep, result)) {
+      work.prove(work.items[i], *certificate);
     } else if (std::optional<CylinderFit> blocked_fit = fit(a, b, sweep)) {
       result.fits.push_back(*blocked_fit);
       result.complete = false;
@@ -120,22 +120,23 @@ bool CertificateFront::accept(Work& work, Item& item, const NodeSeparation& sepa
   return true;
 }
 
-bool CertificateFront::separated_radially(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep,
-                                          FrontSweep& result) const {
+std::optional<Certificate> CertificateFront::separate_radially(std::uint32_t a, std::uint32_t b,
+                                                               const PreparedSweep& sweep, FrontSweep& result) const {
   for (const ThreadSweep& thread : sweep.threads) {
-    const double gap = b_moves_ ? thread.gap(b, a) : thread.gap(a, b);
-    if (gap < sweep.error) continue;  // a bound of the true paths, which needs no margin for arcs
-    result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
-    return true;
+    const ThreadSweep::Gap gap = b_moves_ ? thread.gap(b, a) : thread.gap(a, b);
+    if (gap.during < sweep.error) continue;  // a bound of the true paths, which needs no margin for arcs
+    result.min_gap = std::min(result.min_gap, -rounded_up(-gap.during));
+    return Certificate::thread(static_cast<std::uint32_t>(&thread.match() - threads_.data()),
+                               -rounded_up(-gap.in_place), static_cast<float>(thread.phase()));
   }
-  if (!sweep.radial) return false;
+  if (!sweep.radial) return std::nullopt;
   for (const RadialSweep& radial : sweep.radial->get()) {
     const double gap = b_moves_ ? radial.gap(b, a, sweep.limit) : radial.gap(a, b, sweep.limit);
     if (gap < sweep.limit) continue;
     result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
-    return true;
+    return Certificate::radial();
   }
-  return false;
+  return std::nullopt;
 }
 
 void CertificateFront::prefetch_radial(const Work& work, const std::vector<std::uint32_t>& list, std::size_t k,
@@ -176,8 +177,8 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   for (std::size_t k = 0; k < work.batch.size(); ++k) {
     prefetch_radial(work, work.batch, k, sweep);
     Item& item = work.items[work.batch[k]];
-    if (separated_radially(item.a, item.b, sweep, result)) {
-      work.prove(item, Certificate::radial());
+    if (const auto certificate = separate_radially(item.a, item.b, sweep, result)) {
+      work.prove(item, *certificate);
     } else {
       work.batch[left++] = work.batch[k];
     }

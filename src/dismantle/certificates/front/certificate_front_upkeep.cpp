@@ -90,9 +90,11 @@ std::size_t CertificateFront::merge(CertificatePart& part, const PreparedSweep& 
   for (std::size_t k = 0; k < siblings.size(); ++k) {
     const Siblings& s = siblings[k];
     if (merged[s.first] || merged[s.second]) continue;
-    const bool by_boxes = separations[k].gap >= sweep.limit;
-    if (!by_boxes && !separated_radially(s.parent.a, s.parent.b, sweep, unused)) continue;
-    part.set(s.first, s.parent, by_boxes ? separations[k].certificate : Certificate::radial());
+    const std::optional<Certificate> certificate = separations[k].gap >= sweep.limit
+                                                       ? separations[k].certificate
+                                                       : separate_radially(s.parent.a, s.parent.b, sweep, unused);
+    if (!certificate) continue;
+    part.set(s.first, s.parent, *certificate);
     merged[s.first] = merged[s.second] = true;
     gone.push_back(s.second);
   }
@@ -132,13 +134,14 @@ CertificatePart CertificateFront::split_part(CertificatePart& part) const {
 void CertificateFront::merge_radial(const PreparedSweep& sweep) {
   struct Pair {
     ObbSubtree a, b;
+    Certificate certificate = Certificate::none();
   };
   std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
   FrontSweep unused;
   for (std::size_t k = 0; k < tried.size() && k < kRadialTries; ++k) {
     const Pair pair = tried[k];
-    if (separated_radially(pair.a.node, pair.b.node, sweep, unused)) {
-      found.push_back(pair);
+    if (const auto certificate = separate_radially(pair.a.node, pair.b.node, sweep, unused)) {
+      found.push_back({pair.a, pair.b, *certificate});
     } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
       const bool splits_of_a = trees().splits_a(pair.a.node, pair.b.node);
       for (std::uint32_t h = 0; h < 2; ++h)
@@ -152,7 +155,7 @@ void CertificateFront::merge_radial(const PreparedSweep& sweep) {
   for (CertificatePart& part : parts_)
     for (std::size_t i = part.size(); i-- > 0;)
       if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
-  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, Certificate::radial());
+  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, pair.certificate);
 }
 
 void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {
@@ -191,6 +194,7 @@ void CertificateFront::forget() {
     for (std::size_t i = 0; i < part.size(); ++i) {
       Certificate c = part.certificate(i);
       c.offset = kNoCertificate;
+      if (c.hull.kind == NodeHull::kNone) c = Certificate::radial();
       part.set_certificate(i, c);
     }
 }

@@ -28,6 +28,11 @@ class CertificatePart {
   Certificate certificate(std::size_t i) const { return blocks().certificate(i); }
   /// NodeHull::kind of the certificate of pair i.
   float kind(std::size_t i) const { return data_[CertificateBlocks::index(i, 16)]; }
+  /// NodeHull::center of the certificate of pair i.
+  Vec3f center(std::size_t i) const {
+    return {data_[CertificateBlocks::index(i, 4)], data_[CertificateBlocks::index(i, 5)],
+            data_[CertificateBlocks::index(i, 6)]};
+  }
   /// All certificates, for kernels.
   CertificateBlocks blocks() const { return {data_.data()}; }
   /// Number of blocks.

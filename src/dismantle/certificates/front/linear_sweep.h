@@ -58,6 +58,14 @@ struct Certificate {
     certificate.hull.kind = NodeHull::kNone;
     return certificate;
   }
+  /// The same for a ThreadSweep, with what it keeps for sweeps to come (ThreadSweep::kept_gap).
+  /// @param match index of the threads @param gap of the two nodes, their threads in place [mm]
+  /// @param phase of the moving thread [mm]
+  static Certificate thread(std::uint32_t match, float gap, float phase) {
+    Certificate certificate = radial();
+    certificate.hull.center = {static_cast<float>(match), gap, phase};
+    return certificate;
+  }
 };
 
 }  // namespace dismantle

@@ -16,6 +16,8 @@ namespace {
 constexpr double kMaxOff = 0.25, kMaxSine = 0.02;
 /// A segment between two points is taken to stay beyond this share of their distance from the axis.
 constexpr double kKeptDistance = 0.75;
+/// Bound of the rounding of a phase to float32, in periods.
+constexpr double kPhaseRounding = 0x1p-23;
 /// Nodes whose helix phases span more periods than this are not used.
 constexpr double kMaxPeriods = 8;
 
@@ -32,21 +34,19 @@ std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a
   for (const ThreadAxis& x : a.threads())
     for (const ThreadAxis& y : b.threads()) {
       if (!threads_mate(x, y)) continue;
-      // The longer one determines the lead better.
-      const ThreadAxis& longer = x.end - x.begin >= y.end - y.begin ? x : y;
+      // One frame for both: of two, the difference would count against every gap.
+      const ThreadAxis& known = better_known(x, y);
       ThreadFrame frame;
-      frame.lead = longer.lead;
-      frame.period = std::abs(longer.lead) / longer.starts;
+      frame.lead = known.lead;
+      frame.period = std::abs(known.lead) / known.starts;
       for (const ThreadAxis* thread : {&x, &y}) {
         // Helix phases change sign with the axis.
         const double sign = dot(thread->direction, x.direction) < 0 ? -1 : 1;
         for (const ThreadAxis::Flank& flank : thread->flanks)
           frame.add_direction({flank.normal.radial, sign * flank.normal.axial});
       }
-      frame.axis = AxisFrame(x.point, x.direction);
-      ThreadFrame other = frame;
-      other.axis = AxisFrame(y.point, dot(y.direction, x.direction) < 0 ? -y.direction : y.direction);
-      matches.push_back({frame, {side_of(frame, a, origin_a), side_of(other, b, origin_b)}});
+      frame.axis = AxisFrame(known.point, dot(known.direction, x.direction) < 0 ? -known.direction : known.direction);
+      matches.push_back({frame, {side_of(frame, a, origin_a), side_of(frame, b, origin_b)}});
     }
   return matches;
 }
@@ -78,6 +78,7 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
   angle_ = length(turning);
   speed_ = length(velocity);
   useful_ = sliding_ < match.frame.period / 4;
+  largest_off_ = off(own.nodes.whole());
 }
 
 double ThreadSweep::off(const ThreadBounds& node) const {
@@ -88,8 +89,19 @@ double ThreadSweep::off(const ThreadBounds& node) const {
   return start + turning_ * (far + angle_ * far + speed_) + sliding_;
 }
 
-double ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
+double ThreadSweep::phase() const {
+  return std::remainder(phase_, match_->frame.period);
+}
+
+double ThreadSweep::kept_gap(float in_place, float phase) const {
+  const double period = match_->frame.period;
+  const double shifted =
+      std::abs(std::remainder(phase_ - static_cast<double>(phase), period)) + kPhaseRounding * period;
+  return static_cast<double>(in_place) - shifted - largest_off_;
+}
+
+ThreadSweep::Gap ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
+  constexpr Gap kNone{-std::numeric_limits<double>::infinity(), 0};
   const ThreadFrame& frame = match_->frame;
   const ThreadBounds &m = match_->sides[moving_].nodes[moving], &f = match_->sides[1 - moving_].nodes[fixed];
   const double radius = std::min(m.min_radius, f.min_radius);
@@ -116,7 +128,7 @@ double ThreadSweep::gap(std::uint32_t moving, std::uint32_t fixed) const {
     found = std::min(found, std::max(beyond, widest / steepest));
     if (found <= off) return kNone;
   }
-  return found - off;
+  return {found - off, found};
 }
 
 }  // namespace dismantle

@@ -56,8 +56,21 @@ class ThreadSweep {
     match_->sides[1 - moving_].nodes.prefetch(fixed);
   }
   ///@}
-  /// Lower bound of the distance of two nodes' triangles during the motion [mm]; minus infinity if nothing is known.
-  double gap(std::uint32_t moving, std::uint32_t fixed) const;
+  /// A gap of two nodes.
+  struct Gap {
+    double during;    ///< Lower bound of the distance of their triangles during the motion [mm].
+    double in_place;  ///< The same for a motion along the thread with the axes in one, in this phase [mm].
+  };
+  /// The gap of two nodes' triangles; minus infinity if nothing is known.
+  Gap gap(std::uint32_t moving, std::uint32_t fixed) const;
+
+  /// Lower bound of the distance of two nodes during this motion [mm], from the gap in place that an earlier motion
+  /// with its phase found: a gap in place changes by no more than the phase does.
+  double kept_gap(float in_place, float phase) const;
+  /// Phase of the moving thread in the fixed one, within half a period of 0 [mm].
+  double phase() const;
+  /// The match.
+  const ThreadMatch& match() const { return *match_; }
 
  private:
   /// Upper bound of how far points of the node deviate from the motion along the thread [mm].
@@ -65,13 +78,14 @@ class ThreadSweep {
 
   const ThreadMatch* match_;
   int moving_;
-  double phase_ = 0;    ///< To be added to helix phases of the moving side [mm].
-  Vec3 across_;         ///< From the fixed axis to the point of the moving one [mm].
-  Vec3 tilt_;           ///< Direction of the moving axis minus that of the fixed one.
-  double turning_ = 0;  ///< Length of the difference of the two motions' rotations [rad].
-  double sliding_ = 0;  ///< Length of the difference of their velocities, at the moving axis' point [mm].
-  double angle_ = 0;    ///< Rotation of the true motion [rad],
-  double speed_ = 0;    ///< and its velocity at that point [mm].
+  double phase_ = 0;        ///< To be added to helix phases of the moving side [mm].
+  Vec3 across_;             ///< From the fixed axis to the point of the moving one [mm].
+  Vec3 tilt_;               ///< Direction of the moving axis minus that of the fixed one.
+  double turning_ = 0;      ///< Length of the difference of the two motions' rotations [rad].
+  double sliding_ = 0;      ///< Length of the difference of their velocities, at the moving axis' point [mm].
+  double angle_ = 0;        ///< Rotation of the true motion [rad],
+  double speed_ = 0;        ///< and its velocity at that point [mm].
+  double largest_off_ = 0;  ///< off() of all bounded nodes of the moving side [mm].
   bool useful_ = false;
 };
 

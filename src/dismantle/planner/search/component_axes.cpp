@@ -30,7 +30,7 @@ const std::vector<NeighbourThread>& ComponentAxes::threads_of(ComponentId c) {
   for (const ComponentId other : neighbours_of(c))
     for (const ThreadAxis& thread : modelled_threads(c))
       for (const ThreadAxis& its : modelled_threads(other))
-        if (threads_mate(thread, its)) known->push_back({other, thread});
+        if (threads_mate(thread, its)) known->push_back({other, better_known(thread, its)});
   if (known->empty())
     known =
         touched_threads(planned_.assembly, validator_.hold(c), planned_.features[c.value].radius, planned_.tolerance);
