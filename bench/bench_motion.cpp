@@ -12,6 +12,7 @@
 #include "bench/motion_scenes.h"
 #include "bench/timing.h"
 #include "dismantle/certificates/choose_certificate_device.h"
+#include "dismantle/session/step_limit.h"
 #include "dismantle/streams/choose_streams_backend.h"
 #include "dismantle/streams/streams_motion_engine.h"
 #ifdef DISMANTLE_WITH_FCL
@@ -66,7 +67,8 @@ std::unique_ptr<MotionEngine> make_engine(const std::string& method, const Bench
   if (method == "certificates") {
     ChosenCertificateDevice chosen = choose_certificate_device(settings.device);
     note_cpu(chosen.why);
-    const CertificateOptions options{executor, widest_lanes()};
+    CertificateOptions options{executor, widest_lanes()};
+    limit_steps(options);
     return std::make_unique<CertificateEngine>(scene.assembly, scene.states, options, std::move(chosen.use));
   }
   CollisionOptions options;

@@ -88,7 +88,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   model.glb = std::make_shared<const std::string>(std::move(*glb));
   CertificateOptions engine;
   engine.executor = options.executor;
-  engine.depth_tests = kSessionDepthTests;
+  limit_steps(engine);
   const auto watch = std::make_shared<SessionProgress>(progress);
   engine.keep_going = [watch] { return watch->keep_going(); };
   PairStates states = pair_states(model.clashes, classify.rule);

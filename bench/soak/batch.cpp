@@ -153,7 +153,7 @@ Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAu
 
   const bench::Stopwatch engine_watch;
   CertificateOptions engine_options;
-  engine_options.depth_tests = kSessionDepthTests;
+  limit_steps(engine_options);
   if (options.threads > 1) engine_options.executor = Executor(ExecutorKind::Threads, options.threads);
   CertificateEngine engine(assembly, states, engine_options);
   Result<PlayedMotion> played = play_motion(assembly, states, batch.motion, engine);

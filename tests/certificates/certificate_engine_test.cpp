@@ -3,6 +3,7 @@
 
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/executors.h"
+#include "tests/support/large_scenes.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/slide_scenes.h"
 #include "tests/support/swept_meshes.h"
@@ -305,6 +306,39 @@ TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBound) {
   EXPECT_LT(bounded.cost.depth_tests, unbounded.cost.depth_tests);
   // A sweep ends within a piece or so of its share, and each may take the fewest.
   EXPECT_LE(bounded.cost.depth_tests, kMost + bounded.sweeps * 6000);
+}
+
+TEST(CertificateEngine, EndsStepsOfSlideEarlyAndGoesOn) {
+  // A shaft that fills its hole, pulled by a trembling hand: many contacts, of which few are known at first.
+  const scenes::SlideScene scene = scenes::shaft_in_hole(4000, 0);
+  const PairStates states = states_of(scene.assembly);
+  struct Way {
+    double out = 0;
+    int most_sweeps = 0;
+    int ended_early = 0;
+  };
+  constexpr std::size_t kLimit = 100;
+  const auto pulled = [&](std::size_t limit) {
+    CertificateOptions options;
+    options.slide_tests = limit;
+    Grabbed shaft(scene.assembly, states, scene.moving.value, options);
+    scenes::Hand hand(scene, {0.1, 0.3, 0.06, 1});
+    Way way;
+    Pose target;
+    for (int k = 1; k <= 80; ++k) {
+      if (k <= 60) target = hand.trembling(hand.steady(0.05 * k));  // then the hand waits
+      const StepResult made = shaft.engine.step(target, ResponseKind::Slide);
+      way.most_sweeps = std::max(way.most_sweeps, made.sweeps);
+      way.ended_early += made.cost.tests >= kLimit ? 1 : 0;
+      way.out = dot(made.pose.position, scene.pull);
+    }
+    return way;
+  };
+  const Way free = pulled(0), limited = pulled(kLimit);
+  EXPECT_GT(limited.ended_early, 3);  // else it shows nothing
+  EXPECT_LT(limited.most_sweeps, free.most_sweeps);
+  EXPECT_GT(free.out, 2.5);
+  EXPECT_NEAR(limited.out, free.out, 0.05);
 }
 
 TEST(CertificateEngine, DoesNotDependOnTheOrientationOfTheAssembly) {

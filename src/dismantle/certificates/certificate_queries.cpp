@@ -162,7 +162,7 @@ FirstContact straight_contact_of_all(const CertificateSweeper& sweeper, Vec3 dis
 
 std::vector<FirstContact> straight_contacts(const CertificateSweeper& sweeper, Span<const Vec3> displacements) {
   std::vector<FirstContact> found(displacements.size());
-  sweeper.executor().for_each_heavy(displacements.size(), [&](std::size_t i) {
+  sweeper.options().executor.for_each_heavy(displacements.size(), [&](std::size_t i) {
     if (length(displacements[i]) > 0) found[i] = straight_contact_of_all(sweeper, displacements[i]);
   });
   return found;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include "dismantle/certificates/certificate_engine.h"
 
 namespace dismantle {
 
-/// CertificateOptions::depth_tests where a person drags: about half a second a step.
-inline constexpr std::size_t kSessionDepthTests = 200'000;
+/// Bounds the work of a step where a person drags: about half a second where depths are hard to bound, some
+/// milliseconds where a set slides along contacts.
+inline void limit_steps(CertificateOptions& options) {
+  options.depth_tests = 200'000;
+  options.slide_tests = 400;
+}
 
 }  // namespace dismantle

@@ -16,6 +16,8 @@ using Twist = SlideContacts::Twist;
 
 /// Sweeps of one step, apart from free ones of an unbounded motion.
 constexpr int kMaxTries = 40;
+/// Those that a step may make whatever they cost: fewer would be the same in each step, and lead nowhere.
+constexpr int kCertainTries = 8;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or after it if
 /// it is the step's first: the next step goes on.
 constexpr double kCreepShare = 0.1;
@@ -40,7 +42,8 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   SlideState state;
   state.target = target;
   state.axes_chosen = state.contacts_here = contacts_.empty();
-  while (state.tries < kMaxTries) {
+  const std::size_t limit = sweeper_.options().slide_tests;
+  while (state.tries < kMaxTries && (limit == 0 || state.tries < kCertainTries || result.cost.tests < limit)) {
     const SlideTrial trial = choose_trial(state);
     if (!state.contacts_here && (trial.travel < rest || trial.creeping) && search_again()) {
       // Among many pairs, one that was left behind may be what holds the set.

@@ -107,8 +107,8 @@ class CertificateSweeper {
 
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return store_.solid(c); }
-  /// The executor of the options.
-  const Executor& executor() const { return options_.executor; }
+  /// The options.
+  const CertificateOptions& options() const { return options_; }
   /// Center of a sphere around the moving set at its pose [mm, world].
   Vec3 center() const { return transform_from_pose(pose()) * center_; }
   /// Radius of that sphere [mm].
