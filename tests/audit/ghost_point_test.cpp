@@ -101,13 +101,13 @@ TEST_F(GhostPoints, StayOnTheirSideOfAClosedSurface) {
                                    depth_scenes::pyramid(20, 3, 0)}) {
     const AuditBody surface(scenes::component("convex", scenes::moved(mesh, {{}, quat_about({0.6, 0, 0.8}, 1)})));
     for (const bool inside : {true, false})
-      for (int i = 0; i < 40; ++i) {
+      for (int i = 0; i < 20; ++i) {
         Vec3 start;
         do {
           start = vector(inside ? 0.2 : 2);
         } while (inside_convex(surface, start) != inside || surface.closest(start).distance < kStandoff);
         GhostPoint ghost(surface, kStandoff, start);
-        for (int k = 0; k < 60; ++k) {
+        for (int k = 0; k < 40; ++k) {
           ghost.approach(k % 3 == 0 ? ghost.position() + vector(0.01) : vector(inside ? 2 : 1.5));
           ASSERT_EQ(inside_convex(surface, ghost.position()), inside) << "seed " << kSeed << ", target " << k;
         }
