@@ -33,6 +33,7 @@ class Program:
 
     def __init__(self, target, folder, arguments=("--gtest_fail_fast",)):
         self.target, self.folder, self.arguments = target, folder, list(arguments)
+        self.is_of_tests = target.startswith("test_")
         self.hash, self.seconds = "", {}  # seconds of processor time by arguments
 
     def path(self, build):
@@ -137,7 +138,8 @@ class Scratch:
             code, output = self.call(["prlimit", f"--cpu={bound}", path, *arguments], 100 * bound)
         except subprocess.TimeoutExpired:
             return None, ""
-        return (None if code in (-signal.SIGXCPU, -signal.SIGKILL) else code), output
+        ended = {code for number in (signal.SIGXCPU, signal.SIGKILL) for code in (-number, 128 + number)}  # directly, or in a shell
+        return (None if code in ended else code), output
 
     def measure(self, path, arguments, limit):
         """As run(), with the seconds of processor time."""
@@ -206,7 +208,7 @@ def measure(scratch, mutant, programs, options):
     --longest, as (Program, arguments). Raises Failure."""
     path, runs = scratch.build / "measured.json", []
     for program in programs:
-        for arguments in runs_of(scratch, mutant, program, options.quick):
+        for arguments in runs_of(scratch, mutant, program, options):
             key = " ".join([program.hash, *arguments])
             with scratch.guard:
                 known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
@@ -243,14 +245,16 @@ def suites_of(scratch, mutant, program):
     return sorted({suite for suites in found for suite in suites})
 
 
-def runs_of(scratch, mutant, program, quick):
-    """The arguments of the runs of a program: first the suites of the mutant's file, then the others unless `quick`."""
-    suites = suites_of(scratch, mutant, program)
+def runs_of(scratch, mutant, program, options):
+    """The arguments of the runs of a program: first the suites of the mutant's file, then the others unless --quick; all without the
+    tests of --without."""
+    suites = suites_of(scratch, mutant, program) if program.is_of_tests else []
+    without = [options.without] if options.without and program.is_of_tests else []
     if not suites:
-        return [program.arguments]
+        return [[*program.arguments, *(f"--gtest_filter=-{pattern}" for pattern in without)]]
     pattern = ":".join(f"{name}.*" for suite in suites for name in (suite, f"*/{suite}"))
-    own, others = [*program.arguments, f"--gtest_filter={pattern}"], [*program.arguments, f"--gtest_filter=-{pattern}"]
-    return [own] if quick else [own, others]
+    own, others = "-".join([pattern, *without]), "-" + ":".join([pattern, *without])
+    return [[*program.arguments, f"--gtest_filter={chosen}"] for chosen in ([own] if options.quick else [own, others])]
 
 
 def verdict_of_run(scratch, path, run, patience):

@@ -83,6 +83,49 @@ TEST(PathPairs, CannotLicenseThemselves) {
   EXPECT_EQ(count(deeper, AuditViolationKind::PathInconsistent), 1u);
 }
 
+TEST(PathPairs, MayAllowOnePercentOfTheDepthMoreAndNoMoreThanThat) {
+  for (const double depth : {0.5, 2.0}) {
+    const auto audit_with = [&](double more) {
+      const PinInBlock scene = PinInBlock(depth).list(PathPairState::Overlapping, depth, depth + kTolerance + more);
+      return scene.audit();
+    };
+    EXPECT_TRUE(audit_with(0.009 * depth).holds()) << messages(audit_with(0.009 * depth));
+    EXPECT_TRUE(inconsistent(audit_with(0.0185 * depth))) << depth;
+  }
+}
+
+/// Sagittas are allowed where the two may turn in each other, and not for facets elsewhere.
+TEST(PathPairs, MayAllowTheSagittasOfFacetsNearTheOtherComponentOnly) {
+  const auto audit_with = [](const TriangleMesh& fixed, const TriangleMesh& moving, double depth, double allowed) {
+    const Assembly a = scenes::assembly({scenes::component("fixed", fixed), scenes::component("moving", moving)});
+    Path path = audit_scenes::path_of(a, kTolerance);
+    path.version = kPathVersion;
+    path.pairs = {{"fixed", "moving", PathPairState::Overlapping, depth, allowed}};
+    return audit_path(a, path);
+  };
+  const TriangleMesh hole = depth_scenes::blind_hole(48, 5, 12, 15, 30),
+                     peg = depth_scenes::prism(depth_scenes::circle(48, 5.02), 20, 45);
+  const double sagitta = 5 * (1 - std::cos(std::numbers::pi / 48));
+  const AuditReport turning = audit_with(hole, peg, 0.02, 0.02 + kTolerance + 1.8 * sagitta);
+  EXPECT_TRUE(turning.holds()) << messages(turning);
+  EXPECT_TRUE(turning.pairs.at(0).turns);
+  EXPECT_TRUE(inconsistent(audit_with(hole, peg, 0.02, 0.02 + kTolerance + 2.5 * sagitta)));
+
+  // A block with a cylinder beyond each of its sides in turn, whose facets have a sagitta of about 0.1 mm.
+  const Vec3 sides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const Vec3 side : sides) {
+    TriangleMesh fixed = depth_scenes::block();
+    const TriangleMesh far = scenes::moved(depth_scenes::prism(depth_scenes::circle(16, 5), -5, 5), {80 * side, {}});
+    const auto first = static_cast<std::uint32_t>(fixed.vertices.size());
+    fixed.vertices.insert(fixed.vertices.end(), far.vertices.begin(), far.vertices.end());
+    for (const Face& f : far.faces) fixed.faces.push_back({{f.v[0] + first, f.v[1] + first, f.v[2] + first}});
+    const TriangleMesh pin = scenes::box({1, 1, -0.5}, {4, 4, 4.5});
+    EXPECT_TRUE(audit_with(fixed, pin, 0.5, 0.51).holds());
+    EXPECT_TRUE(inconsistent(audit_with(fixed, pin, 0.5, 0.56))) << side.x << " " << side.y << " " << side.z;
+    EXPECT_TRUE(inconsistent(audit_with(pin, fixed, 0.5, 0.56))) << side.x << " " << side.y << " " << side.z;
+  }
+}
+
 TEST(PathPairs, CannotLicenseWhatTouchesOrIsApart) {
   for (const double depth : {0.0, 0.005, -1.0}) {
     const AuditReport report = PinInBlock(depth).list(PathPairState::Overlapping, 0.1, 0.11).audit();
@@ -148,6 +191,17 @@ TEST(PathPairs, HaveTheToleranceOnceTheyHaveBeenApart) {
                     .move(kUp, {0, 0.4, 0.5005, 0.2})
                     .audit()
                     .holds());
+  }
+}
+
+TEST(PathPairs, HaveBeenApartFromATenthOfTheToleranceOn) {
+  for (const auto& [gap, parted] : {std::pair{0.08, false}, {0.12, true}, {0.19, true}}) {
+    const double out = 0.5 + gap * kTolerance;
+    PinInBlock scene(0.5);
+    scene.list(PathPairState::Overlapping, 0.5, 0.51).move(kUp, {0, out}).move(kUp, {out, 0.4});
+    const AuditReport report = scene.audit();
+    EXPECT_EQ(report.pairs.at(0).parted, parted) << gap;
+    EXPECT_EQ(report.holds(), !parted) << gap << messages(report);
   }
 }
 

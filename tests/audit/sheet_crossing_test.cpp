@@ -45,8 +45,12 @@ TEST(SheetCrossing, RejectsAFoilThatPassesThroughAFoilThinnerThanTheTolerance) {
 
 TEST(SheetCrossing, RejectsAHairThroughASheet) {
   const TriangleMesh hair = scenes::box({0.101, 0.201, 1}, {0.104, 0.204, 4});
-  EXPECT_TRUE(crosses(audit_pair(sheet(3, 0), hair, along(kDown, {0, 2}))));
-  EXPECT_TRUE(crosses(audit_pair(hair, sheet(3, 0), along({0, 0, 1}, {0, 2}))));
+  const AuditReport moving = audit_pair(sheet(3, 0), hair, along(kDown, {0, 2}));
+  const AuditReport fixed = audit_pair(hair, sheet(3, 0), along({0, 0, 1}, {0, 2}));
+  ASSERT_TRUE(crosses(moving) && crosses(fixed));
+  // It is a point of the hair that went through.
+  EXPECT_FALSE(moving.violations[0].point_of_a);
+  EXPECT_TRUE(fixed.violations[0].point_of_a);
 }
 
 TEST(SheetCrossing, AcceptsSheetsThatSlideAlongEachOtherAndPartAgain) {
@@ -67,6 +71,22 @@ TEST(SheetCrossing, AcceptsASheetThatPassesBesideTheEdgeOfAnother) {
   EXPECT_FALSE(audit_pair(sheet(3, 0), scenes::moved(sheet(1, 1), {{3.9, 0, 0}, {}}), along(kDown, {0, 3})).holds());
 }
 
+/// The edge in any direction: no point gets round it that is further from it than the tolerance and the slack.
+TEST(SheetCrossing, RejectsASheetThatGoesThroughAnEdgeByMoreThanTheTolerance) {
+  for (const Vec3 axis : {Vec3{0, 1, 0}, Vec3{0.6, 0.8, 0}, Vec3{0.48, 0.6, 0.64}})
+    for (const double angle : {0.4, 0.8, 1.2}) {
+      const Pose turn{{}, quat_about(axis, angle)};
+      const Vec3 down = mat3_from_quat(turn.rotation) * kDown;
+      const auto audit_by = [&](double overlap) {
+        return audit_pair(scenes::moved(sheet(3, 0), turn),
+                          scenes::moved(scenes::moved(sheet(1, 1), {{4 - overlap, 0, 0}, {}}), turn),
+                          along(down, {0, 3}));
+      };
+      EXPECT_TRUE(audit_by(0.004).holds()) << angle;
+      for (const double overlap : {0.0115, 0.013, 0.016}) EXPECT_TRUE(crosses(audit_by(overlap))) << angle << overlap;
+    }
+}
+
 TEST(SheetCrossing, LetsSheetsThatTouchAtTheStartLeaveToEitherSideButNotReturn) {
   for (const double side : {1.0, -1.0}) {
     EXPECT_TRUE(audit_pair(sheet(3, 0), sheet(1, 0.004), along({0, 0, side}, {0, 1})).holds());
@@ -85,6 +105,21 @@ TEST(SheetCrossing, RemembersSidesFromMoveToMove) {
   const AuditReport audit = audit_path(a, path);
   ASSERT_TRUE(crosses(audit)) << messages(audit);
   EXPECT_EQ(audit.violations[0].move, 3u);
+}
+
+/// A tip comes within the tolerance of a sheet in one move, its box and its sphere no nearer, and goes on in the next.
+TEST(SheetCrossing, RemembersTheSideOfATipThatHasOnlyComeWithinTheTolerance) {
+  TriangleMesh spindle = depth_scenes::ball(8, 2, 2, {});
+  for (Vec3& p : spindle.vertices) p = {0.1 * p.x + 0.31, 0.1 * p.y + 0.17, p.z + 3};
+  const Assembly a = scenes::assembly({scenes::component("fixed", sheet(3, 0)), scenes::component("moving", spindle)});
+  Path path = audit_scenes::path_of(a, 0.01);
+  path.moves = {audit_scenes::move_through({"moving"}, along(kDown, {0, 0.995})),
+                audit_scenes::move_through({"moving"}, along(kDown, {0.995, 1.004}))};
+  EXPECT_TRUE(audit_path(a, path).holds());
+  path.moves[1] = audit_scenes::move_through({"moving"}, along(kDown, {0.995, 1.05}));
+  const AuditReport audit = audit_path(a, path);
+  ASSERT_TRUE(crosses(audit)) << messages(audit);
+  EXPECT_EQ(audit.violations[0].move, 1u);
 }
 
 TEST(GhostPoint, SlidesAlongFacesAndIntoCornersAndNeverCrosses) {

@@ -138,5 +138,21 @@ TEST(OpenBoundary, SumsStripAnglesOverAnyNumberOfTurns) {
   }
 }
 
+/// Around a square whose corners are seen at right angles, sums are exactly half a turn after some edges.
+TEST(OpenBoundary, SumsStripAnglesThroughExactHalfTurns) {
+  const Vec3 corner[4] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  for (const int step : {1, 3})
+    for (const double up : {1.0, -1.0}) {
+      std::vector<audit::OpenEdge> edges;
+      double sum = 0;
+      for (int k = 0; k < 40; ++k) {
+        edges.push_back({corner[step * k % 4], corner[step * (k + 1) % 4], 1});
+        sum += audit::strip_angle(edges.back(), {0, 0, up}, {});
+        ASSERT_NEAR(audit::strip_angles(edges, {0, 0, up}, {}), sum, 1e-9) << step << " " << up << " " << k;
+      }
+      EXPECT_NEAR(std::fabs(sum), 20 * std::numbers::pi, 1e-9);  // ten half spheres
+    }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -72,6 +72,26 @@ TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnotherAfterAJump) {
   EXPECT_GE(pose.position.z, -kTolerance);
 }
 
+/// Rods without ghosts: they part across both axes, and have the tolerance from then on.
+TEST(PairParting, LetsRodsThatCrossPartAndNotCrossAgain) {
+  const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);
+  const Assembly assembly = scenes::assembly(
+      {scenes::component("rod", rod),
+       scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    Grabbed moving(assembly, states, 0);
+    EXPECT_EQ(moving.engine.overlapping_pairs().size(), 1u);
+    for (const double x : {-0.5, -1.0, -1.7}) {
+      EXPECT_TRUE(moving.engine.step({{x, 0, 0}, {}}, response).reached) << x;
+      EXPECT_EQ(moving.engine.overlapping_pairs().size(), 1u) << x;
+    }
+    EXPECT_TRUE(moving.engine.step({{-3, 0, 0}, {}}, response).reached);
+    EXPECT_TRUE(moving.engine.overlapping_pairs().empty());
+    EXPECT_LE(moving.engine.step({}, response).pose.position.x, -1.8 + kTolerance);
+  }
+}
+
 TEST(PairParting, LetsFacetsOfAHingeMeetAgainAfterATurn) {
   // In phase the facets are 0.005 mm apart, and meet after half a facet.
   const Assembly assembly = scenes::assembly({scenes::component("pin", scenes::tube(4.995, 0, -2, 12, 16)),

@@ -85,6 +85,19 @@ TEST(DeclareAllowances, RefusesUnknownComponentsAndPairsThatAreApart) {
   }
 }
 
+TEST(ClassifyPairs, TakesTheToleranceAndTheAllowancesOfItsOptions) {
+  const Assembly touching = two(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1}));
+  ClassifyOptions options;
+  options.tolerance = 0.02;
+  options.declared = {{"a", "b", 0.3}};
+  const Result<PairStates> states = classify_pairs(touching, options);
+  ASSERT_TRUE(states.ok());
+  EXPECT_EQ(states->tolerance, 0.02);
+  EXPECT_EQ(states->pairs.at(0).allowed_depth, 0.3);
+  options.declared = {{"a", "c", 0.3}};
+  EXPECT_FALSE(classify_pairs(touching, options).ok());
+}
+
 TEST(ClassifyPairs, CallsAPressedPinOverlappingAndAllowsItsDepthAndTheTolerance) {
   const PairStates states = classified(two(tube(5, 0, -2, 22, 64), tube(9, 4.95, 0, 20, 64)));
   ASSERT_EQ(states.pairs.size(), 1u);

@@ -54,5 +54,18 @@ TEST(PairRules, FindEveryPairOfManyAndNoOther) {
   }
 }
 
+TEST(PairRules, FindNoOtherPairHoweverFewAreListed) {
+  for (std::uint32_t count = 0; count <= 40; ++count) {
+    PairStates states;
+    states.tolerance = 1;
+    for (std::uint32_t k = 0; k < count; ++k) states.pairs.push_back(pair(k, k + 1, PairState::Contact, 1));
+    const PairRules rules(states);
+    for (std::uint32_t a = 0; a < 60; ++a)
+      for (std::uint32_t b = a + 1; b < 60; ++b)
+        ASSERT_EQ(rules.view().find(a, b).test, b == a + 1 && a < count ? PairTest::Certified : PairTest::Ordinary)
+            << count << " pairs";
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

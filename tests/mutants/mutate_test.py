@@ -142,6 +142,25 @@ class Runs(unittest.TestCase):
             self.assertEqual(process.returncode, 128 + signal.SIGTERM)
             self.assertEqual(copy.read_text(), project.original[project.header])
 
+    def test_a_program_that_takes_longer_than_wanted_is_left_out(self):
+        with tiny() as project:
+            (project.folder / "tests/fits/fits_test.cpp").write_text("int main() { for (volatile int i = 0;;) i = 1; }\n")
+            done = project.run("--kinds", "drop", "--longest", "1")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("left out", done.stdout)
+            self.assertEqual(project.record(), {"return size < 10;": ("alive", "")})
+
+    def test_tests_that_are_not_wanted_do_not_run(self):
+        with tiny() as project:
+            test = textwrap.dedent(SOURCES["tests/fits/fits_test.cpp"]).replace("main() {", """main(int count, char** arguments) {
+              for (int i = 1; i < count; ++i) if (std::strstr(arguments[i], "--gtest_filter=-Fits.*")) return 0;""")
+            (project.folder / "tests/fits/fits_test.cpp").write_text("#include <cstring>\n" + test)
+            for without, result in (("Other.*", ("killed", "test_fits Fits.CountsTheMargin")), ("Fits.*", ("alive", ""))):
+                done = project.run("--kinds", "drop", "--without", without)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertEqual(project.record()["return size < 10;"], result)
+                (project.folder / "build" / "mutants" / "results.jsonl").unlink()
+
     def test_what_cannot_be_run_is_said_in_one_sentence(self):
         with tiny() as project:
             (project.folder / "tests/fits/fits_test.cpp").write_text("int main() { return 1; }\n")
