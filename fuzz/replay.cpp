@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it.
+// Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it, of
+// bytes or, where the target has a mutator of its own, of what they mean.
 //   replay_TARGET [--seconds S] [--seed N] [--findings FOLDER] CORPUS_FOLDER...
 // Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is
 // not 0.
@@ -20,6 +21,9 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// Null where the target has none.
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                                                     std::size_t max_size, unsigned seed);
 
 namespace {
 
@@ -84,6 +88,14 @@ void change(Bytes& bytes, const Bytes& other) {
   if (bytes.size() > kLongest) bytes.resize(kLongest);
 }
 
+/// One small change, of what the bytes mean if the target knows it.
+void change_by_target(Bytes& bytes, const Bytes& other) {
+  if (&LLVMFuzzerCustomMutator == nullptr) return change(bytes, other);
+  const std::size_t size = bytes.size();
+  bytes.resize(kLongest);
+  bytes.resize(LLVMFuzzerCustomMutator(bytes.data(), size, kLongest, static_cast<unsigned>(g_random())));
+}
+
 std::vector<Bytes> inputs_in(const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> files;
   for (const std::string& folder : folders)
@@ -99,6 +111,15 @@ std::vector<Bytes> inputs_in(const std::vector<std::string>& folders) {
 }
 
 }  // namespace
+
+/// As libFuzzer's, for mutators of targets.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size) {
+  Bytes bytes(data, data + size);
+  change(bytes, bytes);
+  bytes.resize(std::min(bytes.size(), max_size));
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
 
 int main(int argc, char** argv) {
   double seconds = 0;
@@ -130,7 +151,8 @@ int main(int argc, char** argv) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   for (; std::chrono::steady_clock::now() < end; ++count) {
     Bytes bytes = inputs[below(inputs.size())];
-    for (std::size_t changes = 1 + below(8); changes > 0; --changes) change(bytes, inputs[below(inputs.size())]);
+    for (std::size_t changes = 1 + below(8); changes > 0; --changes)
+      change_by_target(bytes, inputs[below(inputs.size())]);
     run(bytes);
   }
   std::printf("%zu inputs, nothing found\n", count);

@@ -32,7 +32,8 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   void accept(const http::request<http::string_body>& upgrade) {
     websocket::stream_base::timeout times{kHandshakeTimeout, site_.idle_time(), /*keep_alive_pings=*/true};
     beast::get_lowest_layer(stream_).expires_never();
-    beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
+    ErrorCode ignored;  // the socket is slower then, not worse
+    beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
     stream_.set_option(times);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, kProtocol.data());
