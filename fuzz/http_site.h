@@ -63,6 +63,7 @@ class HttpSite final : public server::Site, private server::ServerCommands, priv
   std::variant<server::Upload, server::HttpResponse> begin_upload(const server::RequestTarget& target,
                                                                   const std::string& client,
                                                                   std::uint64_t bytes) override {
+    if (!target.path.starts_with("/api/")) return server::error_response(404, "there is no such file; none");
     if (!hub_.is_in_control(client)) return server::error_response(403, "not in control; take it");
     const auto folder = uploads_.reserve(client, bytes);
     if (!folder) return server::error_response(507, folder.error().message);
