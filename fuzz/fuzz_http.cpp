@@ -129,6 +129,9 @@ void require_allowed(const fuzz::HttpAnswer& answer, const fuzz::HttpHead& reque
   const bool is_private =
       answer.status == 101 || answer.status == 202 || answer.body.find(fuzz::kSecret) != std::string::npos;
   if (is_private) fuzz::require(has_token(request), "nothing but the page without the token");
+  if (answer.status == 202)
+    fuzz::require(request.all("x-client") == std::vector<std::string>{fuzz::kController},
+                  "uploads of who is in control only");
   if (answer.status == 101) {
     const std::vector<std::string> origins = request.all("origin");
     fuzz::require(origins.size() == 1 && origins[0].ends_with(":1234"), "no socket for other sites");
@@ -165,7 +168,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     fuzz::require(connection.is_forgotten() && connection.is_closed_by_server(),
                   "a connection that ends with its client");
-    fuzz::require(site.hub().client_count() == 0, "no client without a socket");
+    fuzz::require(site.hub().client_count() == 1, "no client without a socket");
     for (const fs::directory_entry& store : fs::directory_iterator(folders.temporary))
       fuzz::require(fs::is_empty(store.path()), "no upload that is left behind");
 

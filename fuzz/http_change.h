@@ -137,7 +137,7 @@ class HttpChange {
                                          "Transfer-Encoding: chunked",
                                          "Transfer-Encoding: gzip, chunked",
                                          "Expect: 100-continue",
-                                         "X-Client: 00112233445566778899aabbccddeeff",
+                                         "X-Client: " + kController,
                                          "X-Long: " + std::string(9000, 'x'),
                                          "X-Empty:",
                                          "NoColon",
@@ -153,7 +153,7 @@ class HttpChange {
     std::string text =
         std::string(choices_.of(kMethods)) + ' ' + target() + (choices_.below(8) == 0 ? " HTTP/1.0" : " HTTP/1.1");
     text += "\r\nHost: 127.0.0.1:1234";
-    if (choices_.below(2) == 0) text += "\r\nAuthorization: Bearer " + kToken;
+    if (choices_.below(2) == 0) text += "\r\nAuthorization: Bearer " + kToken + "\r\nX-Client: " + kController;
     for (std::size_t more = choices_.below(3); more > 0; --more) text += "\r\n" + header_line();
     return text + "\r\n\r\n";
   }
@@ -215,8 +215,8 @@ class HttpChange {
   void change_body() {
     const std::size_t size = choices_.below(choices_.below(2) == 0 ? 200 : 25'000),
                       said = choices_.below(4) == 0 ? choices_.below(30'000) : size;
-    std::string text =
-        "POST " + target() + " HTTP/1.1\r\nHost: 127.0.0.1:1234\r\nAuthorization: Bearer " + kToken + "\r\n";
+    std::string text = "POST " + target() + " HTTP/1.1\r\nHost: 127.0.0.1:1234\r\nAuthorization: Bearer " + kToken +
+                       "\r\nX-Client: " + kController + "\r\n";
     if (choices_.below(5) == 0)
       text += "Transfer-Encoding: chunked\r\n\r\n5;a=b\r\nabcde\r\nffffffffffffffff\r\n0\r\n\r\n";
     else

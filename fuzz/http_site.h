@@ -18,6 +18,8 @@ namespace dismantle::fuzz {
 // What every input may know.
 inline constexpr std::uint16_t kPort = 1234;
 inline const std::string kToken = "0123456789abcdef0123456789abcdef";
+/// A client that is connected before the input comes, and in control.
+inline const std::string kController = "ffeeddccbbaa99887766554433221100";
 /// In every answer for which the token is needed, and in files that are outside the page's folder.
 inline const std::string kSecret = "only with the token";
 /// Uploads may take little, so that inputs reach the limit [bytes].
@@ -35,8 +37,12 @@ class HttpSite final : public server::Site, private server::ServerCommands, priv
         engine_(*this, *server::Roots::create({}), std::nullopt, jobs_),
         hub_(engine_, *this, [this](std::function<void()> work) { boost::asio::post(io_, std::move(work)); }) {
     hub_.set_hello({{"event", "hello"}});
+    hub_.connect(kController, other_client_);
   }
-  ~HttpSite() override { engine_.stop(); }
+  ~HttpSite() override {
+    engine_.stop();
+    hub_.disconnect(kController, other_client_);
+  }
 
   boost::asio::io_context& io() { return io_; }
   /// Waits until the engine has done all that it was asked for.
@@ -64,7 +70,7 @@ class HttpSite final : public server::Site, private server::ServerCommands, priv
                                                                   const std::string& client,
                                                                   std::uint64_t bytes) override {
     if (!target.path.starts_with("/api/")) return server::error_response(404, "there is no such file; none");
-    if (!hub_.is_in_control(client)) return server::error_response(403, "not in control; take it");
+    if (client.empty() || !hub_.is_in_control(client)) return server::error_response(403, "not in control; take it");
     const auto folder = uploads_.reserve(client, bytes);
     if (!folder) return server::error_response(507, folder.error().message);
     return server::Upload{target, client, (*folder)->path() / "upload", *folder};
@@ -79,6 +85,13 @@ class HttpSite final : public server::Site, private server::ServerCommands, priv
   }
 
  private:
+  /// The socket of kController.
+  struct DeafSocket final : server::ClientSocket {
+    void send_text(server::SharedText) override {}
+    void send_pose(server::SharedText) override {}
+    void close(server::CloseReason) override {}
+  };
+
   // Commands: `broadcast` sends each kind of message that the engine and jobs send.
   bool knows(std::string_view command) const override { return command == "broadcast" || command == "fail"; }
   bool needs_control(std::string_view command) const override { return command == "broadcast"; }
@@ -105,6 +118,7 @@ class HttpSite final : public server::Site, private server::ServerCommands, priv
   server::Jobs jobs_;
   server::EngineLoop engine_;
   server::Hub hub_;
+  DeafSocket other_client_;
 };
 
 }  // namespace dismantle::fuzz

@@ -2,9 +2,10 @@
 // Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it, of
 // bytes or, where the target has a mutator of its own, of what they mean.
 //   replay_TARGET [--seconds S] [--seed N] [--findings FOLDER] CORPUS_FOLDER...
-// Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is
-// not 0.
+// Where the target crashes, aborts, computes for longer than 20 s or does not return, the input is written to the
+// folder, and the exit code is not 0.
 #include <fcntl.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,7 +31,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kLongest = 65536;
-constexpr unsigned kSlow = 20;  // [s]
+constexpr unsigned kSlow = 20;    // of the processor [s]
+constexpr unsigned kStuck = 120;  // by the clock: the machine may be busy [s]
 
 Bytes g_input;          // what the target has now
 std::string g_finding;  // where it is written
@@ -40,13 +42,16 @@ void write_finding(int signal_number) {
   const int file = open(g_finding.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file >= 0 && write(file, g_input.data(), g_input.size()) >= 0) close(file);
   std::signal(signal_number, SIG_DFL);
-  std::raise(signal_number == SIGALRM ? SIGABRT : signal_number);
+  std::raise(signal_number == SIGALRM || signal_number == SIGPROF ? SIGABRT : signal_number);
 }
 
 void run(const Bytes& bytes) {
   g_input = bytes;
-  alarm(kSlow);
+  alarm(kStuck);
+  const itimerval slow{{0, 0}, {kSlow, 0}}, never{};
+  setitimer(ITIMER_PROF, &slow, nullptr);
   LLVMFuzzerTestOneInput(g_input.data(), g_input.size());
+  setitimer(ITIMER_PROF, &never, nullptr);
   alarm(0);
 }
 
@@ -140,7 +145,8 @@ int main(int argc, char** argv) {
   std::error_code ignored;
   std::filesystem::create_directories(findings, ignored);
   g_finding = findings + "/" + std::filesystem::path(argv[0]).filename().string() + ".finding";
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(number, write_finding);
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGPROF})
+    std::signal(number, write_finding);
   std::vector<Bytes> inputs = inputs_in(folders);
   if (inputs.empty()) {
     std::fputs("no files to replay\n", stderr);

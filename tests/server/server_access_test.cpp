@@ -147,12 +147,10 @@ TEST_F(ServerAccess, SendsNoBodyForHead) {
 }
 
 TEST_F(ServerAccess, AnswersAnIncompleteHandshakeAsOtherErrors) {
-  const Headers complete{{"Origin", address().origin()},
-                         {"Connection", "Upgrade"},
-                         {"Upgrade", "websocket"},
-                         {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="},
-                         {"Sec-WebSocket-Version", "13"},
-                         {"Sec-WebSocket-Protocol", "dismantle.1, token." + address().token}};
+  const Headers complete{
+      {"Origin", address().origin()},  {"Connection", "Upgrade"},
+      {"Upgrade", "websocket"},        {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="},
+      {"Sec-WebSocket-Version", "13"}, {"Sec-WebSocket-Protocol", "dismantle.1, token." + address().token}};
   const auto status_without = [&](const char* name, const char* value) {
     Headers headers = complete;
     headers[name] = value;
