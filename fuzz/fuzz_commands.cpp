@@ -3,35 +3,17 @@
 // stays sound and the block outside the wall.
 #include "apps/server/workbench.h"
 #include "fuzz/fuzz_input.h"
+#include "fuzz/own_folder.h"
 #include "tests/support/meshes.h"
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <chrono>
-#include <filesystem>
 
 namespace {
 
 using namespace dismantle;
 using namespace dismantle::server;
-
-/// A folder that ends with the process: commands may save files.
-class OwnFolder {
- public:
-  OwnFolder() : path_(std::filesystem::temp_directory_path() / ("dismantle-fuzz-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~OwnFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 Model block_and_wall() {
   Model model;
@@ -50,7 +32,7 @@ Model block_and_wall() {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const OwnFolder folder;
+  static const fuzz::OwnFolder folder;  // commands may save files
   static const Roots roots = Roots::create({folder.path()}).value();
   const auto refuse = [](const auto&) -> Result<std::uint32_t> {
     return Error{ErrorKind::Usage, "nothing is searched here (a fuzz target); do not ask"};

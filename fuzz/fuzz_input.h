@@ -35,6 +35,37 @@ inline void require_sentence(const Error& error) {
   require(!error.message.empty() && error.message.find('\n') == std::string::npos, "an error of one line");
 }
 
+/// True if the text is UTF-8 (RFC 3629): no stray, missing or needless bytes, no surrogates, nothing above U+10FFFF.
+inline bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80   ? 1
+                               : lead < 0xc2 ? 0
+                               : lead < 0xe0 ? 2
+                               : lead < 0xf0 ? 3
+                               : lead < 0xf5 ? 4
+                                             : 0;
+    if (length == 0 || text.size() - i < length) return false;
+    std::uint32_t code = length == 1 ? lead : lead & (0x7fu >> length);
+    for (std::size_t k = 1; k < length; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0) != 0x80) return false;
+      code = code << 6 | (next & 0x3fu);
+    }
+    const bool is_short = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+    if (is_short || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
+    i += length;
+  }
+  return true;
+}
+
+/// Names are safe in JSON and on a terminal.
+inline void require_clean(std::string_view name) {
+  require(is_utf8(name), "a name in UTF-8");
+  for (const char c : name)
+    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f, "a name without control characters");
+}
+
 inline void require_sound(const TriangleMesh& mesh) {
   for (const Vec3& p : mesh.vertices) require(is_finite(p), "finite coordinates");
   for (const Face& f : mesh.faces)

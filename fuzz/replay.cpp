@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it.
+// Feeds a fuzz target without libFuzzer, in any build: its corpus, and with --seconds also random changes of it, of
+// bytes or, where the target has a mutator of its own, of what they mean.
 //   replay_TARGET [--seconds S] [--seed N] [--findings FOLDER] CORPUS_FOLDER...
-// Where the target crashes, aborts or takes longer than 20 s, the input is written to the folder, and the exit code is
-// not 0.
+// Where the target crashes, aborts, computes for longer than 20 s or does not return, the input is written to the
+// folder, and the exit code is not 0.
 #include <fcntl.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,13 +22,17 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// Null where the target has none.
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                                                     std::size_t max_size, unsigned seed);
 
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kLongest = 65536;
-constexpr unsigned kSlow = 20;  // [s]
+constexpr unsigned kSlow = 20;    // of the processor [s]
+constexpr unsigned kStuck = 120;  // by the clock: the machine may be busy [s]
 
 Bytes g_input;          // what the target has now
 std::string g_finding;  // where it is written
@@ -36,13 +42,16 @@ void write_finding(int signal_number) {
   const int file = open(g_finding.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file >= 0 && write(file, g_input.data(), g_input.size()) >= 0) close(file);
   std::signal(signal_number, SIG_DFL);
-  std::raise(signal_number == SIGALRM ? SIGABRT : signal_number);
+  std::raise(signal_number == SIGALRM || signal_number == SIGPROF ? SIGABRT : signal_number);
 }
 
 void run(const Bytes& bytes) {
   g_input = bytes;
-  alarm(kSlow);
+  alarm(kStuck);
+  const itimerval slow{{0, 0}, {kSlow, 0}}, never{};
+  setitimer(ITIMER_PROF, &slow, nullptr);
   LLVMFuzzerTestOneInput(g_input.data(), g_input.size());
+  setitimer(ITIMER_PROF, &never, nullptr);
   alarm(0);
 }
 
@@ -84,6 +93,14 @@ void change(Bytes& bytes, const Bytes& other) {
   if (bytes.size() > kLongest) bytes.resize(kLongest);
 }
 
+/// One small change, of what the bytes mean if the target knows it.
+void change_by_target(Bytes& bytes, const Bytes& other) {
+  if (&LLVMFuzzerCustomMutator == nullptr) return change(bytes, other);
+  const std::size_t size = bytes.size();
+  bytes.resize(kLongest);
+  bytes.resize(LLVMFuzzerCustomMutator(bytes.data(), size, kLongest, static_cast<unsigned>(g_random())));
+}
+
 std::vector<Bytes> inputs_in(const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> files;
   for (const std::string& folder : folders)
@@ -99,6 +116,15 @@ std::vector<Bytes> inputs_in(const std::vector<std::string>& folders) {
 }
 
 }  // namespace
+
+/// As libFuzzer's, for mutators of targets.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size) {
+  Bytes bytes(data, data + size);
+  change(bytes, bytes);
+  bytes.resize(std::min(bytes.size(), max_size));
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
 
 int main(int argc, char** argv) {
   double seconds = 0;
@@ -119,7 +145,8 @@ int main(int argc, char** argv) {
   std::error_code ignored;
   std::filesystem::create_directories(findings, ignored);
   g_finding = findings + "/" + std::filesystem::path(argv[0]).filename().string() + ".finding";
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(number, write_finding);
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGPROF})
+    std::signal(number, write_finding);
   std::vector<Bytes> inputs = inputs_in(folders);
   if (inputs.empty()) {
     std::fputs("no files to replay\n", stderr);
@@ -130,7 +157,8 @@ int main(int argc, char** argv) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   for (; std::chrono::steady_clock::now() < end; ++count) {
     Bytes bytes = inputs[below(inputs.size())];
-    for (std::size_t changes = 1 + below(8); changes > 0; --changes) change(bytes, inputs[below(inputs.size())]);
+    for (std::size_t changes = 1 + below(8); changes > 0; --changes)
+      change_by_target(bytes, inputs[below(inputs.size())]);
     run(bytes);
   }
   std::printf("%zu inputs, nothing found\n", count);

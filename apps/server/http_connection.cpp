@@ -160,7 +160,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   enum class KeepAlive { Yes, No };
 
   void send(const HttpResponse& content, KeepAlive keep_alive) {
-    sent_body_ = content.body;
+    static const auto kNothing = std::make_shared<const std::string>();
+    sent_body_ = header_->get().method() == http::verb::head ? kNothing : content.body;  // RFC 9110, 9.3.2
     auto response = std::make_shared<http::response<http::span_body<const char>>>();
     response->version(11);
     response->result(content.status);

@@ -145,7 +145,8 @@ class Server::Impl final : public Site, private EngineListener {
                                                   std::uint64_t bytes) override {
     const bool is_guide = target.path == "/api/guide", is_packed = target.path == "/api/open_files";
     if (!is_guide && !is_packed && target.path != "/api/open") return not_found(target.path);
-    if (!hub_.is_in_control(client))
+    // Before the first page connects nobody is in control, also not a client without a name.
+    if (client.empty() || !hub_.is_in_control(client))
       return error_response(403, "nothing can be opened (another page is in control); take control first");
     const std::string base = is_packed ? "packed" : name_of(target);
     if (base.empty() || base[0] == '.')

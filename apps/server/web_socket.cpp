@@ -32,12 +32,10 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   void accept(const http::request<http::string_body>& upgrade) {
     websocket::stream_base::timeout times{kHandshakeTimeout, site_.idle_time(), /*keep_alive_pings=*/true};
     beast::get_lowest_layer(stream_).expires_never();
-    beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true));
+    ErrorCode ignored;  // the socket is slower then, not worse
+    beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
     stream_.set_option(times);
-    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.set(http::field::sec_websocket_protocol, kProtocol.data());
-      add_security_headers(response);
-    }));
+    stream_.set_option(websocket::stream_base::decorator(&WebSocket::complete_response));
     stream_.read_message_max(kMaxMessageBytes);
     stream_.auto_fragment(false);
     stream_.async_accept(upgrade, [self = shared_from_this()](ErrorCode error) {
@@ -72,6 +70,21 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   }
 
  private:
+  /// Beast's response to the handshake, which says in plain text what it lacks where it is no handshake.
+  static void complete_response(websocket::response_type& response) {
+    add_security_headers(response);
+    if (response.result() == http::status::switching_protocols) {
+      response.set(http::field::sec_websocket_protocol, kProtocol.data());
+      return;
+    }
+    const HttpResponse error = error_response(
+        response.result_int(), "this is not a WebSocket handshake (" + response.body() + "); correct the client");
+    response.set(http::field::content_type, error.content_type);
+    response.body() = *error.body;
+    response.keep_alive(false);
+    response.prepare_payload();
+  }
+
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, std::size_t) { self->on_read(error); });
   }

@@ -92,6 +92,25 @@ class Mutation(unittest.TestCase):
                 make_results.mutation_section_of(folder, verdicts)
 
 
+class Fuzzing(unittest.TestCase):
+    def test_runs_of_a_target_are_added_up_and_targets_without_a_run_are_named(self):
+        run = {"target": "step", "program": "libFuzzer", "seconds": 600, "inputs": 70, "findings": 0, "date": "d", "commit": "c", "load": 1.5,
+               "machine": MACHINE}
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertEqual(make_results.fuzz_section_of(folder, ["step"]), "")
+            runs = [run, dict(run, findings=1, seconds=5, inputs=1, load=3), dict(run, program="replay", commit="e")]
+            (folder / "runs.jsonl").write_text("".join(json.dumps(one) + "\n" for one in runs))
+            section = make_results.fuzz_section_of(folder, ["http", "step"])
+            for part in ("| step | libFuzzer | 2 | 605 | 71 | 1 | d | c |", "| step | replay | 1 | 600 | 70 | 0 | d | e |", "load 1.5 to 3.0",
+                         "No run is recorded of `http`."):
+                self.assertIn(part, section)
+            self.assertNotIn("No run", make_results.fuzz_section_of(folder, ["step"]))
+            (folder / "runs.jsonl").write_text("{}\n")
+            with self.assertRaisesRegex(make_results.Failure, "is not what tools/fuzz writes"):
+                make_results.fuzz_section_of(folder, [])
+
+
 class Commands(unittest.TestCase):
     def test_the_build_folder_is_put_in_and_patterns_become_files(self):
         words = run_all.words_of("build/release/bench/x --n 'a b' bench/benchmarks.*", pathlib.Path("/elsewhere"))

@@ -139,6 +139,33 @@ TEST_F(ServerAccess, KnowsNoOtherMethods) {
   EXPECT_EQ(request(address(), "PUT", "/index.html").status, 405u);
 }
 
+TEST_F(ServerAccess, SendsNoBodyForHead) {
+  const std::string head = "HEAD / HTTP/1.1\r\nHost: " + address().host() + "\r\n\r\n";
+  const std::string response = testing_client::exchange(address(), head);
+  EXPECT_EQ(response.rfind("HTTP/1.1 405 ", 0), 0u) << response;
+  EXPECT_EQ(response.find("\r\n\r\n") + 4, response.size()) << response;
+}
+
+TEST_F(ServerAccess, AnswersAnIncompleteHandshakeAsOtherErrors) {
+  const Headers complete{
+      {"Origin", address().origin()},  {"Connection", "Upgrade"},
+      {"Upgrade", "websocket"},        {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="},
+      {"Sec-WebSocket-Version", "13"}, {"Sec-WebSocket-Protocol", "dismantle.1, token." + address().token}};
+  const auto status_without = [&](const char* name, const char* value) {
+    Headers headers = complete;
+    headers[name] = value;
+    const HttpReply reply = request(address(), "GET", "/session?client=" + testing_client::kClientKey, headers);
+    EXPECT_EQ(reply.headers.at("Content-Type"), "application/json");
+    EXPECT_EQ(reply.headers.at("X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(reply.headers.count("Sec-WebSocket-Protocol"), 0u);
+    EXPECT_NE(Json::parse(reply.body)["error"].get<std::string>().find("; correct the client"), std::string::npos);
+    return reply.status;
+  };
+  EXPECT_EQ(status_without("Sec-WebSocket-Key", ""), 400u);
+  EXPECT_EQ(status_without("Sec-WebSocket-Version", ""), 400u);
+  EXPECT_EQ(status_without("Sec-WebSocket-Version", "8"), 426u);
+}
+
 TEST_F(ServerAccess, LeadsNowhereOutsideThePage) {
   for (const char* target : {"/../CMakeLists.txt", "/..%2f..%2fetc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd",
                              "/index.html/../../etc/passwd", "/.git/config"})

@@ -265,9 +265,11 @@ TEST_F(ServerRobustness, RefusesAnUploadThatIsTooLargeBeforeItHasCome) {
 }
 
 TEST_F(ServerRobustness, RefusesUploadsOfOthersAndWithoutAName) {
+  Headers headers{{"Authorization", "Bearer " + address().token}};
+  EXPECT_EQ(request(address(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u)
+      << "nobody is in control yet";
   Client client(address(), kClientKey);
   client.state();
-  Headers headers{{"Authorization", "Bearer " + address().token}};
   EXPECT_EQ(request(address(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
   headers["X-Client"] = "somebody";
   EXPECT_EQ(request(address(), "POST", "/api/open?name=a.obj", headers, "v").status, 403u);
