@@ -75,7 +75,7 @@ async function tools(viewer: Viewer): Promise<void> {
   );
   await viewer.page.locator("#section-panel input[type=checkbox]").nth(1).uncheck();
   await viewer.page.locator("#section-panel input[type=checkbox]").nth(0).check();
-  await viewer.click("#section-panel .section-row:first-child .button");
+  await viewer.page.locator("#section-panel .section-row .button").first().click();
   await viewer.press("t");
   await shoot(viewer, "section");
   await viewer.page.focus("#view");
