@@ -158,9 +158,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
-  return dismantle::fuzz::mutate_text(data, size, max_size, seed,
-                                      [](std::string& text, dismantle::fuzz::Choices& choices) {
-                                        for (std::size_t changes = 1 + choices.below(3); changes > 0; --changes)
-                                          dismantle::fuzz::CadChange(text, choices).make();
-                                      });
+  return dismantle::fuzz::mutate_text<dismantle::fuzz::CadChange>(data, size, max_size, seed);
 }

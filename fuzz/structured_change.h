@@ -41,13 +41,13 @@ inline void change_bytes(std::string& text, std::size_t max_size) {
   text.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(text.data()), size, max_size));
 }
 
-/// A mutator of libFuzzer from one that changes a text.
+/// A mutator of libFuzzer that makes up to three changes of a text.
+/// @tparam Change is made of a text and Choices, and has make()
 template <class Change>
-std::size_t mutate_text(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                        const Change& change) {
+std::size_t mutate_text(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
   std::string text(reinterpret_cast<const char*>(data), size);
   Choices choices(seed);
-  change(text, choices);
+  for (std::size_t changes = 1 + choices.below(3); changes > 0; --changes) Change(text, choices).make();
   if (text.size() > max_size) text.resize(max_size);
   std::copy(text.begin(), text.end(), data);
   return text.size();
