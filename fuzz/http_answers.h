@@ -82,7 +82,7 @@ struct HttpAnswer {
   std::string body;
 };
 
-/// What the server sent: answers, and after 101 the bytes of frames.
+/// The bytes that the server sent, as answers; those after an answer 101 are WebSocket frames.
 struct Received {
   std::vector<HttpAnswer> answers;
   std::string frames;

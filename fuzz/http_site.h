@@ -15,7 +15,7 @@
 
 namespace dismantle::fuzz {
 
-// What every input may know.
+// Constants that inputs of the corpus contain.
 inline constexpr std::uint16_t kPort = 1234;
 inline const std::string kToken = "0123456789abcdef0123456789abcdef";
 /// A client that is connected before the input comes, and in control.

@@ -145,7 +145,7 @@ class Server::Impl final : public Site, private EngineListener {
                                                   std::uint64_t bytes) override {
     const bool is_guide = target.path == "/api/guide", is_packed = target.path == "/api/open_files";
     if (!is_guide && !is_packed && target.path != "/api/open") return not_found(target.path);
-    // Before the first page connects nobody is in control, also not a client without a name.
+    // Until the first page connects, the client in control has no name: a request without one must not pass for it.
     if (client.empty() || !hub_.is_in_control(client))
       return error_response(403, "nothing can be opened (another page is in control); take control first");
     const std::string base = is_packed ? "packed" : name_of(target);

@@ -32,7 +32,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   void accept(const http::request<http::string_body>& upgrade) {
     websocket::stream_base::timeout times{kHandshakeTimeout, site_.idle_time(), /*keep_alive_pings=*/true};
     beast::get_lowest_layer(stream_).expires_never();
-    ErrorCode ignored;  // the socket is slower then, not worse
+    ErrorCode ignored;  // without the option, the socket is only slower
     beast::get_lowest_layer(stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
     stream_.set_option(times);
     stream_.set_option(websocket::stream_base::decorator(&WebSocket::complete_response));
@@ -70,7 +70,7 @@ class WebSocket : public ClientSocket, public std::enable_shared_from_this<WebSo
   }
 
  private:
-  /// Beast's response to the handshake, which says in plain text what it lacks where it is no handshake.
+  /// Completes Beast's response to a handshake: the chosen protocol, or an error as JSON instead of plain text.
   static void complete_response(websocket::response_type& response) {
     add_security_headers(response);
     if (response.result() == http::status::switching_protocols) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -170,6 +171,20 @@ TEST(ThreadSweep, SeparatesTheFlanksOfAWholeBoltFromThoseOfItsNut) {
       }
     EXPECT_GE(parted, 16);
   }
+}
+
+TEST(ThreadSweep, KeepsNothingWhereNoNodeIsBounded) {
+  const Bolted pair(0.05, 24);
+  std::vector<ThreadMatch> matches =
+      match_threads(*pair.bolt().revolution, pair.bolt().tree.origin, *pair.nut().revolution, pair.nut().tree.origin);
+  ASSERT_EQ(matches.size(), 1u);
+  // Faces around the axis cannot be bounded.
+  const Body block(scenes::box({-2, -2, -2}, {2, 2, 2}));
+  matches[0].sides[0].nodes =
+      ThreadBoundsList(matches[0].frame, block.solid.vertices, block.solid.faces, block.solid.tree.nodes);
+  const ThreadSweep sweep(matches[0], 0, motion_of(pair.bolt(), pair.nut(), {}, scenes::unscrewed(0.5)));
+  ASSERT_TRUE(sweep.useful());
+  EXPECT_EQ(sweep.kept_gap(1, static_cast<float>(sweep.phase())), -std::numeric_limits<double>::infinity());
 }
 
 TEST(ThreadSweep, ClaimsNothingForStraightPullsAndTilts) {

@@ -49,7 +49,7 @@ class ThreadBoundsList {
 
   /// The bounds of a node.
   const ThreadBounds& operator[](std::uint32_t node) const { return nodes_[slots_[node]]; }
-  /// Distances and positions along the axis of all nodes that are bounded along the directions.
+  /// Distances and positions along the axis of all nodes that are bounded along the directions; begin > end if none is.
   const ThreadBounds& whole() const { return whole_; }
   ///@{ Prefetch the memory of a node's bounds: first the slot that they are found by, some calls later the bounds.
   void prefetch_slot(std::uint32_t node) const { __builtin_prefetch(&slots_[node]); }

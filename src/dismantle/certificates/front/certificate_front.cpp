@@ -99,7 +99,7 @@ bool CertificateFront::still_apart(const CertificatePart& part, std::uint32_t sl
   for (const ThreadSweep& thread : sweep.threads) {
     if (static_cast<float>(&thread.match() - threads_.data()) != kept.x) continue;
     const double gap = thread.kept_gap(kept.y, kept.z);
-    if (gap < static_cast<double>(sweep.error)) return false;
+    if (!(gap >= static_cast<double>(sweep.error))) return false;
     result.min_gap = std::min(result.min_gap, -rounded_up(-gap));
     return true;
   }

@@ -35,17 +35,18 @@ std::vector<ThreadMatch> match_threads(const RevolutionSurface& a, Vec3 origin_a
     for (const ThreadAxis& y : b.threads()) {
       if (!threads_mate(x, y)) continue;
       // One frame for both: of two, the difference would count against every gap.
-      const ThreadAxis& known = better_known(x, y);
+      const ThreadAxis& longer = better_known(x, y);
       ThreadFrame frame;
-      frame.lead = known.lead;
-      frame.period = std::abs(known.lead) / known.starts;
+      frame.lead = longer.lead;
+      frame.period = std::abs(longer.lead) / longer.starts;
       for (const ThreadAxis* thread : {&x, &y}) {
         // Helix phases change sign with the axis.
         const double sign = dot(thread->direction, x.direction) < 0 ? -1 : 1;
         for (const ThreadAxis::Flank& flank : thread->flanks)
           frame.add_direction({flank.normal.radial, sign * flank.normal.axial});
       }
-      frame.axis = AxisFrame(known.point, dot(known.direction, x.direction) < 0 ? -known.direction : known.direction);
+      frame.axis =
+          AxisFrame(longer.point, dot(longer.direction, x.direction) < 0 ? -longer.direction : longer.direction);
       matches.push_back({frame, {side_of(frame, a, origin_a), side_of(frame, b, origin_b)}});
     }
   return matches;
@@ -78,7 +79,8 @@ ThreadSweep::ThreadSweep(const ThreadMatch& match, int moving, const PairMotion&
   angle_ = length(turning);
   speed_ = length(velocity);
   useful_ = sliding_ < match.frame.period / 4;
-  largest_off_ = off(own.nodes.whole());
+  const ThreadBounds& whole = own.nodes.whole();
+  largest_off_ = whole.begin <= whole.end ? off(whole) : std::numeric_limits<double>::infinity();
 }
 
 double ThreadSweep::off(const ThreadBounds& node) const {

@@ -85,7 +85,7 @@ class ThreadSweep {
   double sliding_ = 0;      ///< Length of the difference of their velocities, at the moving axis' point [mm].
   double angle_ = 0;        ///< Rotation of the true motion [rad],
   double speed_ = 0;        ///< and its velocity at that point [mm].
-  double largest_off_ = 0;  ///< off() of all bounded nodes of the moving side [mm].
+  double largest_off_ = 0;  ///< The largest off() of a bounded node of the moving side [mm]; infinite: none is.
   bool useful_ = false;
 };
 

@@ -16,7 +16,7 @@ using Twist = SlideContacts::Twist;
 
 /// Sweeps of one step, apart from free ones of an unbounded motion.
 constexpr int kMaxTries = 40;
-/// Those that a step may make whatever they cost: fewer would be the same in each step, and lead nowhere.
+/// Tries that are exempt from the limit of tests: a step that ended sooner could repeat the same ones forever.
 constexpr int kCertainTries = 8;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or after it if
 /// it is the step's first: the next step goes on.
