@@ -66,6 +66,35 @@ TEST(GhostSurface, RetractsSharpTipsByTheWholeLength) {
   EXPECT_NEAR(std::hypot(ghost[0].x, ghost[0].y), 0, 1e-6);
 }
 
+TEST(GhostSurface, RetractsBothFacesAtATJunction) {
+  // A box whose front is divided along its upper edge, and whose top is not: the vertex there belongs to the front
+  // only.
+  TriangleMesh box = scenes::box({0, 0, 0}, {4, 4, 4});
+  const auto middle = static_cast<std::uint32_t>(box.vertices.size());
+  box.vertices.push_back({2, 0, 4});
+  std::vector<Face> faces;
+  for (const Face& f : box.faces) {
+    int upper = -1;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = box.vertices[f.v[i]], q = box.vertices[f.v[(i + 1) % 3]];
+      const Vec3 third = box.vertices[f.v[(i + 2) % 3]];
+      if (p.y == 0 && q.y == 0 && third.y == 0 && p.z == 4 && q.z == 4) upper = i;
+    }
+    if (upper < 0) {
+      faces.push_back(f);
+      continue;
+    }
+    const std::uint32_t p = f.v[upper], q = f.v[(upper + 1) % 3], third = f.v[(upper + 2) % 3];
+    faces.push_back({{p, middle, third}});
+    faces.push_back({{middle, q, third}});
+  }
+  ASSERT_EQ(faces.size(), box.faces.size() + 1);
+  const std::vector<Vec3> ghost = ghost_vertices(box.vertices, faces, 0.1);
+  EXPECT_GT(ghost[middle].y, 0.05);
+  EXPECT_LT(ghost[middle].z, 3.95);
+  EXPECT_NEAR(ghost[middle].x, 2, 1e-9);
+}
+
 TEST(GhostSurface, MovesVerticesAtOnePositionAlike) {
   TriangleMesh box = scenes::box({0, 0, 0}, {4, 5, 6});
   const std::vector<Vec3> welded = ghost_vertices(box.vertices, box.faces, kLength);

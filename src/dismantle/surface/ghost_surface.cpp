@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/ghost_surface.h"
 
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/geometry/half_edges.h"
 #include "dismantle/math/least_vector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -14,32 +17,90 @@ namespace {
 
 /// Normals nearer to each other than this (one minus the cosine) count as one.
 constexpr double kSameNormal = 1e-10;
+/// Vertices no further from an edge than this share of the diagonal are on it.
+constexpr double kOnEdge = 1e-4;
 
 /// The directions in which the faces at a vertex are retracted: unit normals into the solid, and what they need.
 using Inwards = std::vector<VectorBound>;
+
+/// The edges that belong to one face only, between vertices that are the first at their positions.
+std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
+  std::vector<Face> joined(faces.begin(), faces.end());
+  for (Face& f : joined)
+    for (std::uint32_t& v : f.v) v = first[v];
+  std::vector<HalfEdge> open;
+  for_each_edge(sorted_half_edges(joined), [&](const HalfEdge* begin, const HalfEdge* end) {
+    if (end - begin == 1 && begin->low != begin->high) open.push_back(*begin);
+  });
+  return open;
+}
+
+/// Calls visit(vertex, face) for vertices of open edges that lie on the inside of another one, an edge of that face:
+/// T-junctions.
+template <class Visit>
+void for_each_vertex_on_edge(Span<const Vec3> vertices, const std::vector<HalfEdge>& open, const Visit& visit) {
+  if (open.empty()) return;
+  std::vector<std::uint32_t> ends;
+  Aabb box;
+  for (const HalfEdge& e : open)
+    for (const std::uint32_t v : {e.low, e.high}) {
+      ends.push_back(v);
+      box.extend(vertices[v]);
+    }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  const double near = kOnEdge * length(box.upper - box.lower);
+  // By their coordinates along each axis: an edge looks at those beside it along the axis along which there are fewest.
+  std::array<std::vector<std::uint32_t>, 3> by;
+  for (int k = 0; k < 3; ++k) {
+    by[k] = ends;
+    std::sort(by[k].begin(), by[k].end(),
+              [&](std::uint32_t a, std::uint32_t b) { return vertices[a][k] < vertices[b][k]; });
+  }
+  for (const HalfEdge& e : open) {
+    const Vec3 from = vertices[e.low], along = vertices[e.high] - from;
+    const double squared = length_squared(along);
+    Span<const std::uint32_t> fewest = ends;
+    for (int k = 0; k < 3; ++k) {
+      const double low = std::min(from[k], from[k] + along[k]) - near,
+                   high = std::max(from[k], from[k] + along[k]) + near;
+      const auto begin = std::partition_point(by[k].begin(), by[k].end(), [&](auto v) { return vertices[v][k] < low; });
+      const auto end = std::partition_point(begin, by[k].end(), [&](auto v) { return vertices[v][k] <= high; });
+      const auto count = static_cast<std::size_t>(end - begin);
+      if (count < fewest.size()) fewest = {by[k].data() + (begin - by[k].begin()), count};
+    }
+    for (const std::uint32_t v : fewest) {
+      if (v == e.low || v == e.high) continue;
+      const Vec3 off = vertices[v] - from;
+      const double share = dot(off, along) / squared;
+      if (share > 0 && share < 1 && length(off - share * along) <= near) visit(v, e.face);
+    }
+  }
+}
 
 /// The distinct ones at each vertex, gathered at the first of those at one position.
 std::vector<Inwards> inwards_at_vertices(Span<const Vec3> vertices, Span<const Face> faces, Span<const double> needed,
                                          const std::vector<std::uint32_t>& first) {
   std::vector<Inwards> at(vertices.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Face& f = faces[i];
+  const auto add = [&](std::uint32_t vertex, std::uint32_t face) {
+    const Face& f = faces[face];
     const Vec3 normal = normal_unscaled({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
     const double size = length(normal);
-    if (!(size > 0)) continue;
+    if (!(size > 0)) return;
     const Vec3 inwards = normal / -size;
-    const double distance = needed.empty() ? 0 : needed[i];
-    for (const std::uint32_t v : f.v) {
-      Inwards& bounds = at[first[v]];
-      const auto same = [&](const VectorBound& b) { return dot(b.normal, inwards) > 1 - kSameNormal; };
-      const auto known = std::find_if(bounds.begin(), bounds.end(), same);
-      if (known == bounds.end()) {
-        bounds.push_back({inwards, distance});
-      } else {
-        known->distance = std::max(known->distance, distance);
-      }
+    const double distance = needed.empty() ? 0 : needed[face];
+    Inwards& bounds = at[vertex];
+    const auto same = [&](const VectorBound& b) { return dot(b.normal, inwards) > 1 - kSameNormal; };
+    const auto known = std::find_if(bounds.begin(), bounds.end(), same);
+    if (known == bounds.end()) {
+      bounds.push_back({inwards, distance});
+    } else {
+      known->distance = std::max(known->distance, distance);
     }
-  }
+  };
+  for (std::uint32_t i = 0; i < faces.size(); ++i)
+    for (const std::uint32_t v : faces[i].v) add(first[v], i);
+  for_each_vertex_on_edge(vertices, open_edges(faces, first), add);
   return at;
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/solid_tree.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace dismantle {
 
 namespace {
+
+/// Two axes are one if the sine between their directions, and the share of the thread's radius by which they are apart,
+/// are below this.
+constexpr double kSameAxis = 1e-3;
 
 /// Fills in the normals, and the faces at each vertex.
 void find_normals(SolidTree& solid) {
@@ -32,6 +37,19 @@ struct Recognised {
   std::vector<RevolutionAxis> axes;
   std::vector<ThreadAxis> threads;
 };
+
+/// Threads of remeshed surfaces have axes that no cylinder has: crests and roots are surfaces of revolution, too.
+void add_thread_axes(Recognised& found) {
+  for (const ThreadAxis& thread : found.threads) {
+    const auto same = [&](const RevolutionAxis& axis) {
+      const Vec3 off = axis.point - thread.point;
+      return length(cross(axis.direction, thread.direction)) < kSameAxis &&
+             length(off - dot(off, thread.direction) * thread.direction) < kSameAxis * thread.max_radius;
+    };
+    if (std::none_of(found.axes.begin(), found.axes.end(), same))
+      found.axes.push_back({thread.point, thread.direction});
+  }
+}
 
 /// Builds the tree of a solid and its surfaces of revolution. @param shape positions in which `found` was recognised
 void build_tree(SolidTree& solid, Span<const Vec3> shape, Recognised found, const Executor& executor) {
@@ -74,6 +92,7 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   Recognised found;
   found.axes = revolution_axes(solid.vertices, solid.faces);
   found.threads = thread_axes(solid.vertices, solid.faces, found.axes);
+  add_thread_axes(found);
   build_tree(solid, solid.vertices, std::move(found), executor);
   if (solid.has_outside) find_normals(solid);
   return solid;

@@ -2,6 +2,8 @@
 #include "dismantle/certificates/ghosts/find_pair_ghosts.h"
 
 #include "dismantle/certificates/front/certificate_front.h"
+#include "dismantle/certificates/ghosts/coaxial_ghost.h"
+#include "dismantle/certificates/ghosts/displaced_faces.h"
 #include "dismantle/certificates/ghosts/separating_ghost.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
 #include "dismantle/narrowphase/closest_points.h"
@@ -9,7 +11,6 @@
 #include "dismantle/surface/depth/moving_part_search.h"
 #include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/ghost_surface.h"
-#include "dismantle/surface/winding_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +38,6 @@ constexpr double kPlay = 0.3;
 constexpr double kOverlap = 0.1, kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
-/// Where still more are, as in parts that are modelled in the place of each other, the search for ghosts ends.
-constexpr std::size_t kTooManyNear = 1000000;
 /// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
 constexpr double kShiftBegins[] = {0.02, 0.9};
 /// So many directions are tried for that, of those that lead to the right side by at least this cosine.
@@ -48,10 +47,12 @@ constexpr double kSameSide = 0.05;
 constexpr std::size_t kMaxPatches = 24;
 /// Largest number of tests of pairs of faces in that search.
 constexpr std::size_t kMaxTests = 2000000;
+/// Gaps of ghosts about a common axis, as shares of the depth: as much room as there is, as the axis is not exact.
+constexpr double kCoaxialGaps[] = {0.05, 0.02, 0.01, 0.005, 0.002};
+/// Two axes are one if they are no further apart than this share of the depth.
+constexpr double kSameAxis = 0.05;
 /// Largest number of pieces examined to bound the depth of displaced faces.
 constexpr std::size_t kMaxPieces = 100000;
-/// So many vertices of each surface are looked at.
-constexpr std::size_t kContainmentSamples = 8;
 
 /// The depth from which a pair counts as overlapping [mm]. Solids that are shallower have room within their usual
 /// ghosts; the ghost of a sheet is the sheet itself, so a sheet that is inside at all needs one of its own.
@@ -60,6 +61,7 @@ double overlap_from(const PairGhostRequest& request) {
   return (solids ? kOverlap : kSheetOverlap) * request.tolerance;
 }
 
+/// Faces of a component and faces of another one.
 using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// One component's ghost against the other component, both in the assembled state.
@@ -69,10 +71,16 @@ class GhostSide {
       : own_(of_a ? request.a : request.b),
         other_(of_a ? request.b : request.a),
         usual_(of_a ? request.ghost_a : request.ghost_b),
+        displaced_(own_, other_, request.tolerance),
         request_(request),
         is_a_(of_a) {}
 
-  bool usual_is_apart() const { return apart(*usual_, near_faces(*usual_, 0)); }
+  bool usual_is_apart() const {
+    const TrianglePairSweep still(*usual_, *other_.tree, {}, {}, 0, request_.tolerance);
+    for (const auto& [own, other] : near_faces(*usual_, 0))
+      if (!still.test(own, other, {}).free) return false;
+    return !overlaps() || !displaced_.contained(usual_->vertices);
+  }
 
   /// Displaced vertices.
   struct Found {
@@ -83,58 +91,93 @@ class GhostSide {
   /// @param depth_limit no point gets deeper in its solid on its way to the displaced surface [mm]
   std::optional<Found> find(double max_length, double depth_limit, bool also_corners) {
     depth_limit_ = depth_limit;
-    const double tolerance = request_.tolerance, usual = kGaps[0] * tolerance;
-    const SolidTree& own = *own_.tree;
-    const std::vector<Face> outward = outward_faces(own.faces, own.inside_out);
+    max_length_ = max_length;
+    const bool solid = own_.tree->has_outside || own_.tree->inside_out;
     std::vector<std::vector<Vec3>> starts;
-    if (own.has_outside || own.inside_out || request_.depth > tolerance)
-      for (const double margin : kMargins)
-        starts.push_back(retracted_vertices(own.vertices, outward, {needed(margin), usual, usual, max_length}));
-    const std::size_t retractions = own.has_outside || own.inside_out ? starts.size() : 0;
-    if (overlaps()) starts.push_back(moved_out(usual, max_length));
-    const FacePairs& near = near_within(max_length + usual);
-    if (near.size() > kTooManyNear) {
-      has_ended_ = true;
+    const auto good = [&](std::vector<Vec3> vertices, bool into_solid) -> std::optional<Found> {
+      if (apart(vertices) && shallow(vertices)) return Found{std::move(vertices), into_solid};
+      starts.push_back(std::move(vertices));
       return std::nullopt;
-    }
-    for (std::size_t i = 0; i < starts.size(); ++i)
-      if (apart(displaced(starts[i]), near) && shallow(starts[i], max_length))
-        return Found{std::move(starts[i]), i < retractions};
-    if (near.size() > kMaxNear) return std::nullopt;
-    if (retractions > 0 && overlaps()) {
+    };
+    if (solid || request_.depth > request_.tolerance)
+      for (const double margin : kMargins)
+        if (auto found = good(retracted(needed(margin)), solid)) return found;
+    if (overlaps())
+      if (auto found =
+              good(displaced_.moved_out(own_.tree->vertices, kGaps[0] * request_.tolerance, max_length_), false))
+        return found;
+    const std::size_t start_count = starts.size();
+    if (solid && overlaps()) {
+      if (auto found = find_coaxial()) return found;
       // At sharp corners with faces that overlap nothing, those follow.
       std::vector<double> others_follow = needed(1);
       for (double& n : others_follow)
         if (n == 0) n = kFollowsOthers;
-      auto moved = retracted_vertices(own.vertices, outward, {others_follow, usual, usual, max_length});
-      if (apart(displaced(moved), near) && shallow(moved, max_length)) return Found{std::move(moved), false};
+      if (auto found = good(retracted(others_follow), false)) return found;
     }
-    if (retractions > 0)
-      if (auto chosen = retract_chosen(near, max_length)) return chosen;
-    if (!also_corners) return std::nullopt;
-    starts.push_back(own.vertices);
+    if (solid)
+      if (auto chosen = retract_chosen()) return chosen;
+    starts.resize(start_count);
+    return also_corners ? displace_corners(std::move(starts)) : std::nullopt;
+  }
+
+ private:
+  /// About an axis that the two share, all that engages moved out of the way.
+  std::optional<Found> find_coaxial() {
+    if (std::exchange(tried_coaxial_, true)) return std::nullopt;
+    const auto axes = common_axes(*own_.tree, *other_.tree, kSameAxis * depth_limit_);
+    if (axes.empty()) return std::nullopt;
+    const double length = std::exchange(max_length_, longest());
+    std::vector<double> gaps;
+    for (const double share : kCoaxialGaps) gaps.push_back(share * request_.depth);
+    gaps.push_back(kGaps[0] * request_.tolerance);
+    const auto good = [&](const std::vector<Vec3>& vertices) { return apart(vertices) && shallow(vertices); };
+    std::optional<std::vector<Vec3>> found;
+    for (const RevolutionAxis& axis : axes)
+      for (const bool whole : {true, false})
+        if (!found)
+          found = coaxial_ghost({&own_, &other_, axis, retracted({}), max_length_, depth_limit_, gaps, whole}, good);
+    max_length_ = length;
+    return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
+  }
+
+  /// The largest displacement by which points of thin parts do not get past each other [mm].
+  double longest() const {
+    double longest = depth_limit_;
+    for (const double factor : kFactors) {
+      const double length = factor * depth_limit_;
+      if (factor > 1 && (is_nowhere_deeper(own_.shape(), length) || is_nowhere_deeper(other_.shape(), length))) break;
+      longest = length;
+    }
+    return longest;
+  }
+
+  /// Corners displaced one by one until their faces are apart, from several starts, or the whole surface shifted.
+  std::optional<Found> displace_corners(std::vector<std::vector<Vec3>> starts) {
+    if (too_many_near_) return std::nullopt;
+    const FacePairs& near = near_within(max_length_ + kGaps[0] * request_.tolerance);
+    too_many_near_ = near.size() > kMaxNear;
+    if (too_many_near_) return std::nullopt;
+    starts.push_back(own_.tree->vertices);
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
-        auto moved = separating_ghost({&own, other_.tree, start, near, max_length, share * tolerance, is_a_});
-        if (!moved || !apart(displaced(*moved), near) || !shallow(*moved, max_length)) continue;
-        auto shifted = &start == &starts.back() ? find_shifted(near, *moved, max_length) : std::nullopt;
+        auto moved =
+            separating_ghost({own_.tree, other_.tree, start, near, max_length_, share * request_.tolerance, is_a_});
+        if (!moved || !apart(*moved) || !shallow(*moved)) continue;
+        auto shifted = &start == &starts.back() ? find_shifted(near, *moved) : std::nullopt;
         return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
-    auto shifted = find_shifted(near, {}, max_length);
+    auto shifted = find_shifted(near, {});
     return shifted ? std::optional(Found{std::move(*shifted), false}) : std::nullopt;
   }
 
-  /// A find() has found so many faces near each other that no other one is of use.
-  bool has_ended() const { return has_ended_; }
-
- private:
   /// The whole surface shifted away from the other one, if nothing is in the way: thin parts and sheets can then slide
   /// along what they touch, and their other side stays clear of it.
   /// @param off vertices that are displaced to the right side; none: either side, where it is free
-  std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off, double max_length) const {
+  std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off) const {
     const std::vector<Vec3>& vertices = own_.tree->vertices;
     const auto way_with = [&](double share) {
-      return std::min(max_length, request_.depth + share * request_.tolerance);
+      return std::min(max_length_, request_.depth + share * request_.tolerance);
     };
     const std::vector<Vec3> directions = directions_off(near, off);
     // A part that pierces a foil must be shifted further than the depth of the overlap.
@@ -142,10 +185,10 @@ class GhostSide {
       for (const double begin : kShiftBegins)
         for (const Vec3& direction : directions) {
           const Vec3 shift = way * direction;
-          if (!free(*own_.tree, near, begin * shift, shift)) continue;
+          if (!displaced_.free(vertices, begin * shift, shift)) continue;
           std::vector<Vec3> shifted = vertices;
           for (Vec3& p : shifted) p += shift;
-          if (!contained(displaced(shifted))) return shifted;
+          if (!overlaps() || !displaced_.contained(shifted)) return shifted;
         }
     return std::nullopt;
   }
@@ -180,41 +223,47 @@ class GhostSide {
   /// Vertices where fewer patches are retracted than overlap: along the edge between two patches, points that are
   /// nearest to one of them get out through the other one as well. One patch after another is left where it is, or,
   /// where that is better, follows its neighbours, as long as fewer faces meet.
-  std::optional<Found> retract_chosen(const FacePairs& near, double max_length) {
-    const SolidTree& own = *own_.tree;
+  std::optional<Found> retract_chosen() {
     const std::vector<std::uint32_t> patches = overlapping_patches();
     if (patches.size() < 2 || patches.size() > kMaxPatches) return std::nullopt;
-    const std::vector<Face> outward = outward_faces(own.faces, own.inside_out);
-    const double usual = kGaps[0] * request_.tolerance;
     std::vector<double> chosen = needed(kMargins[0]);
     const auto vertices_with = [&](std::uint32_t patch, double retraction) {
       std::vector<double> changed = chosen;
       set_patch(changed, patch, retraction);
-      return retracted_vertices(own.vertices, outward, {changed, usual, usual, max_length});
+      return retracted(changed);
     };
     constexpr double kOthers[] = {0, kFollowsOthers};
-    std::size_t fewest = count_meeting(displaced(vertices_with(patches[0], chosen[patches[0]])), near, near.size());
-    bool retracted = true;
+    const std::size_t end = displaced_.tests() + kMaxTests;
+    std::size_t fewest = displaced_.count_meeting(retracted(chosen), kMaxTests);
+    bool into_solid = true;
     for (std::size_t round = 0; round < patches.size(); ++round) {
       std::optional<std::pair<std::uint32_t, double>> best;
       for (const std::uint32_t patch : patches)
         for (const double other : kOthers) {
           if (fewest == 0 || chosen[patch] <= other) continue;
-          if ((tests_ += near.size()) > kMaxTests) return std::nullopt;
-          const std::size_t meeting = count_meeting(displaced(vertices_with(patch, other)), near, fewest);
+          if (displaced_.tests() > end) return std::nullopt;
+          const std::size_t meeting = displaced_.count_meeting(vertices_with(patch, other), fewest);
           if (meeting >= fewest) continue;
           fewest = meeting;
           best = {patch, other};
         }
       if (!best) return std::nullopt;
-      retracted = retracted && best->second == 0;
+      into_solid = into_solid && best->second == 0;
       set_patch(chosen, best->first, best->second);
       if (fewest > 0) continue;
-      std::vector<Vec3> found = retracted_vertices(own.vertices, outward, {chosen, usual, usual, max_length});
-      if (contained(displaced(found)) || !shallow(found, max_length)) return std::nullopt;
-      return Found{std::move(found), retracted};
+      std::vector<Vec3> found = retracted(chosen);
+      if (!apart(found) || !shallow(found)) return std::nullopt;
+      return Found{std::move(found), into_solid};
     }
     return std::nullopt;
+  }
+
+  /// The vertices, displaced by the shortest vectors that retract their faces.
+  std::vector<Vec3> retracted(const std::vector<double>& needed) const {
+    const SolidTree& own = *own_.tree;
+    const double usual = kGaps[0] * request_.tolerance;
+    return retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
+                              {needed, usual, usual, max_length_});
   }
 
   /// Found when it is first wanted: most pairs need none.
@@ -236,23 +285,13 @@ class GhostSide {
       if (retraction().patch[f] == patch) retractions[f] = by;
   }
 
-  /// Number of pairs of faces that meet, or `enough`.
-  std::size_t count_meeting(const SolidTree& surface, const FacePairs& near, std::size_t enough) const {
-    const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, request_.tolerance);
-    std::size_t meeting = 0;
-    for (const auto& [face_own, face_other] : near)
-      if (!sweep.test(face_own, face_other, {}).free && ++meeting >= enough) break;
-    return meeting;
-  }
-
   /// True if no face, moving in a straight line to its displaced position, passes a point that is deeper in this
   /// component than the pair may be. Every such point is then still inside the displaced surface, however long the
   /// displacements are.
-  /// @param max_length of the displacements [mm]
-  bool shallow(const std::vector<Vec3>& vertices, double max_length) const {
+  bool shallow(const std::vector<Vec3>& vertices) const {
     const SolidTree& own = *own_.tree;
     const bool is_sheet = !own.has_outside && !own.inside_out;
-    if (max_length <= depth_limit_ * (is_sheet ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
+    if (max_length_ <= depth_limit_ * (is_sheet ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
     if (is_sheet) return false;
     std::size_t pieces = 0;
     for (const Face& f : own.faces) {
@@ -261,7 +300,9 @@ class GhostSide {
       if (longest <= depth_limit_) continue;
       const Triangle from{{own.vertices[f.v[0]], own.vertices[f.v[1]], own.vertices[f.v[2]]}};
       const Triangle to{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
-      if (!stays_shallow(own_.shape(), from, to, depth_limit_, pieces, kMaxPieces)) return false;
+      if (!stays_shallow(own_.shape(), from, to, depth_limit_, pieces, kMaxPieces)) {
+        return false;
+      }
     }
     return true;
   }
@@ -276,58 +317,7 @@ class GhostSide {
 
   bool overlaps() const { return request_.depth > overlap_from(request_); }
 
-  /// The vertices, those inside the other component moved out of it the shortest way.
-  std::vector<Vec3> moved_out(double gap, double max_length) const {
-    std::vector<Vec3> moved = own_.tree->vertices;
-    const SurfaceTree& surface = other_.shape().surface();
-    for (Vec3& p : moved) {
-      const MeshDistance nearest = surface.distance(p);
-      if (nearest.distance > max_length || nearest.distance == 0 || !other_.shape().winding().inside(p)) continue;
-      const Vec3 out = (closest_point_of_triangle(surface.triangle(nearest.face), p) - p) / nearest.distance;
-      p += std::min(max_length, nearest.distance + gap) * out;
-    }
-    return moved;
-  }
-
-  /// True if some of a few vertices of two surfaces that do not meet is inside the other one.
-  bool contained(const SolidTree& surface) const {
-    if (!overlaps()) return false;
-    const auto some = [](const std::vector<Vec3>& points, const auto& inside) {
-      const std::size_t stride = std::max<std::size_t>(1, points.size() / kContainmentSamples);
-      for (std::size_t i = 0; i < points.size(); i += stride)
-        if (inside(points[i])) return true;
-      return false;
-    };
-    const auto inside_surface = [&](Vec3 p) {
-      double winding = 0;
-      for (std::uint32_t f = 0; f < surface.faces.size(); ++f) winding += winding_of(surface.triangle(f), p);
-      return std::abs(winding) > 0.5;
-    };
-    return some(surface.vertices, [&](Vec3 p) { return other_.shape().winding().inside(p); }) ||
-           some(other_.tree->vertices, inside_surface);
-  }
-
-  /// This component's surface with other positions of its vertices, without a tree.
-  SolidTree displaced(std::vector<Vec3> vertices) const {
-    SolidTree surface;
-    surface.vertices = std::move(vertices);
-    surface.faces = own_.tree->faces;
-    return surface;
-  }
-
-  /// True if a surface and the other component do not meet.
-  /// @param near all pairs of their faces that may
-  bool apart(const SolidTree& surface, const FacePairs& near) const {
-    return free(surface, near, {}, {}) && !contained(surface);
-  }
-
-  /// True if a surface does not meet the other component while it is shifted.
-  /// @param near all pairs of their faces that may
-  bool free(const SolidTree& surface, const FacePairs& near, Vec3 from, Vec3 to) const {
-    const TrianglePairSweep sweep(surface, *other_.tree, {from, {}}, {to, {}}, 0, request_.tolerance);
-    const auto meet = [&](const auto& faces) { return !sweep.test(faces.first, faces.second, {}).free; };
-    return std::none_of(near.begin(), near.end(), meet);
-  }
+  bool apart(const std::vector<Vec3>& vertices) const { return displaced_.apart(vertices, overlaps()); }
 
   /// The pairs of faces of the two components that are nearer than `reach` [mm], and some more.
   const FacePairs& near_within(double reach) {
@@ -357,15 +347,24 @@ class GhostSide {
   const OverlapSide& own_;
   const OverlapSide& other_;
   const SolidTree* usual_;
+  const DisplacedFaces displaced_;
   const PairGhostRequest& request_;
   bool is_a_;
   mutable std::optional<OverlapRetraction> retraction_;
   FacePairs near_;
   double near_reach_ = 0;  // of `near_` [mm]
-  std::size_t tests_ = 0;  // of retract_chosen()
   double depth_limit_ = 0;
-  bool has_ended_ = false;
+  double max_length_ = 0;  // of displacements [mm]
+  bool too_many_near_ = false;
+  bool tried_coaxial_ = false;
 };
+
+double longest_displacement(const SolidTree& component, const std::vector<Vec3>& displaced) {
+  double longest = 0;
+  for (std::size_t v = 0; v < displaced.size(); ++v)
+    longest = std::max(longest, length(displaced[v] - component.vertices[v]));
+  return longest;
+}
 
 }  // namespace
 
@@ -386,12 +385,14 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
     const bool also_corners = factor <= kMaxFactorForCorners;
     if (!of_a) of_a = a.find(length, limit, also_corners);
     if (of_a && !of_b) of_b = b.find(length, limit, also_corners);
-    if (a.has_ended() || b.has_ended()) break;
-    if (of_a && of_b)
+    if (of_a && of_b) {
+      const double longest = std::max({length, longest_displacement(*request.a.tree, of_a->vertices),
+                                       longest_displacement(*request.b.tree, of_b->vertices)});
       return PairGhosts{{std::move(of_a->vertices), std::move(of_b->vertices)},
-                        length,
+                        longest,
                         can_turn ? 0 : turning,
                         of_a->retracted && of_b->retracted};
+    }
   }
   return usual ? std::optional(PairGhosts{}) : std::nullopt;
 }

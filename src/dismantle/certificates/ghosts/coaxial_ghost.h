@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/certificates/ghosts/overlap_retraction.h"
+#include "dismantle/features/revolution_axes.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+/// The axes of cylinders and threads that two components share, at most three of them.
+/// @param within axes that are no further apart than this are one [mm]
+std::vector<RevolutionAxis> common_axes(const SolidTree& a, const SolidTree& b, double within);
+
+/// Two components about a common axis: a screw in its nut, ridges in grooves.
+struct CoaxialRequest {
+  const OverlapSide* own = nullptr;    ///< The component whose ghost surface is wanted; never null.
+  const OverlapSide* other = nullptr;  ///< The other one; never null.
+  RevolutionAxis axis;                 ///< One of common_axes().
+  std::vector<Vec3> start;             ///< Displaced vertices to start from [mm].
+  double max_length = 0;               ///< Largest displacement of a vertex [mm].
+  double depth_limit = 0;              ///< No vertex gets deeper in its solid than that [mm].
+  /// Distances from the other component that are tried, the larger ones first [mm].
+  std::vector<double> gaps;
+  /// Past all of the other component, however far it is along the axis, and not only past what is beside this one.
+  bool whole = true;
+};
+
+/// Displaced vertices in which what engages is gone: vertices of an outer surface that reach beyond the other
+/// component's bore are moved straight towards the axis, and those of a bore that the other component reaches into
+/// straight away from it. The two can then slide along the axis past each other, whatever their profiles are: a nut
+/// that is drawn half a pitch off its screw. Vertices that would have to go too far, or get too deep, stay as they are.
+/// @param good whether vertices are apart from the other component, and no point between them gets too deep on its way
+/// @return the first that are; nothing if none are
+std::optional<std::vector<Vec3>> coaxial_ghost(const CoaxialRequest& request,
+                                               const std::function<bool(const std::vector<Vec3>&)>& good);
+
+}  // namespace dismantle

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ghost surfaces of components that engage about a common axis, and are drawn into each other there.
+#include "dismantle/certificates/ghosts/coaxial_ghost.h"
+
+#include "dismantle/certificates/ghosts/profile_along_axis.h"
+#include "dismantle/certificates/sweep/front_store.h"
+#include "tests/certificates/grabbed_component.h"
+#include "tests/support/depth_oracle.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/swept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle {
+namespace {
+
+using namespace grabbed;
+
+/// A screw or the bore of a nut with rings in place of a thread: ridges of `height` every 2 mm, crests 0.6 mm wide.
+scenes::Profile rings(double radius, double height, double begin, double end, double offset) {
+  scenes::Profile profile;
+  for (double z = begin + offset; z + 2 <= end; z += 2)
+    for (const scenes::ProfilePoint p : {scenes::ProfilePoint{radius, z + 0.2},
+                                         {radius + height, z + 0.7},
+                                         {radius + height, z + 1.3},
+                                         {radius, z + 1.8}})
+      profile.push_back(p);
+  return profile;
+}
+
+/// A ringed rod in a ringed nut, crest on crest: a nut that is drawn half a pitch off its screw.
+Assembly nut_off_its_screw(std::uint32_t rod_sides, std::uint32_t nut_sides) {
+  scenes::Profile rod{{0, -10}, {7, -10}};
+  for (const auto& p : rings(7, 1, -10, 24, 0)) rod.push_back(p);
+  rod.push_back({7, 24.5});
+  rod.push_back({0, 24.5});
+  scenes::Profile nut{{7.9, 0}};
+  for (const auto& p : rings(7.9, -0.9, 0, 12, 0)) nut.push_back(p);
+  nut.push_back({7.9, 12});
+  nut.push_back({13, 12});
+  nut.push_back({13, 0});
+  std::reverse(nut.begin(), nut.end());  // counter-clockwise
+  return scenes::assembly({scenes::component("rod", scenes::revolved(rod, rod_sides)),
+                           scenes::component("nut", scenes::revolved_loop(nut, nut_sides))});
+}
+
+TEST(CoaxialGhost, LetsANutThatIsDrawnOffItsScrewOutAlongTheAxisOnly) {
+  for (const auto& [rod_sides, nut_sides] : {std::pair{36u, 36u}, {40u, 28u}}) {
+    SCOPED_TRACE(rod_sides);
+    const Assembly assembly = nut_off_its_screw(rod_sides, nut_sides);
+    const PairStates states = states_of(assembly);
+    ASSERT_EQ(states.pairs.size(), 1u);
+    const double start = states.pairs[0].depth;
+    ASSERT_GT(start, 0.5);
+    Grabbed nut(assembly, states, 1);
+    EXPECT_TRUE(nut.engine.first_contact({{0, 0, 40}, {}}).free);
+    EXPECT_TRUE(nut.engine.first_contact({{0, 0, -40}, {}}).free);
+    // Half a pitch further, nothing overlaps: from there the nut may be anywhere that is free.
+    const Pose aside = nut.engine.step({{3, 0, 0}, {}}, ResponseKind::Touch).pose;
+    const TriangleMesh moved = scenes::moved(*assembly.components[1].mesh, aside);
+    EXPECT_LE(oracle::sampled_depth(moved, *assembly.components[0].mesh, 2).depth, start + 1.1 * kTolerance);
+    EXPECT_LT(aside.position.x, 1.5);
+  }
+}
+
+TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {
+  const Assembly assembly = nut_off_its_screw(36, 30);
+  const PairStates states = states_of(assembly);
+  const Executor executor;
+  FrontStore store(assembly, kGhostLength * states.tolerance, executor);
+  const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
+  const double limit = states.pairs[0].depth;
+  for (const std::uint32_t own : {0u, 1u}) {
+    const auto side = [&](std::uint32_t c) {
+      return OverlapSide{&store.solid(ComponentId(c)), [&, c]() -> const SolidShape& { return shapes[c]; }};
+    };
+    const OverlapSide mine = side(own), other = side(1 - own);
+    const auto axes = common_axes(*mine.tree, *other.tree, 0.01);
+    ASSERT_EQ(axes.size(), 1u);
+    EXPECT_NEAR(std::abs(axes[0].direction.z), 1, 1e-9);
+    std::size_t moved = 0, tried = 0;
+    const auto good = [&](const std::vector<Vec3>& vertices) {
+      ++tried;
+      for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const Vec3 before = mine.tree->vertices[v];
+        EXPECT_LE(length(vertices[v] - before), 2 * limit);
+        if (vertices[v] == before) continue;
+        ++moved;
+        EXPECT_NEAR(vertices[v].z, before.z, 1e-12);
+        EXPECT_LE(oracle::distance(*assembly.components[own].mesh, vertices[v]), limit + 1e-9);
+        EXPECT_EQ(length(Vec3{vertices[v].x, vertices[v].y, 0}) > length(Vec3{before.x, before.y, 0}), own == 1);
+      }
+      return tried == 2;
+    };
+    EXPECT_TRUE(coaxial_ghost({&mine, &other, axes[0], mine.tree->vertices, 2 * limit, limit, {0.05, 0.001}}, good));
+    EXPECT_GT(moved, 100u);
+  }
+}
+
+TEST(ProfileAlongAxis, IsTheNearestAndTheFarthestOfRandomFaces) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const AxisFrame axis({u(random), u(random), u(random)}, normalized(Vec3{u(random), u(random), u(random)}));
+  std::vector<Triangle> faces;
+  for (int i = 0; i < 40; ++i) {
+    // Away from the axis, so that none is around it.
+    const double angle = kTurn * u(random);
+    Triangle t;
+    for (int k = 0; k < 3; ++k)
+      t[k] = axis.point + (5 + u(random)) * axis.at(angle + 0.4 * u(random)) + 3 * u(random) * axis.direction;
+    faces.push_back(t);
+  }
+  for (const bool farthest : {false, true}) {
+    const ProfileAlongAxis profile(axis, faces, farthest);
+    // Points of the faces are within the outline at their angle, and some are on it.
+    double nearest_to_outline = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : faces)
+      for (int i = 0; i < 400; ++i) {
+        const double a = std::abs(u(random)), b = (1 - a) * std::abs(u(random));
+        const Vec3 across = axis.across(t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]));
+        const std::optional<double> outline = profile.distance(axis.angle(across));
+        ASSERT_TRUE(outline);
+        const double within = farthest ? *outline - length(across) : length(across) - *outline;
+        EXPECT_GE(within, -1e-9);
+        nearest_to_outline = std::min(nearest_to_outline, within);
+      }
+    EXPECT_LT(nearest_to_outline, 0.02);
+    // Segments: no sampled point of one has a larger ratio.
+    for (int i = 0; i < 300; ++i) {
+      const double angle = kTurn * u(random);
+      const Vec3 a = (4 + u(random)) * axis.at(angle), b = (4 + u(random)) * axis.at(angle + 0.5 * u(random));
+      const double ratio = profile.ratio_to_segment(a, b);
+      for (int k = 0; k <= 50; ++k) {
+        const Vec3 p = a + k / 50.0 * (b - a);
+        const std::optional<double> outline = profile.distance(axis.angle(p));
+        if (!outline) continue;
+        EXPECT_TRUE(farthest ? *outline / length(p) <= ratio + 1e-6 : *outline / length(p) >= ratio - 1e-6)
+            << *outline / length(p) << " " << ratio;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
