@@ -114,6 +114,24 @@ TEST_F(Relations, TellThePitchOfAPathThatTurns) {
   EXPECT_FALSE(found->nominal);
 }
 
+TEST_F(Relations, TellTheTurnsOfTheWholeThreadWhereAPathLeavesItEarly) {
+  // Half a turn, then straight along the axis, as threads that are drawn into each other allow.
+  PlanStep left = step({kScrew}, kUp);
+  left.tier = PlanTier::Helical;
+  for (int k = 1; k <= 2; ++k) left.poses.push_back({{0, 0, 0.2 * k}, quat_about({0, 0, 1}, 1.5707963267948966 * k)});
+  auto found = relations_.unscrewing(left, all_but({}));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->travel, 4, 1e-9);
+  EXPECT_NEAR(found->turns, 5, 1e-9);
+  EXPECT_NEAR(found->pitch, 0.8, 1e-9);
+  EXPECT_FALSE(found->left_handed);
+  // A path that turns for most of it tells how many turns there are.
+  for (int k = 3; k <= 14; ++k) left.poses.push_back({{0, 0, 0.2 * k}, quat_about({0, 0, 1}, 1.5707963267948966 * k)});
+  found = relations_.unscrewing(left, all_but({}));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->turns, 3.5, 1e-9);
+}
+
 TEST_F(Relations, GoOnWithTheStackThenWithWhatHoldsTheSamePart) {
   const std::vector<ComponentId> kinds{kBase, kCover, kBolt, kWasher, kWasher, kNut, kBolt, kOther};
   EXPECT_EQ(relations_.next_after(step({kNut}, kDown), kinds, all_but({kNut})).front(), kLowerWasher);

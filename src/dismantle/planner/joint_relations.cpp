@@ -23,6 +23,9 @@ void sort_unique(std::vector<ComponentId>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// A path that turns for less than this share of a thread has left it before its end.
+constexpr double kMostOfThread = 0.5;
+
 /// How a path that turns unscrews: by its own rotation about the exit, which is anticlockwise for a right-hand
 /// thread.
 Unscrewing unscrewing_of_path(const PlanStep& step) {
@@ -172,14 +175,21 @@ std::vector<ComponentId> JointRelations::torn_by(const PlanStep& step, const Com
 
 std::optional<Unscrewing> JointRelations::unscrewing(const PlanStep& step, const ComponentSet& present) const {
   const ComponentId c = fastener_of(step.components);
-  if (step.tier == PlanTier::Helical && step.components.size() == 1) return unscrewing_of_path(step);
-  if (!c.valid()) return std::nullopt;
-  for (const std::size_t i : fastened_by_[c.value]) {
-    const Joint& joint = joints_[i];
-    if (!is_closed(joint, present) || !leaves_along(joint, c, step.exit)) continue;
-    return c == joint.screw ? joint.screw_leaves : joint.nut_leaves;
+  std::optional<Unscrewing> known, path;
+  if (step.tier == PlanTier::Helical && step.components.size() == 1) path = unscrewing_of_path(step);
+  if (c.valid())
+    for (const std::size_t i : fastened_by_[c.value]) {
+      const Joint& joint = joints_[i];
+      if (known || !is_closed(joint, present) || !leaves_along(joint, c, step.exit)) continue;
+      known = c == joint.screw ? joint.screw_leaves : joint.nut_leaves;
+    }
+  if (!path) return known;
+  // Threads that are drawn into each other do not hold: the path may leave them long before a real one does.
+  if (known && path->pitch > 0 && path->travel < kMostOfThread * known->travel) {
+    path->travel = known->travel;
+    path->turns = known->travel / path->pitch;
   }
-  return std::nullopt;
+  return path;
 }
 
 bool JointRelations::is_held(ComponentId c, const ComponentSet& present) const {
