@@ -39,6 +39,26 @@ if(DISMANTLE_CONTRACTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 install(TARGETS dismantle_build_settings EXPORT dismantleTargets)
 
+# dismantle_precompile_headers(TARGET): a library takes the usual standard headers from one precompiled file, which saves a third of
+# the time of compiling it. Only with DISMANTLE_PRECOMPILED_HEADERS: a missing #include does not show then (tools/check_tidy and
+# tools/check_layers compile without). The compiler refuses the file in a target with other options, such as -pthread:
+# DISABLE_PRECOMPILE_HEADERS there. GCC 12 at times warns of standard code that it inlined from the file, and only then:
+# SKIP_PRECOMPILE_HEADERS for such a source.
+function(dismantle_precompile_headers target)
+  if(NOT DISMANTLE_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(NOT TARGET library_headers_precompiled)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/library_headers_precompiled.cpp CONTENT "")
+    add_library(library_headers_precompiled OBJECT ${PROJECT_BINARY_DIR}/library_headers_precompiled.cpp)
+    target_link_libraries(library_headers_precompiled PRIVATE dismantle_build_settings)
+    target_precompile_headers(library_headers_precompiled PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional>
+      <limits> <map> <memory> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <unordered_set>
+      <utility> <variant> <vector>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM library_headers_precompiled)
+endfunction()
+
 # dismantle_component(NAME
 #   SOURCES a.cpp ...           absent for a header-only component
 #   PRIVATE_HEADERS a.h ...     headers that are not installed: those that show a private library
@@ -55,6 +75,7 @@ function(dismantle_component name)
     add_library(${target} STATIC ${arg_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE_LIBRARIES})
+    dismantle_precompile_headers(${target})
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -113,7 +134,7 @@ function(dismantle_test name)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0>)
   if(NOT TARGET test_headers_precompiled)
-    file(WRITE ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp "")
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp CONTENT "")
     add_library(test_headers_precompiled OBJECT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp)
     target_link_libraries(test_headers_precompiled PRIVATE dismantle_build_settings GTest::gtest)
     target_compile_options(test_headers_precompiled PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0> -fPIE)

@@ -51,11 +51,15 @@ double sampled_depth(const TriangleMesh& a, const TriangleMesh& b, const RigidTr
   return std::max(sampled_depth(a, b, {}, end, time, step), sampled_depth(b, a, {}, inverse(end), time, step));
 }
 
+/// Pieces for searches that a faulty surface leaves undecided, however many there are.
+constexpr std::size_t kMaxUndecidedPieces = 20000;
+
 /// Expects that nothing sampled is deeper than the limit before `free_until`, and that the point found is.
 void expect_right(const TriangleMesh& a, const TriangleMesh& b, const RigidTransform& end, double limit,
                   double resolution, bool decided) {
   const Solid first(a), second(b);
-  const auto found = first_deeper({&first.shape, &second.shape, {}, end}, {limit}, resolution);
+  const std::size_t max_pieces = decided ? kMaxSweptPieces : kMaxUndecidedPieces;
+  const auto found = first_deeper({&first.shape, &second.shape, {}, end}, {limit}, resolution, max_pieces);
   const double free_until = found ? found->free_until : 1;
   for (const double share : {0.0, 0.2, 0.5, 0.8, 1.0})
     if (free_until > 0) {

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   connectHeadset,
+  enterHeadset,
   frames,
   grabWith,
   inRoom,
@@ -26,9 +27,7 @@ useMicroscope({ before: connectHeadset });
 const kOther = "coarse knob#2";
 
 test("the scene is placed in front of the eyes, in metres", async () => {
-  await viewer.page.click("#headset");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.headset.active);
-  await frames(20);
+  await enterHeadset();
   const position = await inRoom("stage plate", kFront);
   assert.ok(
     Math.abs(position.x) < 0.5 && position.y > 0.5 && position.y < 2.2 && position.z < -0.2,

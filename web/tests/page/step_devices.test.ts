@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { connectDevices, deflect, pushStick } from "../support/devices.ts";
 import {
   connectHeadset,
+  enterHeadset,
   frames,
   grabWith,
   kAhead,
@@ -72,9 +73,7 @@ test("a 3D mouse and a gamepad move a component, which stops at contact", { skip
 });
 
 test("in a headset a hand moves a component, and the wrist panel takes it out", { skip }, async () => {
-  await viewer.page.click("#headset");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.headset.active);
-  await frames(20);
+  await enterHeadset();
   const hand = await grabWith("right", "nut");
   assert.deepEqual(await viewer.selection(), ["nut"]);
   const per = await scale();

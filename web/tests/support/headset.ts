@@ -36,6 +36,14 @@ export async function connectHeadset(page: Page): Promise<void> {
   });
 }
 
+/// Enters the headset. Its picture, at which no test looks, is kept small: it is drawn anew in every frame.
+export async function enterHeadset(): Promise<void> {
+  await viewer.page.click("#headset");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.headset.active);
+  await viewer.page.evaluate(() => Object.assign(window.dismantle!.app.viewport.canvas, { width: 160, height: 100 }));
+  await frames(20);
+}
+
 /// Places a controller so that it points at a target.
 export function aimHand(page: Page, side: Side, at: Point, target: Point): Promise<void> {
   const offset = { x: target.x - at.x, y: target.y - at.y, z: target.z - at.z };
