@@ -2,7 +2,6 @@
 #include "dismantle/surface/ghost_surface.h"
 
 #include "dismantle/geometry/aabb.h"
-#include "dismantle/geometry/half_edges.h"
 #include "dismantle/math/least_vector.h"
 
 #include <algorithm>
@@ -22,18 +21,6 @@ constexpr double kOnEdge = 1e-4;
 
 /// The directions in which the faces at a vertex are retracted: unit normals into the solid, and what they need.
 using Inwards = std::vector<VectorBound>;
-
-/// The edges that belong to one face only, between vertices that are the first at their positions.
-std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
-  std::vector<Face> joined(faces.begin(), faces.end());
-  for (Face& f : joined)
-    for (std::uint32_t& v : f.v) v = first[v];
-  std::vector<HalfEdge> open;
-  for_each_edge(sorted_half_edges(joined), [&](const HalfEdge* begin, const HalfEdge* end) {
-    if (end - begin == 1 && begin->low != begin->high) open.push_back(*begin);
-  });
-  return open;
-}
 
 /// Calls visit(vertex, face) for vertices of open edges that lie on the inside of another one, an edge of that face:
 /// T-junctions.
@@ -148,6 +135,15 @@ std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices) {
   for (std::size_t k = 0; k < order.size(); ++k)
     first[order[k]] = k > 0 && key(order[k - 1]) == key(order[k]) ? first[order[k - 1]] : order[k];
   return first;
+}
+
+std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
+  std::vector<Face> joined(faces.begin(), faces.end());
+  for (Face& f : joined)
+    for (std::uint32_t& v : f.v) v = first[v];
+  std::vector<HalfEdge> open = open_half_edges(joined);
+  std::erase_if(open, [](const HalfEdge& e) { return e.low == e.high; });
+  return open;
 }
 
 std::vector<Vec3> retracted_vertices(Span<const Vec3> vertices, Span<const Face> faces,

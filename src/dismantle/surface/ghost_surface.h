@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/core/span.h"
+#include "dismantle/geometry/half_edges.h"
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <vector>
@@ -39,5 +40,10 @@ std::vector<Face> outward_faces(Span<const Face> faces, bool inside_out);
 
 /// The slot of the first vertex at the same position, for each vertex.
 std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices);
+
+/// The open edges of a mesh in which vertices at one position are one: around holes, and at T-junctions.
+/// @param first as first_at_position() gives it
+/// @return between vertices that are the first at their positions
+std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first);
 
 }  // namespace dismantle

@@ -2,6 +2,7 @@
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 
 #include "dismantle/certificates/ghosts/profile_along_axis.h"
+#include "dismantle/surface/ghost_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,7 @@ class Coaxial {
         axis_(request.axis.point, request.axis.direction),
         own_(places_of(axis_, tree_)),
         other_(places_of(axis_, *request.other->tree)),
+        first_(first_at_position(tree_.vertices)),
         displaced_(request.start.size()) {}
 
   /// @return the first vertices that are good
@@ -91,15 +93,19 @@ class Coaxial {
     find_profiles(bores, shafts);
     const ProfileAlongAxis bore(axis_, bores, false), shaft(axis_, shafts, true);
     const std::vector<bool> of_outer = vertices_of(Side::Outer), of_bore = vertices_of(Side::Bore);
+    // Cracks must not open: vertices beside them stay, and those at one position move alike.
+    std::vector<bool> stays(of_outer.size());
+    for (const HalfEdge& e : open_edges(tree_.faces, first_)) stays[e.low] = stays[e.high] = true;
     std::vector<bool> inwards(of_outer.size()), outwards(of_outer.size());
     for (std::size_t v = 0; v < of_outer.size(); ++v) {
-      inwards[v] = of_outer[v] && !of_bore[v];
-      outwards[v] = of_bore[v] && !of_outer[v];
+      inwards[v] = of_outer[v] && !of_bore[v] && !stays[v] && first_[v] == v;
+      outwards[v] = of_bore[v] && !of_outer[v] && !stays[v] && first_[v] == v;
     }
     for (const double gap : request_.gaps) {
       displaced_ = request_.start;
       move(bore, inwards, -gap);
       move(shaft, outwards, gap);
+      for (std::size_t v = 0; v < first_.size(); ++v) displaced_[v] = displaced_[first_[v]];
       if (good(displaced_)) return std::move(displaced_);
     }
     return std::nullopt;
@@ -123,12 +129,12 @@ class Coaxial {
     }
   }
 
-  /// For each vertex, if it belongs to a face of that side.
+  /// For the first vertex at each position, if it belongs to a face of that side.
   std::vector<bool> vertices_of(Side side) const {
     std::vector<bool> belongs(displaced_.size());
     for (std::size_t f = 0; f < own_.size(); ++f)
       if (own_[f].side == side)
-        for (const std::uint32_t v : tree_.faces[f].v) belongs[v] = true;
+        for (const std::uint32_t v : tree_.faces[f].v) belongs[first_[v]] = true;
     return belongs;
   }
 
@@ -147,7 +153,7 @@ class Coaxial {
     std::vector<double> ratios(may_move.size(), 1);
     for (const Face& f : tree_.faces)
       for (int i = 0; i < 3; ++i) {
-        const std::uint32_t v = f.v[i], w = f.v[(i + 1) % 3];
+        const std::uint32_t v = first_[f.v[i]], w = first_[f.v[(i + 1) % 3]];
         if (!may_move[v] && !may_move[w]) continue;
         const double ratio = profile.ratio_to_segment(axis_.across(displaced_[v]), axis_.across(displaced_[w]));
         for (const std::uint32_t corner : {v, w})
@@ -172,6 +178,7 @@ class Coaxial {
   const SolidTree& tree_;
   const AxisFrame axis_;
   std::vector<FacePlace> own_, other_;
+  std::vector<std::uint32_t> first_;  // vertex at each vertex's position
   std::vector<Vec3> displaced_;
 };
 
