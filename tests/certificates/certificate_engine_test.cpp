@@ -176,8 +176,7 @@ TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
     return poses;
   };
   const std::vector<Pose> first = play({});
-  // Each executor and each lane count at least once, in pairs: whatever differs by either of them, differs from the
-  // first.
+  // Each executor and each lane count at least once, in pairs. A result that depends on either differs from the first.
   const std::vector<Executor> executors = all_executors();
   const Span<const LaneCount> lanes = lane_counts();
   for (std::size_t i = 0; i < std::max(executors.size(), lanes.size()); ++i) {

@@ -21,10 +21,10 @@ namespace {
 
 using namespace grabbed;
 
-/// A screw or the bore of a nut with rings in place of a thread: ridges of `height` every 2 mm, crests 0.6 mm wide.
-scenes::Profile rings(double radius, double height, double begin, double end, double offset) {
+/// Part of a profile with rings in place of a thread, every 2 mm, crests 0.6 mm wide. @param height below 0 for a bore
+scenes::Profile rings(double radius, double height, double begin, double end) {
   scenes::Profile profile;
-  for (double z = begin + offset; z + 2 <= end; z += 2)
+  for (double z = begin; z + 2 <= end; z += 2)
     for (const scenes::ProfilePoint p : {scenes::ProfilePoint{radius, z + 0.2},
                                          {radius + height, z + 0.7},
                                          {radius + height, z + 1.3},
@@ -36,11 +36,11 @@ scenes::Profile rings(double radius, double height, double begin, double end, do
 /// A ringed rod in a ringed nut, crest on crest: a nut that is drawn half a pitch off its screw.
 Assembly nut_off_its_screw(std::uint32_t rod_sides, std::uint32_t nut_sides) {
   scenes::Profile rod{{0, -10}, {7, -10}};
-  for (const auto& p : rings(7, 1, -10, 24, 0)) rod.push_back(p);
+  for (const auto& p : rings(7, 1, -10, 24)) rod.push_back(p);
   rod.push_back({7, 24.5});
   rod.push_back({0, 24.5});
   scenes::Profile nut{{7.9, 0}};
-  for (const auto& p : rings(7.9, -0.9, 0, 12, 0)) nut.push_back(p);
+  for (const auto& p : rings(7.9, -0.9, 0, 12)) nut.push_back(p);
   nut.push_back({7.9, 12});
   nut.push_back({13, 12});
   nut.push_back({13, 0});
@@ -60,7 +60,7 @@ TEST(CoaxialGhost, LetsANutThatIsDrawnOffItsScrewOutAlongTheAxisOnly) {
     Grabbed nut(assembly, states, 1);
     EXPECT_TRUE(nut.engine.first_contact({{0, 0, 40}, {}}).free);
     EXPECT_TRUE(nut.engine.first_contact({{0, 0, -40}, {}}).free);
-    // Half a pitch further, nothing overlaps: from there the nut may be anywhere that is free.
+    // Across the axis it has the play of what it may overlap, and no more.
     const Pose aside = nut.engine.step({{3, 0, 0}, {}}, ResponseKind::Touch).pose;
     const TriangleMesh moved = scenes::moved(*assembly.components[1].mesh, aside);
     EXPECT_LE(oracle::sampled_depth(moved, *assembly.components[0].mesh, 1).depth, start + 1.1 * kTolerance);
@@ -104,7 +104,7 @@ TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {
 
 TEST(CoaxialGhost, OpensNoCrackBetweenFacesThatShareNoVertices) {
   // As STL files have it: each face has vertices of its own.
-  Assembly assembly = nut_off_its_screw(24, 24);
+  const Assembly assembly = nut_off_its_screw(24, 24);
   const TriangleMesh whole = *assembly.components[0].mesh;
   TriangleMesh loose;
   for (std::uint32_t f = 0; f < whole.faces.size(); ++f) {

@@ -19,6 +19,14 @@ struct RevolutionAxis {
   friend bool operator==(const RevolutionAxis&, const RevolutionAxis&) = default;
 };
 
+/// True if two axes are one, up to these bounds.
+/// @param sine of the angle between their directions, of either sign
+/// @param distance of the point of `b` from `a` [mm]
+inline bool same_axis(const RevolutionAxis& a, const RevolutionAxis& b, double sine, double distance) {
+  const Vec3 off = b.point - a.point;
+  return length(cross(a.direction, b.direction)) < sine && length(off - dot(off, a.direction) * a.direction) < distance;
+}
+
 /// At most so many axes of a mesh are returned.
 inline constexpr std::size_t kMaxRevolutionAxes = 32;
 

@@ -22,12 +22,4 @@ std::vector<HalfEdge> sorted_half_edges(Span<const Face> faces) {
   return half_edges;
 }
 
-std::vector<HalfEdge> open_half_edges(Span<const Face> faces) {
-  std::vector<HalfEdge> open;
-  for_each_edge(sorted_half_edges(faces), [&](const HalfEdge* begin, const HalfEdge* end) {
-    if (end - begin == 1) open.push_back(*begin);
-  });
-  return open;
-}
-
 }  // namespace dismantle

@@ -22,9 +22,6 @@ struct HalfEdge {
 /// The half edges of all faces, sorted by low, high and face: those of one edge are together. Shape [3 face_count].
 std::vector<HalfEdge> sorted_half_edges(Span<const Face> faces);
 
-/// The half edges that are alone on their edge: those around holes, and on both sides of a T-junction.
-std::vector<HalfEdge> open_half_edges(Span<const Face> faces);
-
 /// Calls visit(first, last) for each edge: the range of its half edges.
 /// @param half_edges as sorted_half_edges gives them
 template <class Visit>

@@ -141,8 +141,10 @@ std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::
   std::vector<Face> joined(faces.begin(), faces.end());
   for (Face& f : joined)
     for (std::uint32_t& v : f.v) v = first[v];
-  std::vector<HalfEdge> open = open_half_edges(joined);
-  std::erase_if(open, [](const HalfEdge& e) { return e.low == e.high; });
+  std::vector<HalfEdge> open;
+  for_each_edge(sorted_half_edges(joined), [&](const HalfEdge* begin, const HalfEdge* end) {
+    if (end - begin == 1 && begin->low != begin->high) open.push_back(*begin);
+  });
   return open;
 }
 

@@ -22,8 +22,8 @@ inline constexpr double kFollowsOthers = -1;
 
 /// How far the faces of a mesh are to be retracted into the solid, and how long displacements may be.
 struct FaceRetractions {
-  /// Of each face, or of each corner of each face [mm]; 0 for those that need none, kFollowsOthers for those that are
-  /// of no account at corners where others need some. Shape [face_count] or [3 face_count]; empty: none need any.
+  /// Of each face [mm]; 0 for faces that need none, kFollowsOthers for those that are of no account at corners where
+  /// others need some. Empty: no face needs any.
   Span<const double> needed;
   double extra = 0;       ///< More than that for faces that need some [mm].
   double usual = 0;       ///< For the others [mm].

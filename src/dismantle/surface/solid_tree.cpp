@@ -41,13 +41,11 @@ struct Recognised {
 /// Threads of remeshed surfaces have axes that no cylinder has: crests and roots are surfaces of revolution, too.
 void add_thread_axes(Recognised& found) {
   for (const ThreadAxis& thread : found.threads) {
+    const RevolutionAxis own{thread.point, thread.direction};
     const auto same = [&](const RevolutionAxis& axis) {
-      const Vec3 off = axis.point - thread.point;
-      return length(cross(axis.direction, thread.direction)) < kSameAxis &&
-             length(off - dot(off, thread.direction) * thread.direction) < kSameAxis * thread.max_radius;
+      return same_axis(own, axis, kSameAxis, kSameAxis * thread.max_radius);
     };
-    if (std::none_of(found.axes.begin(), found.axes.end(), same))
-      found.axes.push_back({thread.point, thread.direction});
+    if (std::none_of(found.axes.begin(), found.axes.end(), same)) found.axes.push_back(own);
   }
 }
 

@@ -36,7 +36,7 @@ export async function connectHeadset(page: Page): Promise<void> {
   });
 }
 
-/// Enters the headset. Its picture, at which no test looks, is kept small: it is drawn anew in every frame.
+/// Enters the headset. Every frame redraws its picture, which no test examines, so that the picture is kept small.
 export async function enterHeadset(): Promise<void> {
   await viewer.page.click("#headset");
   await viewer.page.waitForFunction(() => window.dismantle!.app.headset.active);

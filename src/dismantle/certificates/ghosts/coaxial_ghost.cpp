@@ -182,37 +182,21 @@ class Coaxial {
   std::vector<Vec3> displaced_;
 };
 
-/// An axis of a cylinder, or of a thread, which is measured less well.
-std::vector<RevolutionAxis> axes_of(const SolidTree& tree, bool threads) {
-  if (!tree.revolution) return {};
-  if (!threads) return {tree.revolution->axes().begin(), tree.revolution->axes().end()};
-  std::vector<RevolutionAxis> axes;
-  for (const ThreadAxis& thread : tree.revolution->threads()) axes.push_back({thread.point, thread.direction});
-  return axes;
-}
-
 }  // namespace
 
 std::vector<RevolutionAxis> common_axes(const SolidTree& a, const SolidTree& b, double within) {
   std::vector<RevolutionAxis> common;
-  for (const bool threads : {false, true})
-    for (const SolidTree* tree : {&a, &b})
-      for (const RevolutionAxis& axis : axes_of(*tree, threads)) {
-        const auto same = [&](const RevolutionAxis& other) {
-          const Vec3 off = other.point - axis.point;
-          return length(cross(axis.direction, other.direction)) < kSameDirection &&
-                 length(off - dot(off, axis.direction) * axis.direction) <= within;
-        };
-        const auto has = [&](const SolidTree& component) {
-          for (const bool of_threads : {false, true}) {
-            const auto axes = axes_of(component, of_threads);
-            if (std::any_of(axes.begin(), axes.end(), same)) return true;
-          }
-          return false;
-        };
-        if (common.size() < kMaxAxes && std::none_of(common.begin(), common.end(), same) && has(a) && has(b))
-          common.push_back(axis);
-      }
+  if (!a.revolution || !b.revolution) return common;
+  for (const SolidTree* tree : {&a, &b})
+    for (const RevolutionAxis& axis : tree->revolution->axes()) {
+      const auto same = [&](const RevolutionAxis& other) { return same_axis(axis, other, kSameDirection, within); };
+      const auto has = [&](const SolidTree& component) {
+        const Span<const RevolutionAxis> axes = component.revolution->axes();
+        return std::any_of(axes.begin(), axes.end(), same);
+      };
+      if (common.size() < kMaxAxes && std::none_of(common.begin(), common.end(), same) && has(a) && has(b))
+        common.push_back(axis);
+    }
   return common;
 }
 

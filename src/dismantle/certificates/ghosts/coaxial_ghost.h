@@ -30,9 +30,9 @@ struct CoaxialRequest {
 
 /// Displaced vertices in which what engages is gone: vertices of an outer surface that reach beyond the other
 /// component's bore are moved straight towards the axis, and those of a bore that the other component reaches into
-/// straight away from it. The two can then slide along the axis past each other, whatever their profiles are: a nut
-/// that is drawn half a pitch off its screw. Vertices that would have to go too far, or get too deep, stay as they are,
-/// and so do those beside cracks.
+/// straight away from it. Two components of any profile, such as a nut that is drawn half a pitch off its screw, can
+/// then slide past each other along the axis. Vertices that would have to go too far, or would get too deep, are not
+/// moved, nor are those beside cracks.
 /// @param good whether vertices are apart from the other component, and no point between them gets too deep on its way
 /// @return the first that are; nothing if none are
 std::optional<std::vector<Vec3>> coaxial_ghost(const CoaxialRequest& request,

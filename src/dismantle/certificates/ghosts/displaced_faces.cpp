@@ -16,7 +16,7 @@ namespace {
 /// Faces count as near each other if their boxes are no further apart than this share of the tolerance: the test of two
 /// faces may take some for touching that are apart by rounding.
 constexpr double kBoxMargin = 1e-3;
-/// So many vertices of each surface are looked at.
+/// Number of vertices of each surface that are tested.
 constexpr std::size_t kContainmentSamples = 8;
 
 /// A surface with these vertices and the faces of a component, without a tree.

@@ -61,7 +61,11 @@ double overlap_from(const PairGhostRequest& request) {
   return (solids ? kOverlap : kSheetOverlap) * request.tolerance;
 }
 
-/// Faces of a component and faces of another one.
+/// True if points could get to the far side of one of the solids by displacements of this length [mm].
+bool passes_thin_part(const PairGhostRequest& request, double length) {
+  return is_nowhere_deeper(request.a.shape(), length) || is_nowhere_deeper(request.b.shape(), length);
+}
+
 using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// One component's ghost against the other component, both in the assembled state.
@@ -132,11 +136,11 @@ class GhostSide {
     for (const double share : kCoaxialGaps) gaps.push_back(share * request_.depth);
     gaps.push_back(kGaps[0] * request_.tolerance);
     const auto good = [&](const std::vector<Vec3>& vertices) { return apart(vertices) && shallow(vertices); };
+    const std::vector<Vec3> start = retracted({});
     std::optional<std::vector<Vec3>> found;
     for (const RevolutionAxis& axis : axes)
       for (const bool whole : {true, false})
-        if (!found)
-          found = coaxial_ghost({&own_, &other_, axis, retracted({}), max_length_, depth_limit_, gaps, whole}, good);
+        if (!found) found = coaxial_ghost({&own_, &other_, axis, start, max_length_, depth_limit_, gaps, whole}, good);
     max_length_ = length;
     return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
   }
@@ -145,9 +149,8 @@ class GhostSide {
   double longest() const {
     double longest = depth_limit_;
     for (const double factor : kFactors) {
-      const double length = factor * depth_limit_;
-      if (factor > 1 && (is_nowhere_deeper(own_.shape(), length) || is_nowhere_deeper(other_.shape(), length))) break;
-      longest = length;
+      if (factor > 1 && passes_thin_part(request_, factor * depth_limit_)) break;
+      longest = factor * depth_limit_;
     }
     return longest;
   }
@@ -156,8 +159,7 @@ class GhostSide {
   std::optional<Found> displace_corners(std::vector<std::vector<Vec3>> starts) {
     if (too_many_near_) return std::nullopt;
     const FacePairs& near = near_within(max_length_ + kGaps[0] * request_.tolerance);
-    too_many_near_ = near.size() > kMaxNear;
-    if (too_many_near_) return std::nullopt;
+    if ((too_many_near_ = near.size() > kMaxNear)) return std::nullopt;
     starts.push_back(own_.tree->vertices);
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
@@ -232,14 +234,13 @@ class GhostSide {
       set_patch(changed, patch, retraction);
       return retracted(changed);
     };
-    constexpr double kOthers[] = {0, kFollowsOthers};
     const std::size_t end = displaced_.tests() + kMaxTests;
     std::size_t fewest = displaced_.count_meeting(retracted(chosen), kMaxTests);
     bool into_solid = true;
     for (std::size_t round = 0; round < patches.size(); ++round) {
       std::optional<std::pair<std::uint32_t, double>> best;
       for (const std::uint32_t patch : patches)
-        for (const double other : kOthers) {
+        for (const double other : {0.0, kFollowsOthers}) {
           if (fewest == 0 || chosen[patch] <= other) continue;
           if (displaced_.tests() > end) return std::nullopt;
           const std::size_t meeting = displaced_.count_meeting(vertices_with(patch, other), fewest);
@@ -262,8 +263,8 @@ class GhostSide {
   std::vector<Vec3> retracted(const std::vector<double>& needed) const {
     const SolidTree& own = *own_.tree;
     const double usual = kGaps[0] * request_.tolerance;
-    return retracted_vertices(own.vertices, outward_faces(own.faces, own.inside_out),
-                              {needed, usual, usual, max_length_});
+    if (outward_.empty()) outward_ = outward_faces(own.faces, own.inside_out);
+    return retracted_vertices(own.vertices, outward_, {needed, usual, usual, max_length_});
   }
 
   /// Found when it is first wanted: most pairs need none.
@@ -351,6 +352,7 @@ class GhostSide {
   const PairGhostRequest& request_;
   bool is_a_;
   mutable std::optional<OverlapRetraction> retraction_;
+  mutable std::vector<Face> outward_;  // found when they are first needed
   FacePairs near_;
   double near_reach_ = 0;  // of `near_` [mm]
   double depth_limit_ = 0;
@@ -379,9 +381,7 @@ std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
   std::optional<GhostSide::Found> of_a, of_b;
   for (const double factor : kFactors) {
     const double length = factor * limit;
-    // Through a thin part, points would get by their displacement.
-    if (factor > 1 && (is_nowhere_deeper(request.a.shape(), length) || is_nowhere_deeper(request.b.shape(), length)))
-      break;
+    if (factor > 1 && passes_thin_part(request, length)) break;
     const bool also_corners = factor <= kMaxFactorForCorners;
     if (!of_a) of_a = a.find(length, limit, also_corners);
     if (of_a && !of_b) of_b = b.find(length, limit, also_corners);

@@ -125,9 +125,7 @@ class Retraction {
   }
 
   bool same(const RevolutionAxis& a, const RevolutionAxis& b) const {
-    const Vec3 off = b.point - a.point;
-    return length(cross(a.direction, b.direction)) < kSameDirection &&
-           length(off - dot(off, a.direction) * a.direction) < kSameAxis * tolerance_;
+    return same_axis(a, b, kSameDirection, kSameAxis * tolerance_);
   }
 
   /// A face in coordinates about an axis.
