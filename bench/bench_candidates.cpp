@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time of a batch of candidate motions: some components of an assembly, each from the assembled state along many
 // straight motions and screws in random directions.
-//   bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]
-// Two rows a component, tab-separated: --count straight motions of up to 50 mm, and a tenth as many screws. Wall time.
+//   bench_candidates [--device cpu|cuda] [--threads N] [--count N] [--screws N] [ASSEMBLY]
+// Two rows a component, tab-separated: --count straight motions of up to 50 mm, and --screws screws (a tenth as many).
+// Wall time. The row "state" before them is of 10 straight motions: nearly all of it is what is found once for a state.
 #include "bench/assembly_input.h"
 #include "bench/command_line.h"
 #include "dismantle/candidates/motion_batch.h"
@@ -20,13 +21,14 @@ namespace {
 struct Settings {
   DeviceChoice device = DeviceChoice::Cpu;
   int threads = 2;
-  std::size_t count = 20'000;
-  std::vector<std::string> assemblies;  // at most one
+  std::size_t count = 20'000, screws = 0;  // screws: 0 is a tenth of count
+  std::vector<std::string> assemblies;     // at most one
 };
 
 constexpr double kLongest = 50;     // of a straight motion, in each coordinate [mm]
 constexpr double kLargestTurn = 1;  // of a screw [rad]
 constexpr std::size_t kComponents = 4;
+constexpr std::size_t kFew = 10;
 
 Vec3 random_vector(std::mt19937_64& random, double half) {
   std::uniform_real_distribution<double> u(-half, half);
@@ -47,7 +49,7 @@ void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch)
   std::mt19937_64 random(1);
   std::vector<Vec3> displacements(settings.count);
   for (Vec3& displacement : displacements) displacement = random_vector(random, kLongest);
-  std::vector<Pose> targets(settings.count / 10);
+  std::vector<Pose> targets(settings.screws > 0 ? settings.screws : settings.count / 10);
   std::uniform_real_distribution<double> turn(-kLargestTurn, kLargestTurn);
   for (Pose& target : targets) {
     target.position = random_vector(random, kLongest / 10);
@@ -58,6 +60,8 @@ void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch)
     const ComponentId c(static_cast<std::uint32_t>(i * count / std::min(kComponents, count)));
     batch.set_state(std::vector<Pose>(count), std::vector<ComponentId>{c});
     StageClock clock;
+    const std::vector<FirstContact> few = batch.straight_contacts(Span<const Vec3>(displacements).subspan(0, kFew));
+    print(assembly, c, "state", few, clock.lap());
     const std::vector<FirstContact> straight = batch.straight_contacts(displacements);
     const double straight_ms = clock.lap();
     const std::vector<FirstContact> turning = batch.screw_contacts(targets);
@@ -68,10 +72,11 @@ void run(const Settings& settings, const Assembly& assembly, MotionBatch& batch)
 }
 
 bool parse(int argc, char** argv, Settings& settings) {
-  bench::CommandLine line("bench_candidates [--device cpu|cuda] [--threads N] [--count N] [ASSEMBLY]");
+  bench::CommandLine line("bench_candidates [--device cpu|cuda] [--threads N] [--count N] [--screws N] [ASSEMBLY]");
   line.choice("--device", settings.device, {{"cpu", DeviceChoice::Cpu}, {"cuda", DeviceChoice::Cuda}});
   line.option("--threads", settings.threads, 1);
-  line.option("--count", settings.count, 10);
+  line.option("--count", settings.count, kFew);
+  line.option("--screws", settings.screws, 1);
   line.words(settings.assemblies);
   return line.parse(argc, argv) && (settings.assemblies.size() <= 1 || line.wrong());
 }

@@ -69,6 +69,12 @@ class CommandLine {
       return true;
     };
   }
+  /// An option that may be given several times, each with a whole number above 0.
+  void numbers(const std::string& name, std::vector<int>& numbers) {
+    set_by_name_[name] = [&numbers](const std::string& text) {
+      return parse_number(text, numbers.emplace_back()) && numbers.back() > 0;
+    };
+  }
   /// An option without a value: sets `flag` to true.
   void flag(const std::string& name, bool& flag) { flags_[name] = &flag; }
   /// Positional arguments. @param allowed the permitted words; empty: any

@@ -92,7 +92,9 @@ Result<BenchScene> sample(const std::string& name, const std::string& folder, bo
   if (!input) return input.error();
   bench.assembly = input->assembly;
   if (!moving) return bench;
-  const Result<PairStates> states = classify_pairs(bench.assembly, {});
+  ClassifyOptions options;
+  options.executor = Executor(ExecutorKind::Threads);
+  const Result<PairStates> states = classify_pairs(bench.assembly, options);
   if (!states) return states.error();
   bench.states = *states;
   if (!input->motion)

@@ -69,6 +69,7 @@ class FrontBasedEngine final : public SweepEngine {
   }
   bool moves_against(std::uint64_t key) const;
   PairTestResults test_triangle_pairs();
+  std::vector<std::uint64_t> embedded_triangle_pairs() const;
   void test_embedded_pairs(PairTestResults& results, double path_deviation);
   void part(const std::vector<ComponentPair>& parted);
 
@@ -195,11 +196,21 @@ PairTestResults FrontBasedEngine::test_triangle_pairs() {
   return all;
 }
 
+/// The triangle pairs of embedded pairs that move against each other, ascending.
+std::vector<std::uint64_t> FrontBasedEngine::embedded_triangle_pairs() const {
+  std::vector<std::uint64_t> own;
+  for (const ComponentPair& pair : embedded_.pairs()) {
+    if (motion_class_[pair.a.value] == motion_class_[pair.b.value]) continue;
+    append(own, triangle_pairs_of(front_.triangle_pairs(), fixed_.bvh.component_of, pair.a, pair.b));
+  }
+  std::sort(own.begin(), own.end());
+  return own;
+}
+
 void FrontBasedEngine::test_embedded_pairs(PairTestResults& results, double path_deviation) {
-  if (embedded_.pairs().empty()) return;
-  std::vector<std::uint64_t> sorted(front_.triangle_pairs().begin(), front_.triangle_pairs().end());
-  options_.executor.sort(sorted);
-  for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), sorted, results.intersections)) {
+  if (!embedded_.any_moves(start_, end_)) return;
+  const std::vector<std::uint64_t> own = embedded_triangle_pairs();
+  for (const PartingPair& found : embedded_.parting(embedded_step(path_deviation), own, results.intersections)) {
     const auto contacts = contacts_after(found, kernel(), options_.executor);
     if (!contacts) continue;
     parting_.push_back(found.pair);

@@ -16,11 +16,11 @@ namespace dismantle {
 
 namespace {
 
-/// The stages of a step in the columns of the page; a method without stages has one intersection test.
-StageTimings stages_of(const StepCost& cost) {
+/// The stages of a step; a method without stages has one intersection test.
+StageTimings stages_of(const StepCost& cost, double overall) {
   StageTimings t;
-  t.overall = cost.ms;
-  if (cost.stages.empty()) t.intersection = cost.ms;
+  t.overall = overall;
+  if (cost.stages.empty()) t.intersection = overall;
   for (const StageTime& time : cost.stages) {
     if (time.stage == kVerticesStage) t.vertices = time.ms;
     if (time.stage == kRefitStage) t.refit = time.ms;
@@ -30,30 +30,44 @@ StageTimings stages_of(const StepCost& cost) {
   return t;
 }
 
-/// Plays the scene once and keeps the shorter time of each step.
-void play(const BenchScene& scene, MotionEngine& engine, MethodRun& run) {
-  std::size_t index = 0;
-  for (const BenchMove& move : scene.moves) {
+/// True if a component of the moving set is in a free pair with one that does not move.
+bool moves_embedded(const MotionEngine& engine) {
+  const Span<const ComponentId> moving = engine.moving_set();
+  const auto moves = [&](ComponentId c) { return std::find(moving.begin(), moving.end(), c) != moving.end(); };
+  const std::vector<ComponentPair> pairs = engine.overlapping_pairs();
+  return std::any_of(pairs.begin(), pairs.end(), [&](const ComponentPair& pair) {
+    return pair.state == PairState::Free && moves(pair.a) != moves(pair.b);
+  });
+}
+
+/// Plays the scene once. @return the times of each step; the other results go into `run` at the first play
+std::vector<StageTimings> play(const BenchScene& scene, MotionEngine& engine, std::size_t moves, MethodRun& run) {
+  const bool first_play = run.play_means.empty();
+  std::vector<StageTimings> times;
+  for (std::size_t m = 0; m < std::min(moves, scene.moves.size()); ++m) {
+    const BenchMove& move = scene.moves[m];
     engine.grab(move.components);
     for (std::size_t k = 0; k < move.targets.size(); ++k) {
+      const bool embedded = first_play && moves_embedded(engine);
       StageClock clock;
       const StepResult result = engine.step(move.targets[k], ResponseKind::Stop);
       const double overall = clock.total();
       if (k == 0) continue;  // builds the front
-      const StageTimings t = stages_of(result.cost);
-      const TableTimes times{t.vertices + t.refit, t.front + t.intersection, overall};
-      if (index == run.times.size()) {
-        run.times.push_back(times);
-        run.stages.push_back(t);
-        run.poses.push_back(result.pose);
-        run.reached += result.reached ? 1 : 0;
-      } else if (overall < run.times[index].overall) {
-        run.times[index] = times;
-        run.stages[index] = t;
-      }
-      ++index;
+      times.push_back(stages_of(result.cost, overall));
+      if (!first_play) continue;
+      run.poses.push_back(result.pose);
+      run.embedded.push_back(embedded ? 1 : 0);
+      run.reached += result.reached ? 1 : 0;
     }
   }
+  double sum = 0;
+  for (const StageTimings& t : times) sum += t.overall;
+  run.play_means.push_back(sum / static_cast<double>(std::max<std::size_t>(1, times.size())));
+  return times;
+}
+
+std::unique_ptr<MotionEngine> sweeping(const BenchScene& scene, std::unique_ptr<SweepEngine> engine) {
+  return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance, std::move(engine));
 }
 
 }  // namespace
@@ -65,78 +79,106 @@ std::string_view name_of(PaperMethod method) {
     case PaperMethod::FrontBasedRigid:
       return "front-based (rigid)";
     case PaperMethod::StreamsElementary:
+    case PaperMethod::StreamsCuda:
       return "streams (elementary)";
+    case PaperMethod::StreamsGlobalLock:
+      return "streams (global lock)";
     case PaperMethod::StreamsCertified:
       return "streams (certified)";
-    case PaperMethod::StreamsCuda:
-      return "streams (elementary, CUDA)";
     case PaperMethod::Certificates:
-      return "certificates";
     case PaperMethod::CertificatesCuda:
-      return "certificates (CUDA)";
+      return "certificates";
     case PaperMethod::ObbDiscrete:
       return "boxes (discrete)";
+    case PaperMethod::ObbBoxes:
+      return "one box a component (discrete)";
   }
   return "";
 }
 
+bool needs_cuda(PaperMethod method) {
+  return method == PaperMethod::StreamsCuda || method == PaperMethod::CertificatesCuda;
+}
+
+bool is_serial(PaperMethod method) {
+  return method == PaperMethod::ObbDiscrete || method == PaperMethod::ObbBoxes;
+}
+
 std::unique_ptr<MotionEngine> make_method(PaperMethod method, const BenchScene& scene, int cores) {
   const Executor executor = cores > 1 ? Executor(ExecutorKind::Threads, cores) : Executor();
+  const CertificateOptions certificates{executor, widest_lanes()};
   CollisionOptions options;
   options.executor = executor;
   options.test = method == PaperMethod::StreamsCertified ? ElementaryTest::Certified : ElementaryTest::Elementary;
+  if (method == PaperMethod::StreamsGlobalLock) options.append_lock = AppendLock::Global;
   const FrontBasedWork work =
       method == PaperMethod::FrontBased ? FrontBasedWork::AllComponents : FrontBasedWork::MovingComponents;
   switch (method) {
     case PaperMethod::FrontBased:
     case PaperMethod::FrontBasedRigid:
-      return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance,
-                                         make_front_based_engine(scene.assembly, scene.states, options, work));
+      return sweeping(scene, make_front_based_engine(scene.assembly, scene.states, options, work));
     case PaperMethod::StreamsElementary:
+    case PaperMethod::StreamsGlobalLock:
     case PaperMethod::StreamsCertified:
-      return make_sweeping_motion_engine(scene.assembly, scene.states.tolerance,
-                                         make_streams_engine(scene.assembly, scene.states, options));
+      return sweeping(scene, make_streams_engine(scene.assembly, scene.states, options));
     case PaperMethod::StreamsCuda:
-      return make_sweeping_motion_engine(
-          scene.assembly, scene.states.tolerance,
-          make_streams_engine(scene.assembly, scene.states, options,
-                              make_cuda_streams_backend(scene.assembly, options).value()));
+      return sweeping(scene, make_streams_engine(scene.assembly, scene.states, options,
+                                                 make_cuda_streams_backend(scene.assembly, options).value()));
     case PaperMethod::Certificates:
-      return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
-                                                 CertificateOptions{executor, widest_lanes()});
+      return std::make_unique<CertificateEngine>(scene.assembly, scene.states, certificates);
     case PaperMethod::CertificatesCuda:
-      return std::make_unique<CertificateEngine>(scene.assembly, scene.states,
-                                                 CertificateOptions{executor, widest_lanes()},
+      return std::make_unique<CertificateEngine>(scene.assembly, scene.states, certificates,
                                                  CertificateDevice{std::move(make_cuda_front_device().value()), 0});
     case PaperMethod::ObbDiscrete:
+    case PaperMethod::ObbBoxes:
       break;
   }
-  return make_obb_discrete_engine(scene.assembly, scene.states, ObbDetail::Triangles);
+  return make_obb_discrete_engine(scene.assembly, scene.states,
+                                  method == PaperMethod::ObbBoxes ? ObbDetail::Boxes : ObbDetail::Triangles);
 }
 
-MethodRun run_method(PaperMethod method, const BenchScene& scene, int cores, int repeats) {
+MethodRun run_method(PaperMethod method, const BenchScene& scene, const RunOptions& options) {
   MethodRun run;
   run.method = method;
-  run.cores = cores;
-  for (int i = 0; i < repeats; ++i) play(scene, *make_method(method, scene, cores), run);
+  run.cores = is_serial(method) ? 1 : options.cores;
+  // Free pairs that have been apart do not become free again.
+  const bool keeps_engine = std::none_of(scene.states.pairs.begin(), scene.states.pairs.end(),
+                                         [](const ComponentPair& pair) { return pair.state == PairState::Free; });
+  std::unique_ptr<MotionEngine> engine;
+  std::vector<std::vector<StageTimings>> plays;
+  for (int i = 0; i < options.repeats; ++i) {
+    if (!engine || !keeps_engine) engine = make_method(method, scene, options.cores);
+    engine->jump(std::vector<Pose>(scene.assembly.components.size()));
+    plays.push_back(play(scene, *engine, options.moves, run));
+  }
+  for (std::size_t step = 0; step < plays.front().size(); ++step) {
+    std::vector<StageTimings> of_step;
+    for (const std::vector<StageTimings>& play : plays) of_step.push_back(play[step]);
+    const auto median = of_step.begin() + static_cast<std::ptrdiff_t>((of_step.size() - 1) / 2);
+    std::nth_element(of_step.begin(), median, of_step.end(),
+                     [](const StageTimings& a, const StageTimings& b) { return a.overall < b.overall; });
+    run.times.push_back(*median);
+  }
   return run;
 }
 
-TableTimes mean_times(const MethodRun& run) {
-  TableTimes sum;
-  for (const TableTimes& c : run.times) {
-    sum.refit += c.refit;
-    sum.intersection += c.intersection;
-    sum.overall += c.overall;
+StageTimings mean_times(const MethodRun& run) {
+  StageTimings sum;
+  const double share = 1 / static_cast<double>(std::max<std::size_t>(1, run.times.size()));
+  for (const StageTimings& t : run.times) {
+    sum.vertices += share * t.vertices;
+    sum.refit += share * t.refit;
+    sum.front += share * t.front;
+    sum.intersection += share * t.intersection;
+    sum.overall += share * t.overall;
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(1, run.times.size()));
-  return {sum.refit / count, sum.intersection / count, sum.overall / count};
+  return sum;
 }
 
-double overall_quantile(const MethodRun& run, double q) {
+std::vector<double> overall_times(const MethodRun& run) {
   std::vector<double> ms;
-  for (const TableTimes& times : run.times) ms.push_back(times.overall);
-  return bench::quantile(std::move(ms), q);
+  for (const StageTimings& times : run.times) ms.push_back(times.overall);
+  return ms;
 }
 
 }  // namespace dismantle

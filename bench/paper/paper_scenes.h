@@ -8,23 +8,26 @@
 
 namespace dismantle {
 
-/// A row of table 1 of Du et al. 2015 (Tesla K20c, CUDA 5.5), for an assembly of that name and size [ms].
-struct PaperRow {
-  std::string assembly;
-  std::size_t triangles = 0, simplified = 0;  ///< Of the paper's model; times are of the simplified one.
-  double refit = 0, intersection = 0, overall = 0;
+/// An assembly of table 1 of Du et al. 2015.
+struct PaperAssembly {
+  std::string name;            ///< Of our model of it.
+  std::size_t simplified = 0;  ///< Size of the paper's simplified model [triangles].
 };
 
-/// The rows of table 1, with the sizes from section 5.
-const std::vector<PaperRow>& paper_table();
+/// The four assemblies of the table.
+const std::vector<PaperAssembly>& paper_assemblies();
 
 /// One of the four sample assemblies with its bundled motion, simplified to the paper's size and at full size.
 struct PaperScene {
-  PaperRow paper;
   BenchScene simplified, full;
 };
 
-/// Makes the scene of a row of the table from the files in `samples_folder`. Errors: those of reading and simplifying.
-Result<PaperScene> make_paper_scene(const PaperRow& row, const std::string& samples_folder);
+/// Makes the scene of an assembly of the table from the files in `samples_folder`. Errors: those of reading and
+/// simplifying.
+Result<PaperScene> make_paper_scene(const PaperAssembly& assembly, const std::string& samples_folder);
+
+/// The scene with the paper's pairs: those that touch or overlap when assembled are free until they have been apart
+/// (S_i). Errors: those of classify_pairs().
+Result<BenchScene> with_paper_pairs(const BenchScene& scene);
 
 }  // namespace dismantle

@@ -2,22 +2,19 @@
 #include "bench/paper/result_table.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/files/csv_text.h"
 
-#include <algorithm>
+#include <fstream>
 
 namespace dismantle {
 
 namespace {
 
-std::string csv_line(std::vector<std::string> cells) {
-  for (std::string& cell : cells) cell = csv_field(cell);
-  return joined(cells, ",") + "\n";
-}
-
-std::string markdown_row(const std::vector<std::string>& cells) {
-  std::string line = "|";
-  for (const std::string& cell : cells) line += " " + cell + " |";
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    DISMANTLE_EXPECT(cell.find_first_of(",\"\n") == std::string::npos);
+    line += (&cell == cells.data() ? "" : ",") + cell;
+  }
   return line + "\n";
 }
 
@@ -29,22 +26,16 @@ std::string csv_of(const ResultTable& table) {
   return text;
 }
 
-std::string markdown_of(const ResultTable& table) {
-  std::string text = markdown_row(table.columns);
-  text += markdown_row(std::vector<std::string>(table.columns.size(), "---"));
-  for (const std::vector<std::string>& row : table.rows) text += markdown_row(row);
-  return text;
-}
-
-ResultTable columns_of(const ResultTable& table, const std::vector<std::string>& names) {
-  ResultTable chosen{names, std::vector<std::vector<std::string>>(table.rows.size())};
-  for (const std::string& name : names) {
-    const auto column = std::find(table.columns.begin(), table.columns.end(), name);
-    DISMANTLE_EXPECT(column != table.columns.end());
-    for (std::size_t r = 0; r < table.rows.size(); ++r)
-      chosen.rows[r].push_back(table.rows[r][static_cast<std::size_t>(column - table.columns.begin())]);
-  }
-  return chosen;
+bool write_result(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::error_code failed;
+  std::filesystem::create_directories(file.parent_path(), failed);
+  std::ofstream stream(part, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) return false;
+  std::filesystem::rename(part, file, failed);
+  return !failed;
 }
 
 }  // namespace dismantle

@@ -4,7 +4,6 @@
 #include "bench/baselines/obb_discrete_engine.h"
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/session/session_path.h"
 #include "dismantle/streams/streams_motion_engine.h"
 #include "tests/support/random_scenes.h"
 
@@ -52,7 +51,9 @@ TunnelCase fast_motion() {
 
 /// True if the audit finds a violation on the motion of component 1 to the target.
 bool collides(const Assembly& assembly, const PairStates& states, const Pose& target) {
-  Path path = empty_path(assembly, states);
+  Path path;
+  for (const Component& c : assembly.components) path.components.push_back(c.name);
+  path.tolerance = states.tolerance;
   path.moves.push_back({"step", {assembly.components[1].name}, {{0, {}}, {1, target}}});
   return !audit_path(assembly, path).holds();
 }

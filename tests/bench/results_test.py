@@ -57,7 +57,7 @@ class Gpu(unittest.TestCase):
         play = {"scene": "s", "triangles": 5, "method": "streams", "steps": 6, "plays": 3, "equal": False, "cpu_threads": 8, "cpu": times,
                 "on_device": {**times, "mean_ms": 0.5}, "max_front": 7, "max_triangle_pairs": 8}
         (folder / "devices.jsonl").write_text(json.dumps(play) + devices)
-        (folder / "appends-cuda.tsv").write_text("variant\tms\nlocal\t1\n")
+        (folder / "appends-cuda.tsv").write_text("# bench_appends, today\nvariant\tms\nlocal\t1\n")
 
     def test_the_section_has_every_play_and_table(self):
         with tempfile.TemporaryDirectory() as name:
@@ -65,7 +65,7 @@ class Gpu(unittest.TestCase):
             self.assertEqual(make_results.gpu_section_of(folder), "")
             self.write(folder, "\n")
             section = make_results.gpu_section_of(folder)
-        for part in ("Abacus", "DIFFERENT", "| 4.00 | 7 | 8 |", "### appends on cuda", "| local | 1 |"):
+        for part in ("Abacus", "DIFFERENT", "| 4.00 | 7 | 8 |", "### appends on cuda", "bench_appends, today\n\n| variant | ms |", "| local | 1 |"):
             self.assertIn(part, section)
 
     def test_other_files_are_refused(self):

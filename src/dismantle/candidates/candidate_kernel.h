@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/candidates/straight_lists.h"
 #include "dismantle/streams/narrow_phase_kernel.h"
 
 namespace dismantle {
@@ -17,6 +18,33 @@ struct CandidateScene {
   GhostTriangles ghosts;                   ///< At the start, twice.
   PairRulesView rules;                     ///< The rules of the component pairs.
   RigidTransform start;                    ///< Of the moving set: world from assembled.
+
+  /// The rule of two nodes. @pre the second is no top node
+  DISMANTLE_HOST_DEVICE PairRule rule_of(NodePair p) const {
+    const std::uint32_t a = tree.component_of[p.a], b = tree.component_of[p.b];
+    return a < b ? rules.find(a, b) : rules.find(b, a);
+  }
+  /// False if what is below the second node never stops the first: it moves along, or the pair may overlap.
+  DISMANTLE_HOST_DEVICE bool can_meet(NodePair p) const {
+    if (tree.is_top(p.b)) return true;
+    if (motion_class[tree.component_of[p.b]] != 0) return false;
+    const PairTest test = rule_of(p).test;
+    return test != PairTest::Discrete && test != PairTest::None;
+  }
+  /// The triangle of the second leaf and its ghost, which stay. @param rule of the pair
+  DISMANTLE_HOST_DEVICE GhostMotion fixed_leaf(NodePair p, const PairRule& rule) const {
+    const std::uint32_t a = tree.component_of[p.a], b = tree.component_of[p.b];
+    const Face& face = faces[p.b];
+    GhostMotion fixed{{}, ghosts.motion(face, b, a < b ? rule.ghost_b : rule.ghost_a)};
+    for (int k = 0; k < 3; ++k) fixed.triangle.t0[k] = fixed.triangle.t1[k] = vertices[face.v[k]];
+    return fixed;
+  }
+  /// The triangle of the first leaf and its ghost on a piece of a motion. @param rule of the pair
+  template <class Piece>
+  DISMANTLE_HOST_DEVICE GhostMotion moving_leaf(NodePair p, const PairRule& rule, const Piece& piece) const {
+    const std::uint32_t a = tree.component_of[p.a], b = tree.component_of[p.b];
+    return {piece.motion(*this, p.a), piece.ghost(*this, p.a, a < b ? rule.ghost_a : rule.ghost_b)};
+  }
 };
 
 /// The first contact of a candidate; free if `key` is kFree.
@@ -205,6 +233,32 @@ class CandidateSearch {
   DISMANTLE_HOST_DEVICE CandidateSearch(const CandidateScene& scene, const Piece& piece)
       : scene_(scene), piece_(piece) {}
 
+  /// The first contact on a translation from the state of the lists. To be called once.
+  DISMANTLE_HOST_DEVICE CandidateContact first(const StraightLists& lists, const StraightMotion& motion) {
+    // First the pair that may meet first, so that few others have to be tested.
+    double fastest = 0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < lists.near.size(); ++i) {
+      if (lists.near[i].gap * fastest > motion.distance) break;
+      const double rate = lists.near[i].closing_rate(motion);
+      if (!(rate > fastest)) continue;
+      fastest = rate;
+      at = i;
+    }
+    if (fastest >= 1) test(lists.near[at].leaves);
+    for (std::size_t i = 0; fastest >= 1 && i < lists.near.size(); ++i) {
+      if (lists.near[i].gap > found_.toi * motion.distance) break;
+      const double rate = lists.near[i].closing_rate(motion);
+      const bool earlier = found_.key == CandidateContact::kFree ? rate >= 1 : rate * found_.toi > 1;
+      if (i != at && earlier) test(lists.near[i].leaves);
+    }
+    for (const FarNodes& far : lists.far) {
+      if (far.gap > found_.toi * motion.distance) break;
+      open(far.nodes, contact_of(far.nodes));
+      for (NodePair leaves; next_leaves(leaves);) test(leaves);
+    }
+    return found_;
+  }
   /// The first contact, as a fraction of the piece. To be called once.
   DISMANTLE_HOST_DEVICE CandidateContact first() {
     const auto root = static_cast<NodeIndex>(scene_.bounds.size() - 1);
@@ -253,33 +307,17 @@ class CandidateSearch {
 
   /// Lower bound of the time at which triangles of the nodes are in contact.
   DISMANTLE_HOST_DEVICE double contact_of(NodePair p) const {
-    if (scene_.tree.is_top(p.b)) return piece_.times(scene_, p, 0).contact();
-    const std::uint32_t fixed = scene_.tree.component_of[p.b];
-    if (scene_.motion_class[fixed] != 0) return OverlapTimes::kNever;
-    const PairTest test = rule_of(p).test;
-    if (test == PairTest::Discrete || test == PairTest::None) return OverlapTimes::kNever;
+    if (!scene_.can_meet(p)) return OverlapTimes::kNever;
     const bool leaves = scene_.tree.is_leaf(p.a) && scene_.tree.is_leaf(p.b);
     return piece_.times(scene_, p, leaves ? scene_.ghosts.play(p) : 0).contact();
   }
 
-  /// @pre b is no top node
-  DISMANTLE_HOST_DEVICE PairRule rule_of(NodePair p) const {
-    const std::uint32_t a = scene_.tree.component_of[p.a], b = scene_.tree.component_of[p.b];
-    return a < b ? scene_.rules.find(a, b) : scene_.rules.find(b, a);
-  }
-
   DISMANTLE_HOST_DEVICE void test(NodePair p) {
-    const std::uint32_t a = scene_.tree.component_of[p.a], b = scene_.tree.component_of[p.b];
-    const PairRule rule = rule_of(p);
-    const std::uint32_t moving_slot = a < b ? rule.ghost_a : rule.ghost_b;
-    const std::uint32_t fixed_slot = a < b ? rule.ghost_b : rule.ghost_a;
-    const Face& face = scene_.faces[p.b];
-    GhostMotion fixed{{}, scene_.ghosts.motion(face, b, fixed_slot)};
-    for (int k = 0; k < 3; ++k) fixed.triangle.t0[k] = fixed.triangle.t1[k] = scene_.vertices[face.v[k]];
+    const PairRule rule = scene_.rule_of(p);
     const double horizon = found_.toi;
-    const GhostMotion moving{part_of(piece_.motion(scene_, p.a), 0, horizon),
-                             part_of(piece_.ghost(scene_, p.a, moving_slot), 0, horizon)};
-    const CcdResult ccd = ccd_with_ghosts(moving, fixed);
+    GhostMotion moving = scene_.moving_leaf(p, rule, piece_);
+    moving = {part_of(moving.triangle, 0, horizon), part_of(moving.ghost, 0, horizon)};
+    const CcdResult ccd = ccd_with_ghosts(moving, scene_.fixed_leaf(p, rule));
     if (ccd.status == CcdStatus::Contact) found_ = {horizon * ccd.toi, pair_key(p.a, p.b)};
   }
 
@@ -293,13 +331,14 @@ class CandidateSearch {
 /// The first contacts of many translations from one state. Item: a candidate.
 struct SweepStraight {
   CandidateScene scene;            ///< The state.
+  StraightLists lists;             ///< Of the state.
   Span<const Vec3> displacements;  ///< Of each candidate [mm, world].
   Span<CandidateContact> found;    ///< Output, one for each candidate.
 
   /// Candidate i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const StraightPiece piece(scene, displacements[i]);
-    found[i] = CandidateSearch<StraightPiece>(scene, piece).first();
+    found[i] = CandidateSearch<StraightPiece>(scene, piece).first(lists, StraightMotion(displacements[i]));
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/candidates/candidate_kernel.h"
+#include "dismantle/candidates/find_straight_lists.h"
 #include "dismantle/candidates/motion_batch.h"
 #include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"
@@ -42,6 +43,7 @@ class DeviceBatch final : public MotionBatch {
  private:
   double path_deviation() const { return kArcShare * tolerance_; }
   CandidateScene scene() const;
+  StraightLists straight_lists();
   std::vector<Pose> stations_to(const Pose& target) const;
   std::vector<FirstContact> brought_down_contacts(std::size_t count);
   FirstContact contact_of(const CandidateContact& found) const;
@@ -60,8 +62,13 @@ class DeviceBatch final : public MotionBatch {
   DeviceArray<Vec3> vertices_;
   DeviceArray<Kdop16> bounds_;
   DeviceArray<NodeIndex> moving_roots_;
-  std::size_t moving_root_count_ = 0;
   DeviceArray<std::uint32_t> motion_class_;
+  DeviceArray<NearLeaves> near_;  // of the state, once straight_contacts() wanted them
+  DeviceArray<FarNodes> far_;
+  std::size_t near_count_ = 0, far_count_ = 0;
+  bool has_lists_ = false;
+  std::vector<RigidTransform> host_state_;
+  std::vector<NodeIndex> host_roots_;
   // Of the last candidates; kept from call to call.
   DeviceArray<Vec3> displacements_;
   DeviceArray<RigidTransform> stations_;
@@ -75,25 +82,25 @@ class DeviceBatch final : public MotionBatch {
 template <class Queue>
 void DeviceBatch<Queue>::set_state(Span<const Pose> poses, Span<const ComponentId> moving) {
   DISMANTLE_EXPECT(!moving.empty() && poses.size() == host_.fixed().component_count());
-  std::vector<RigidTransform> state;
-  for (const Pose& pose : poses) state.push_back(transform_from_pose(pose));
-  host_.jump(state, executor_);
-  if (guards_.jump(state)) rule_table_ = {queue_, guards_.rules().table};
+  has_lists_ = false;
+  host_state_.clear();
+  for (const Pose& pose : poses) host_state_.push_back(transform_from_pose(pose));
+  host_.jump(host_state_, executor_);
+  if (guards_.jump(host_state_)) rule_table_ = {queue_, guards_.rules().table};
   start_ = poses[moving[0].value];
   set_ = make_rigid_set(assembly_, {moving.begin(), moving.end()});
   moving_.assign(poses.size(), 0);
-  std::vector<NodeIndex> roots;
+  host_roots_.clear();
   for (const ComponentId c : moving) {
     DISMANTLE_EXPECT(poses[c.value] == start_);
     moving_[c.value] = 1;
     const NodeIndex root = host_.fixed().bvh.components[c.value].root;
-    if (root != kNoNode) roots.push_back(root);
+    if (root != kNoNode) host_roots_.push_back(root);
   }
-  upload(queue_, state_, Span<const RigidTransform>(state));
+  upload(queue_, state_, Span<const RigidTransform>(host_state_));
   upload(queue_, vertices_, host_.vertices_t0());
   upload(queue_, bounds_, host_.bounds());
-  upload(queue_, moving_roots_, Span<const NodeIndex>(roots));
-  moving_root_count_ = roots.size();
+  upload(queue_, moving_roots_, Span<const NodeIndex>(host_roots_));
   upload(queue_, motion_class_, Span<const std::uint32_t>(moving_));
 }
 
@@ -101,16 +108,40 @@ template <class Queue>
 CandidateScene DeviceBatch<Queue>::scene() const {
   return {geometry_.tree(),           bounds_.view(),
           geometry_.assembled.view(), vertices_.view(),
-          geometry_.faces.view(),     moving_roots_.view().subspan(0, moving_root_count_),
+          geometry_.faces.view(),     moving_roots_.view().subspan(0, host_roots_.size()),
           motion_class_.view(),       {displaced_.view(), margins_.view(), state_.view(), state_.view()},
           {rule_table_.view()},       transform_from_pose(start_)};
+}
+
+template <class Queue>
+StraightLists DeviceBatch<Queue>::straight_lists() {
+  if (!has_lists_) {
+    const AssemblyTriangles& fixed = host_.fixed();
+    const GhostVertices& ghosts = guards_.ghosts();
+    const FoundStraightLists found = find_straight_lists({BvhView(fixed.bvh),
+                                                          host_.bounds(),
+                                                          fixed.vertices,
+                                                          host_.vertices_t0(),
+                                                          fixed.faces,
+                                                          host_roots_,
+                                                          moving_,
+                                                          {ghosts.displaced, ghosts.margins, host_state_, host_state_},
+                                                          guards_.rules(),
+                                                          transform_from_pose(start_)});
+    upload(queue_, near_, Span<const NearLeaves>(found.near));
+    upload(queue_, far_, Span<const FarNodes>(found.far));
+    near_count_ = found.near.size();
+    far_count_ = found.far.size();
+    has_lists_ = true;
+  }
+  return {near_.view().subspan(0, near_count_), far_.view().subspan(0, far_count_)};
 }
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> displacements) {
   const std::size_t count = displacements.size();
   const Span<const Vec3> uploaded = upload(queue_, displacements_, displacements);
-  queue_.launch(count, SweepStraight{scene(), uploaded, room_for(queue_, found_, count)});
+  queue_.launch(count, SweepStraight{scene(), straight_lists(), uploaded, room_for(queue_, found_, count)});
   return brought_down_contacts(count);
 }
 

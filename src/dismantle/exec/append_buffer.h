@@ -46,21 +46,29 @@ class AppendView {
   std::uint64_t* needed_ = nullptr;
 };
 
+/// How CPU threads append to one stream; the values are the same.
+enum class AppendLock : std::uint8_t {
+  Local,   ///< Through a buffer of each thread, with one atomic addition when it is full (Tang, Manocha, Lin, Tong
+           ///< 2011).
+  Global,  ///< One atomic addition for each value (Du et al. 2015, section 4.3, on a GPU).
+};
+
 /// Collects up to `kCount` values of one thread and appends them with one addition, so that CPU threads do not contend
 /// for the counter's cache line with every value.
 template <class T, std::size_t kCount = 64>
 class StagedAppend {
  public:
-  /// Appends to `target`, at the latest when destroyed.
-  explicit StagedAppend(AppendView<T> target) : target_(target) {}
+  /// Appends to `target`, at the latest when destroyed; with AppendLock::Global each value at once.
+  explicit StagedAppend(AppendView<T> target, AppendLock lock = AppendLock::Local)
+      : target_(target), limit_(lock == AppendLock::Global ? 1 : kCount) {}
   StagedAppend(const StagedAppend&) = delete;
   StagedAppend& operator=(const StagedAppend&) = delete;
   ~StagedAppend() { flush(); }
 
   /// Appends one value.
   void append(const T& value) {
-    if (count_ == kCount) flush();
     staged_[count_++] = value;
+    if (count_ == limit_) flush();
   }
   /// Passes the collected values on.
   void flush() {
@@ -70,6 +78,7 @@ class StagedAppend {
 
  private:
   AppendView<T> target_;
+  std::size_t limit_;
   std::size_t count_ = 0;
   T staged_[kCount];
 };

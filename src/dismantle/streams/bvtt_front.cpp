@@ -31,12 +31,12 @@ class StagedSink {
   struct Targets {
     AppendView<std::uint64_t> triangle_pairs, kept, rested, sprouted, pending;
   };
-  explicit StagedSink(const Targets& t)
-      : triangle_pairs_(t.triangle_pairs),
-        kept_(t.kept),
-        rested_(t.rested),
-        sprouted_(t.sprouted),
-        pending_(t.pending) {}
+  StagedSink(const Targets& t, AppendLock lock)
+      : triangle_pairs_(t.triangle_pairs, lock),
+        kept_(t.kept, lock),
+        rested_(t.rested, lock),
+        sprouted_(t.sprouted, lock),
+        pending_(t.pending, lock) {}
 
   void sprout(std::size_t index) { sprouted_.append(index); }
   void keep(std::uint64_t key) { kept_.append(key); }
@@ -50,8 +50,9 @@ class StagedSink {
 
 }  // namespace
 
-Front::Front(std::size_t initial_capacity)
-    : triangle_pairs_(initial_capacity),
+Front::Front(std::size_t initial_capacity, AppendLock lock)
+    : lock_(lock),
+      triangle_pairs_(initial_capacity),
       kept_(initial_capacity),
       rested_(initial_capacity),
       sprouted_(initial_capacity),
@@ -108,7 +109,7 @@ FrontUpdate Front::sprout(const FrontInput& input, const Executor& executor) {
                                 pending_[0].start()};
     kernel.items = active_;
     executor.for_each_range(active_.size(), kNodesPerRange, [&](std::size_t begin, std::size_t end) {
-      StagedSink sink(targets);
+      StagedSink sink(targets, lock_);
       for (std::size_t i = begin; i < end; ++i) {
         prefetch(input.bounds, active_[std::min(i + kPrefetchDistance, end - 1)]);
         kernel.sprout_node(i, sink);
@@ -121,7 +122,7 @@ FrontUpdate Front::sprout(const FrontInput& input, const Executor& executor) {
       current = 1 - current;
       targets.pending = pending_[current].start();
       executor.for_each_range(kernel.items.size(), kPendingPerRange, [&](std::size_t begin, std::size_t end) {
-        StagedSink sink(targets);
+        StagedSink sink(targets, lock_);
         for (std::size_t i = begin; i < end; ++i) kernel.resume(i, sink);
       });
       ++result.rounds;

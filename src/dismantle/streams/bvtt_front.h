@@ -40,7 +40,7 @@ inline constexpr std::size_t kFrontRestartShare = 4;
 class Front {
  public:
   /// @param initial_capacity of each append buffer; they grow as needed
-  explicit Front(std::size_t initial_capacity);
+  explicit Front(std::size_t initial_capacity, AppendLock lock = AppendLock::Local);
 
   /// Removes all nodes: the next update starts from the root.
   void restart();
@@ -63,6 +63,7 @@ class Front {
   bool grow_full_buffers();
   void replace_sprouted();
 
+  AppendLock lock_;
   std::vector<std::uint64_t> active_, resting_;
   std::vector<std::uint32_t> motion_class_;  // by which active_ and resting_ are separated
   std::size_t fresh_size_ = 0;  // of active_ after the last restart; 0: to be measured after the next update

@@ -14,8 +14,8 @@ class HostStreamsBackend final : public StreamsBackend {
       : executor_(options.executor),
         test_(options.test),
         streams_(assembly, options.executor),
-        front_(options.initial_capacity),
-        narrow_phase_(options.initial_capacity) {}
+        front_(options.initial_capacity, options.append_lock),
+        narrow_phase_(options.initial_capacity, options.append_lock) {}
 
   void set_ghosts(const GhostVertices& ghosts) override {
     ghosts_ = &ghosts;

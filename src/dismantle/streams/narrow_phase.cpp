@@ -16,8 +16,8 @@ constexpr std::size_t kPairsPerRange = 64;
 class StagedSink {
  public:
   StagedSink(AppendView<TrianglePairContact> contacts, AppendView<std::uint64_t> intersections,
-             std::atomic<std::size_t>& tests)
-      : contacts_(contacts), intersections_(intersections), tests_(tests) {}
+             std::atomic<std::size_t>& tests, AppendLock lock)
+      : contacts_(contacts, lock), intersections_(intersections, lock), tests_(tests) {}
   StagedSink(const StagedSink&) = delete;
   StagedSink& operator=(const StagedSink&) = delete;
   ~StagedSink() { tests_.fetch_add(count_, std::memory_order_relaxed); }
@@ -74,7 +74,7 @@ void NarrowPhase::run_round(const NarrowPhaseKernel& kernel, const Executor& exe
     const AppendView<TrianglePairContact> contacts = contacts_.start();
     const AppendView<std::uint64_t> intersections = intersections_.start();
     executor.for_each_range(kernel.pairs.size(), kPairsPerRange, [&](std::size_t begin, std::size_t end) {
-      StagedSink sink(contacts, intersections, tests);
+      StagedSink sink(contacts, intersections, tests, lock_);
       for (std::size_t i = begin; i < end; ++i) kernel(i, sink);
     });
     if (!contacts_.overflowed() && !intersections_.overflowed()) {

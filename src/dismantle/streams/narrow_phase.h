@@ -28,7 +28,8 @@ std::vector<TrianglePairContact> first_of(Span<const TrianglePairContact> contac
 class NarrowPhase {
  public:
   /// @param initial_capacity of each append buffer; they grow as needed
-  explicit NarrowPhase(std::size_t initial_capacity) : contacts_(initial_capacity), intersections_(initial_capacity) {}
+  explicit NarrowPhase(std::size_t initial_capacity, AppendLock lock = AppendLock::Local)
+      : lock_(lock), contacts_(initial_capacity), intersections_(initial_capacity) {}
 
   /// Tests all of S_t, in rounds that are each four times as large as all before: once contacts are known, the
   /// certified tests of later rounds end kContactWindow after the first of them. The rounds depend on S_t alone, and so
@@ -47,6 +48,7 @@ class NarrowPhase {
  private:
   void run_round(const NarrowPhaseKernel& kernel, const Executor& executor);
 
+  AppendLock lock_;
   AppendBuffer<TrianglePairContact> contacts_;
   AppendBuffer<std::uint64_t> intersections_;
   std::vector<TrianglePairContact> found_;

@@ -5,6 +5,7 @@
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/core/span.h"
 #include "dismantle/engine/contact.h"
+#include "dismantle/exec/append_buffer.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/math/rigid_transform.h"
 
@@ -53,7 +54,8 @@ struct SweepResult {
 struct CollisionOptions {
   ElementaryTest test = ElementaryTest::Certified;  ///< Test of pairs that are apart in the assembled state.
   Executor executor;                                ///< Threads; the results do not depend on them.
-  std::size_t initial_capacity = 1 << 16;  ///< Of every append buffer; they grow as needed. Tests start from 1.
+  std::size_t initial_capacity = 1 << 16;      ///< Of every append buffer; they grow as needed. Tests start from 1.
+  AppendLock append_lock = AppendLock::Local;  ///< Of `streams` on the CPU; for comparisons.
 };
 
 /// A collision method that sweeps the whole assembly (docs/design/0000-overview.md) from its current state to candidate

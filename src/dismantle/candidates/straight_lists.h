@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/bvh/bvh_traverse.h"
+#include "dismantle/core/span.h"
+#include "dismantle/math/vec3.h"
+
+#include <limits>
+
+namespace dismantle {
+
+/// A translation, as bounds of its first contacts take it.
+struct StraightMotion {
+  Vec3 displacement;    ///< [mm, world]
+  double distance = 0;  ///< Its length, and more than 0 [mm].
+
+  DISMANTLE_HOST_DEVICE explicit StraightMotion(Vec3 d)
+      : displacement(d), distance(length(d) > 1e-300 ? length(d) : 1e-300) {}
+};
+
+/// An axis that separates two objects at the start. A *closing rate* is the inverse of a lower bound of the fraction of
+/// a translation after which they may meet: below 1 they do not meet.
+struct SeparatingAxis {
+  Vec3 normal;  ///< From the stationary object to the moving one, divided by the gap [1/mm].
+  /// Share of the translation's length that covers rounding [1/mm]; infinite without an axis.
+  double slack = std::numeric_limits<double>::infinity();
+
+  DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
+    return slack * motion.distance - dot(motion.displacement, normal);
+  }
+};
+
+/// Two leaves whose bounds overlap at the start: the first moves. They meet where the ghost of one meets the other.
+struct NearLeaves {
+  NodePair leaves;
+  double gap = 0;                     ///< Lower bound of both distances [mm].
+  SeparatingAxis of_moving_ghost[2];  ///< Of the ghost of the moving triangle and the stationary triangle.
+  SeparatingAxis of_fixed_ghost[2];   ///< Of the moving triangle and the ghost of the stationary one.
+
+  /// The larger rate of the two, each by the better of its axes.
+  DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
+    const double first = lesser(of_moving_ghost[0].closing_rate(motion), of_moving_ghost[1].closing_rate(motion));
+    const double second = lesser(of_fixed_ghost[0].closing_rate(motion), of_fixed_ghost[1].closing_rate(motion));
+    return first > second ? first : second;
+  }
+
+ private:
+  DISMANTLE_HOST_DEVICE static double lesser(double x, double y) { return x < y ? x : y; }
+};
+
+/// Two nodes whose bounds are apart at the start, or whose leaves are too many to be listed: the first moves.
+struct FarNodes {
+  NodePair nodes;
+  double gap = 0;  ///< Lower bound of the distance of their bounds [mm].
+};
+
+/// All that the moving set may meet on a translation from one state, found once for all translations from it. Every
+/// pair of leaves that is tested is in `near` or below one of `far`.
+struct StraightLists {
+  Span<const NearLeaves> near;  ///< By ascending gap.
+  Span<const FarNodes> far;     ///< By ascending gap.
+};
+
+}  // namespace dismantle
