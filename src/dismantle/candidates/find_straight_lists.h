@@ -9,8 +9,8 @@ namespace dismantle {
 
 /// StraightLists and what they hold.
 struct FoundStraightLists {
-  std::vector<NearLeaves> near;
-  std::vector<FarNodes> far;
+  std::vector<NearLeaves> near;  ///< As StraightLists::near.
+  std::vector<FarNodes> far;     ///< As StraightLists::far.
 };
 
 /// Leaves that are listed at most; what is near beyond it is searched by every candidate [pairs].

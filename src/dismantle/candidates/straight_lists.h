@@ -14,6 +14,7 @@ struct StraightMotion {
   Vec3 displacement;    ///< [mm, world]
   double distance = 0;  ///< Its length, and more than 0 [mm].
 
+  /// @param d the displacement [mm, world]
   DISMANTLE_HOST_DEVICE explicit StraightMotion(Vec3 d)
       : displacement(d), distance(length(d) > 1e-300 ? length(d) : 1e-300) {}
 };
@@ -25,6 +26,7 @@ struct SeparatingAxis {
   /// Share of the translation's length that covers rounding [1/mm]; infinite without an axis.
   double slack = std::numeric_limits<double>::infinity();
 
+  /// The rate along this axis.
   DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
     return slack * motion.distance - dot(motion.displacement, normal);
   }
@@ -32,7 +34,7 @@ struct SeparatingAxis {
 
 /// Two leaves whose bounds overlap at the start: the first moves. They meet where the ghost of one meets the other.
 struct NearLeaves {
-  NodePair leaves;
+  NodePair leaves;                    ///< Of the moving set and of a stationary component.
   double gap = 0;                     ///< Lower bound of both distances [mm].
   SeparatingAxis of_moving_ghost[2];  ///< Of the ghost of the moving triangle and the stationary triangle.
   SeparatingAxis of_fixed_ghost[2];   ///< Of the moving triangle and the ghost of the stationary one.
@@ -50,7 +52,7 @@ struct NearLeaves {
 
 /// Two nodes whose bounds are apart at the start, or whose leaves are too many to be listed: the first moves.
 struct FarNodes {
-  NodePair nodes;
+  NodePair nodes;  ///< Of the moving set and of stationary components.
   double gap = 0;  ///< Lower bound of the distance of their bounds [mm].
 };
 

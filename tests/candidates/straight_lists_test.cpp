@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/candidates/find_straight_lists.h"
+#include "dismantle/streams/guarded_pairs.h"
+#include "dismantle/streams/moving_streams.h"
+#include "tests/support/engine_scene.h"
+#include "tests/support/random_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace dismantle {
+namespace {
+
+constexpr double kTolerance = 0.01;
+
+/// A random assembly in a random state, with a moving set of two components.
+struct ListedScene {
+  /// @param shift of components from where they are assembled [mm]
+  ListedScene(unsigned seed, double shift)
+      : random(seed),
+        assembly(scenes::random_assembly(random, 12, 9)),
+        states(scenes::states_by_brute_force(assembly, kTolerance)),
+        streams(assembly, Executor()),
+        guards(assembly, states, streams.fixed(), {}),
+        state(12),
+        moving(12, 0) {
+    streams.set_margins(guards.ghosts().margins, Executor());
+    for (RigidTransform& pose : state)
+      if (random() % 3 == 0) pose = transform_from_pose(scenes::random_pose(random, shift, 0.5 * shift));
+    state[3] = state[4] = transform_from_pose(scenes::random_pose(random, shift, 0.5 * shift));
+    moving[3] = moving[4] = 1;
+    streams.jump(state, Executor());
+    guards.jump(state);
+    for (const int c : {3, 4}) roots.push_back(streams.fixed().bvh.components[static_cast<std::size_t>(c)].root);
+  }
+
+  CandidateScene scene() const {
+    const AssemblyTriangles& fixed = streams.fixed();
+    return {BvhView(fixed.bvh),
+            streams.bounds(),
+            fixed.vertices,
+            streams.vertices_t0(),
+            fixed.faces,
+            roots,
+            moving,
+            {guards.ghosts().displaced, guards.ghosts().margins, state, state},
+            guards.rules(),
+            state[3]};
+  }
+
+  std::mt19937_64 random;
+  Assembly assembly;
+  PairStates states;
+  MovingStreams streams;
+  GuardedPairs guards;
+  std::vector<RigidTransform> state;
+  std::vector<std::uint32_t> moving;
+  std::vector<NodeIndex> roots;
+};
+
+TEST(StraightLists, ListRatesThatNoContactIsEarlierThan) {
+  std::size_t contacts = 0, apart = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    ListedScene listed(seed, 0.2);
+    const CandidateScene scene = listed.scene();
+    const FoundStraightLists lists = find_straight_lists(scene);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.05 : 5);
+      const StraightMotion motion(d);
+      const StraightPiece piece(scene, d);
+      for (const NearLeaves& near : lists.near) {
+        const PairRule rule = scene.rule_of(near.leaves);
+        const CcdResult ccd =
+            ccd_with_ghosts(scene.moving_leaf(near.leaves, rule, piece), scene.fixed_leaf(near.leaves, rule));
+        const double rate = near.closing_rate(motion);
+        if (ccd.status != CcdStatus::Contact) {
+          apart += rate < 1 ? 1 : 0;
+          continue;
+        }
+        ++contacts;
+        // The test's times are early by up to a share of the ghosts' displacement.
+        const double early = 0.02 * kTolerance / motion.distance;
+        EXPECT_GE(rate * (ccd.toi + early), 1);
+        EXPECT_GE((ccd.toi + early) * motion.distance, near.gap);
+      }
+    }
+  }
+  EXPECT_GT(contacts, 1000u);
+  EXPECT_GT(apart, 1000u);
+}
+
+TEST(StraightLists, GiveTheContactsOfASearchOfTheWholeTree) {
+  std::size_t free = 0, stopped = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    ListedScene listed(seed, 2);
+    const CandidateScene scene = listed.scene();
+    for (const std::size_t most_near : {std::size_t{0}, std::size_t{7}, kMostNearLeaves}) {
+      const FoundStraightLists lists = find_straight_lists(scene, most_near);
+      EXPECT_LE(lists.near.size(), most_near);
+      for (int i = 0; i < 60; ++i) {
+        const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.3 : 30);
+        const StraightPiece piece(scene, d);
+        const CandidateContact found =
+            CandidateSearch<StraightPiece>(scene, piece).first({lists.near, lists.far}, StraightMotion(d));
+        const CandidateContact expected = CandidateSearch<StraightPiece>(scene, piece).first();
+        ASSERT_EQ(found.key == CandidateContact::kFree, expected.key == CandidateContact::kFree);
+        EXPECT_NEAR(found.toi, expected.toi, 1e-4);
+        free += found.key == CandidateContact::kFree ? 1 : 0;
+        stopped += found.key != CandidateContact::kFree && found.toi > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(free, 100u);
+  EXPECT_GT(stopped, 100u);
+}
+
+}  // namespace
+}  // namespace dismantle
