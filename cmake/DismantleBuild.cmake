@@ -117,9 +117,25 @@ function(dismantle_lane_kernel target source)
   endforeach()
 endfunction()
 
+# dismantle_checked_program(TARGET): a program of a checked build, a test or a benchmark. Nearly all that a compiler does for it is to read
+# headers: the usual ones are precompiled, one set for all programs, and it is optimised less than what it tests.
+function(dismantle_checked_program target)
+  if(NOT TARGET test_headers_precompiled)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp CONTENT "")
+    add_library(test_headers_precompiled OBJECT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp)
+    target_link_libraries(test_headers_precompiled PRIVATE dismantle_build_settings GTest::gtest)
+    target_compile_options(test_headers_precompiled PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0> -fPIE)
+    set_target_properties(test_headers_precompiled PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_precompile_headers(test_headers_precompiled PRIVATE <gtest/gtest.h> <algorithm> <array> <chrono> <cmath> <filesystem>
+      <fstream> <functional> <map> <memory> <numbers> <optional> <random> <set> <string> <thread> <vector>)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0>)
+  # The compiler refuses the file in a target without the definitions that it was made with.
+  target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:GTest::gtest,INTERFACE_COMPILE_OPTIONS>)
+  target_precompile_headers(${target} REUSE_FROM test_headers_precompiled)
+endfunction()
+
 # dismantle_test(NAME SOURCES ... DEPENDS component ... [LIBRARIES ...]): one test program for one folder of tests.
-# Nearly all that a compiler does for a test is to read headers: the usual ones are precompiled, and tests are optimised less than
-# what they test. All programs of tests share one set of precompiled headers.
 function(dismantle_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
   set(target test_${name})
@@ -132,17 +148,7 @@ function(dismantle_test name)
     add_dependencies(${target} dismantle_readers)
   endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0>)
-  if(NOT TARGET test_headers_precompiled)
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp CONTENT "")
-    add_library(test_headers_precompiled OBJECT ${PROJECT_BINARY_DIR}/test_headers_precompiled.cpp)
-    target_link_libraries(test_headers_precompiled PRIVATE dismantle_build_settings GTest::gtest)
-    target_compile_options(test_headers_precompiled PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1$<SEMICOLON>-g0> -fPIE)
-    set_target_properties(test_headers_precompiled PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-    target_precompile_headers(test_headers_precompiled PRIVATE <gtest/gtest.h> <algorithm> <array> <chrono> <cmath> <filesystem>
-      <fstream> <functional> <map> <memory> <numbers> <optional> <random> <set> <string> <thread> <vector>)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM test_headers_precompiled)
+  dismantle_checked_program(${target})
   target_compile_definitions(${target} PRIVATE
     DISMANTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DISMANTLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)

@@ -86,7 +86,7 @@ class Page(unittest.TestCase):
         self.assertIn("| vice | 77 | front-based | 2 | 17.0 | 2.00 |", page)  # two cores over one
 
     def test_charts_stand_where_the_page_shows_them(self):
-        shown = re.findall(r"\]\((pictures/[^)]*)\)", self.page())
+        shown = re.findall(r"\]\((pictures/[^)]*\.svg)\)", self.page())
         self.assertEqual(len(shown), 3)
         for name in shown:
             self.assertTrue((self.docs / name).read_text().endswith("</svg>\n"), name)
