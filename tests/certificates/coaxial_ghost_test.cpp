@@ -97,7 +97,9 @@ TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {
       }
       return tried == 2;
     };
-    EXPECT_TRUE(coaxial_ghost({&mine, &other, axes[0], mine.tree->vertices, 2 * limit, limit, {0.05, 0.001}}, good));
+    const RetractableSurface surface(mine.tree->vertices, mine.tree->faces);
+    EXPECT_TRUE(
+        coaxial_ghost({&mine, &other, &surface, axes[0], mine.tree->vertices, 2 * limit, limit, {0.05, 0.001}}, good));
     EXPECT_GT(moved, 100u);
   }
 }
@@ -120,7 +122,8 @@ TEST(CoaxialGhost, OpensNoCrackBetweenFacesThatShareNoVertices) {
   const OverlapSide other{&nut, [&]() -> const SolidShape& { return nut_shape; }};
   const auto axes = common_axes(rod, nut, 0.01);
   ASSERT_FALSE(axes.empty());
-  const auto found = coaxial_ghost({&own, &other, axes[0], tree.vertices, 2, 1, {0.01}},
+  const RetractableSurface surface(tree.vertices, tree.faces);
+  const auto found = coaxial_ghost({&own, &other, &surface, axes[0], tree.vertices, 2, 1, {0.01}},
                                    [](const std::vector<Vec3>&) { return true; });
   ASSERT_TRUE(found);
   const std::vector<std::uint32_t> first = first_at_position(tree.vertices);

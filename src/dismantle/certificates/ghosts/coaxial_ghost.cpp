@@ -2,7 +2,6 @@
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 
 #include "dismantle/certificates/ghosts/profile_along_axis.h"
-#include "dismantle/surface/ghost_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +83,7 @@ class Coaxial {
         axis_(request.axis.point, request.axis.direction),
         own_(places_of(axis_, tree_)),
         other_(places_of(axis_, *request.other->tree)),
-        first_(first_at_position(tree_.vertices)),
+        first_(request.surface->first()),
         displaced_(request.start.size()) {}
 
   /// @return the first vertices that are good
@@ -94,8 +93,7 @@ class Coaxial {
     const ProfileAlongAxis bore(axis_, bores, false), shaft(axis_, shafts, true);
     const std::vector<bool> of_outer = vertices_of(Side::Outer), of_bore = vertices_of(Side::Bore);
     // Cracks must not open: vertices beside them stay, and those at one position move alike.
-    std::vector<bool> stays(of_outer.size());
-    for (const HalfEdge& e : open_edges(tree_.faces, first_)) stays[e.low] = stays[e.high] = true;
+    const std::vector<bool>& stays = request_.surface->beside_open_edge();
     std::vector<bool> inwards(of_outer.size()), outwards(of_outer.size());
     for (std::size_t v = 0; v < of_outer.size(); ++v) {
       inwards[v] = of_outer[v] && !of_bore[v] && !stays[v] && first_[v] == v;
@@ -178,7 +176,7 @@ class Coaxial {
   const SolidTree& tree_;
   const AxisFrame axis_;
   std::vector<FacePlace> own_, other_;
-  std::vector<std::uint32_t> first_;  // vertex at each vertex's position
+  const std::vector<std::uint32_t>& first_;  // vertex at each vertex's position
   std::vector<Vec3> displaced_;
 };
 

@@ -140,7 +140,9 @@ class GhostSide {
     std::optional<std::vector<Vec3>> found;
     for (const RevolutionAxis& axis : axes)
       for (const bool whole : {true, false})
-        if (!found) found = coaxial_ghost({&own_, &other_, axis, start, max_length_, depth_limit_, gaps, whole}, good);
+        if (!found)
+          found =
+              coaxial_ghost({&own_, &other_, &surface(), axis, start, max_length_, depth_limit_, gaps, whole}, good);
     max_length_ = length;
     return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
   }
@@ -261,10 +263,15 @@ class GhostSide {
 
   /// The vertices, displaced by the shortest vectors that retract their faces.
   std::vector<Vec3> retracted(const std::vector<double>& needed) const {
-    const SolidTree& own = *own_.tree;
     const double usual = kGaps[0] * request_.tolerance;
-    if (outward_.empty()) outward_ = outward_faces(own.faces, own.inside_out);
-    return retracted_vertices(own.vertices, outward_, {needed, usual, usual, max_length_});
+    return surface().retracted({needed, usual, usual, max_length_});
+  }
+
+  /// Found when it is first wanted, as retraction() is.
+  const RetractableSurface& surface() const {
+    const SolidTree& own = *own_.tree;
+    if (!surface_) surface_.emplace(own.vertices, outward_faces(own.faces, own.inside_out));
+    return *surface_;
   }
 
   /// Found when it is first wanted: most pairs need none.
@@ -352,7 +359,7 @@ class GhostSide {
   const PairGhostRequest& request_;
   bool is_a_;
   mutable std::optional<OverlapRetraction> retraction_;
-  mutable std::vector<Face> outward_;  // found when they are first needed
+  mutable std::optional<RetractableSurface> surface_;
   FacePairs near_;
   double near_reach_ = 0;  // of `near_` [mm]
   double depth_limit_ = 0;
