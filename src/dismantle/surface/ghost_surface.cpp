@@ -111,31 +111,32 @@ std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices) {
   return first;
 }
 
-std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
-  // The half edges of each vertex that begins them in one direction, and ends them in the other.
+std::vector<HalfEdge> joined_half_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
   std::vector<std::uint32_t> begin(first.size() + 1);
-  const auto for_each_half_edge = [&](const auto& visit) {
+  const auto for_each_side = [&](const auto& visit) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
       for (std::uint8_t side = 0; side < 3; ++side) {
         const std::uint32_t a = first[faces[f].v[side]], b = first[faces[f].v[(side + 1) % 3]];
         if (a != b) visit(HalfEdge{std::min(a, b), std::max(a, b), f, side, a < b});
       }
   };
-  for_each_half_edge([&](const HalfEdge& e) { ++begin[e.low + 1]; });
+  for_each_side([&](const HalfEdge& e) { ++begin[e.low + 1]; });
   for (std::size_t v = 0; v < first.size(); ++v) begin[v + 1] += begin[v];
   std::vector<HalfEdge> half_edges(begin.back());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for_each_half_edge([&](const HalfEdge& e) { half_edges[next[e.low]++] = e; });
+  for_each_side([&](const HalfEdge& e) { half_edges[next[e.low]++] = e; });
+  for (std::size_t v = 0; v < first.size(); ++v)
+    std::sort(
+        half_edges.begin() + begin[v], half_edges.begin() + begin[v + 1],
+        [](const HalfEdge& a, const HalfEdge& b) { return a.high != b.high ? a.high < b.high : a.face < b.face; });
+  return half_edges;
+}
+
+std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
   std::vector<HalfEdge> open;
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    const auto from = half_edges.begin() + begin[v], to = half_edges.begin() + begin[v + 1];
-    std::sort(from, to, [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
-    for (auto e = from; e != to;) {
-      const auto other = std::find_if(e, to, [&](const HalfEdge& o) { return o.high != e->high; });
-      if (other - e == 1) open.push_back(*e);
-      e = other;
-    }
-  }
+  for_each_edge(joined_half_edges(faces, first), [&](const HalfEdge* begin, const HalfEdge* end) {
+    if (end - begin == 1) open.push_back(*begin);
+  });
   return open;
 }
 

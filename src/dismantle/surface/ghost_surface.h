@@ -66,6 +66,11 @@ std::vector<Face> outward_faces(Span<const Face> faces, bool inside_out);
 /// The slot of the first vertex at the same position, for each vertex.
 std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices);
 
+/// The half edges of a mesh in which vertices at one position are one, sorted as sorted_half_edges() has them; without
+/// the sides that have no length.
+/// @param first as first_at_position() gives it
+std::vector<HalfEdge> joined_half_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first);
+
 /// The open edges of a mesh in which vertices at one position are one: around holes, and at T-junctions.
 /// @param first as first_at_position() gives it
 /// @return between vertices that are the first at their positions
