@@ -9,8 +9,10 @@ namespace dismantle {
 
 /// A segment over an interval of x.
 struct GraphSegment {
-  double x0 = 0, y0 = 0;  ///< Its begin.
-  double x1 = 0, y1 = 0;  ///< Its end.
+  double x0 = 0;  ///< Begin of the interval.
+  double y0 = 0;  ///< The segment's y there.
+  double x1 = 0;  ///< End of the interval; above x0.
+  double y1 = 0;  ///< The segment's y there.
 
   /// Its y at `x`, which is moved into the interval.
   double at(double x) const;
