@@ -128,5 +128,40 @@ TEST(ObbTree, OfNothingIsEmpty) {
   EXPECT_TRUE(tree_of({}).empty());
 }
 
+TEST(ObbTreeRefit, ContainsDisplacedTrianglesWithTheSplitsOfTheKnownTree) {
+  std::mt19937_64 random(20261127);
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 60, 40);  // more than one task
+  const ObbTree like = tree_of(mesh);
+  for (const double far : {1e-9, 1e-3, 1.0, 100.0}) {
+    TriangleMesh displaced = mesh;
+    for (Vec3& p : displaced.vertices) p += scenes::random_vector(random, far);
+    const ObbTree tree = obb_tree_refit(like, displaced.vertices, displaced.faces, {});
+    EXPECT_STREQ(obb_tree_fault(tree, displaced.vertices, displaced.faces), "") << far;
+    ASSERT_EQ(tree.nodes.size(), like.nodes.size());
+    bool same_splits = true;
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n)
+      same_splits = same_splits && tree.nodes[n].child == like.nodes[n].child &&
+                    tree.nodes[n].parent == like.nodes[n].parent && tree.nodes[n].leaf() == like.nodes[n].leaf();
+    EXPECT_TRUE(same_splits);
+    const ObbTree threads =
+        obb_tree_refit(like, displaced.vertices, displaced.faces, Executor(ExecutorKind::Threads, 3));
+    EXPECT_EQ(std::memcmp(threads.nodes.data(), tree.nodes.data(), tree.nodes.size() * sizeof(ObbNode)), 0);
+  }
+}
+
+TEST(ObbTreeRefit, OfTheSamePositionsIsTheSameTree) {
+  const TriangleMesh mesh = scenes::tube(5, 3, 0, 20, 40, 9);
+  const ObbTree like = tree_of(mesh), tree = obb_tree_refit(like, mesh.vertices, mesh.faces, {});
+  EXPECT_EQ(tree.origin, like.origin);
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    EXPECT_EQ(tree.nodes[n].box.center, like.nodes[n].box.center);
+    EXPECT_EQ(tree.nodes[n].box.half, like.nodes[n].box.half);
+    EXPECT_EQ(tree.nodes[n].size, like.nodes[n].size);
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(tree.triangles[f].corner[k], like.triangles[f].corner[k]);
+  EXPECT_TRUE(obb_tree_refit({}, {}, {}, {}).empty());
+}
+
 }  // namespace
 }  // namespace dismantle

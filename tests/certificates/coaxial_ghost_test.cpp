@@ -97,7 +97,9 @@ TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {
       }
       return tried == 2;
     };
-    EXPECT_TRUE(coaxial_ghost({&mine, &other, axes[0], mine.tree->vertices, 2 * limit, limit, {0.05, 0.001}}, good));
+    const RetractableSurface surface(mine.tree->vertices, mine.tree->faces);
+    EXPECT_TRUE(
+        coaxial_ghost({&mine, &other, &surface, axes[0], mine.tree->vertices, 2 * limit, limit, {0.05, 0.001}}, good));
     EXPECT_GT(moved, 100u);
   }
 }
@@ -120,7 +122,8 @@ TEST(CoaxialGhost, OpensNoCrackBetweenFacesThatShareNoVertices) {
   const OverlapSide other{&nut, [&]() -> const SolidShape& { return nut_shape; }};
   const auto axes = common_axes(rod, nut, 0.01);
   ASSERT_FALSE(axes.empty());
-  const auto found = coaxial_ghost({&own, &other, axes[0], tree.vertices, 2, 1, {0.01}},
+  const RetractableSurface surface(tree.vertices, tree.faces);
+  const auto found = coaxial_ghost({&own, &other, &surface, axes[0], tree.vertices, 2, 1, {0.01}},
                                    [](const std::vector<Vec3>&) { return true; });
   ASSERT_TRUE(found);
   const std::vector<std::uint32_t> first = first_at_position(tree.vertices);
@@ -173,6 +176,67 @@ TEST(ProfileAlongAxis, IsTheNearestAndTheFarthestOfRandomFaces) {
             << *outline / length(p) << " " << ratio;
       }
     }
+  }
+}
+
+/// The nearest or farthest crossing of edges with a direction, away from the axis; nothing where there is none.
+std::optional<double> scanned(const AxisFrame& axis, const std::vector<Triangle>& faces, double angle, bool farthest) {
+  const Vec3 direction = axis.at(angle), aside = cross(axis.direction, direction);
+  std::optional<double> found;
+  for (const Triangle& face : faces)
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 a = axis.across(face[i]), b = axis.across(face[(i + 1) % 3]);
+      const double off = dot(aside, a), slope = dot(aside, b - a);
+      if (off * (off + slope) > 0 || slope == 0) continue;
+      const double at = dot(direction, a - off / slope * (b - a));
+      if (at > 1e-6 && (!found || (farthest ? at > *found : at < *found))) found = at;
+    }
+  return found;
+}
+
+TEST(ProfileAlongAxis, IsTheOutlineOfManyTurnsOfCoarseAndFineEdges) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> u(0, 1);
+  const AxisFrame axis({1, 2, 3}, normalized(Vec3{0.3, -0.2, 1}));
+  const auto at = [&](double r, double angle, double along) {
+    return axis.point + r * axis.at(angle) + along * axis.direction;
+  };
+  // Turns of a thread, each in steps of its own and begun anywhere: crests that nearly coincide. One turn in steps much
+  // finer than a sector, one with faces that are seen edge-on and faces that end at the axis.
+  std::vector<Triangle> faces;
+  for (int turn = 0; turn < 12; ++turn) {
+    const int steps = turn == 0 ? 5000 : 20 + static_cast<int>(60 * u(random));
+    const double begin = kTurn * u(random), z = turn;
+    for (int k = 0; k < steps; ++k) {
+      const double from = begin + kTurn * k / steps, to = begin + kTurn * (k + 1) / steps;
+      const double r = 5 + 0.001 * u(random);
+      faces.push_back({{at(r, from, z), at(r, to, z), at(4, from, z + 0.4)}});
+      if (turn == 1) faces.push_back({{at(3, from, z), at(4, from, z), at(4.5, from, z + 0.4)}});
+      if (turn == 2) faces.push_back({{at(0, from, z), at(4, from, z), at(4, to, z)}});
+    }
+  }
+  for (const bool farthest : {false, true}) {
+    const ProfileAlongAxis profile(axis, faces, farthest);
+    for (int k = 0; k < 3000; ++k) {
+      const double angle = 3 * kTurn * (u(random) - 0.5);
+      const auto found = profile.distance(angle), expected = scanned(axis, faces, angle, farthest);
+      ASSERT_TRUE(found && expected);
+      EXPECT_NEAR(*found, *expected, 1e-9);
+    }
+  }
+}
+
+TEST(ProfileAlongAxis, HasNoDistanceWhereThereAreNoFaces) {
+  const AxisFrame axis({0, 0, 0}, {0, 0, 1});
+  const auto at = [&](double r, double angle) { return r * axis.at(angle); };
+  const std::vector<Triangle> faces{{{at(2, -0.4), at(3, 0.1), at(2, 0.5)}}};
+  for (const bool farthest : {false, true}) {
+    const ProfileAlongAxis profile(axis, faces, farthest);
+    for (const double angle : {-3.0, -0.41, 0.51, 2.0}) EXPECT_FALSE(profile.distance(angle)) << angle;
+    for (const double angle : {-0.4, -0.1, 0.2, 0.5, kTurn + 0.5}) EXPECT_TRUE(profile.distance(angle)) << angle;
+    EXPECT_EQ(profile.ratio_to_segment(at(1, 1), at(1, 2)), 1);
+    EXPECT_NEAR(profile.ratio_to_segment(at(1, 0.1), at(1, 0.1)), *profile.distance(0.1), 1e-12);
+    EXPECT_EQ(ProfileAlongAxis(axis, {}, farthest).ratio_to_segment(at(1, 0), at(1, 1)), 1);
   }
 }
 

@@ -6,7 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+#include <utility>
 
 namespace dismantle {
 namespace {
@@ -106,6 +112,81 @@ TEST(GhostSurface, MovesVerticesAtOnePositionAlike) {
   const std::vector<Vec3> loose = ghost_vertices(soup.vertices, soup.faces, kLength);
   for (std::uint32_t f = 0; f < box.faces.size(); ++f)
     for (std::uint32_t k = 0; k < 3; ++k) EXPECT_LT(length(loose[3 * f + k] - welded[box.faces[f].v[k]]), 1e-15);
+}
+
+TEST(OpenEdges, AreTheEdgesOfOneFaceWhereVerticesAtOnePositionAreOne) {
+  // A tube of faces with vertices of their own, some faces left out, some there twice, some without area.
+  std::mt19937_64 random(5);
+  const TriangleMesh tube = scenes::tube(5, 3, 0, 10, 24, 4);
+  for (int round = 0; round < 20; ++round) {
+    TriangleMesh soup;
+    const auto add = [&](Vec3 a, Vec3 b, Vec3 c) {
+      const auto at = static_cast<std::uint32_t>(soup.vertices.size());
+      for (const Vec3& p : {a, b, c}) soup.vertices.push_back(p);
+      soup.faces.push_back({{at, at + 1, at + 2}});
+    };
+    for (std::uint32_t f = 0; f < tube.faces.size(); ++f) {
+      const Triangle t = tube.triangle(f);
+      const auto dice = random() % 20;
+      if (dice > 0) add(t[0], t[1], t[2]);
+      if (dice == 1) add(t[1], t[2], t[0]);
+      if (dice == 2) add(t[0], t[0], t[1]);
+    }
+    // By position: how often each edge occurs, and whether the result has it.
+    using Position = std::tuple<double, double, double>;
+    const auto position = [&](std::uint32_t v) {
+      return Position(soup.vertices[v].x, soup.vertices[v].y, soup.vertices[v].z);
+    };
+    std::map<std::pair<Position, Position>, int> times;
+    for (const Face& f : soup.faces)
+      for (int k = 0; k < 3; ++k) {
+        const Position a = position(f.v[k]), b = position(f.v[(k + 1) % 3]);
+        if (a != b) ++times[std::minmax(a, b)];
+      }
+    std::set<std::pair<Position, Position>> expected, found;
+    for (const auto& [edge, number] : times)
+      if (number == 1) expected.insert(edge);
+    const std::vector<std::uint32_t> first = first_at_position(soup.vertices);
+    const RetractableSurface surface(soup.vertices, soup.faces);
+    std::vector<bool> beside(soup.vertices.size());
+    for (const HalfEdge& e : open_edges(soup.faces, first)) {
+      const Position low = position(e.low), high = position(e.high);
+      EXPECT_TRUE(found.insert(std::minmax(low, high)).second);
+      EXPECT_EQ(first[e.low], e.low);
+      EXPECT_EQ(first[e.high], e.high);
+      EXPECT_LT(e.low, e.high);
+      const Face& face = soup.faces[e.face];
+      const std::uint32_t from = first[face.v[e.side]], to = first[face.v[(e.side + 1) % 3]];
+      EXPECT_EQ(from, e.forward ? e.low : e.high);
+      EXPECT_EQ(to, e.forward ? e.high : e.low);
+      beside[e.low] = beside[e.high] = true;
+    }
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(surface.beside_open_edge(), beside);
+    EXPECT_EQ(surface.first(), first);
+  }
+}
+
+TEST(RetractableSurface, RetractsEachFaceByItsOwnDistanceAnyNumberOfTimes) {
+  const TriangleMesh box = scenes::box({0, 0, 0}, {4, 5, 6});
+  const RetractableSurface surface(box.vertices, box.faces);
+  // The faces of two opposite sides are retracted by 0.3 and a half of that, the others by as much as they may.
+  for (const double by : {0.3, 0.1, 0.3}) {
+    std::vector<double> needed(box.faces.size());
+    const auto side_of = [&](std::uint32_t f) { return normalized(normal_unscaled(box.triangle(f))).x; };
+    for (std::uint32_t f = 0; f < needed.size(); ++f)
+      needed[f] = side_of(f) > 0.5 ? by : side_of(f) < -0.5 ? by / 2 : 0;
+    const std::vector<Vec3> ghost = surface.retracted({needed, 0, 0.05, 1});
+    for (std::size_t v = 0; v < ghost.size(); ++v) {
+      const Vec3 p = box.vertices[v], moved = ghost[v] - p;
+      EXPECT_NEAR(moved.x, p.x > 2 ? -by : by / 2, 1e-9);
+      EXPECT_NEAR(std::abs(moved.y), 0.05, 1e-9);
+      EXPECT_NEAR(std::abs(moved.z), 0.05, 1e-9);
+    }
+    EXPECT_EQ(surface.retracted({{}, 0, kLength / std::sqrt(2.0), kLength}),
+              ghost_vertices(box.vertices, box.faces, kLength));
+  }
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ namespace dismantle {
 /// @param origin that the box is relative to [mm]
 Obb obb_fit(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order, Vec3 origin);
 
+/// Fits a box with the axes of another one, as obb_fit() does otherwise.
+Obb obb_fit_along(const Obb& like, Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order,
+                  Vec3 origin);
+
 /// An upper bound of the distance from the box's center to any of its points [mm].
 float obb_radius(const Obb& box);
 

@@ -3,6 +3,7 @@
 
 #include "dismantle/bvh/obb_fit.h"
 #include "dismantle/bvh/surface_moments.h"
+#include "dismantle/core/contract.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/math/mat3.h"
 #include "dismantle/math/vec3f.h"
@@ -16,15 +17,38 @@ namespace dismantle {
 
 namespace {
 
+/// The faces of a node, as a range of the tree's order.
+struct NodeRange {
+  std::uint32_t begin, end, node, parent;
+  std::uint32_t size() const { return end - begin; }
+};
+
+/// Boxes count as at least so thick, relative to their radius.
+constexpr float kThin = 1e-3f;
+
+TriangleF local_triangle(const Triangle& local) {
+  return {{to_float(local[0]), to_float(local[1]), to_float(local[2])}};
+}
+
+Triangle relative_to(Vec3 origin, Span<const Vec3> vertices, const Face& face) {
+  return {{vertices[face.v[0]] - origin, vertices[face.v[1]] - origin, vertices[face.v[2]] - origin}};
+}
+
+/// Sets a node but for its child.
+void set_node(ObbNode& node, const Obb& box, const NodeRange& range) {
+  node.box = box;
+  node.radius = obb_radius(box);
+  node.parent = range.parent;
+  const float thin = kThin * node.radius;
+  node.size = range.size() == 1 ? -1 : 8 * (box.half.x + thin) * (box.half.y + thin) * (box.half.z + thin);
+}
+
 /// Builds ranges of `order_` into nodes. A range of n triangles is split once at each of its n - 1 inner positions, so
 /// the children that a split at position m makes are nodes 2m - 1 and 2m: subtrees can be built in any order, side by
 /// side.
 class Builder {
  public:
-  struct Range {
-    std::uint32_t begin, end, node, parent;
-    std::uint32_t size() const { return end - begin; }
-  };
+  using Range = NodeRange;
 
   Builder(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint8_t> parts, ObbTree& tree)
       : vertices_(vertices),
@@ -39,15 +63,13 @@ class Builder {
     if (!parts.empty())
       std::stable_sort(order_.begin(), order_.end(),
                        [parts](std::uint32_t f, std::uint32_t g) { return parts[f] < parts[g]; });
-    tree.triangles.reserve(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const Face& face = faces[f];
-      const Triangle local{
-          {vertices[face.v[0]] - tree.origin, vertices[face.v[1]] - tree.origin, vertices[face.v[2]] - tree.origin}};
+      const Triangle local = relative_to(tree.origin, vertices, face);
       centroids_[f] = (1.0 / 3) * (local[0] + local[1] + local[2]);
       normals_[f] = normalized(normal_unscaled(local));
       moments_[f] = surface_moments(local);
-      tree.triangles.push_back({{to_float(local[0]), to_float(local[1]), to_float(local[2])}});
+      tree.triangles.push_back(local_triangle(local));
     }
   }
 
@@ -55,31 +77,16 @@ class Builder {
   bool build(const Range& range, Range (&halves)[2]) {
     ObbNode& node = tree_.nodes[range.node];
     const Span<const std::uint32_t> order(order_.data() + range.begin, range.size());
-    node.box = obb_fit(vertices_, faces_, order, tree_.origin);
-    node.radius = obb_radius(node.box);
-    node.parent = range.parent;
+    set_node(node, obb_fit(vertices_, faces_, order, tree_.origin), range);
     if (range.size() == 1) {
-      node.size = -1;
       node.child = order_[range.begin];
       return false;
     }
-    const float thin = kThin * node.radius;
-    node.size = 8 * (node.box.half.x + thin) * (node.box.half.y + thin) * (node.box.half.z + thin);
     const std::uint32_t middle = split(range, node.box);
     node.child = 2 * middle - 1;
     halves[0] = {range.begin, middle, node.child, range.node};
     halves[1] = {middle, range.end, node.child + 1, range.node};
     return true;
-  }
-
-  void build_subtree(const Range& root) {
-    std::vector<Range> waiting{root};
-    while (!waiting.empty()) {
-      const Range range = waiting.back();
-      waiting.pop_back();
-      Range halves[2];
-      if (build(range, halves)) waiting.insert(waiting.end(), {halves[1], halves[0]});
-    }
   }
 
  private:
@@ -180,8 +187,6 @@ class Builder {
     return static_cast<std::uint32_t>(middle - order_.begin());
   }
 
-  /// Boxes count as at least so thick, relative to their radius.
-  static constexpr float kThin = 1e-3f;
   /// A cut other than along the longest axis is taken if it makes the halves thinner than this share of that one's.
   static constexpr double kThinner = 0.7;
   /// Boxes thinner than this are flat, relative to the longest half edge.
@@ -198,8 +203,88 @@ class Builder {
   std::vector<SurfaceMoments> moments_;
 };
 
+/// Fits the boxes of a tree whose splits are known.
+class Refitter {
+ public:
+  Refitter(const ObbTree& like, Span<const Vec3> vertices, Span<const Face> faces, ObbTree& tree)
+      : like_(like), vertices_(vertices), faces_(faces), tree_(tree), order_(faces.size()) {
+    // Leaves are met in the order of their faces.
+    std::size_t met = 0;
+    std::vector<std::uint32_t> waiting{0};
+    while (!waiting.empty()) {
+      const ObbNode& node = like.nodes[waiting.back()];
+      waiting.pop_back();
+      if (node.leaf()) {
+        order_[met++] = node.child;
+      } else {
+        waiting.insert(waiting.end(), {node.child + 1, node.child});
+      }
+    }
+    for (const Face& face : faces) tree.triangles.push_back(local_triangle(relative_to(tree.origin, vertices, face)));
+  }
+
+  /// Fits the node of the range; false for a leaf.
+  bool build(const NodeRange& range, NodeRange (&halves)[2]) {
+    const ObbNode& like = like_.nodes[range.node];
+    ObbNode& node = tree_.nodes[range.node];
+    const Span<const std::uint32_t> order(order_.data() + range.begin, range.size());
+    set_node(node, obb_fit_along(like.box, vertices_, faces_, order, tree_.origin), range);
+    node.child = like.child;
+    if (like.leaf()) return false;
+    const std::uint32_t middle = (node.child + 1) / 2;
+    halves[0] = {range.begin, middle, node.child, range.node};
+    halves[1] = {middle, range.end, node.child + 1, range.node};
+    return true;
+  }
+
+ private:
+  const ObbTree& like_;
+  Span<const Vec3> vertices_;
+  Span<const Face> faces_;
+  ObbTree& tree_;
+  std::vector<std::uint32_t> order_;
+};
+
 /// Ranges at or below this size are built by one task.
 constexpr std::uint32_t kTaskSize = 4096;
+
+/// Builds all nodes of a tree. @param builder has build(range, halves), which is false for a leaf
+template <class NodeBuilder>
+void build_nodes(NodeBuilder& builder, std::uint32_t face_count, const Executor& executor) {
+  std::vector<NodeRange> level{{0, face_count, 0, ObbNode::kNone}}, tasks;
+  while (!level.empty()) {
+    std::vector<NodeRange> large;
+    for (const NodeRange& r : level) (r.size() > kTaskSize ? large : tasks).push_back(r);
+    std::vector<NodeRange> halves(2 * large.size());
+    executor.for_each_heavy(large.size(), [&](std::size_t i) {
+      NodeRange two[2];
+      builder.build(large[i], two);
+      halves[2 * i] = two[0];
+      halves[2 * i + 1] = two[1];
+    });
+    level = std::move(halves);
+  }
+  executor.for_each_heavy(tasks.size(), [&](std::size_t i) {
+    std::vector<NodeRange> waiting{tasks[i]};
+    while (!waiting.empty()) {
+      const NodeRange range = waiting.back();
+      waiting.pop_back();
+      NodeRange two[2];
+      if (builder.build(range, two)) waiting.insert(waiting.end(), {two[1], two[0]});
+    }
+  });
+}
+
+/// A tree without nodes' contents.
+ObbTree empty_tree(Span<const Vec3> vertices, Span<const Face> faces) {
+  ObbTree tree;
+  Aabb box;
+  for (const Vec3& p : vertices) box.extend(p);
+  tree.origin = box.center();
+  tree.nodes.resize(2 * faces.size() - 1);
+  tree.triangles.reserve(faces.size());
+  return tree;
+}
 
 bool contains(const ObbNode& node, Vec3 local) {
   const Obb& box = node.box;
@@ -216,28 +301,20 @@ bool contains(const ObbNode& node, Vec3 local) {
 
 ObbTree obb_tree_build(Span<const Vec3> vertices, Span<const Face> faces, const Executor& executor,
                        Span<const std::uint8_t> parts) {
-  ObbTree tree;
-  if (faces.empty()) return tree;
-  Aabb box;
-  for (const Vec3& p : vertices) box.extend(p);
-  tree.origin = box.center();
-  tree.nodes.resize(2 * faces.size() - 1);
-
+  if (faces.empty()) return {};
+  ObbTree tree = empty_tree(vertices, faces);
   Builder builder(vertices, faces, parts, tree);
-  std::vector<Builder::Range> level{{0, static_cast<std::uint32_t>(faces.size()), 0, ObbNode::kNone}}, tasks;
-  while (!level.empty()) {
-    std::vector<Builder::Range> large;
-    for (const Builder::Range& r : level) (r.size() > kTaskSize ? large : tasks).push_back(r);
-    std::vector<Builder::Range> halves(2 * large.size());
-    executor.for_each_heavy(large.size(), [&](std::size_t i) {
-      Builder::Range two[2];
-      builder.build(large[i], two);
-      halves[2 * i] = two[0];
-      halves[2 * i + 1] = two[1];
-    });
-    level = std::move(halves);
-  }
-  executor.for_each_heavy(tasks.size(), [&](std::size_t i) { builder.build_subtree(tasks[i]); });
+  build_nodes(builder, static_cast<std::uint32_t>(faces.size()), executor);
+  return tree;
+}
+
+ObbTree obb_tree_refit(const ObbTree& like, Span<const Vec3> vertices, Span<const Face> faces,
+                       const Executor& executor) {
+  DISMANTLE_EXPECT(like.triangles.size() == faces.size());
+  if (faces.empty()) return {};
+  ObbTree tree = empty_tree(vertices, faces);
+  Refitter refitter(like, vertices, faces, tree);
+  build_nodes(refitter, static_cast<std::uint32_t>(faces.size()), executor);
   return tree;
 }
 

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace dismantle {
 
@@ -19,8 +21,7 @@ constexpr double kSameNormal = 1e-10;
 /// Vertices no further from an edge than this share of the diagonal are on it.
 constexpr double kOnEdge = 1e-4;
 
-/// The directions in which the faces at a vertex are retracted: unit normals into the solid, and what they need.
-using Inwards = std::vector<VectorBound>;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Calls visit(vertex, face) for vertices of open edges that lie on the inside of another one, an edge of that face:
 /// T-junctions.
@@ -65,41 +66,14 @@ void for_each_vertex_on_edge(Span<const Vec3> vertices, const std::vector<HalfEd
   }
 }
 
-/// The distinct ones at each vertex, gathered at the first of those at one position.
-std::vector<Inwards> inwards_at_vertices(Span<const Vec3> vertices, Span<const Face> faces, Span<const double> needed,
-                                         const std::vector<std::uint32_t>& first) {
-  std::vector<Inwards> at(vertices.size());
-  const auto add = [&](std::uint32_t vertex, std::uint32_t face) {
-    const Face& f = faces[face];
-    const Vec3 normal = normal_unscaled({{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}});
-    const double size = length(normal);
-    if (!(size > 0)) return;
-    const Vec3 inwards = normal / -size;
-    const double distance = needed.empty() ? 0 : needed[face];
-    Inwards& bounds = at[vertex];
-    const auto same = [&](const VectorBound& b) { return dot(b.normal, inwards) > 1 - kSameNormal; };
-    const auto known = std::find_if(bounds.begin(), bounds.end(), same);
-    if (known == bounds.end()) {
-      bounds.push_back({inwards, distance});
-    } else {
-      known->distance = std::max(known->distance, distance);
-    }
-  };
-  for (std::uint32_t i = 0; i < faces.size(); ++i)
-    for (const std::uint32_t v : faces[i].v) add(first[v], i);
-  for_each_vertex_on_edge(vertices, open_edges(faces, first), add);
-  return at;
-}
-
 /// The displacement of a vertex.
-Vec3 displacement(const Inwards& inwards, const FaceRetractions& r) {
+/// @param own the directions in which its faces are retracted: unit normals into the solid, and what they need
+Vec3 displacement(std::vector<VectorBound>& own, const FaceRetractions& r) {
   constexpr double kShares[] = {1, 0.75, 0.5, 0.35, 0.2, 0.1, 0};
-  const bool some_needed =
-      std::any_of(inwards.begin(), inwards.end(), [](const VectorBound& b) { return b.distance > 0; });
-  Inwards bounds;
-  for (const VectorBound& b : inwards)
-    if (!some_needed || b.distance >= 0) bounds.push_back(b);
-  const Inwards own = bounds;
+  const bool some_needed = std::any_of(own.begin(), own.end(), [](const VectorBound& b) { return b.distance > 0; });
+  if (some_needed)
+    own.erase(std::remove_if(own.begin(), own.end(), [](const VectorBound& b) { return b.distance < 0; }), own.end());
+  std::vector<VectorBound> bounds = own;
   Vec3 longest;
   for (const double share : kShares) {
     double scale = 0;
@@ -137,29 +111,93 @@ std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices) {
   return first;
 }
 
+std::vector<HalfEdge> joined_half_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
+  std::vector<std::uint32_t> begin(first.size() + 1);
+  const auto for_each_side = [&](const auto& visit) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      for (std::uint8_t side = 0; side < 3; ++side) {
+        const std::uint32_t a = first[faces[f].v[side]], b = first[faces[f].v[(side + 1) % 3]];
+        if (a != b) visit(HalfEdge{std::min(a, b), std::max(a, b), f, side, a < b});
+      }
+  };
+  for_each_side([&](const HalfEdge& e) { ++begin[e.low + 1]; });
+  for (std::size_t v = 0; v < first.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<HalfEdge> half_edges(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for_each_side([&](const HalfEdge& e) { half_edges[next[e.low]++] = e; });
+  for (std::size_t v = 0; v < first.size(); ++v)
+    std::sort(
+        half_edges.begin() + begin[v], half_edges.begin() + begin[v + 1],
+        [](const HalfEdge& a, const HalfEdge& b) { return a.high != b.high ? a.high < b.high : a.face < b.face; });
+  return half_edges;
+}
+
 std::vector<HalfEdge> open_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first) {
-  std::vector<Face> joined(faces.begin(), faces.end());
-  for (Face& f : joined)
-    for (std::uint32_t& v : f.v) v = first[v];
   std::vector<HalfEdge> open;
-  for_each_edge(sorted_half_edges(joined), [&](const HalfEdge* begin, const HalfEdge* end) {
-    if (end - begin == 1 && begin->low != begin->high) open.push_back(*begin);
+  for_each_edge(joined_half_edges(faces, first), [&](const HalfEdge* begin, const HalfEdge* end) {
+    if (end - begin == 1) open.push_back(*begin);
   });
   return open;
 }
 
-std::vector<Vec3> retracted_vertices(Span<const Vec3> vertices, Span<const Face> faces,
-                                     const FaceRetractions& retractions) {
-  const std::vector<std::uint32_t> first = first_at_position(vertices);
-  const std::vector<Inwards> inwards = inwards_at_vertices(vertices, faces, retractions.needed, first);
-  std::vector<Vec3> displaced(vertices.begin(), vertices.end());
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    displaced[v] = first[v] != v ? displaced[first[v]] : vertices[v] + displacement(inwards[v], retractions);
+RetractableSurface::RetractableSurface(Span<const Vec3> vertices, Span<const Face> faces)
+    : vertices_(vertices.begin(), vertices.end()), first_(first_at_position(vertices)) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edge;  // vertex and face
+  const std::vector<HalfEdge> open = open_edges(faces, first_);
+  for_each_vertex_on_edge(vertices, open, [&](std::uint32_t v, std::uint32_t f) { on_edge.emplace_back(v, f); });
+  beside_open_edge_.resize(vertices.size());
+  for (const HalfEdge& e : open) beside_open_edge_[e.low] = beside_open_edge_[e.high] = true;
+
+  std::vector<std::uint32_t> begin(vertices.size() + 1);
+  const auto for_each_corner = [&](const auto& visit) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+      for (const std::uint32_t v : faces[f].v) visit(first_[v], f);
+    for (const auto& [v, f] : on_edge) visit(v, f);
+  };
+  for_each_corner([&](std::uint32_t v, std::uint32_t) { ++begin[v + 1]; });
+  for (std::size_t v = 0; v < vertices.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> around(begin.back()), next(begin.begin(), begin.end() - 1);
+  for_each_corner([&](std::uint32_t v, std::uint32_t f) { around[next[v]++] = f; });
+
+  std::vector<Vec3> inwards(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Vec3 normal = normal_unscaled({{vertices[faces[f].v[0]], vertices[faces[f].v[1]], vertices[faces[f].v[2]]}});
+    const double size = length(normal);
+    if (size > 0) inwards[f] = normal / -size;
+  }
+  begin_.push_back(0);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) add(around[k], inwards[around[k]]);
+    begin_.push_back(static_cast<std::uint32_t>(directions_.size()));
+  }
+}
+
+/// Adds a face to the last vertex. @param inwards zero for a face without area
+void RetractableSurface::add(std::uint32_t face, Vec3 inwards) {
+  if (inwards == Vec3{}) return;
+  const auto same = [&](Vec3 known) { return dot(known, inwards) > 1 - kSameNormal; };
+  const auto known = std::find_if(directions_.begin() + begin_.back(), directions_.end(), same);
+  directions_of_.push_back({face, static_cast<std::uint32_t>(known - directions_.begin())});
+  if (known == directions_.end()) directions_.push_back(inwards);
+}
+
+std::vector<Vec3> RetractableSurface::retracted(const FaceRetractions& retractions) const {
+  std::vector<double> needed(directions_.size(), retractions.needed.empty() ? 0 : -kInfinite);
+  if (!retractions.needed.empty())
+    for (const auto& [face, direction] : directions_of_)
+      needed[direction] = std::max(needed[direction], retractions.needed[face]);
+  std::vector<Vec3> displaced = vertices_;
+  std::vector<VectorBound> bounds;
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    bounds.clear();
+    for (std::uint32_t d = begin_[v]; d < begin_[v + 1]; ++d) bounds.push_back({directions_[d], needed[d]});
+    displaced[v] = first_[v] != v ? displaced[first_[v]] : vertices_[v] + displacement(bounds, retractions);
+  }
   return displaced;
 }
 
 std::vector<Vec3> ghost_vertices(Span<const Vec3> vertices, Span<const Face> faces, double max_length) {
-  return retracted_vertices(vertices, faces, {{}, 0, max_length / std::sqrt(2.0), max_length});
+  return RetractableSurface(vertices, faces).retracted({{}, 0, max_length / std::sqrt(2.0), max_length});
 }
 
 }  // namespace dismantle

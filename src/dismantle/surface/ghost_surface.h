@@ -30,16 +30,46 @@ struct FaceRetractions {
   double max_length = 0;  ///< Largest displacement of a vertex [mm].
 };
 
-/// As ghost_vertices(), with distances for each face. Where a displacement would be too long, `extra` and `usual` are
-/// shortened there first.
-std::vector<Vec3> retracted_vertices(Span<const Vec3> vertices, Span<const Face> faces,
-                                     const FaceRetractions& retractions);
+/// A surface whose faces can be retracted, each by a distance of its own. Vertices at one position, T-junctions and the
+/// directions of faces are found once, for any number of retractions.
+class RetractableSurface {
+ public:
+  /// @param vertices [mm]
+  /// @param faces with normals that point out of the solid
+  RetractableSurface(Span<const Vec3> vertices, Span<const Face> faces);
+
+  /// As ghost_vertices(), with distances for each face. Where a displacement would be too long, `extra` and `usual` are
+  /// shortened there first.
+  std::vector<Vec3> retracted(const FaceRetractions& retractions) const;
+  /// The slot of the first vertex at the same position, for each vertex.
+  const std::vector<std::uint32_t>& first() const { return first_; }
+  /// For the first vertex at each position, if it is an end of one of open_edges().
+  const std::vector<bool>& beside_open_edge() const { return beside_open_edge_; }
+
+ private:
+  struct DirectionOf {
+    std::uint32_t face, direction;
+  };
+  void add(std::uint32_t face, Vec3 inwards);
+
+  std::vector<Vec3> vertices_;
+  std::vector<std::uint32_t> first_;
+  std::vector<bool> beside_open_edge_;
+  std::vector<Vec3> directions_;            // into the solid, unit, distinct at each vertex
+  std::vector<std::uint32_t> begin_;        // of each vertex's range of directions
+  std::vector<DirectionOf> directions_of_;  // of the faces at all vertices
+};
 
 /// Faces whose normals point out of the solid: those of an inside-out mesh turned round.
 std::vector<Face> outward_faces(Span<const Face> faces, bool inside_out);
 
 /// The slot of the first vertex at the same position, for each vertex.
 std::vector<std::uint32_t> first_at_position(Span<const Vec3> vertices);
+
+/// The half edges of a mesh in which vertices at one position are one, sorted as sorted_half_edges() has them; without
+/// the sides that have no length.
+/// @param first as first_at_position() gives it
+std::vector<HalfEdge> joined_half_edges(Span<const Face> faces, const std::vector<std::uint32_t>& first);
 
 /// The open edges of a mesh in which vertices at one position are one: around holes, and at T-junctions.
 /// @param first as first_at_position() gives it

@@ -49,11 +49,8 @@ void add_thread_axes(Recognised& found) {
   }
 }
 
-/// Builds the tree of a solid and its surfaces of revolution. @param shape positions in which `found` was recognised
-void build_tree(SolidTree& solid, Span<const Vec3> shape, Recognised found, const Executor& executor) {
-  std::vector<std::uint8_t> parts = thread_parts(shape, solid.faces, found.threads);
-  add_cylinder_parts(shape, solid.faces, found.axes, parts);
-  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
+/// Finds the surfaces of revolution of a solid with its tree.
+void find_revolution(SolidTree& solid, Recognised found) {
   if (!solid.tree.empty())
     solid.revolution = std::make_unique<RevolutionSurface>(solid.vertices, solid.faces, solid.tree.nodes,
                                                            std::move(found.axes), std::move(found.threads));
@@ -77,7 +74,8 @@ SolidTree make_displaced_tree(const SolidTree& solid, std::vector<Vec3> vertices
     const Span<const ThreadAxis> threads = solid.revolution->threads();
     found = {{axes.begin(), axes.end()}, {threads.begin(), threads.end()}};
   }
-  build_tree(displaced, solid.vertices, std::move(found), executor);
+  displaced.tree = obb_tree_refit(solid.tree, displaced.vertices, displaced.faces, executor);
+  find_revolution(displaced, std::move(found));
   return displaced;
 }
 
@@ -91,7 +89,10 @@ SolidTree make_solid_tree(const Component& component, const Executor& executor) 
   found.axes = revolution_axes(solid.vertices, solid.faces);
   found.threads = thread_axes(solid.vertices, solid.faces, found.axes);
   add_thread_axes(found);
-  build_tree(solid, solid.vertices, std::move(found), executor);
+  std::vector<std::uint8_t> parts = thread_parts(solid.vertices, solid.faces, found.threads);
+  add_cylinder_parts(solid.vertices, solid.faces, found.axes, parts);
+  solid.tree = obb_tree_build(solid.vertices, solid.faces, executor, parts);
+  find_revolution(solid, std::move(found));
   if (solid.has_outside) find_normals(solid);
   return solid;
 }

@@ -2,11 +2,11 @@
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 
 #include "dismantle/certificates/ghosts/profile_along_axis.h"
-#include "dismantle/surface/ghost_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -84,7 +84,7 @@ class Coaxial {
         axis_(request.axis.point, request.axis.direction),
         own_(places_of(axis_, tree_)),
         other_(places_of(axis_, *request.other->tree)),
-        first_(first_at_position(tree_.vertices)),
+        first_(request.surface->first()),
         displaced_(request.start.size()) {}
 
   /// @return the first vertices that are good
@@ -94,17 +94,17 @@ class Coaxial {
     const ProfileAlongAxis bore(axis_, bores, false), shaft(axis_, shafts, true);
     const std::vector<bool> of_outer = vertices_of(Side::Outer), of_bore = vertices_of(Side::Bore);
     // Cracks must not open: vertices beside them stay, and those at one position move alike.
-    std::vector<bool> stays(of_outer.size());
-    for (const HalfEdge& e : open_edges(tree_.faces, first_)) stays[e.low] = stays[e.high] = true;
+    const std::vector<bool>& stays = request_.surface->beside_open_edge();
     std::vector<bool> inwards(of_outer.size()), outwards(of_outer.size());
     for (std::size_t v = 0; v < of_outer.size(); ++v) {
       inwards[v] = of_outer[v] && !of_bore[v] && !stays[v] && first_[v] == v;
       outwards[v] = of_bore[v] && !of_outer[v] && !stays[v] && first_[v] == v;
     }
+    const auto beside_bore = edges_at(inwards), beside_shaft = edges_at(outwards);
     for (const double gap : request_.gaps) {
       displaced_ = request_.start;
-      move(bore, inwards, -gap);
-      move(shaft, outwards, gap);
+      move(bore, inwards, beside_bore, -gap);
+      move(shaft, outwards, beside_shaft, gap);
       for (std::size_t v = 0; v < first_.size(); ++v) displaced_[v] = displaced_[first_[v]];
       if (good(displaced_)) return std::move(displaced_);
     }
@@ -112,6 +112,8 @@ class Coaxial {
   }
 
  private:
+  using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
   /// The faces of the other component that the own ones have to get past.
   void find_profiles(std::vector<Triangle>& bores, std::vector<Triangle>& shafts) const {
     const Range beside_own = along_of(own_), beside_other = along_of(other_);
@@ -138,10 +140,23 @@ class Coaxial {
     return belongs;
   }
 
+  /// The edges with an end that may be moved, each once.
+  Edges edges_at(const std::vector<bool>& may_move) const {
+    Edges edges;
+    for (const Face& f : tree_.faces)
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t v = first_[f.v[i]], w = first_[f.v[(i + 1) % 3]];
+        if (may_move[v] || may_move[w]) edges.push_back(std::minmax(v, w));
+      }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+
   /// Moves vertices straight towards or away from the axis, past the profile of the other component.
-  /// @param may_move the vertices that may be moved
+  /// @param may_move the vertices that may be moved @param edges edges_at() these
   /// @param gap from that profile: above 0 to be beyond it, below 0 to be within it [mm]
-  void move(const ProfileAlongAxis& profile, const std::vector<bool>& may_move, double gap) {
+  void move(const ProfileAlongAxis& profile, const std::vector<bool>& may_move, const Edges& edges, double gap) {
     const bool outwards = gap > 0;
     for (std::size_t v = 0; v < may_move.size(); ++v) {
       if (!may_move[v]) continue;
@@ -151,14 +166,11 @@ class Coaxial {
     }
     // Between their corners, faces may still be in the way.
     std::vector<double> ratios(may_move.size(), 1);
-    for (const Face& f : tree_.faces)
-      for (int i = 0; i < 3; ++i) {
-        const std::uint32_t v = first_[f.v[i]], w = first_[f.v[(i + 1) % 3]];
-        if (!may_move[v] && !may_move[w]) continue;
-        const double ratio = profile.ratio_to_segment(axis_.across(displaced_[v]), axis_.across(displaced_[w]));
-        for (const std::uint32_t corner : {v, w})
-          ratios[corner] = outwards ? std::max(ratios[corner], ratio) : std::min(ratios[corner], ratio);
-      }
+    for (const auto& [v, w] : edges) {
+      const double ratio = profile.ratio_to_segment(axis_.across(displaced_[v]), axis_.across(displaced_[w]));
+      for (const std::uint32_t corner : {v, w})
+        ratios[corner] = outwards ? std::max(ratios[corner], ratio) : std::min(ratios[corner], ratio);
+    }
     for (std::size_t v = 0; v < may_move.size(); ++v)
       if (may_move[v] && ratios[v] != 1) set(v, ratios[v] * length(axis_.across(displaced_[v])) + gap);
   }
@@ -178,7 +190,7 @@ class Coaxial {
   const SolidTree& tree_;
   const AxisFrame axis_;
   std::vector<FacePlace> own_, other_;
-  std::vector<std::uint32_t> first_;  // vertex at each vertex's position
+  const std::vector<std::uint32_t>& first_;  // vertex at each vertex's position
   std::vector<Vec3> displaced_;
 };
 

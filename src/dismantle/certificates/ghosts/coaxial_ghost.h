@@ -3,6 +3,7 @@
 
 #include "dismantle/certificates/ghosts/overlap_retraction.h"
 #include "dismantle/features/revolution_axes.h"
+#include "dismantle/surface/ghost_surface.h"
 
 #include <functional>
 #include <optional>
@@ -18,10 +19,12 @@ std::vector<RevolutionAxis> common_axes(const SolidTree& a, const SolidTree& b, 
 struct CoaxialRequest {
   const OverlapSide* own = nullptr;    ///< The component whose ghost surface is wanted; never null.
   const OverlapSide* other = nullptr;  ///< The other one; never null.
-  RevolutionAxis axis;                 ///< One of common_axes().
-  std::vector<Vec3> start;             ///< Displaced vertices to start from [mm].
-  double max_length = 0;               ///< Largest displacement of a vertex [mm].
-  double depth_limit = 0;              ///< No vertex gets deeper in its solid than that [mm].
+  /// The surface of `own`; never null.
+  const RetractableSurface* surface = nullptr;
+  RevolutionAxis axis;      ///< One of common_axes().
+  std::vector<Vec3> start;  ///< Displaced vertices to start from [mm].
+  double max_length = 0;    ///< Largest displacement of a vertex [mm].
+  double depth_limit = 0;   ///< No vertex gets deeper in its solid than that [mm].
   /// Distances from the other component that are tried, the larger ones first [mm].
   std::vector<double> gaps;
   /// Past all of the other component, however far it is along the axis, and not only past what is beside this one.

@@ -5,9 +5,8 @@
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 #include "dismantle/certificates/ghosts/displaced_faces.h"
 #include "dismantle/certificates/ghosts/separating_ghost.h"
+#include "dismantle/certificates/ghosts/shifted_ghost.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
-#include "dismantle/narrowphase/closest_points.h"
-#include "dismantle/narrowphase/distance_triangle_triangle.h"
 #include "dismantle/surface/depth/moving_part_search.h"
 #include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/ghost_surface.h"
@@ -38,11 +37,8 @@ constexpr double kPlay = 0.3;
 constexpr double kOverlap = 0.1, kSheetOverlap = 1e-3;
 /// Ghosts are not made by displacing corners pair by pair where more pairs of faces are near each other.
 constexpr std::size_t kMaxNear = 200000;
-/// A shift of a whole surface is to be free from this share of its way on; the second one for surfaces that overlap.
-constexpr double kShiftBegins[] = {0.02, 0.9};
-/// So many directions are tried for that, of those that lead to the right side by at least this cosine.
-constexpr std::size_t kMaxDirections = 12;
-constexpr double kSameSide = 0.05;
+/// Faces that are no further apart than this share of the tolerance touch.
+constexpr double kTouching = 0.02;
 /// Patches are left out of the retraction one by one only where no more than this number overlap.
 constexpr std::size_t kMaxPatches = 24;
 /// Largest number of tests of pairs of faces in that search.
@@ -66,17 +62,16 @@ bool passes_thin_part(const PairGhostRequest& request, double length) {
   return is_nowhere_deeper(request.a.shape(), length) || is_nowhere_deeper(request.b.shape(), length);
 }
 
-using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
 /// One component's ghost against the other component, both in the assembled state.
 class GhostSide {
  public:
-  GhostSide(const PairGhostRequest& request, bool of_a)
+  GhostSide(const PairGhostRequest& request, PairOverlap& overlap, bool of_a)
       : own_(of_a ? request.a : request.b),
         other_(of_a ? request.b : request.a),
         usual_(of_a ? request.ghost_a : request.ghost_b),
         displaced_(own_, other_, request.tolerance),
         request_(request),
+        overlap_(overlap),
         is_a_(of_a) {}
 
   bool usual_is_apart() const {
@@ -140,7 +135,9 @@ class GhostSide {
     std::optional<std::vector<Vec3>> found;
     for (const RevolutionAxis& axis : axes)
       for (const bool whole : {true, false})
-        if (!found) found = coaxial_ghost({&own_, &other_, axis, start, max_length_, depth_limit_, gaps, whole}, good);
+        if (!found)
+          found =
+              coaxial_ghost({&own_, &other_, &surface(), axis, start, max_length_, depth_limit_, gaps, whole}, good);
     max_length_ = length;
     return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
   }
@@ -173,53 +170,20 @@ class GhostSide {
     return shifted ? std::optional(Found{std::move(*shifted), false}) : std::nullopt;
   }
 
-  /// The whole surface shifted away from the other one, if nothing is in the way: thin parts and sheets can then slide
-  /// along what they touch, and their other side stays clear of it.
-  /// @param off vertices that are displaced to the right side; none: either side, where it is free
+  /// The whole surface shifted off the other one. @param off vertices displaced to the right side; none: to either side
   std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off) const {
-    const std::vector<Vec3>& vertices = own_.tree->vertices;
+    // A part that pierces a foil must be shifted further than the depth of the overlap.
     const auto way_with = [&](double share) {
       return std::min(max_length_, request_.depth + share * request_.tolerance);
     };
-    const std::vector<Vec3> directions = directions_off(near, off);
-    // A part that pierces a foil must be shifted further than the depth of the overlap.
-    for (const double way : {way_with(kGaps[0]), way_with(kGhostLength)})
-      for (const double begin : kShiftBegins)
-        for (const Vec3& direction : directions) {
-          const Vec3 shift = way * direction;
-          if (!displaced_.free(vertices, begin * shift, shift)) continue;
-          std::vector<Vec3> shifted = vertices;
-          for (Vec3& p : shifted) p += shift;
-          if (!overlaps() || !displaced_.contained(shifted)) return shifted;
-        }
-    return std::nullopt;
-  }
-
-  /// Directions in which this surface may come off the other one: normals of faces that touch or intersect, and the
-  /// mean of displacements to the right side.
-  std::vector<Vec3> directions_off(const FacePairs& near, Span<const Vec3> off) const {
-    Vec3 sum;
-    for (std::size_t i = 0; i < off.size(); ++i) sum += off[i] - own_.tree->vertices[i];
-    if (length(sum) == 0 && !off.empty()) return {};
-    std::vector<Vec3> directions;
-    const auto add_one = [&](Vec3 d) {
-      const auto same = [&](Vec3 known) { return dot(known, d) > 1 - 1e-6; };
-      if (directions.size() < kMaxDirections && std::none_of(directions.begin(), directions.end(), same))
-        directions.push_back(d);
-    };
-    const auto add = [&](Vec3 d) {
-      const double along = dot(d, sum), enough = kSameSide * length(sum);
-      if (along >= enough) add_one(d);
-      if (along <= -enough) add_one(-d);
-    };
-    for (const auto& [face_own, face_other] : near) {
-      const Triangle own = own_.tree->triangle(face_own), other = other_.tree->triangle(face_other);
-      if (distance_triangle_triangle(own, other).distance > kShiftBegins[0] * request_.tolerance) continue;
-      add(normalized(normal_unscaled(own)));
-      add(normalized(normal_unscaled(other)));
-    }
-    if (length(sum) > 0) add(normalized(sum));
-    return directions;
+    return shifted_ghost({own_.tree,
+                          other_.tree,
+                          &displaced_,
+                          &near,
+                          off,
+                          {way_with(kGaps[0]), way_with(kGhostLength)},
+                          kTouching * request_.tolerance,
+                          overlaps()});
   }
 
   /// Vertices where fewer patches are retracted than overlap: along the edge between two patches, points that are
@@ -261,17 +225,18 @@ class GhostSide {
 
   /// The vertices, displaced by the shortest vectors that retract their faces.
   std::vector<Vec3> retracted(const std::vector<double>& needed) const {
-    const SolidTree& own = *own_.tree;
     const double usual = kGaps[0] * request_.tolerance;
-    if (outward_.empty()) outward_ = outward_faces(own.faces, own.inside_out);
-    return retracted_vertices(own.vertices, outward_, {needed, usual, usual, max_length_});
+    return surface().retracted({needed, usual, usual, max_length_});
   }
 
   /// Found when it is first wanted: most pairs need none.
-  const OverlapRetraction& retraction() const {
-    if (!retraction_) retraction_ = overlap_retraction(own_, other_, request_.depth, request_.tolerance);
-    return *retraction_;
+  const RetractableSurface& surface() const {
+    const SolidTree& own = *own_.tree;
+    if (!surface_) surface_.emplace(own.vertices, outward_faces(own.faces, own.inside_out));
+    return *surface_;
   }
+
+  const OverlapRetraction& retraction() const { return overlap_.retraction(is_a_); }
 
   /// The patches that are to be retracted, each as one of its faces.
   std::vector<std::uint32_t> overlapping_patches() const {
@@ -350,9 +315,9 @@ class GhostSide {
   const SolidTree* usual_;
   const DisplacedFaces displaced_;
   const PairGhostRequest& request_;
+  PairOverlap& overlap_;
   bool is_a_;
-  mutable std::optional<OverlapRetraction> retraction_;
-  mutable std::vector<Face> outward_;  // found when they are first needed
+  mutable std::optional<RetractableSurface> surface_;
   FacePairs near_;
   double near_reach_ = 0;  // of `near_` [mm]
   double depth_limit_ = 0;
@@ -371,8 +336,9 @@ double longest_displacement(const SolidTree& component, const std::vector<Vec3>&
 }  // namespace
 
 std::optional<PairGhosts> find_pair_ghosts(const PairGhostRequest& request) {
-  GhostSide a(request, true), b(request, false);
-  const double turning = turning_retraction(request.a, request.b, request.depth, request.tolerance);
+  PairOverlap overlap(request.a, request.b, request.depth, request.tolerance);
+  GhostSide a(request, overlap, true), b(request, overlap, false);
+  const double turning = overlap.turning();
   const bool can_turn = turning <= kPlay * request.tolerance;
   const bool usual = request.depth <= request.tolerance && can_turn && a.usual_is_apart() && b.usual_is_apart();
   const double play = std::min(kPlay / kOverlap * overlap_from(request), kPlay * request.tolerance);

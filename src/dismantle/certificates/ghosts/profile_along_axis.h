@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/certificates/ghosts/lower_envelope.h"
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/geometry/triangle.h"
 
@@ -13,6 +14,10 @@ namespace dismantle {
 
 /// The outline of faces seen along an axis: how near to the axis they come in each direction, or how far from it they
 /// reach.
+///
+/// It is kept by sectors. There, a direction is given by the tangent of its angle from the middle of the sector, and an
+/// outline by the inverse of its distance along the middle: edges are straight in these coordinates, too, so that the
+/// outline is an envelope of segments.
 class ProfileAlongAxis {
  public:
   /// @param faces to be seen @param farthest how far they reach; false: how near they come
@@ -27,24 +32,33 @@ class ProfileAlongAxis {
   double ratio_to_segment(Vec3 a, Vec3 b) const;
 
  private:
-  static constexpr std::size_t kBins = 1024;
-  struct Edge {
-    Vec3 from, along;  // across the axis
+  static constexpr std::size_t kSectors = 1024;
+  /// A point across the axis.
+  struct Across {
+    double first, second;  // along AxisFrame::first and AxisFrame::second [mm]
   };
-  struct Corner {
-    double angle, distance;
+  /// The same in a sector.
+  struct InSector {
+    double ahead, aside;  // along the sector's middle, and a quarter turn from there [mm]
   };
-  static std::size_t bin_of(double angle);
+  Across across(Vec3 v) const { return {dot(v, axis_.first), dot(v, axis_.second)}; }
+  InSector in_sector(std::size_t sector, Across p) const {
+    const Across& middle = middles_[sector];
+    return {middle.first * p.first + middle.second * p.second, middle.first * p.second - middle.second * p.first};
+  }
+  static std::size_t sector_of(double angle);
+  static double middle_of(std::size_t sector);
   template <class Visit>
-  static void for_each_bin(double from, double to, const Visit& visit);
+  static void for_each_sector(double from, double to, const Visit& visit);
+  std::optional<GraphSegment> seen_in(std::size_t sector, Across from, Across to) const;
+  std::vector<GraphSegment> outline_of(std::vector<GraphSegment> seen) const;
   /// True if a distance lies beyond another one, as the outline has it.
   bool beyond(double a, double b) const { return farthest_ ? a > b : a < b; }
 
   AxisFrame axis_;
   bool farthest_;
-  std::vector<Edge> edges_;
-  std::array<std::vector<std::uint32_t>, kBins> edges_in_;  // by angle
-  std::array<std::vector<Corner>, kBins> corners_in_;       // of the outline, by angle
+  std::array<Across, kSectors> middles_;                      // unit
+  std::array<std::vector<GraphSegment>, kSectors> outlines_;  // inverse distances; negative for the nearest outline
 };
 
 }  // namespace dismantle
