@@ -120,7 +120,6 @@ Obb obb_fit(Span<const Vec3> vertices, Span<const Face> faces, Span<const std::u
 
 Obb obb_fit_along(const Obb& like, Span<const Vec3> vertices, Span<const Face> faces, Span<const std::uint32_t> order,
                   Vec3 origin) {
-  // The axes are taken as floats: with doubles that are rounded here, GCC 12 -O2 used them unrounded in what follows.
   Obb box = like;
   const Mat3 dual = dual_axes(box);
 
