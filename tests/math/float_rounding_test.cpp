@@ -30,7 +30,8 @@ double rounded(double x) {
 
 // GCC 12 at -O2, unless it leaves straight code alone: the cross product of the doubles.
 TEST(FloatRounding, OfDoublesIsKeptWhereTheyAreUsedAtOnce) {
-  const Vec3 a{0.1, 0.7, 1 / 3.0}, b{0.3, -0.2, 1 / 7.0};
+  volatile double values[] = {0.1, 0.7, 1 / 3.0, 0.3, -0.2, 1 / 7.0};  // unknown to the compiler
+  const Vec3 a{values[0], values[1], values[2]}, b{values[3], values[4], values[5]};
   const Vec3 found = cross_of_rounded(a, b);
   EXPECT_EQ(found.x, rounded(a.y) * rounded(b.z) - rounded(a.z) * rounded(b.y));
   EXPECT_EQ(found.y, rounded(a.z) * rounded(b.x) - rounded(a.x) * rounded(b.z));
