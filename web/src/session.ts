@@ -33,7 +33,10 @@ export class Session {
     readonly connection: Transport = new Connection(),
   ) {
     const { store } = this;
-    this.notifier = new Notifier(() => viewport.invalidate());
+    this.notifier = new Notifier(
+      () => viewport.invalidate(),
+      () => viewport.requestFrame(),
+    );
     viewport.beforeRender.push(() => {
       this.notifier.flush();
       return false;
@@ -51,10 +54,13 @@ export class Session {
     connection.on("control", ({ control, clients }) => this.change(() => Object.assign(store, { control, clients })));
     this.jobs = new JobList(
       store,
-      () => this.notifier.notify(),
+      () => this.notifier.notifyPanels(),
       (level, message) => this.onNote(level, message),
     );
-    connection.on("job", (job) => this.change(() => this.jobs.apply(job)));
+    connection.on("job", (job) => {
+      this.jobs.apply(job);
+      this.notifier.notifyPanels();
+    });
     connection.on("log", ({ level, text: message }) => this.onNote(level, message));
     connection.on("error", ({ error }) => this.onNote("warning", error));
     connection.on("model", (model) => this.applyModel(model));

@@ -82,13 +82,17 @@ export function emptyStore(): Store {
   };
 }
 
-/// Notifies panels once before the next render after any number of changes: frames arrive faster than renders.
+/// Notifies panels once before the next picture after any number of changes: frames arrive faster than pictures.
 export class Notifier {
   private readonly listeners: (() => void)[] = [];
   private changed = false;
 
   /// @param requestRender schedules a render, before which `flush` must be called
-  constructor(private readonly requestRender: () => void) {}
+  /// @param requestFrame schedules only a call of `flush`
+  constructor(
+    private readonly requestRender: () => void,
+    private readonly requestFrame: () => void,
+  ) {}
 
   subscribe(listener: () => void): void {
     this.listeners.push(listener);
@@ -98,6 +102,12 @@ export class Notifier {
   notify(): void {
     this.changed = true;
     this.requestRender();
+  }
+
+  /// Reports a change of what panels alone show.
+  notifyPanels(): void {
+    this.changed = true;
+    this.requestFrame();
   }
 
   /// Calls the listeners if anything changed.

@@ -42,7 +42,7 @@ export class Viewport {
   readonly scene = new Scene();
   palette: Palette = kPalettes.light;
   model: ModelView | null = null;
-  /// Called before each render; returns true to request another one.
+  /// Called in each requested frame, before it is rendered if it is; returns true to request another render.
   readonly beforeRender: ((now: number) => boolean)[] = [];
   /// Called after each render.
   readonly afterRender = new Set<() => void>();
@@ -51,6 +51,8 @@ export class Viewport {
 
   private readonly renderer: WebGLRenderer;
   private scheduled = false;
+  /// The picture is not that of the scene.
+  private stale = true;
   private planes: Plane[] = [];
   private readonly roomFromWorld = new Matrix4();
   private immersive: { room: Scene; camera: Camera; updateFrame: () => void } | null = null;
@@ -100,6 +102,13 @@ export class Viewport {
 
   /// Requests a render in the next animation frame.
   invalidate(): void {
+    this.stale = true;
+    this.requestFrame();
+  }
+
+  /// Requests that what precedes a render is done in the next animation frame. It is rendered only if something else asks
+  /// for that.
+  requestFrame(): void {
     if (this.scheduled || this.immersive) return;
     this.scheduled = true;
     requestAnimationFrame((now) => {
@@ -108,7 +117,7 @@ export class Viewport {
     });
   }
 
-  /// True if no render is pending.
+  /// True if no frame is pending.
   get settled(): boolean {
     return !this.scheduled;
   }
@@ -205,6 +214,7 @@ export class Viewport {
 
   /// The current image as a PNG, with the theme's background.
   screenshot(): Promise<Blob> {
+    this.stale = true;
     this.draw(performance.now());
     const copy = document.createElement("canvas");
     this.copyImage(copy);
@@ -252,13 +262,17 @@ export class Viewport {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     this.renderer.setSize(clientWidth, clientHeight);
     this.rig.resize(clientWidth, clientHeight);
+    this.stale = true;
     this.draw(performance.now());
   }
 
   private draw(now: number): void {
+    const wanted = this.stale || this.rig.flying || this.immersive !== null;
+    this.stale = false;
     this.rig.advance(now);
     let more = this.rig.flying;
     for (const step of this.beforeRender) more = step(now) || more;
+    if (!wanted && !this.stale && !more) return;
     this.contacts.update(this.rig);
     this.directions.update(this.rig);
     this.blocked.update(this.rig);

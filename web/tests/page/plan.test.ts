@@ -18,10 +18,32 @@ const search = async () => (await viewer.state()).search;
 const banner = (key: string) => viewer.page.locator(`[data-banner=${key}]`);
 const arrows = () => viewer.page.evaluate(() => window.dismantle!.app.viewport.blocked.arrows.length);
 
+/// Counts the renders and the events of jobs from now on.
+const count = () =>
+  viewer.page.evaluate(() => {
+    const { session, viewport } = window.dismantle!.app;
+    const counted = { renders: 0, events: 0 };
+    const apply = session.jobs.apply.bind(session.jobs);
+    session.jobs.apply = (event) => {
+      ++counted.events;
+      apply(event);
+    };
+    viewport.afterRender.add(() => ++counted.renders);
+    Object.assign(window, { counted });
+  });
+const counted = () =>
+  viewer.page.evaluate(() => (window as unknown as { counted: { renders: number; events: number } }).counted);
+
 test("a plan of everything becomes the guide, and moves nothing", async () => {
   await viewer.press("l");
+  await viewer.idle();
+  await count();
   await viewer.page.click("#plan-find");
   await waitForSearch("plan");
+  // Progress shows in the panels; the scene is as it was.
+  const { renders, events } = await counted();
+  assert.ok(events >= 10, `${events} events of the job`);
+  assert.ok(renders < events / 2, `${renders} renders for ${events} events`);
   await viewer.idle();
   const { guide, components, moves, search: found } = await viewer.state();
   assert.ok(found!.steps > 10, `${found!.steps}`);
