@@ -15,6 +15,8 @@
 #include "bench/paper/paper_scenes.h"
 #include "dismantle/exec/cuda_device.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -106,18 +108,21 @@ bool write_files(const Settings& settings, EvaluationPart part, const Evaluation
                  double busy) {
   const std::string piece = settings.name.empty() ? "" : "-" + settings.name;
   const std::string file = (std::filesystem::path(settings.out) / (name_of(part) + piece)).string();
-  if (write_result(file + ".csv", csv_of(found.table)) &&
-      write_result(file + ".json", setting_json(settings, found, complete, busy)))
-    return true;
-  std::fprintf(
-      stderr,
-      "bench_paper: %s.csv and .json cannot be written (no such folder, or no permission); name another folder "
-      "with --out\n",
-      file.c_str());
-  return false;
+  return write_result(file + ".csv", csv_of(found.table)) &&
+         write_result(file + ".json", setting_json(settings, found, complete, busy));
+}
+
+int cannot_write(const Settings& settings) {
+  std::fprintf(stderr,
+               "bench_paper: nothing can be written in %s (no folder, or no permission); name another one with --out\n",
+               settings.out.c_str());
+  return bench::kExitFailed;
 }
 
 int run(const Settings& settings) {
+  std::error_code ignored;  // what cannot be made cannot be written either
+  std::filesystem::create_directories(settings.out, ignored);
+  if (access(settings.out.c_str(), W_OK) != 0) return cannot_write(settings);
   bool equal_poses = true;
   for (const EvaluationPart part : settings.parts) {
     const double busy = busy_cores(kIdleSeconds);
@@ -135,7 +140,7 @@ int run(const Settings& settings) {
       std::fprintf(stderr, "bench_paper: %s\n", found.error().message.c_str());
       return bench::kExitUnreadable;
     }
-    if (!write_files(settings, part, *found, true, busy)) return bench::kExitFailed;
+    if (!write_files(settings, part, *found, true, busy)) return cannot_write(settings);
     equal_poses = equal_poses && found->equal_poses;
   }
   if (equal_poses) return 0;

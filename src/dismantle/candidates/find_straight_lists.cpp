@@ -2,6 +2,7 @@
 #include "dismantle/candidates/find_straight_lists.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -42,17 +43,14 @@ struct Gap {
   double gap = 0;
 };
 
-/// The gap along an axis, shortened by what rounding may add; nothing where there is none.
-std::optional<Gap> gap_along(Vec3 direction, const Triangle& moving, const Triangle& fixed) {
+/// The gap along an axis; nothing where there is none. @param rounding by which it is shortened [mm]
+std::optional<Gap> gap_along(Vec3 direction, const Triangle& moving, const Triangle& fixed, double rounding) {
   const double norm = length(direction);
   if (!(norm > 0)) return std::nullopt;
   const Vec3 axis = (1 / norm) * direction;
   const Extent a = extent_along(axis, moving), b = extent_along(axis, fixed);
   const double above = a.lower - b.upper, below = b.lower - a.upper;
-  double size = 0;
-  for (const Vec3& p : moving.corner) size = std::max(size, length(p));
-  for (const Vec3& p : fixed.corner) size = std::max(size, length(p));
-  const double gap = std::max(above, below) - kSlack * size;
+  const double gap = std::max(above, below) - rounding;
   if (!(gap > 0)) return std::nullopt;
   return Gap{above >= below ? axis : -1.0 * axis, gap};
 }
@@ -64,9 +62,13 @@ SeparatingAxis separating(const Gap& gap) {
 /// The widest gaps between two triangles along two different axes; infinite rates where they are not apart.
 /// @return the widest gap [mm]
 double find_axes(const Triangle& moving, const Triangle& fixed, SeparatingAxis (&axes)[2]) {
-  std::vector<Gap> gaps;
+  double size = 0;
+  for (const Triangle* triangle : {&moving, &fixed})
+    for (const Vec3& p : triangle->corner) size = std::max(size, length(p));
+  std::array<Gap, 11> gaps;
+  std::size_t count = 0;
   const auto add = [&](Vec3 direction) {
-    if (const std::optional<Gap> gap = gap_along(direction, moving, fixed)) gaps.push_back(*gap);
+    if (const std::optional<Gap> gap = gap_along(direction, moving, fixed, kSlack * size)) gaps[count++] = *gap;
   };
   const Vec3 of_moving[3] = {moving[1] - moving[0], moving[2] - moving[1], moving[0] - moving[2]};
   const Vec3 of_fixed[3] = {fixed[1] - fixed[0], fixed[2] - fixed[1], fixed[0] - fixed[2]};
@@ -74,15 +76,17 @@ double find_axes(const Triangle& moving, const Triangle& fixed, SeparatingAxis (
   add(cross(of_fixed[0], of_fixed[1]));
   for (const Vec3& edge : of_moving)
     for (const Vec3& other : of_fixed) add(cross(edge, other));
-  if (gaps.empty()) return 0;
-  std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& x, const Gap& y) { return x.gap > y.gap; });
-  axes[0] = axes[1] = separating(gaps.front());
-  for (const Gap& gap : gaps) {
-    if (dot(gap.axis, gaps.front().axis) > kSameAxis) continue;
-    axes[1] = separating(gap);
-    break;
-  }
-  return (1 - 1e-9) * gaps.front().gap;
+  if (count == 0) return 0;
+  const Gap* widest = &gaps[0];
+  for (std::size_t i = 1; i < count; ++i)
+    if (gaps[i].gap > widest->gap) widest = &gaps[i];
+  const Gap* other = nullptr;
+  for (std::size_t i = 0; i < count; ++i)
+    if (dot(gaps[i].axis, widest->axis) <= kSameAxis && (other == nullptr || gaps[i].gap > other->gap))
+      other = &gaps[i];
+  axes[0] = separating(*widest);
+  axes[1] = other != nullptr ? separating(*other) : axes[0];
+  return (1 - 1e-9) * widest->gap;
 }
 
 NearLeaves near_leaves(const CandidateScene& scene, NodePair leaves) {
