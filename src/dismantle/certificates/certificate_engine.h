@@ -50,8 +50,8 @@ struct CertificateOptions {
   /// limit but that of a single sweep: the motion of a person's hand must go on. Once they are used up, each sweep
   /// still gets a few, and counts as too deep where it does not know.
   std::size_t depth_tests = 0;
-  /// Triangle-pair tests after which a step of response Slide ends early, at a pose that is free, or 0 for no limit.
-  /// The next step with the same target continues. The limit does not apply to the first eight tries of a step.
+  /// Tests of triangle pairs and pieces of surfaces after which a step of response Slide ends early, at a pose that is
+  /// free, or 0 for no limit. The next step continues. The limit does not apply to the first try of a step.
   std::size_t slide_tests = 0;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/math/nearest_twist.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace dismantle {
 
@@ -15,6 +17,10 @@ constexpr double kViolation = 1e-12;
 /// A unit normal is dependent on the active ones if its part outside their span is shorter than this. If its part in
 /// the span has no positive weights, it is violated by at most kDependent |x|: its bound, like theirs, is at most 0.
 constexpr double kDependent = 0.25 * kNearestTwistSlack;
+/// Number of violated half-spaces that are examined before all of them are again.
+constexpr std::size_t kListed = 24;
+/// Sums of squares between these neither overflow nor lose digits.
+constexpr double kSmallestSquare = 1e-200, kLargestSquare = 1e200;
 /// Smaller weights of an active normal in another unit normal are rounding.
 constexpr double kWeightNoise = 1e-13;
 
@@ -36,6 +42,9 @@ Vec6 advanced(Vec6 a, double t, const Vec6& b) {
 
 /// The length, without intermediate overflow or underflow.
 double safe_length(const double (&v)[kSize]) {
+  double squared = 0;
+  for (const double c : v) squared += c * c;
+  if (squared > kSmallestSquare && squared < kLargestSquare) return std::sqrt(squared);
   double largest = 0;
   for (const double c : v) largest = std::fmax(largest, std::fabs(c));
   if (!(largest > 0)) return 0;
@@ -54,7 +63,8 @@ Row scaled_row(const HalfSpace& half_space, double scale) {
   Row row;
   const double length = safe_length(half_space.normal);
   if (!(length > 0)) return row;
-  for (int i = 0; i < kSize; ++i) row.normal.v[i] = half_space.normal[i] / length;
+  const double inverse = 1 / length;
+  for (int i = 0; i < kSize; ++i) row.normal.v[i] = half_space.normal[i] * inverse;
   row.bound = half_space.bound / length / scale;
   return row;
 }
@@ -157,22 +167,75 @@ struct Violated {
   double distance = 0;
 };
 
+/// The half-spaces with unit normals, one array for each coordinate, so that compilers use vector instructions.
+class Rows {
+ public:
+  explicit Rows(double scale) : scale_(scale) {}
+
+  void add(Span<const HalfSpace> half_spaces) {
+    for (std::vector<double>& column : columns_) column.reserve(count() + half_spaces.size());
+    for (const HalfSpace& half_space : half_spaces) {
+      const Row row = scaled_row(half_space, scale_);
+      for (std::size_t c = 0; c < kSize; ++c) columns_[c].push_back(row.normal.v[c]);
+      columns_[kSize].push_back(row.bound);
+    }
+  }
+
+  std::size_t count() const { return columns_[kSize].size(); }
+  Row operator[](std::size_t i) const {
+    Row row;
+    for (std::size_t c = 0; c < kSize; ++c) row.normal.v[c] = columns_[c][i];
+    row.bound = columns_[kSize][i];
+    return row;
+  }
+
+  /// How far x is outside each of the half-spaces; negative inside.
+  const std::vector<double>& distances(const Vec6& x) {
+    distances_.resize(count());
+    const double *n0 = columns_[0].data(), *n1 = columns_[1].data(), *n2 = columns_[2].data(), *n3 = columns_[3].data(),
+                 *n4 = columns_[4].data(), *n5 = columns_[5].data(), *bound = columns_[kSize].data();
+    double* to = distances_.data();
+    const double x0 = x.v[0], x1 = x.v[1], x2 = x.v[2], x3 = x.v[3], x4 = x.v[4], x5 = x.v[5];
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+      to[i] = bound[i] - (n0[i] * x0 + n1[i] * x1 + n2[i] * x2 + n3[i] * x3 + n4[i] * x4 + n5[i] * x5);
+    return distances_;
+  }
+
+ private:
+  double scale_;
+  std::vector<double> columns_[kSize + 1];  // of the normals; the last one of the bounds
+  std::vector<double> distances_;           // that were computed last
+};
+
 class Search {
  public:
-  Search(const double (&wanted)[kSize], double scale, Span<const HalfSpace> half_spaces)
-      : wanted_(wanted), half_spaces_(half_spaces), scale_(scale) {
+  Search(const double (&wanted)[kSize], double scale) : wanted_(wanted), scale_(scale), rows_(scale) {
     for (int i = 0; i < kSize; ++i) x_.v[i] = wanted[i] / scale;
   }
 
-  NearestTwist run() {
-    NearestTwist result;
+  /// Goes on with more half-spaces.
+  const NearestTwist& add(Span<const HalfSpace> half_spaces) {
+    rows_.add(half_spaces);
+    listed_.clear();
+    run(result_);
+    return result_;
+  }
+
+ private:
+  void run(NearestTwist& result) {
+    result.nearest = true;
     while (true) {
-      const Violated worst = max_violated();
+      Violated worst = max_of_listed();
+      const bool of_all = worst.index < 0;
+      if (of_all) worst = max_violated();
       if (worst.index < 0) break;
       const int before = result.iterations;
       if (activate(worst.index, result.iterations)) continue;
+      const bool unchanged = result.iterations == before + 1;
+      listed_.clear();
+      if (!of_all && unchanged) continue;
       // Dependent and hardly violated, at the first try: no other row is violated by more.
-      result.nearest = result.iterations == before + 1 && worst.distance <= 2 * kDependent;
+      result.nearest = unchanged && worst.distance <= 2 * kDependent;
       break;
     }
     for (int k = 0; k < active_.count(); ++k) result.active[k] = active_.row(k);
@@ -181,37 +244,40 @@ class Search {
     if ((1 - share) * std::sqrt(dot(x_, x_)) > kNearestTwistSlack) result.nearest = false;
     const bool untouched = result.iterations == 0 && share == 1;
     for (int i = 0; i < kSize; ++i) result.x[i] = untouched ? wanted_[i] : x_.v[i] * share * scale_;
-    return result;
   }
 
- private:
-  /// The half-space that x violates most; of equal ones the first.
-  Violated max_violated() const {
-    Violated worst;
-    double worst_squared = 0;
-    for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
-      const HalfSpace& h = half_spaces_[i];
-      double value = 0, squared_length = 0;
-      for (int c = 0; c < kSize; ++c) {
-        value += h.normal[c] * x_.v[c];
-        squared_length += h.normal[c] * h.normal[c];
-      }
-      const double below = h.bound / scale_ - value;
-      if (!(below > 0) || !(below * below > worst_squared * squared_length)) continue;
-      if (active_.contains(static_cast<int>(i))) continue;
-      const Row row = scaled_row(h, scale_);
+  /// The half-space that x violates most; of equal ones the first. Lists those that it violates most.
+  Violated max_violated() {
+    listed_.clear();
+    if (rows_.count() == 0) return {};
+    const std::vector<double>& distances = rows_.distances(x_);
+    for (std::size_t i = 0; i < distances.size(); ++i)
+      if (distances[i] > kViolation && !active_.contains(static_cast<int>(i)))
+        listed_.push_back({static_cast<int>(i), distances[i]});
+    if (listed_.empty()) return {};
+    const auto before = [](const Violated& a, const Violated& b) {
+      return a.distance != b.distance ? a.distance > b.distance : a.index < b.index;
+    };
+    const std::size_t count = std::min(kListed, listed_.size());
+    std::partial_sort(listed_.begin(), listed_.begin() + static_cast<std::ptrdiff_t>(count), listed_.end(), before);
+    listed_.resize(count);
+    return listed_.front();
+  }
+
+  /// That of the listed ones: examined alone as long as one of them is violated (partial pricing).
+  Violated max_of_listed() const {
+    Violated worst{-1, kViolation};
+    for (const Violated& listed : listed_) {
+      const Row row = rows_[static_cast<std::size_t>(listed.index)];
       const double distance = row.bound - dot(row.normal, x_);
-      if (distance > kViolation && distance > worst.distance) {
-        worst = {static_cast<int>(i), distance};
-        worst_squared = distance * distance;
-      }
+      if (distance > worst.distance && !active_.contains(listed.index)) worst = {listed.index, distance};
     }
     return worst;
   }
 
   /// Makes a violated row active and drops rows whose multipliers would become negative. False if that is impossible.
   bool activate(int index, int& iterations) {
-    const Row row = scaled_row(half_spaces_[static_cast<std::size_t>(index)], scale_);
+    const Row row = rows_[static_cast<std::size_t>(index)];
     double multiplier = 0;
     while (iterations < kNearestTwistIterations) {
       ++iterations;
@@ -236,10 +302,13 @@ class Search {
   }
 
   /// The largest share of x that is in every half-space. They are convex and contain 0.
-  double feasible_share() const {
+  double feasible_share() {
     double share = 1;
-    for (const HalfSpace& h : half_spaces_) {
-      const Row row = scaled_row(h, scale_);
+    if (rows_.count() == 0) return share;
+    const std::vector<double>& distances = rows_.distances(x_);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      if (!(distances[i] > kNearestTwistSlack / 4)) continue;
+      const Row row = rows_[i];
       const double value = dot(row.normal, x_);
       const double limit = row.bound - kNearestTwistSlack / 2;
       if (value < limit) share = std::fmin(share, limit / value);
@@ -256,19 +325,38 @@ class Search {
   }
 
   const double (&wanted_)[kSize];
-  Span<const HalfSpace> half_spaces_;
   double scale_;
+  Rows rows_;
+  std::vector<Violated> listed_;
   Vec6 x_;  // in units of scale_
   ActiveSet active_;
+  NearestTwist result_;
 };
+
+[[maybe_unused]] bool all_contain_zero(Span<const HalfSpace> half_spaces) {
+  return std::all_of(half_spaces.begin(), half_spaces.end(), [](const HalfSpace& h) { return h.bound <= 0; });
+}
 
 }  // namespace
 
-NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces) {
-  for ([[maybe_unused]] const HalfSpace& h : half_spaces) DISMANTLE_EXPECT(h.bound <= 0);
+NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces, int cuts,
+                           const TwistCuts& cut) {
+  DISMANTLE_EXPECT(all_contain_zero(half_spaces));
   const double scale = safe_length(wanted);
   if (!(scale > 0)) return {};
-  return Search(wanted, scale, half_spaces).run();
+  Search search(wanted, scale);
+  NearestTwist found = search.add(half_spaces);
+  for (; cuts > 0; --cuts) {
+    const std::vector<HalfSpace> more = cut(found);
+    DISMANTLE_EXPECT(all_contain_zero(more));
+    if (more.empty()) break;
+    found = search.add(more);
+  }
+  return found;
+}
+
+NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces) {
+  return nearest_twist(wanted, half_spaces, 0, {});
 }
 
 }  // namespace dismantle

@@ -3,6 +3,9 @@
 
 #include "dismantle/core/span.h"
 
+#include <functional>
+#include <vector>
+
 namespace dismantle {
 
 /// A half-space of twists: those x with normal . x >= bound. For a contact with gap g, unit normal n and vector r from
@@ -37,8 +40,17 @@ inline constexpr int kNearestTwistIterations = 256;
 ///   3. If `nearest`, it is the nearest point, up to rounding divided by the sines between active borders.
 ///   4. Redundant, duplicate, parallel and nearly dependent half-spaces are allowed in any number. A unit
 ///      normal within a quarter of kNearestTwistSlack of the span of active ones counts as dependent on them.
-///   5. It is deterministic and allocates nothing.
+///   5. It is deterministic.
 /// @pre 0 is feasible: every bound is at most 0; all numbers finite
 NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces);
+
+/// Half-spaces that a twist is to be in, too: empty if there are none that it is not in already.
+using TwistCuts = std::function<std::vector<HalfSpace>(const NearestTwist& found)>;
+
+/// As nearest_twist(), where the half-spaces of a round constraint are found as they are needed: the search goes on
+/// with those that `cut` adds to a result, at most `cuts` times. Their indices follow those of `half_spaces`, in the
+/// order in which they are added.
+NearestTwist nearest_twist(const double (&wanted)[6], Span<const HalfSpace> half_spaces, int cuts,
+                           const TwistCuts& cut);
 
 }  // namespace dismantle

@@ -143,6 +143,7 @@ void CertificateResponse::begin() {
   contacts_.clear();
   stopping_.clear();
   hardly_moved_ = 0;
+  unfinished_ = false;
   reach_ = std::numeric_limits<double>::infinity();
 }
 

@@ -25,7 +25,7 @@ double cross_flat(Vec3 a, Vec3 b) {
 
 /// Length of the x and y parts.
 double length_flat(Vec3 a) {
-  return std::hypot(a.x, a.y);
+  return std::sqrt(a.x * a.x + a.y * a.y);
 }
 
 /// Computes the height of the triangle at p. @return false if p is beside it by more than `slack`

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -24,6 +25,9 @@ constexpr double kShareBeyondReserve = 0.5;
 /// The share of the tolerance that is kept of every gap, for the second-order part of twists; and of the play of a
 /// cylinder in its bore, whose rows leave out only the bending of the twist.
 constexpr double kReserve = 0.3, kFitReserve = 0.1;
+
+/// Axes are chosen for those contacts that bound a twist this many times, then for all.
+constexpr int kAxisChoices = 12;
 
 /// A twist is bounded again where it takes a cylinder further, at most this many times.
 constexpr int kFitCuts = 6;
@@ -45,16 +49,24 @@ bool same_faces(const SweepContact& x, const SweepContact& y) {
 
 }  // namespace
 
+/// The moving and the fixed triangle, the direction of the second to the first, and the gap along it.
+struct SlideContacts::ContactTriangles {
+  Triangle moving, fixed;
+  Vec3 normal;
+  double gaps[3];  ///< Of the corners of the moving triangle [mm].
+  double gap() const { return std::min({gaps[0], gaps[1], gaps[2]}); }
+};
+
 bool SlideContacts::add(const SweepContact& pair) {
   if (length_squared(pair.axis) == 0) return false;
-  for (SweepContact& known : pairs_) {
-    if (!same_faces(known, pair)) continue;
-    const bool changed = 1 - dot(known.axis, pair.axis) > kSameAxis;
-    known = pair;
+  for (Contact& known : pairs_) {
+    if (!same_faces(known.pair, pair)) continue;
+    const bool changed = 1 - dot(known.pair.axis, pair.axis) > kSameAxis;
+    known = {pair, {}};
     return changed && geometry(known).patch.count > 0;
   }
-  pairs_.push_back(pair);
-  return geometry(pair).patch.count > 0;
+  pairs_.push_back({pair, {}});
+  return geometry(pairs_.back()).patch.count > 0;
 }
 
 bool SlideContacts::add_fit(const BlockedFit& fit) {
@@ -68,27 +80,53 @@ bool SlideContacts::add_fit(const BlockedFit& fit) {
   return !ends(fit).empty();
 }
 
-void SlideContacts::choose_axes(const ScrewMotion& motion) {
-  std::erase_if(pairs_, [&](SweepContact& pair) {
-    if (pair.surfaces == SurfacePair::Plain) return false;
-    const TrianglePairResult found = sweeper_.sweep_pair(pair, motion);
-    if (found.free || length_squared(found.contact.axis) == 0) return true;
-    pair.axis = found.contact.axis;
-    return false;
-  });
+void SlideContacts::aim_at(const ScrewMotion& motion) {
+  aim_ = motion;
+  for (Contact& contact : pairs_) contact.is_aimed = contact.pair.surfaces == SurfacePair::Plain;
+}
+
+bool SlideContacts::choose_axis(Contact& contact) {
+  contact.is_aimed = true;
+  const TrianglePairResult found = sweeper_.sweep_pair(contact.pair, aim_);
+  contact.is_free = found.free || length_squared(found.contact.axis) == 0;
+  if (contact.is_free) return true;
+  const bool changed = 1 - dot(contact.pair.axis, found.contact.axis) > kSameAxis;
+  if (changed) contact.geometry.reset();
+  contact.pair.axis = found.contact.axis;
+  return changed;
+}
+
+bool SlideContacts::choose_axes(Span<const int> half_spaces, const std::vector<std::size_t>& contact_of) {
+  bool changed = false;
+  for (const int i : half_spaces) {
+    const auto at = static_cast<std::size_t>(i);
+    if (at >= contact_of.size()) continue;  // of a bore
+    Contact& contact = pairs_[contact_of[at]];
+    if (!contact.is_aimed) changed |= choose_axis(contact);
+  }
+  if (changed) std::erase_if(pairs_, [](const Contact& contact) { return contact.is_free; });
+  return changed;
 }
 
 double SlideContacts::fraction_within_reserve(const SweepContact& pair) const {
   if (length_squared(pair.axis) == 0) return 0;
-  const double gap = geometry(pair).gap;
+  const double gap = gap_of(pair);
   const double share = gap > 0 ? (gap - reserve()) / gap : 0;
   // A pair that uses the reserve already goes half of what is left.
   return pair.toi * std::max(share, kShareBeyondReserve);
 }
 
-SlideContacts::PairGeometry SlideContacts::geometry(const SweepContact& pair) const {
-  if (pair.surfaces != SurfacePair::Plain)
-    return geometry_of(pair, sweeper_.moving_surface(pair.tested()), sweeper_.fixed_surface(pair.tested()));
+const SlideContacts::PairGeometry& SlideContacts::geometry(Contact& contact) {
+  if (!(sweeper_.pose() == known_at_)) {
+    for (Contact& c : pairs_) c.geometry.reset();
+    known_at_ = sweeper_.pose();
+  }
+  if (!contact.geometry) contact.geometry = geometry_of(contact.pair);
+  return *contact.geometry;
+}
+
+SlideContacts::PairGeometry SlideContacts::geometry_of(const SweepContact& pair) const {
+  if (pair.surfaces != SurfacePair::Plain) return geometry_of(triangles(pair, pair.surfaces));
   const RigidTransform fixed = transform_from_pose(sweeper_.poses()[pair.fixed.value]);
   PairGeometry s;
   s.normal = -(fixed.rotation * pair.axis);
@@ -98,28 +136,38 @@ SlideContacts::PairGeometry SlideContacts::geometry(const SweepContact& pair) co
   return s;
 }
 
-SlideContacts::PairGeometry SlideContacts::geometry_of(const SweepContact& pair, const SolidTree& moving_surface,
-                                                       const SolidTree& fixed_surface) const {
-  const RigidTransform moving = transform_from_pose(sweeper_.pose());
-  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[pair.fixed.value]);
-  const Triangle own = moving_surface.triangle(pair.face_moving.value);
-  const Triangle other = fixed_surface.triangle(pair.face_fixed.value);
-  const Triangle own_now{{moving * own[0], moving * own[1], moving * own[2]}};
-  const Triangle other_now{{fixed * other[0], fixed * other[1], fixed * other[2]}};
+SlideContacts::PairGeometry SlideContacts::geometry_of(const ContactTriangles& t) const {
   PairGeometry s;
-  s.normal = -(fixed.rotation * pair.axis);
-  double top = -std::numeric_limits<double>::infinity(), gaps[3];
-  for (int i = 0; i < 3; ++i) top = std::max(top, dot(s.normal, other_now[i] - other_now[0]));
-  for (int i = 0; i < 3; ++i) gaps[i] = dot(s.normal, own_now[i] - other_now[0]) - top;
-  s.gap = std::min({gaps[0], gaps[1], gaps[2]});
-  s.patch = contact_patch(own_now, other_now, s.normal, sweeper_.tolerance());
+  s.normal = t.normal;
+  s.gap = t.gap();
+  s.patch = contact_patch(t.moving, t.fixed, t.normal, sweeper_.tolerance());
   if (s.patch.count == 0 && s.gap <= sweeper_.tolerance())
-    for (int i = 0; i < 3; ++i) s.patch.points[s.patch.count++] = {own_now[i], gaps[i]};
+    for (int i = 0; i < 3; ++i) s.patch.points[s.patch.count++] = {t.moving[i], t.gaps[i]};
   return s;
 }
 
+double SlideContacts::gap_of(const SweepContact& pair) const {
+  return pair.surfaces == SurfacePair::Plain ? geometry_of(pair).gap : triangles(pair, pair.surfaces).gap();
+}
+
+SlideContacts::ContactTriangles SlideContacts::triangles(const SweepContact& pair, SurfacePair surfaces) const {
+  const RigidTransform moving = transform_from_pose(sweeper_.pose());
+  const RigidTransform fixed = transform_from_pose(sweeper_.poses()[pair.fixed.value]);
+  const TestedPair tested{pair.moving, pair.fixed, surfaces};
+  const Triangle own = sweeper_.moving_surface(tested).triangle(pair.face_moving.value);
+  const Triangle other = sweeper_.fixed_surface(tested).triangle(pair.face_fixed.value);
+  ContactTriangles t;
+  t.moving = {{moving * own[0], moving * own[1], moving * own[2]}};
+  t.fixed = {{fixed * other[0], fixed * other[1], fixed * other[2]}};
+  t.normal = -(fixed.rotation * pair.axis);
+  double top = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) top = std::max(top, dot(t.normal, t.fixed[i] - t.fixed[0]));
+  for (int i = 0; i < 3; ++i) t.gaps[i] = dot(t.normal, t.moving[i] - t.fixed[0]) - top;
+  return t;
+}
+
 void SlideContacts::drop_beyond(double reach) {
-  std::erase_if(pairs_, [&](const SweepContact& pair) { return geometry(pair).gap > reach; });
+  std::erase_if(pairs_, [&](const Contact& contact) { return gap_of(contact.pair) > reach; });
   std::erase_if(fits_, [&](const BlockedFit& fit) {
     const std::vector<FitEnd> both = ends(fit);
     return std::all_of(both.begin(), both.end(), [reach](const FitEnd& end) { return end.gap > reach; });
@@ -166,10 +214,9 @@ double SlideContacts::max_off(const BlockedFit& fit) const {
   return fit.fit.room - kFitReserve * sweeper_.tolerance();
 }
 
-bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
+void SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
                           std::vector<HalfSpace>& bounds) const {
   const double slack = kFitSlack * sweeper_.tolerance();
-  bool bounded = false;
   for (const FitEnd& end : fit.ends) {
     const Vec3 arm = end.point - sweeper_.center();
     const Vec3 shift = twist.velocity + cross(twist.rotation, arm);
@@ -178,15 +225,11 @@ bool SlideContacts::bound(const BoundingFit& fit, const Twist& twist, double cha
     const Vec3 out = normalized(off), turn = (1 / characteristic_length) * cross(arm, out);
     bounds.push_back(
         {{-out.x, -out.y, -out.z, -turn.x, -turn.y, -turn.z}, std::min(0.0, dot(out, end.off) - fit.max_off)});
-    bounded = true;
   }
-  return bounded;
 }
 
-void SlideContacts::bound(const SweepContact& pair, double characteristic_length,
-                          std::vector<HalfSpace>& bounds) const {
+void SlideContacts::bound(const PairGeometry& s, double characteristic_length, std::vector<HalfSpace>& bounds) const {
   const Vec3 center = sweeper_.center();
-  const PairGeometry s = geometry(pair);
   if (s.patch.count == 0) return;
   // The gap that the certificates measure can be deeper than that of the overlap.
   const double deeper = std::min(0.0, s.gap - s.patch.nearest().gap);
@@ -198,29 +241,48 @@ void SlideContacts::bound(const SweepContact& pair, double characteristic_length
   }
 }
 
-SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) const {
+std::vector<HalfSpace> SlideContacts::bounds(double characteristic_length, std::vector<std::size_t>& contact_of) {
   std::vector<HalfSpace> bounds;
-  for (const SweepContact& pair : pairs_) bound(pair, characteristic_length, bounds);
-  std::vector<BoundingFit> bounding_fits;
-  for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
-  Twist found = solve(wanted, characteristic_length, bounds);
-  for (int cuts = 0; cuts < kFitCuts; ++cuts) {
-    bool news = false;
-    for (const BoundingFit& fit : bounding_fits) news |= bound(fit, found, characteristic_length, bounds);
-    if (!news) break;
-    found = solve(wanted, characteristic_length, bounds);
+  contact_of.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    bound(geometry(pairs_[i]), characteristic_length, bounds);
+    contact_of.resize(bounds.size(), i);
   }
-  return found;
+  return bounds;
 }
 
-SlideContacts::Twist SlideContacts::solve(const Twist& wanted, double characteristic_length,
-                                          const std::vector<HalfSpace>& bounds) const {
+SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) {
+  std::vector<std::size_t> contact_of;
+  for (int choices = 0;; ++choices) {
+    const std::vector<HalfSpace> half_spaces = bounds(characteristic_length, contact_of);
+    const NearestTwist found = solve(wanted, characteristic_length, half_spaces);
+    std::vector<int> chosen(found.active, found.active + found.active_count);
+    if (choices >= kAxisChoices) {
+      chosen.resize(contact_of.size());
+      std::iota(chosen.begin(), chosen.end(), 0);
+    }
+    if (!choose_axes(chosen, contact_of)) return twist_of(found, characteristic_length);
+  }
+}
+
+NearestTwist SlideContacts::solve(const Twist& wanted, double characteristic_length,
+                                  const std::vector<HalfSpace>& bounds) const {
   const Vec3 turned = characteristic_length * wanted.rotation;
-  const NearestTwist found =
-      nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds);
-  return {{found.x[0], found.x[1], found.x[2]},
-          {found.x[3] / characteristic_length, found.x[4] / characteristic_length, found.x[5] / characteristic_length},
-          found.active_count > 0};
+  std::vector<BoundingFit> bounding_fits;
+  for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
+  const auto of_fits = [&](const NearestTwist& found) {
+    const Twist twist = twist_of(found, characteristic_length);
+    std::vector<HalfSpace> more;
+    for (const BoundingFit& fit : bounding_fits) bound(fit, twist, characteristic_length, more);
+    return more;
+  };
+  return nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds,
+                       kFitCuts, of_fits);
+}
+
+SlideContacts::Twist SlideContacts::twist_of(const NearestTwist& found, double characteristic_length) {
+  const Vec3 turned{found.x[3], found.x[4], found.x[5]};
+  return {{found.x[0], found.x[1], found.x[2]}, turned / characteristic_length, found.active_count > 0};
 }
 
 ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) const {
@@ -240,11 +302,13 @@ ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) cons
 
 std::vector<ContactPoint> SlideContacts::points(double reach) const {
   std::vector<ContactPoint> points;
-  for (const SweepContact& pair : pairs_) {
+  for (const Contact& contact : pairs_) {
     // Points and gaps are those of the components, not of ghosts.
-    const PairGeometry s = pair.surfaces == SurfacePair::Plain
-                               ? geometry(pair)
-                               : geometry_of(pair, sweeper_.solid(pair.moving), sweeper_.solid(pair.fixed));
+    const SweepContact& pair = contact.pair;
+    const bool is_plain = pair.surfaces == SurfacePair::Plain;
+    const ContactTriangles t = triangles(pair, SurfacePair::Plain);
+    if (!is_plain && t.gap() > reach) continue;
+    const PairGeometry s = is_plain ? geometry_of(pair) : geometry_of(t);
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.
     const double touching = s.patch.nearest().gap + kTouching * sweeper_.tolerance();

@@ -5,6 +5,7 @@
 #include "dismantle/certificates/sweep/certificate_sweeper.h"
 #include "dismantle/math/nearest_twist.h"
 
+#include <optional>
 #include <vector>
 
 namespace dismantle {
@@ -33,8 +34,9 @@ class SlideContacts {
   bool add_fit(const BlockedFit& fit);
   /// Upper bound of how much of a motion the whole cylinders withhold that their triangles would allow [mm].
   double withheld() const;
-  /// Gives every pair the axis that lets a motion go furthest, and removes pairs that do not block it.
-  void choose_axes(const ScrewMotion& motion);
+  /// Sets the motion that nearest() is to come near to: pairs that bound a twist get the axis that lets this motion go
+  /// furthest, and are removed where they do not block it.
+  void aim_at(const ScrewMotion& motion);
   /// Removes contacts whose gap is more than `reach` [mm].
   void drop_beyond(double reach);
 
@@ -45,9 +47,10 @@ class SlideContacts {
     bool bounded = false;  ///< Some contact holds it back.
   };
   /// The twist nearest to `wanted` that keeps a share of the tolerance of every gap, to first order: room for the
-  /// second-order part of twists.
+  /// second-order part of twists. Any axis that separates a pair bounds twists safely; only the axes of those pairs
+  /// that bound the result have to be the best ones.
   /// @param characteristic_length weighs rotations against translations [mm]
-  Twist nearest(const Twist& wanted, double characteristic_length) const;
+  Twist nearest(const Twist& wanted, double characteristic_length);
 
   /// The fraction of a motion on which `pair` is blocked that should be made, so that the reserve is kept if it can.
   double fraction_within_reserve(const SweepContact& pair) const;
@@ -62,14 +65,28 @@ class SlideContacts {
     ContactPatch patch;  ///< The moving triangle above the fixed one [world].
     double gap = 0;      ///< Along the normal [mm].
   };
-  PairGeometry geometry(const SweepContact& pair) const;
-  /// That of two triangles of these surfaces of the pair's components.
-  PairGeometry geometry_of(const SweepContact& pair, const SolidTree& moving_surface,
-                           const SolidTree& fixed_surface) const;
+  /// A pair of triangles.
+  struct Contact {
+    SweepContact pair;
+    std::optional<PairGeometry> geometry;  ///< At `known_at_`, once it is known.
+    bool is_aimed = true;                  ///< Its axis is the best one for `aim_`.
+    bool is_free = false;                  ///< It does not block `aim_`, and is to be removed.
+  };
+  /// The triangles of a contact at the present pose.
+  struct ContactTriangles;
+
+  /// The geometry of a contact, computed at most once a pose.
+  const PairGeometry& geometry(Contact& contact);
+  PairGeometry geometry_of(const SweepContact& pair) const;
+  PairGeometry geometry_of(const ContactTriangles& triangles) const;
+  /// The gap alone.
+  double gap_of(const SweepContact& pair) const;
+  /// The triangles of these surfaces of the pair's components.
+  ContactTriangles triangles(const SweepContact& pair, SurfacePair surfaces) const;
   /// The gap that is kept at the end of a twist [mm].
   double reserve() const;
   /// Adds the rows of nearest_twist() by which the pair bounds the twist.
-  void bound(const SweepContact& pair, double characteristic_length, std::vector<HalfSpace>& bounds) const;
+  void bound(const PairGeometry& contact, double characteristic_length, std::vector<HalfSpace>& bounds) const;
 
   /// An end of the part of a cylinder that is in its bore.
   struct FitEnd {
@@ -88,16 +105,25 @@ class SlideContacts {
   std::vector<FitEnd> ends(const BlockedFit& fit) const;
   /// The largest offset of a cylinder from its bore's axis [mm].
   double max_off(const BlockedFit& fit) const;
-  /// Adds the rows by which the bore bounds the twist where `twist` would take the cylinder.
-  /// @return false if the twist keeps within it
-  bool bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
+  /// Adds the rows by which the bore bounds the twist where `twist` would take the cylinder beyond it.
+  void bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
              std::vector<HalfSpace>& bounds) const;
   ContactPoint point(const BlockedFit& fit, const FitEnd& end) const;
-  Twist solve(const Twist& wanted, double characteristic_length, const std::vector<HalfSpace>& bounds) const;
+  /// Chooses the axis of a contact for `aim_`. @return true if it bounds twists in another way now, or not at all
+  bool choose_axis(Contact& contact);
+  /// Chooses the axes of the contacts of which these half-spaces are. @return true if that changes one of them
+  bool choose_axes(Span<const int> half_spaces, const std::vector<std::size_t>& contact_of);
+  /// The contacts' half-spaces. @param contact_of set to the index of the contact of each
+  std::vector<HalfSpace> bounds(double characteristic_length, std::vector<std::size_t>& contact_of);
+  /// The nearest twist in these half-spaces and in those that the bores add to them.
+  NearestTwist solve(const Twist& wanted, double characteristic_length, const std::vector<HalfSpace>& bounds) const;
+  static Twist twist_of(const NearestTwist& found, double characteristic_length);
 
   const CertificateSweeper& sweeper_;
-  std::vector<SweepContact> pairs_;
+  std::vector<Contact> pairs_;
   std::vector<BlockedFit> fits_;
+  Pose known_at_;  // of the moving set
+  ScrewMotion aim_;
 };
 
 }  // namespace dismantle

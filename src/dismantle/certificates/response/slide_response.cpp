@@ -16,8 +16,8 @@ using Twist = SlideContacts::Twist;
 
 /// Sweeps of one step, apart from free ones of an unbounded motion.
 constexpr int kMaxTries = 40;
-/// Tries that are exempt from the limit of tests: a step that ended sooner could repeat the same ones forever.
-constexpr int kCertainTries = 8;
+/// Tries that are exempt from the limit of tests.
+constexpr int kCertainTries = 1;
 /// A step ends before a motion along contacts that makes less than this share of what is still wanted, or after it if
 /// it is the step's first: the next step goes on.
 constexpr double kCreepShare = 0.1;
@@ -41,9 +41,16 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
   SlideState state;
   state.target = target;
-  state.axes_chosen = state.contacts_here = contacts_.empty();
+  // A step that ended at the limit goes on with its contacts as they are: to aim them anew would drop those that it
+  // found by a try in another direction.
+  state.axes_chosen = std::exchange(unfinished_, false) || contacts_.empty();
+  state.contacts_here = contacts_.empty();
   const std::size_t limit = sweeper_.options().slide_tests;
-  while (state.tries < kMaxTries && (limit == 0 || state.tries < kCertainTries || result.cost.tests < limit)) {
+  while (state.tries < kMaxTries) {
+    if (limit > 0 && state.tries >= kCertainTries && result.cost.tests + result.cost.depth_tests >= limit) {
+      unfinished_ = state.axes_chosen;
+      break;
+    }
     const SlideTrial trial = choose_trial(state);
     if (!state.contacts_here && (trial.travel < rest || trial.creeping) && search_again()) {
       // Among many pairs, one that was left behind may be what holds the set.
@@ -77,7 +84,7 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
   const Twist tried = shortened(wanted, reach_);
   const bool whole = travel_of(tried) >= travel_of(wanted);
   if (!std::exchange(state.axes_chosen, true))
-    contacts_.choose_axes(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
+    contacts_.aim_at(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
   Twist allowed = contacts_.nearest(tried, characteristic_length);
   if (allowed.bounded) {
     // The velocity of a long screw points away from its end: pressed on, the set would drift off along the contact.

@@ -18,6 +18,8 @@ constexpr double kBoundedShare = 1e-2;
 
 /// A sampled sweep ends with about this many blocked pairs of two components.
 constexpr std::size_t kSampleSize = 32;
+/// It examines this many parts of fronts at a time, and ends after those with which this many pairs are blocked.
+constexpr std::size_t kPartsAtATime = 16, kEnoughBlocked = 64;
 
 /// The one of the moving (first) and the fixed (second) component that is represented by its ghost.
 GhostOf ghost_of(SurfacePair surfaces) {
@@ -170,13 +172,23 @@ CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double win
     for (std::size_t part = 0; part < pairs[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
   const DeviceResults by_device = ask_device(pairs, tasks, budget);
-  for_each_part(tasks.size(), [&](std::size_t i) {
-    const PairSweep& pair = pairs[tasks[i].pair];
-    if (!by_device.merged) pair.front->merge_part(tasks[i].part, pair.sweep, kernels_);
-    tasks[i].found =
-        pair.front->sweep_part(tasks[i].part, pair.sweep, kernels_, triangle_pair_test(pair, tasks[i], window),
-                               by_device.parts.empty() ? nullptr : &by_device.parts[i]);
-  });
+  std::size_t blocked = 0;
+  for (std::size_t begin = 0; begin < tasks.size(); begin += kPartsAtATime) {
+    const std::size_t count = std::min(kPartsAtATime, tasks.size() - begin);
+    const bool enough = budget != SweepBudget::Exhaustive && blocked >= kEnoughBlocked;
+    for_each_part(count, [&](std::size_t offset) {
+      PartTask& task = tasks[begin + offset];
+      const PairSweep& pair = pairs[task.pair];
+      if (!by_device.merged) pair.front->merge_part(task.part, pair.sweep, kernels_);
+      if (enough) {
+        task.found.complete = false;
+      } else {
+        task.found = pair.front->sweep_part(task.part, pair.sweep, kernels_, triangle_pair_test(pair, task, window),
+                                            by_device.parts.empty() ? nullptr : &by_device.parts[begin + offset]);
+      }
+    });
+    for (std::size_t i = begin; i < begin + count; ++i) blocked += tasks[i].blocked.size();
+  }
 
   collect(tasks, pairs, result);
   for (const PairSweep& pair : pairs) {

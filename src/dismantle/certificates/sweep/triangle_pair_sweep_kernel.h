@@ -128,24 +128,31 @@ class LeastBlockingAxis {
   DISMANTLE_HOST_DEVICE void consider(Vec3 line) {
     const double size = length(line);
     if (!(size > 0)) return;
-    for (int side = 0; side < 2; ++side) {
-      const Vec3 w = line / (side == 0 ? size : -size);
-      const double gap_t0 = gap(w, moving_.t0), gap_t1 = gap(w, moving_.t1);
-      // Without an allowance, an axis along which the two do not approach each other is none of a contact.
-      if (allowed_ == 0 && !(gap_t1 < gap_t0)) continue;
-      double reach = gap_t0 + allowed_;  // negative: the allowance is used up at the start
-      if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
-      if (reach <= furthest_ || !normals_.allow(w)) continue;
-      furthest_ = reach;
-      axis_ = w;
-    }
+    const Vec3 w = line / size;
+    const Extent fixed = extent(w, fixed_), t0 = extent(w, moving_.t0), t1 = extent(w, moving_.t1);
+    consider(w, fixed.low - t0.high, fixed.low - t1.high);
+    consider(-w, t0.low - fixed.high, t1.low - fixed.high);
   }
 
-  DISMANTLE_HOST_DEVICE double gap(Vec3 w, const Triangle& moving) const {
+  /// Considers a unit vector from the moving to the fixed triangle. @param gap_t0, gap_t1 along it [mm]
+  DISMANTLE_HOST_DEVICE void consider(Vec3 w, double gap_t0, double gap_t1) {
+    // Without an allowance, an axis along which the two do not approach each other is none of a contact.
+    if (allowed_ == 0 && !(gap_t1 < gap_t0)) return;
+    double reach = gap_t0 + allowed_;  // negative: the allowance is used up at the start
+    if (reach >= 0) reach = gap_t1 >= -allowed_ ? 1 + gap_t1 + allowed_ : reach / (gap_t0 - gap_t1);
+    if (reach <= furthest_ || !normals_.allow(w)) return;
+    furthest_ = reach;
+    axis_ = w;
+  }
+
+  /// The interval of a triangle along an axis, from the first corner of the fixed one [mm].
+  struct Extent {
+    double low, high;
+  };
+  DISMANTLE_HOST_DEVICE Extent extent(Vec3 w, const Triangle& t) const {
     const Vec3 origin = fixed_[0];
-    const double low = min(dot(w, fixed_[2] - origin), min(dot(w, fixed_[1] - origin), 0.0));
-    const double high = max(dot(w, moving[2] - origin), max(dot(w, moving[1] - origin), dot(w, moving[0] - origin)));
-    return low - high;
+    const double x = dot(w, t[0] - origin), y = dot(w, t[1] - origin), z = dot(w, t[2] - origin);
+    return {min(z, min(y, x)), max(z, max(y, x))};
   }
 
   const TriangleMotion& moving_;
