@@ -204,7 +204,7 @@ StepResult Workbench::drag(Clock::time_point now) {
   const bool by_rate = rate_.has_value();
   StepResult result = session().drag(target_pose(now), seconds_between(grabbed_at_, now));
   stepped_at_ = now;
-  settled_ = result.reached || result.poses.empty();
+  settled_ = result.reached || (result.poses.empty() && !result.unfinished);
   if (by_rate) settled_ = seconds_between(rate_at_, now) > kRateLifetime;
   return result;
 }
@@ -240,7 +240,7 @@ void Workbench::check_journal() {
 
 PoseMessage Workbench::pose_message(const StepResult& step, Clock::time_point now) const {
   PoseMessage m;
-  m.flags = static_cast<std::uint8_t>(step.reached ? kReached : kStopped);
+  if (!step.unfinished) m.flags = static_cast<std::uint8_t>(step.reached ? kReached : kStopped);
   m.state = state_number_;
   m.grip = is_dragging() ? grip_ : 0;
   m.answered = number_;

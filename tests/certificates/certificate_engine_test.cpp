@@ -330,9 +330,11 @@ TEST(CertificateEngine, EndsStepsOfSlideEarlyAndGoesOn) {
     scenes::Hand hand(scene, {0.1, 0.3, 0.06, 1});
     Way way;
     Pose target;
-    for (int k = 1; k <= 160; ++k) {
+    bool is_settled = false;
+    for (int k = 1; k <= 400 && !(k > 60 && is_settled); ++k) {
       if (k <= 60) target = hand.trembling(hand.steady(0.05 * k));  // then the hand waits
       const StepResult made = shaft.engine.step(target, ResponseKind::Slide);
+      is_settled = made.reached || (made.poses.empty() && !made.unfinished);
       way.most_sweeps = std::max(way.most_sweeps, made.sweeps);
       way.ended_early += limit > 0 && made.cost.tests >= limit ? 1 : 0;
       way.out = dot(made.pose.position, scene.pull);

@@ -26,6 +26,8 @@ struct StepResult {
   /// method computes none.
   double clearance = 0;
   StepCost cost;  ///< Time and work of this step.
+  /// It ended at a limit of its work: a step to the same target goes on, even where this one did not move the set.
+  bool unfinished = false;
 };
 
 /// A collision method with its response, as the loop of a host program uses it (docs/design/0000-overview.md): grabs

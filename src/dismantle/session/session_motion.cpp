@@ -23,6 +23,8 @@ constexpr double kTargetRate = 60;
 constexpr double kParkGap = 0.02;
 /// An automatic motion ends after this many consecutive targets that were not reached.
 constexpr int kMaxStuck = 6;
+/// Steps of response Slide to one target, each of which may end at the limit of its work.
+constexpr int kMaxSteps = 20;
 /// Contacts nearer than this contribute their normals as candidate directions [tolerances].
 constexpr double kContactReach = 3;
 /// One advance of an automatic motion returns after about this long.
@@ -209,10 +211,15 @@ void Session::begin_automatic(AutomaticKind kind, std::vector<Frame> targets) {
 
 StepResult Session::follow(const Frame& target) {
   // First the path that is known to be free; if it is no longer free, as near as the contacts allow.
-  StepResult step = engine_->step(target.pose, ResponseKind::Stop);
-  if (!step.reached) step = engine_->step(target.pose, ResponseKind::Slide);
   const std::size_t before = open_->frames.size();
-  append_step_frames(open_->frames, std::max(target.time, open_->frames.back().time), step);
+  const auto step_by = [&](ResponseKind response) {
+    StepResult step = engine_->step(target.pose, response);
+    append_step_frames(open_->frames, std::max(target.time, open_->frames.back().time), step);
+    return step;
+  };
+  StepResult step = step_by(ResponseKind::Stop);
+  step.unfinished = !step.reached;
+  for (int k = 0; k < kMaxSteps && step.unfinished; ++k) step = step_by(ResponseKind::Slide);
   write_frames(before);
   return step;
 }

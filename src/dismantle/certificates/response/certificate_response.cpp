@@ -27,6 +27,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   const Clock::time_point start = Clock::now();
   StepResult result;
   sweeper_.begin_step();
+  unfinished_ = false;
   result.pose = sweeper_.pose();
   if (result.pose == target) {
     result.reached = true;
@@ -38,6 +39,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   sweeper_.end_step();
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
+  result.unfinished = unfinished_ && !result.reached;
   if (result.reached) result.blocking_pairs.clear();
   result.cost.overlapping_pairs = sweeper_.overlapping_count();
   result.cost.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -143,7 +145,7 @@ void CertificateResponse::begin() {
   contacts_.clear();
   stopping_.clear();
   hardly_moved_ = 0;
-  unfinished_ = false;
+  unfinished_ = keeps_axes_ = false;
   reach_ = std::numeric_limits<double>::infinity();
 }
 

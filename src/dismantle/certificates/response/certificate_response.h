@@ -72,7 +72,8 @@ class CertificateResponse {
   std::vector<SweepContact> stopping_;  ///< The pairs that stopped the last motion of Stop or Touch.
   double reach_;               ///< Slide and Touch try motions of at most this length [mm]; it grows after free ones.
   unsigned hardly_moved_ = 0;  ///< Times that contacts let the set hardly move since it last did.
-  bool unfinished_ = false;    ///< The last step of Slide ended at the limit of tests: its contacts are to be used.
+  bool unfinished_ = false;    ///< The last step ended at the limit of tests.
+  bool keeps_axes_ = false;    ///< It found contacts that were not used: the next step takes their axes as they are.
 };
 
 /// A pair of triangles of a moving and a fixed component as StepResult reports it.

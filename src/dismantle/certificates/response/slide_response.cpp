@@ -43,12 +43,13 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   state.target = target;
   // A step that ended at the limit goes on with its contacts as they are: to aim them anew would drop those that it
   // found by a try in another direction.
-  state.axes_chosen = std::exchange(unfinished_, false) || contacts_.empty();
+  state.axes_chosen = std::exchange(keeps_axes_, false) || contacts_.empty();
   state.contacts_here = contacts_.empty();
   const std::size_t limit = sweeper_.options().slide_tests;
   while (state.tries < kMaxTries) {
     if (limit > 0 && state.tries >= kCertainTries && result.cost.tests + result.cost.depth_tests >= limit) {
-      unfinished_ = state.axes_chosen;
+      unfinished_ = true;
+      keeps_axes_ = state.axes_chosen;
       break;
     }
     const SlideTrial trial = choose_trial(state);
