@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -25,9 +24,6 @@ constexpr double kShareBeyondReserve = 0.5;
 /// The share of the tolerance that is kept of every gap, for the second-order part of twists; and of the play of a
 /// cylinder in its bore, whose rows leave out only the bending of the twist.
 constexpr double kReserve = 0.3, kFitReserve = 0.1;
-
-/// Axes are chosen for those contacts that bound a twist this many times, then for all.
-constexpr int kAxisChoices = 12;
 
 /// A twist is bounded again where it takes a cylinder further, at most this many times.
 constexpr int kFitCuts = 6;
@@ -80,32 +76,15 @@ bool SlideContacts::add_fit(const BlockedFit& fit) {
   return !ends(fit).empty();
 }
 
-void SlideContacts::aim_at(const ScrewMotion& motion) {
-  aim_ = motion;
-  for (Contact& contact : pairs_) contact.is_aimed = contact.pair.surfaces == SurfacePair::Plain;
-}
-
-bool SlideContacts::choose_axis(Contact& contact) {
-  contact.is_aimed = true;
-  const TrianglePairResult found = sweeper_.sweep_pair(contact.pair, aim_);
-  contact.is_free = found.free || length_squared(found.contact.axis) == 0;
-  if (contact.is_free) return true;
-  const bool changed = 1 - dot(contact.pair.axis, found.contact.axis) > kSameAxis;
-  if (changed) contact.geometry.reset();
-  contact.pair.axis = found.contact.axis;
-  return changed;
-}
-
-bool SlideContacts::choose_axes(Span<const int> half_spaces, const std::vector<std::size_t>& contact_of) {
-  bool changed = false;
-  for (const int i : half_spaces) {
-    const auto at = static_cast<std::size_t>(i);
-    if (at >= contact_of.size()) continue;  // of a bore
-    Contact& contact = pairs_[contact_of[at]];
-    if (!contact.is_aimed) changed |= choose_axis(contact);
-  }
-  if (changed) std::erase_if(pairs_, [](const Contact& contact) { return contact.is_free; });
-  return changed;
+void SlideContacts::choose_axes(const ScrewMotion& motion) {
+  std::erase_if(pairs_, [&](Contact& contact) {
+    if (contact.pair.surfaces == SurfacePair::Plain) return false;
+    const TrianglePairResult found = sweeper_.sweep_pair(contact.pair, motion);
+    if (found.free || length_squared(found.contact.axis) == 0) return true;
+    if (!(contact.pair.axis == found.contact.axis)) contact.geometry.reset();
+    contact.pair.axis = found.contact.axis;
+    return false;
+  });
 }
 
 double SlideContacts::fraction_within_reserve(const SweepContact& pair) const {
@@ -241,48 +220,23 @@ void SlideContacts::bound(const PairGeometry& s, double characteristic_length, s
   }
 }
 
-std::vector<HalfSpace> SlideContacts::bounds(double characteristic_length, std::vector<std::size_t>& contact_of) {
-  std::vector<HalfSpace> bounds;
-  contact_of.clear();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    bound(geometry(pairs_[i]), characteristic_length, bounds);
-    contact_of.resize(bounds.size(), i);
-  }
-  return bounds;
-}
-
 SlideContacts::Twist SlideContacts::nearest(const Twist& wanted, double characteristic_length) {
-  std::vector<std::size_t> contact_of;
-  for (int choices = 0;; ++choices) {
-    const std::vector<HalfSpace> half_spaces = bounds(characteristic_length, contact_of);
-    const NearestTwist found = solve(wanted, characteristic_length, half_spaces);
-    std::vector<int> chosen(found.active, found.active + found.active_count);
-    if (choices >= kAxisChoices) {
-      chosen.resize(contact_of.size());
-      std::iota(chosen.begin(), chosen.end(), 0);
-    }
-    if (!choose_axes(chosen, contact_of)) return twist_of(found, characteristic_length);
-  }
-}
-
-NearestTwist SlideContacts::solve(const Twist& wanted, double characteristic_length,
-                                  const std::vector<HalfSpace>& bounds) const {
-  const Vec3 turned = characteristic_length * wanted.rotation;
+  std::vector<HalfSpace> bounds;
+  for (Contact& contact : pairs_) bound(geometry(contact), characteristic_length, bounds);
   std::vector<BoundingFit> bounding_fits;
   for (const BlockedFit& fit : fits_) bounding_fits.push_back({max_off(fit), ends(fit)});
+  const auto twist_of = [&](const NearestTwist& found) {
+    const Vec3 turned{found.x[3], found.x[4], found.x[5]};
+    return Twist{{found.x[0], found.x[1], found.x[2]}, turned / characteristic_length, found.active_count > 0};
+  };
   const auto of_fits = [&](const NearestTwist& found) {
-    const Twist twist = twist_of(found, characteristic_length);
     std::vector<HalfSpace> more;
-    for (const BoundingFit& fit : bounding_fits) bound(fit, twist, characteristic_length, more);
+    for (const BoundingFit& fit : bounding_fits) bound(fit, twist_of(found), characteristic_length, more);
     return more;
   };
-  return nearest_twist({wanted.velocity.x, wanted.velocity.y, wanted.velocity.z, turned.x, turned.y, turned.z}, bounds,
-                       kFitCuts, of_fits);
-}
-
-SlideContacts::Twist SlideContacts::twist_of(const NearestTwist& found, double characteristic_length) {
-  const Vec3 turned{found.x[3], found.x[4], found.x[5]};
-  return {{found.x[0], found.x[1], found.x[2]}, turned / characteristic_length, found.active_count > 0};
+  const Vec3 velocity = wanted.velocity, turned = characteristic_length * wanted.rotation;
+  return twist_of(
+      nearest_twist({velocity.x, velocity.y, velocity.z, turned.x, turned.y, turned.z}, bounds, kFitCuts, of_fits));
 }
 
 ContactPoint SlideContacts::point(const BlockedFit& fit, const FitEnd& end) const {
@@ -305,10 +259,12 @@ std::vector<ContactPoint> SlideContacts::points(double reach) const {
   for (const Contact& contact : pairs_) {
     // Points and gaps are those of the components, not of ghosts.
     const SweepContact& pair = contact.pair;
-    const bool is_plain = pair.surfaces == SurfacePair::Plain;
-    const ContactTriangles t = triangles(pair, SurfacePair::Plain);
-    if (!is_plain && t.gap() > reach) continue;
-    const PairGeometry s = is_plain ? geometry_of(pair) : geometry_of(t);
+    PairGeometry s;
+    if (pair.surfaces == SurfacePair::Plain) {
+      s = geometry_of(pair);
+    } else if (const ContactTriangles t = triangles(pair, SurfacePair::Plain); t.gap() <= reach) {
+      s = geometry_of(t);
+    }
     if (s.gap > reach || s.patch.count == 0) continue;
     // The middle of what touches.
     const double touching = s.patch.nearest().gap + kTouching * sweeper_.tolerance();

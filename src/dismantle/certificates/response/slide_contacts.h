@@ -34,9 +34,8 @@ class SlideContacts {
   bool add_fit(const BlockedFit& fit);
   /// Upper bound of how much of a motion the whole cylinders withhold that their triangles would allow [mm].
   double withheld() const;
-  /// Sets the motion that nearest() is to come near to: pairs that bound a twist get the axis that lets this motion go
-  /// furthest, and are removed where they do not block it.
-  void aim_at(const ScrewMotion& motion);
+  /// Gives every pair the axis that lets a motion go furthest, and removes pairs that do not block it.
+  void choose_axes(const ScrewMotion& motion);
   /// Removes contacts whose gap is more than `reach` [mm].
   void drop_beyond(double reach);
 
@@ -47,8 +46,7 @@ class SlideContacts {
     bool bounded = false;  ///< Some contact holds it back.
   };
   /// The twist nearest to `wanted` that keeps a share of the tolerance of every gap, to first order: room for the
-  /// second-order part of twists. Any axis that separates a pair bounds twists safely; only the axes of those pairs
-  /// that bound the result have to be the best ones.
+  /// second-order part of twists.
   /// @param characteristic_length weighs rotations against translations [mm]
   Twist nearest(const Twist& wanted, double characteristic_length);
 
@@ -69,8 +67,6 @@ class SlideContacts {
   struct Contact {
     SweepContact pair;
     std::optional<PairGeometry> geometry;  ///< At `known_at_`, once it is known.
-    bool is_aimed = true;                  ///< Its axis is the best one for `aim_`.
-    bool is_free = false;                  ///< It does not block `aim_`, and is to be removed.
   };
   /// The triangles of a contact at the present pose.
   struct ContactTriangles;
@@ -109,21 +105,11 @@ class SlideContacts {
   void bound(const BoundingFit& fit, const Twist& twist, double characteristic_length,
              std::vector<HalfSpace>& bounds) const;
   ContactPoint point(const BlockedFit& fit, const FitEnd& end) const;
-  /// Chooses the axis of a contact for `aim_`. @return true if it bounds twists in another way now, or not at all
-  bool choose_axis(Contact& contact);
-  /// Chooses the axes of the contacts of which these half-spaces are. @return true if that changes one of them
-  bool choose_axes(Span<const int> half_spaces, const std::vector<std::size_t>& contact_of);
-  /// The contacts' half-spaces. @param contact_of set to the index of the contact of each
-  std::vector<HalfSpace> bounds(double characteristic_length, std::vector<std::size_t>& contact_of);
-  /// The nearest twist in these half-spaces and in those that the bores add to them.
-  NearestTwist solve(const Twist& wanted, double characteristic_length, const std::vector<HalfSpace>& bounds) const;
-  static Twist twist_of(const NearestTwist& found, double characteristic_length);
 
   const CertificateSweeper& sweeper_;
   std::vector<Contact> pairs_;
   std::vector<BlockedFit> fits_;
   Pose known_at_;  // of the moving set
-  ScrewMotion aim_;
 };
 
 }  // namespace dismantle

@@ -85,7 +85,7 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
   const Twist tried = shortened(wanted, reach_);
   const bool whole = travel_of(tried) >= travel_of(wanted);
   if (!std::exchange(state.axes_chosen, true))
-    contacts_.aim_at(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
+    contacts_.choose_axes(within_arcs(whole ? to_target : sweeper_.motion_to(twisted(tried))));
   Twist allowed = contacts_.nearest(tried, characteristic_length);
   if (allowed.bounded) {
     // The velocity of a long screw points away from its end: pressed on, the set would drift off along the contact.
