@@ -14,8 +14,8 @@ namespace dismantle::soak {
 namespace {
 
 constexpr double kStuckAllowance = 0.9, kStuckProgress = 0.9;
-/// Steps that a free straight motion may take.
-constexpr int kStuckSteps = 10;
+/// Steps that a free straight motion may take, of which all but the last end early.
+constexpr int kStuckSteps = 100;
 /// Width of a bin of times, as a factor.
 constexpr double kBin = 1.05;
 
@@ -104,10 +104,12 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
     const Pose& pose = poses[moving.value];
     const Pose target{pose.position + displacement, pose.rotation};
     double made = 0;
+    StepResult last;
     // A step may end early (limit_steps); the next goes on.
-    for (int step = 0; step < kStuckSteps && made < kStuckProgress; ++step)
-      made = dot(engine.step(target, ResponseKind::Slide).pose.position - pose.position, displacement) /
-             (distance * distance);
+    for (int step = 0; step < kStuckSteps && made < kStuckProgress && (step == 0 || last.unfinished); ++step) {
+      last = engine.step(target, ResponseKind::Slide);
+      made = dot(last.pose.position - pose.position, displacement) / (distance * distance);
+    }
     if (made < kStuckProgress) ++result.stuck;
   }
 }
