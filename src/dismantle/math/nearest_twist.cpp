@@ -17,7 +17,7 @@ constexpr double kViolation = 1e-12;
 /// A unit normal is dependent on the active ones if its part outside their span is shorter than this. If its part in
 /// the span has no positive weights, it is violated by at most kDependent |x|: its bound, like theirs, is at most 0.
 constexpr double kDependent = 0.25 * kNearestTwistSlack;
-/// Number of violated half-spaces that are examined before all of them are again.
+/// Number of violated half-spaces that are examined by themselves before all half-spaces are examined again.
 constexpr std::size_t kListed = 24;
 /// Sums of squares between these neither overflow nor lose digits.
 constexpr double kSmallestSquare = 1e-200, kLargestSquare = 1e200;
@@ -249,7 +249,6 @@ class Search {
   /// The half-space that x violates most; of equal ones the first. Lists those that it violates most.
   Violated max_violated() {
     listed_.clear();
-    if (rows_.count() == 0) return {};
     const std::vector<double>& distances = rows_.distances(x_);
     for (std::size_t i = 0; i < distances.size(); ++i)
       if (distances[i] > kViolation && !active_.contains(static_cast<int>(i)))
@@ -304,7 +303,6 @@ class Search {
   /// The largest share of x that is in every half-space. They are convex and contain 0.
   double feasible_share() {
     double share = 1;
-    if (rows_.count() == 0) return share;
     const std::vector<double>& distances = rows_.distances(x_);
     for (std::size_t i = 0; i < distances.size(); ++i) {
       if (!(distances[i] > kNearestTwistSlack / 4)) continue;

@@ -41,8 +41,8 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   const double tolerance = sweeper_.tolerance(), rest = kRestShare * tolerance;
   SlideState state;
   state.target = target;
-  // A step that ended at the limit goes on with its contacts as they are: to aim them anew would drop those that it
-  // found by a try in another direction.
+  // After a step that ended at the limit, contacts are kept as they are: choosing axes again would drop those that do
+  // not block the motion to the target.
   state.axes_chosen = std::exchange(keeps_axes_, false) || contacts_.empty();
   state.contacts_here = contacts_.empty();
   const std::size_t limit = sweeper_.options().slide_tests;
