@@ -69,8 +69,8 @@ struct Batch {
 
 /// Starts in the assembled state and drags random components one after another, in random directions, by a trembling
 /// hand that ignores obstacles; audits the path. Then the last component is tested for being stuck: where the audit
-/// finds a short straight motion free with nine tenths of every allowance, the engine must make nine tenths of it.
-/// Depends on the arguments alone, apart from times. @param auditor of the assembly
+/// finds a short straight motion free with six tenths of the tolerance for all pairs, the engine must make nine tenths
+/// of it. Depends on the arguments alone, apart from times. @param auditor of the assembly
 Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAuditor& auditor, std::uint64_t seed,
                 const BatchOptions& options);
 

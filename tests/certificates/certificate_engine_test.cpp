@@ -292,7 +292,7 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
   }
 }
 
-TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBound) {
+TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBoundAndGoesOn) {
   // A foil thinner than the tolerance across the end of a tube, pulled off aslant: no ghost, and nothing to bound its
   // depth by but ever smaller pieces.
   TriangleMesh ring = tube(1.5, 1, 0, 1, 36);
@@ -301,17 +301,38 @@ TEST(CertificateEngine, BoundsTheWorkOfAStepWhereDepthsAreHardToBound) {
       scenes::assembly({component("foil", box({0, 2.5, 8}, {3, 5.5, 8.02})), component("ring", std::move(ring))});
   const PairStates states = *classify_pairs(assembly, {});
   ASSERT_EQ(states.pairs.size(), 1u);
-  const auto step = [&](std::size_t depth_tests) {
+  const Pose target{{2.875, -2.5625, -0.6875}, {}};
+  struct Way {
+    Pose end;
+    std::size_t most_tests = 0;
+    int steps = 0, unfinished = 0;
+  };
+  const auto pulled = [&](std::size_t depth_tests, ResponseKind response) {
     CertificateOptions options;
     options.depth_tests = depth_tests;
-    return Grabbed(assembly, states, 0, options).engine.step({{2.875, -2.5625, -0.6875}, {}}, ResponseKind::Slide);
+    Grabbed foil(assembly, states, 0, options);
+    Way way;
+    for (bool goes_on = true; goes_on && way.steps < 400;) {
+      const StepResult made = foil.engine.step(target, response);
+      ++way.steps;
+      way.unfinished += made.unfinished ? 1 : 0;
+      goes_on = made.unfinished || (!made.reached && !made.poses.empty());
+      way.most_tests = std::max(way.most_tests, made.cost.depth_tests);
+      way.end = made.pose;
+    }
+    return way;
   };
-  constexpr std::size_t kMost = 8000;
-  const StepResult bounded = step(kMost), unbounded = step(0);
-  ASSERT_GT(unbounded.cost.depth_tests, 2 * kMost);  // else it shows nothing
-  EXPECT_LT(bounded.cost.depth_tests, unbounded.cost.depth_tests);
-  // A sweep ends within a piece or so of its share, and each may take the fewest.
-  EXPECT_LE(bounded.cost.depth_tests, kMost + bounded.sweeps * 6000);
+  for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch}) {
+    SCOPED_TRACE(response == ResponseKind::Slide ? "slide" : "touch");
+    constexpr std::size_t kMost = 1500;
+    const Way bounded = pulled(kMost, response), unbounded = pulled(0, response);
+    ASSERT_GT(unbounded.most_tests, 10 * kMost);  // else it shows nothing
+    EXPECT_EQ(unbounded.unfinished, 0);
+    EXPECT_GT(bounded.unfinished, 0);
+    EXPECT_LT(bounded.steps, 400);
+    EXPECT_LT(bounded.most_tests, unbounded.most_tests / 2);
+    EXPECT_GE(length(bounded.end.position), length(unbounded.end.position) - 0.1);
+  }
 }
 
 TEST(CertificateEngine, EndsStepsOfSlideEarlyAndGoesOn) {

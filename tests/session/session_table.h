@@ -22,10 +22,11 @@ inline const std::vector<ComponentId> kFirst{ComponentId(0)}, kSecond{ComponentI
 /// A session of a scene; its recording is audited at the end.
 class Table {
  public:
-  explicit Table(Assembly assembly) : assembly_(std::move(assembly)) {
+  explicit Table(Assembly assembly, const CertificateOptions& options = {}, double tolerance = kTableTolerance)
+      : assembly_(std::move(assembly)) {
     ClassifyOptions classify;
-    classify.tolerance = kTableTolerance;
-    session_.emplace(assembly_, *classify_pairs(assembly_, classify));
+    classify.tolerance = tolerance;
+    session_.emplace(assembly_, *classify_pairs(assembly_, classify), options);
   }
   ~Table() {
     const AuditReport report = audit_path(assembly_, session_->recording());

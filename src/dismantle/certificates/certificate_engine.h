@@ -48,7 +48,8 @@ struct CertificateOptions {
   KeepGoing keep_going = {};
   /// Most points and pieces of surfaces that a step examines to bound the depth of pairs without ghosts, or 0 for no
   /// limit but that of a single sweep: the motion of a person's hand must go on. Once they are used up, each sweep
-  /// still gets a few, and counts as too deep where it does not know.
+  /// still gets a few, and the step ends where it does not know. The next step continues; after many such steps in
+  /// turn, what is not known counts as too deep.
   std::size_t depth_tests = 0;
   /// Tests of triangle pairs and pieces of surfaces after which a step of response Slide ends early, at a pose that is
   /// free, or 0 for no limit. The next step continues. The limit does not apply to the first try of a step.

@@ -2,6 +2,7 @@
 #include "dismantle/session/playback.h"
 
 #include "dismantle/math/screw.h"
+#include "dismantle/session/step_limit.h"
 
 #include <algorithm>
 #include <chrono>
@@ -77,7 +78,7 @@ void Playback::put(MotionEngine& engine, const TimelinePosition& position) const
 
 bool Playback::is_free_the_other_way(MotionEngine& engine, const TimelinePosition& next) const {
   put(engine, next);
-  const bool is_free = engine.step(timeline_.pose_of(position_), ResponseKind::Stop).reached;
+  const bool is_free = whole_step(engine, timeline_.pose_of(position_), ResponseKind::Stop).reached;
   put(engine, position_);
   return is_free;
 }
@@ -85,7 +86,7 @@ bool Playback::is_free_the_other_way(MotionEngine& engine, const TimelinePositio
 bool Playback::is_free_by_sliding(MotionEngine& engine, const TimelinePosition& next) const {
   if (!engine.can_respond(ResponseKind::Slide)) return false;
   const Pose wanted = timeline_.pose_of(next);
-  const Pose got = engine.step(wanted, ResponseKind::Slide).pose;
+  const Pose got = whole_step(engine, wanted, ResponseKind::Slide).pose;
   double lever = 0;
   for (const ComponentId c : timeline_.moves()[next.move].components) {
     const Aabb box = assembled_bounds((*assembly_)[c]);
@@ -103,7 +104,7 @@ bool Playback::go(MotionEngine& engine, const TimelinePosition& next, StepResult
     return true;  // the last pose of the one move is the first of the other
   }
   const Pose pose = timeline_.pose_of(next);
-  result = engine.step(pose, ResponseKind::Stop);
+  result = whole_step(engine, pose, ResponseKind::Stop);
   if (!result.reached) {
     const bool is_free = is_free_the_other_way(engine, next) || is_free_by_sliding(engine, next);
     if (!is_free && !block_) block_ = PlaybackBlock{timeline_.time_of(position_), blocker(result, set)};

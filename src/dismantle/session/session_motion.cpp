@@ -4,6 +4,7 @@
 
 #include "dismantle/math/screw.h"
 #include "dismantle/session/session_path.h"
+#include "dismantle/session/step_limit.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,8 +24,6 @@ constexpr double kTargetRate = 60;
 constexpr double kParkGap = 0.02;
 /// An automatic motion ends after this many consecutive targets that were not reached.
 constexpr int kMaxStuck = 6;
-/// Steps of response Slide to one target, each of which may end at the limit of its work.
-constexpr int kMaxSteps = 20;
 /// Contacts nearer than this contribute their normals as candidate directions [tolerances].
 constexpr double kContactReach = 3;
 /// One advance of an automatic motion returns after about this long.
@@ -212,14 +211,9 @@ void Session::begin_automatic(AutomaticKind kind, std::vector<Frame> targets) {
 StepResult Session::follow(const Frame& target) {
   // First the path that is known to be free; if it is no longer free, as near as the contacts allow.
   const std::size_t before = open_->frames.size();
-  const auto step_by = [&](ResponseKind response) {
-    StepResult step = engine_->step(target.pose, response);
-    append_step_frames(open_->frames, std::max(target.time, open_->frames.back().time), step);
-    return step;
-  };
-  StepResult step = step_by(ResponseKind::Stop);
-  step.unfinished = !step.reached;
-  for (int k = 0; k < kMaxSteps && step.unfinished; ++k) step = step_by(ResponseKind::Slide);
+  StepResult step = whole_step(*engine_, target.pose, ResponseKind::Stop);
+  if (!step.reached) step = whole_step(*engine_, target.pose, ResponseKind::Slide);
+  append_step_frames(open_->frames, std::max(target.time, open_->frames.back().time), step);
   write_frames(before);
   return step;
 }

@@ -17,6 +17,8 @@ using Clock = std::chrono::steady_clock;
 
 /// A motion that was shortened this many times and is still blocked is not made.
 constexpr int kMaxShortenings = 6;
+/// After so many steps in turn, a depth that is not bounded yet counts as too deep.
+constexpr int kMaxUndecidedSteps = 150;
 
 }  // namespace
 
@@ -27,7 +29,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   const Clock::time_point start = Clock::now();
   StepResult result;
   sweeper_.begin_step();
-  unfinished_ = false;
+  unfinished_ = undecided_ = false;
   result.pose = sweeper_.pose();
   if (result.pose == target) {
     result.reached = true;
@@ -37,6 +39,8 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
     go(target, response == ResponseKind::Touch, result);
   }
   sweeper_.end_step();
+  undecided_steps_ = undecided_ ? undecided_steps_ + 1 : 0;
+  unfinished_ |= undecided_;
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
   result.unfinished = unfinished_ && !result.reached;
@@ -50,6 +54,7 @@ CertificateSweep CertificateResponse::sweep(const ScrewMotion& motion, double wi
                                             StepResult& result) {
   CertificateSweep found = sweeper_.sweep(motion, window, budget);
   sweeper_.count_depth_tests(found.depth_tests);
+  undecided_ |= found.undecided && undecided_steps_ < kMaxUndecidedSteps;
   ++result.sweeps;
   result.cost.pairs = found.front;
   result.cost.triangle_pairs += found.triangle_tests;
@@ -89,6 +94,11 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
   const double tolerance = sweeper_.tolerance();
   const int cuts = chord_count(whole.deviation, kArcShare * tolerance);
   for (double at = 0; at < 1;) {
+    const std::size_t limit = sweeper_.options().depth_tests;
+    if (touch && at > 0 && limit > 0 && result.cost.depth_tests >= limit) {
+      unfinished_ = true;
+      break;
+    }
     // Touch, once stopped, tries short motions first: triangles behind a contact cost most.
     const double fraction = touch ? std::min(1.0 / cuts, reach_ / whole.path_length) : 1.0 / cuts;
     const double next = at + fraction > 1 - 1e-9 ? 1 : at + fraction;
@@ -135,6 +145,7 @@ double CertificateResponse::free_fraction(const ScrewMotion& motion, bool touch,
     }
     result.clearance = 0;
     stop_at(found);
+    if (undecided_) return 0;
     if (found.complete && trial.deviation == 0) break;
     if (tries == kMaxShortenings) fraction = 0;
   }

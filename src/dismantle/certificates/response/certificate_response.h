@@ -73,6 +73,8 @@ class CertificateResponse {
   double reach_;               ///< Slide and Touch try motions of at most this length [mm]; it grows after free ones.
   unsigned hardly_moved_ = 0;  ///< Times that contacts let the set hardly move since it last did.
   bool unfinished_ = false;    ///< The last step ended at the limit of tests.
+  bool undecided_ = false;     ///< It did not bound a depth within its limit, and is to end.
+  int undecided_steps_ = 0;    ///< Steps in turn that ended so.
   bool keeps_axes_ = false;    ///< It found contacts that were not used: the next step takes their axes as they are.
 };
 

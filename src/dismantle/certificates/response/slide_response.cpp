@@ -65,6 +65,11 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const ScrewMotion motion = within_arcs(trial.motion);
     const CertificateSweep found = sweep(motion, contact_window(trial), state.budget, result);
     result.clearance = found.clearance;
+    if (undecided_) {  // the next step goes on where this one ended
+      if (found.complete) make_part(motion, found.toi, kContactWindow, result);
+      keeps_axes_ = state.axes_chosen;
+      break;
+    }
     if (!found.free) report(found, result);
     state.tries += !found.free || trial.twist.bounded;
     const bool goes_on =

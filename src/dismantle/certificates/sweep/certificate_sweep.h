@@ -70,6 +70,8 @@ struct CertificateSweep {
   std::size_t triangle_tests = 0;     ///< Triangle-pair tests made.
   std::size_t device_tests = 0;       ///< Those of them that a device made.
   std::size_t depth_tests = 0;        ///< Points and pieces of surfaces examined to bound depths.
+  /// The limit of CertificateOptions::depth_tests was reached before a depth was bounded: a later sweep goes on.
+  bool undecided = false;
 };
 
 /// The amount of work that a sweep may do. All budgets are safe; smaller ones are faster, but may block earlier.

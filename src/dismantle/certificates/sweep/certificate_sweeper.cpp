@@ -146,10 +146,11 @@ void CertificateSweeper::finish(CertificateSweep& result, double window) {
 
 std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(const ScrewMotion& motion,
                                                                              SweepBudget budget,
-                                                                             CertificateSweep& result) {
+                                                                             CertificateSweep& result,
+                                                                             std::vector<SeenMotion>& depths) {
   std::vector<PairSweep> pairs;
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
-    sweep_depth(motion_past(motion, moving, fixed), DeepSearch::First, result);
+    if (guarded(moving, fixed).guard == PairGuard::Depth) depths.push_back(motion_past(motion, moving, fixed));
     for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
       const TestedPair tested{moving, fixed, surfaces};
       CertificateFront& front = store_.prepare(moving, fixed, ghost_of(surfaces), poses_);
@@ -166,7 +167,8 @@ std::vector<CertificateSweeper::PairSweep> CertificateSweeper::prepare_pairs(con
 CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double window, SweepBudget budget) {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
-  std::vector<PairSweep> pairs = prepare_pairs(motion, budget, result);
+  std::vector<SeenMotion> depths;
+  std::vector<PairSweep> pairs = prepare_pairs(motion, budget, result, depths);
   std::vector<PartTask> tasks;
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (std::size_t part = 0; part < pairs[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
@@ -191,6 +193,7 @@ CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double win
   }
 
   collect(tasks, pairs, result);
+  sweep_depths(depths, window, result);
   for (const PairSweep& pair : pairs) {
     pair.front->end_sweep(pair.sweep, pair.free);
     result.front += pair.front->size();

@@ -145,8 +145,13 @@ class CertificateSweeper {
   SeenMotion motion_past(const ScrewMotion& motion, ComponentId moving, ComponentId fixed) const;
   /// The shape of a component, built when first asked for.
   const SolidShape& shape(ComponentId c);
-  /// Adds the contact of components whose depth is bounded, if there is one.
-  void sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result) const;
+  /// How the surface of the first component was found to be shallow in the second one.
+  using KnownDepth = std::map<std::pair<ComponentId, ComponentId>, ShallowParts>;
+  /// Adds the contact of components whose depth is bounded, if there is one up to a time. @param known may be null
+  void sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result, double until = 1,
+                   KnownDepth* known = nullptr) const;
+  /// Adds the contacts of such pairs that are not later than those known by more than `window`.
+  void sweep_depths(const std::vector<SeenMotion>& motions, double window, CertificateSweep& result);
   double displaced(ComponentId a, ComponentId b) const {
     return guarded(a, b).displaced + (1 - kGhostLength) * tolerance_;
   }
@@ -163,8 +168,9 @@ class CertificateSweeper {
   /// Calls run(i) for every i below `count`, on the executor's threads if there is more than one.
   template <class Run>
   void for_each_part(std::size_t count, const Run& run) const;
-  /// The pairs to be swept, with their fronts.
-  std::vector<PairSweep> prepare_pairs(const ScrewMotion& motion, SweepBudget budget, CertificateSweep& result);
+  /// The pairs to be swept, with their fronts. @param depths gets the motions of those whose depth is to be bounded
+  std::vector<PairSweep> prepare_pairs(const ScrewMotion& motion, SweepBudget budget, CertificateSweep& result,
+                                       std::vector<SeenMotion>& depths);
   /// Results of the device for one sweep.
   struct DeviceResults {
     bool merged = false;            ///< It merged the parts.
@@ -187,6 +193,7 @@ class CertificateSweeper {
   double tolerance_;
   std::map<std::pair<ComponentId, ComponentId>, GuardedPair> guarded_;  ///< Those with an allowance of their own.
   std::map<ComponentId, std::shared_ptr<const SolidShape>> shapes_;     ///< Of components whose depth is bounded.
+  KnownDepth known_depth_;                                              ///< Since the last jump.
   FrontStore store_;
   CertificateDevice device_;
   NearComponents near_;

@@ -15,16 +15,22 @@ namespace {
 /// Contacts of depths are found to within a motion of this share of the tolerance.
 constexpr double kResolution = 0.25;
 /// A sweep may examine this many points and pieces, however many the others of its step have.
-constexpr std::size_t kFewestTests = 4000;
+constexpr std::size_t kFewestTests = 500;
 
 }  // namespace
 
-void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result) const {
+void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result,
+                                     double until, KnownDepth* known) const {
   const GuardedPair pair = guarded(motion.moving, motion.fixed);
   if (pair.guard != PairGuard::Depth) return;
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
-  const SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
+  SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
+  swept.until = until;
+  if (known) {
+    swept.known_a = &(*known)[{motion.moving, motion.fixed}];
+    swept.known_b = &(*known)[{motion.fixed, motion.moving}];
+  }
   const std::size_t most = std::min(
       kMaxSweptPieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
   const auto deep =
@@ -32,6 +38,7 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
                    most, options_.keep_going, search_for, &result.depth_tests);
   result.clearance = 0;
   if (!deep) return;
+  result.undecided |= !deep->is_certain && most < kMaxSweptPieces;
   const Screw screw = screw_between(motion.start, motion.end);
   const Pose then = screw_at(screw, deep->time) * motion.start;
   const RigidTransform at = transform_from_pose(then);
@@ -42,6 +49,15 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   contact.limit = inside;
   contact.point = inverse(at) * inside;
   result.blocked.push_back(contact);
+}
+
+void CertificateSweeper::sweep_depths(const std::vector<SeenMotion>& motions, double window, CertificateSweep& result) {
+  for (const SeenMotion& motion : motions) {
+    // Later contacts would be left out.
+    double until = 1;
+    for (const SweepContact& b : result.blocked) until = std::min(until, b.toi + window);
+    sweep_depth(motion, DeepSearch::First, result, until, &known_depth_);
+  }
 }
 
 const SolidShape& CertificateSweeper::shape(ComponentId c) {

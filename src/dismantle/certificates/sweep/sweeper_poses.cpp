@@ -49,6 +49,7 @@ void CertificateSweeper::jump(Span<const Pose> poses) {
   for (std::uint32_t c = 0; c < poses.size(); ++c)
     if (moved(ComponentId(c))) place(ComponentId(c), poses[c]);
   near_.rebuild_if_due();
+  known_depth_.clear();  // what follows depends on the poses alone
   find_parted();
 }
 

@@ -71,36 +71,92 @@ bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
   return nearest.distance > radius && solid_.winding().inside(center);  // inside, no point is further from the surface
 }
 
-MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces,
-                                                std::size_t max_pieces) const {
+/// A ball around the places of a part half-way, and how far a point of it moves until then.
+struct MovingPartSearch::Ball {
+  Triangle middle;
+  Vec3 center;
+  double radius = 0, way = 0;
+};
+
+MovingPartSearch::Ball MovingPartSearch::ball_around(const MovingPart& part) {
+  Ball ball;
+  ball.middle = mean(part.begin, part.end);
+  ball.center = (ball.middle[0] + ball.middle[1] + ball.middle[2]) / 3;
+  for (int i = 0; i < 3; ++i) {
+    ball.radius = std::max(ball.radius, length(ball.middle[i] - ball.center));
+    ball.way = std::max(ball.way, length(part.end[i] - part.begin[i]) / 2);
+  }
+  return ball;
+}
+
+MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces,
+                                                std::vector<ShallowPart>* shallow) const {
   std::vector<MovingPart> parts{whole};
   std::uint32_t last = 0;
+  const auto note = [&](const MovingPart& part, ShallowPart why) {
+    if (!shallow) return;
+    why.own = part.own;
+    why.from = part.from;
+    why.to = part.to;
+    shallow->push_back(why);
+  };
   while (!parts.empty()) {
-    if (++pieces > max_pieces || (pieces % kAsk == 0 && keep_going_ && !keep_going_())) return {{}, false};
+    if (++pieces > max_pieces || (pieces % kAsk == 0 && keep_going_ && !keep_going_())) {
+      for (const MovingPart& left : parts) note(left, {{}, 0, 1, ShallowReason::Unknown, 0, {}});
+      return {{}, false};
+    }
     const MovingPart part = parts.back();
     parts.pop_back();
-    if (region_ && region_->contains(PartHull(part))) continue;
-    const Triangle middle = mean(part.begin, part.end);
-    const Vec3 center = (middle[0] + middle[1] + middle[2]) / 3;
-    double radius = 0, way = 0;
-    for (int i = 0; i < 3; ++i) {
-      radius = std::max(radius, length(middle[i] - center));
-      way = std::max(way, length(part.end[i] - part.begin[i]) / 2);
+    if (region_ && region_->contains(PartHull(part))) {
+      note(part, {{}, 0, 1, ShallowReason::Region, 0, {}});
+      continue;
     }
-    const MeshDistance nearest = solid_.surface().distance(center, last);
+    const Ball ball = ball_around(part);
+    const MeshDistance nearest = solid_.surface().distance(ball.center, last);
     last = nearest.face;
-    // The simple reasons first: winding numbers of open meshes are expensive.
-    if (nearest.distance + radius + way <= far_limit_ || near_faces(part, nearest.face)) continue;
-    if (ball_outside(solid_.winding(), center, radius + way, nearest.distance)) continue;
-    if (is_unlimited(part) || copy_outside(part, center, radius + way, nearest.face)) continue;
+    if (const std::optional<ShallowPart> why = shallow_reason(part, ball, nearest)) {
+      note(part, *why);
+      continue;
+    }
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
-    if (is_deep(own, center)) return {Found{time, part.face, own}, true};
+    if (is_deep(own, ball.center)) return {Found{time, part.face, own}, true};
     for (int i = 0; i < 3; ++i)
-      if (is_deep(part.own[i], middle[i])) return {Found{time, part.face, part.own[i]}, true};
+      if (is_deep(part.own[i], ball.middle[i])) return {Found{time, part.face, part.own[i]}, true};
     divide(part, nearest.face, parts);
   }
   return {};
+}
+
+/// Why no point of a part gets too deep, if that is certain.
+std::optional<ShallowPart> MovingPartSearch::shallow_reason(const MovingPart& part, const Ball& ball,
+                                                            const MeshDistance& nearest) const {
+  ShallowPart why{{}, 0, 1, ShallowReason::NearFaces, nearest.face, {}};
+  // The simple reasons first: winding numbers of open meshes are expensive.
+  if (nearest.distance + ball.radius + ball.way <= far_limit_ || near_faces(part, nearest.face)) return why;
+  why.reason = ShallowReason::Ball;
+  if (ball_outside(solid_.winding(), ball.center, ball.radius + ball.way, nearest.distance)) return why;
+  why.reason = ShallowReason::Unlimited;
+  if (is_unlimited(part)) return why;
+  why.reason = ShallowReason::Copy;
+  const std::optional<Vec3> shift = copy_outside(part, ball.center, ball.radius + ball.way, nearest.face);
+  if (!shift) return std::nullopt;
+  why.shift = *shift;
+  return why;
+}
+
+bool MovingPartSearch::holds(const ShallowPart& known, const MovingPart& part) const {
+  if (known.reason == ShallowReason::Unlimited) return true;  // whatever the motion
+  if (known.reason == ShallowReason::Unknown) return false;
+  if (known.reason == ShallowReason::Region) return region_ && region_->contains(PartHull(part));
+  const Ball ball = ball_around(part);
+  const double radius = ball.radius + ball.way;
+  if (known.reason == ShallowReason::NearFaces)
+    return solid_.surface().distance_to_face(ball.center, known.face) + radius <= far_limit_ ||
+           near_faces(part, known.face);
+  if (known.reason == ShallowReason::Copy) return is_outside(part, ball.center, radius, known.shift);
+  return ball_outside(solid_.winding(), ball.center, radius,
+                      solid_.surface().distance(ball.center, known.face).distance);
 }
 
 /// True if a part stays within the limit of the face that is nearest to its middle, or of another one.
@@ -110,14 +166,15 @@ bool MovingPartSearch::near_faces(const MovingPart& part, std::uint32_t nearest)
   return near_two_faces(solid_.surface(), Span<const Vec3>(corners, 6), nearest, far_limit_);
 }
 
-/// True if a copy of a part that is shifted by no more than the limit is outside: on the way there, a point that is
+/// The shift of a copy of a part, by no more than the limit, that is outside: on the way there, a point that is
 /// inside passes the surface, unless it passes a fan that closes a hole.
 /// @param center, radius a ball around the part, the center half-way
-bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const {
+std::optional<Vec3> MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius,
+                                                   std::uint32_t nearest) const {
   const double margin = 4 * solid_.winding().placement();
-  if (far_limit_ <= margin) return false;
+  if (far_limit_ <= margin) return std::nullopt;
   const bool inside = solid_.winding().inside(center);
-  if (!inside && is_outside(part, center, radius, {})) return true;
+  if (!inside && is_outside(part, center, radius, {})) return Vec3{};
   const Triangle& face = solid_.surface().triangle(nearest);
   const Vec3 way = closest_point_of_triangle(face, center) - center;
   const Vec3 out = normalized(inside ? way : -way);
@@ -128,9 +185,10 @@ bool MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double 
   for (int i = 0; i < 4; ++i) {
     const auto same = [&](const Vec3& known) { return dot(known, directions[i]) > kSameDirection; };
     if (std::any_of(directions, directions + i, same)) continue;
-    if (is_outside(part, center, radius, (far_limit_ - margin) * directions[i])) return true;
+    const Vec3 shift = (far_limit_ - margin) * directions[i];
+    if (is_outside(part, center, radius, shift)) return shift;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// True if a part that is shifted is outside, and passes no fan on the way.

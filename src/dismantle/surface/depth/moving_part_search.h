@@ -3,6 +3,7 @@
 
 #include "dismantle/core/keep_going.h"
 #include "dismantle/surface/depth/part_hull.h"
+#include "dismantle/surface/depth/shallow_parts.h"
 #include "dismantle/surface/depth/shallow_region.h"
 #include "dismantle/surface/solid_shape.h"
 
@@ -40,14 +41,23 @@ class MovingPartSearch {
   /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame
   bool is_deep(Vec3 own, Vec3 point) const;
   /// Searches a part for a point that is too deep. @param pieces is increased by the number of pieces examined; the
-  /// search is given up above `max_pieces`
-  Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces) const;
+  /// search is given up above `max_pieces` @param shallow if not null, the parts that it was divided into are appended,
+  /// with their own times; they are worth something only where nothing was found. Where the search was given up, those
+  /// that are left are among them
+  Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces,
+              std::vector<ShallowPart>* shallow = nullptr) const;
+  /// True if a part stays shallow for a reason that held for it before; false says nothing.
+  bool holds(const ShallowPart& known, const MovingPart& part) const;
 
  private:
+  struct Ball;
+  static Ball ball_around(const MovingPart& part);
+  std::optional<ShallowPart> shallow_reason(const MovingPart& part, const Ball& ball,
+                                            const MeshDistance& nearest) const;
   /// True if no point of a part is far, and near ones may be at any depth that the solid has.
   bool is_unlimited(const MovingPart& part) const;
   bool near_faces(const MovingPart& part, std::uint32_t nearest) const;
-  bool copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
+  std::optional<Vec3> copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
   bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
   void divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const;
   bool in_one_plane(std::uint32_t face, std::uint32_t other) const;

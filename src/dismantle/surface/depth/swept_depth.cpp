@@ -19,8 +19,14 @@ constexpr std::size_t kSamples = 2000;
 constexpr double kFirstPart = 16, kPartGrowth = 8;
 /// Times of a known deep point are found to within this share of the resolution.
 constexpr double kTimeShare = 0.25;
-/// An interval is given up, and a shorter one searched, after this share of the pieces.
-constexpr std::size_t kShareOfPieces = 4;
+/// An interval is given up, and a shorter one searched, after this share of the pieces, but not before so many.
+constexpr std::size_t kShareOfPieces = 4, kFewPieces = 50000;
+/// As many nodes or known parts take as long as a piece that is examined.
+constexpr std::size_t kKnownInPiece = 8;
+/// Where more pieces than these are new, points are looked at before all is divided.
+constexpr std::size_t kNewPieces = 1000;
+/// Of a time, as a share.
+constexpr double kRounding = 1e-6;
 
 /// One surface moving in the frame of the other.
 class SweptSearch {
@@ -29,13 +35,14 @@ class SweptSearch {
   using Result = MovingPartSearch::Result;
 
   SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start, const RigidTransform& end,
-              double limit, double far_limit, const KeepGoing& keep_going)
+              double limit, double far_limit, ShallowParts* known, const KeepGoing& keep_going)
       : own_(own),
         other_(other),
         start_(start),
         end_(end),
         is_limited_(far_limit != limit),
         region_(other.shallow_region(std::min(limit, far_limit))),
+        known_(known),
         parts_(other, limit, std::min(limit, far_limit), &region_, keep_going) {}
 
   Vec3 at(Vec3 own, double time) const { return (1 - time) * (start_ * own) + time * (end_ * own); }
@@ -47,7 +54,7 @@ class SweptSearch {
     const Vec3 point = at(found.own, found.time);
     const std::uint32_t other_face = other_.surface().distance(point).face;
     const Vec3 nearest = closest_point_of_triangle(other_.surface().triangle(other_face), point);
-    return {0, found.time, of_a, of_a ? found.face : other_face, of_a ? other_face : found.face, point, nearest};
+    return {true, 0, found.time, of_a, of_a ? found.face : other_face, of_a ? other_face : found.face, point, nearest};
   }
 
   /// A sampled point that is too deep at a time.
@@ -68,15 +75,48 @@ class SweptSearch {
     return std::nullopt;
   }
 
-  /// Number of sampled points that were near the other shape.
-  std::size_t samples() const { return samples_; }
+  /// Number of sampled points that were near the other shape, and what nodes and known parts took in their place.
+  std::size_t others() const { return samples_ + visited_ / kKnownInPiece; }
 
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+    return search(from, to, [&](const MovingPart& face) {
+      if (!known_) return parts_.find(face, pieces, max_pieces);
+      if (known_->of(face.face)) return find_in_known(face, pieces, max_pieces);
+      std::vector<ShallowPart> parts;
+      Result result = parts_.find(face, pieces, max_pieces, &parts);
+      if (result.found) parts.clear();
+      take_shares(parts, 0, face);
+      known_->set(face.face, std::move(parts));
+      return result;
+    });
+  }
+
+  /// True if nothing gets too deep in [from, to], nearly everywhere for reasons that are known; false says nothing.
+  bool is_shallow_again(double from, double to, std::size_t& pieces) const {
+    if (!is_limited_) return true;
+    if (!known_ || (known_->deep && is_deep(*known_->deep, to))) return false;
+    const std::size_t enough = pieces + kNewPieces;
+    const Result result = search(from, to, [&](const MovingPart& face) {
+      return known_->of(face.face) ? find_in_known(face, pieces, enough) : Result{{}, false};
+    });
+    return result.complete && !result.found;
+  }
+
+  /// Notes a point that is too deep, for the next motion; none: nothing is.
+  void note_deep(std::optional<Vec3> own) const {
+    if (known_) known_->deep = own;
+  }
+
+ private:
+  /// Visits the faces that are not certainly shallow, in parts of [from, to], as long as the results are complete and
+  /// without a point.
+  template <class Visit>
+  Result search(double from, double to, const Visit& in_face) const {
     if (!is_limited_) return {};
     std::vector<Piece> pieces_left{{own_.surface().bvh().root(), from, to}};
     while (!pieces_left.empty()) {
-      if (++pieces > max_pieces) return {{}, false};
+      if (++visited_ > kMaxSweptPieces) return {{}, false};
       const Piece piece = pieces_left.back();
       pieces_left.pop_back();
       const Aabb begin = box_at(piece.node, piece.from), end = box_at(piece.node, piece.to);
@@ -85,9 +125,9 @@ class SweptSearch {
       if (region_.contains(both)) continue;
       const Bvh& bvh = own_.surface().bvh();
       if (piece.node < bvh.leaf_count()) {
-        const MovingPart whole = part(bvh.leaf_triangle[piece.node], piece.from, piece.to);
-        const Result in_face = parts_.find(whole, pieces, max_pieces);
-        if (in_face.found || !in_face.complete) return in_face;
+        const std::uint32_t face = bvh.leaf_triangle[piece.node];
+        const Result result = in_face(part(own_.surface().triangle(face), face, piece.from, piece.to));
+        if (result.found || !result.complete) return result;
       } else if (length(end.center() - begin.center()) > diagonal(begin)) {
         const double middle = (piece.from + piece.to) / 2;
         pieces_left.push_back({piece.node, middle, piece.to});
@@ -101,9 +141,49 @@ class SweptSearch {
     return {};
   }
 
- private:
-  MovingPart part(std::uint32_t face, double from, double to) const {
-    const Triangle& own = own_.surface().triangle(face);
+  /// Searches the known parts of a face, which are divided further where their reasons do not hold.
+  Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces) const {
+    std::vector<ShallowPart> parts;
+    if (const std::size_t fewer = known_->due(face.face)) {
+      const Result result = parts_.find(face, pieces, std::min(max_pieces, pieces + fewer), &parts);
+      if (result.found) return result;
+      if (result.complete) {
+        take_shares(parts, 0, face);
+        known_->set(face.face, std::move(parts));
+        return result;
+      }
+      parts.clear();
+    }
+    const std::vector<ShallowPart>& known = *known_->of(face.face);
+    const double duration = face.to - face.from;
+    bool is_refined = false;
+    Result result;
+    for (std::size_t i = 0; i < known.size() && !result.found; ++i) {
+      const ShallowPart& one = known[i];
+      const MovingPart now = part(one.own, face.face, face.from + one.from * duration, face.from + one.to * duration);
+      ++visited_;
+      if (!result.complete || parts_.holds(one, now)) {
+        parts.push_back(one);
+        continue;
+      }
+      const std::size_t before = parts.size();
+      result = parts_.find(now, pieces, max_pieces, &parts);
+      take_shares(parts, before, face);
+      is_refined = true;
+    }
+    if (is_refined && !result.found) known_->refine(face.face, std::move(parts));
+    return result;
+  }
+
+  /// Makes the times of the parts from the first one on shares of that of a face.
+  static void take_shares(std::vector<ShallowPart>& parts, std::size_t first, const MovingPart& face) {
+    for (std::size_t i = first; i < parts.size(); ++i) {
+      parts[i].from = (parts[i].from - face.from) / (face.to - face.from);
+      parts[i].to = (parts[i].to - face.from) / (face.to - face.from);
+    }
+  }
+
+  MovingPart part(const Triangle& own, std::uint32_t face, double from, double to) const {
     return {own,
             {{at(own[0], from), at(own[1], from), at(own[2], from)}},
             {{at(own[0], to), at(own[1], to), at(own[2], to)}},
@@ -134,8 +214,10 @@ class SweptSearch {
   RigidTransform start_, end_;
   bool is_limited_;
   const ShallowRegion& region_;
+  ShallowParts* known_;
   MovingPartSearch parts_;
   mutable std::size_t samples_ = 0;
+  mutable std::size_t visited_ = 0;
 };
 
 /// Both surfaces of a pair, each moving in the frame of the other.
@@ -143,9 +225,11 @@ class PairSearch {
  public:
   PairSearch(const SweptPair& pair, const DepthLimits& limits, double resolution, std::size_t max_pieces,
              const KeepGoing& keep_going)
-      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits.limit, limits.far_a, keep_going},
-                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits.limit, limits.far_b, keep_going}},
+      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits.limit, limits.far_a, pair.known_a, keep_going},
+                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits.limit, limits.far_b, pair.known_b,
+                   keep_going}},
         resolution_(resolution),
+        until_(pair.until),
         max_pieces_(max_pieces),
         keep_going_(keep_going) {}
 
@@ -153,49 +237,69 @@ class PairSearch {
   std::optional<DeepPoint> sampled() const {
     for (double time = kFirstPart * resolution_;; time *= 2) {
       for (const int of : {0, 1})
-        if (const auto found = searches_[of].sample(std::min(1.0, time)))
+        if (const auto found = searches_[of].sample(std::min(until_, time)))
           return searches_[of].deep_point(*found, of == 0);
-      if (time >= 1) return std::nullopt;
+      if (time >= until_) return std::nullopt;
     }
   }
 
   /// Number of points and pieces examined.
-  std::size_t cost() const { return pieces_ + searches_[0].samples() + searches_[1].samples(); }
+  std::size_t cost() const { return pieces_ + recalled_ + searches_[0].others() + searches_[1].others(); }
 
   std::optional<DeepPoint> find(DeepSearch search_for) {
     double to = kFirstPart * resolution_;
+    double back = resolution_;  // points next to a deep one mostly are deep a little earlier: ever longer steps back
     if (search_for == DeepSearch::Any)
       if (const auto found = sampled()) return found;
+    if (is_again_shallow(until_)) return std::nullopt;
     for (;;) {
       // A point that is known to be deep leaves a shorter motion to search.
-      const double end = known_ ? known_->time - resolution_ : 1;
+      const double end = known_ ? known_->time - resolution_ : until_;
       if (free_until_ >= end || (known_ && search_for == DeepSearch::Any)) break;
       to = std::min(to, end);
+      if (known_) to = std::min(to, std::max(free_until_ + resolution_, known_->time - back));
+      const double free_before = free_until_;
       if (search(to)) {
+        back = free_until_ > free_before ? resolution_ : 2 * back;
         to = std::max(kPartGrowth * free_until_, free_until_ + resolution_);
         continue;
       }
-      const double shorter = (to - free_until_) / kPartGrowth;
-      if (shorter < resolution_ || pieces_ > max_pieces_ ||
+      const double shorter = std::max(resolution_, (to - free_until_) / kPartGrowth);
+      if (to - free_until_ <= (1 + kRounding) * resolution_ || pieces_ > max_pieces_ ||
           (keep_going_ && !keep_going_())) {  // undecided: as if a point were deep
+        is_certain_ = false;
         if (!known_) known_ = SweptSearch::Found{to, 0, {}};
         known_->time = std::min(known_->time, to);
         break;
       }
       to = free_until_ + shorter;
     }
+    for (const int of : {0, 1})
+      searches_[of].note_deep(known_ && is_certain_ && of == of_ ? std::optional(known_->own) : std::nullopt);
     if (!known_) return std::nullopt;
     DeepPoint point = searches_[of_].deep_point(*known_, of_ == 0);
+    point.is_certain = is_certain_;
     point.free_until = free_until_;
     return point;
   }
 
  private:
+  /// True if it is free up to a time for reasons that are known.
+  bool is_again_shallow(double to) {
+    if (recalled_ > max_pieces_ / 2) return false;
+    return searches_[0].is_shallow_again(free_until_, to, recalled_) &&
+           searches_[1].is_shallow_again(free_until_, to, recalled_);
+  }
+
   /// Searches up to a time: either it is free until then, or an earlier deep point is known. @return false if undecided
   bool search(double to) {
+    if (is_again_shallow(to)) {
+      free_until_ = to;
+      return true;
+    }
     for (const int of : {0, 1})
       if (const auto found = searches_[of].sample(to)) return know(*found, of);
-    const std::size_t enough = pieces_ + max_pieces_ / kShareOfPieces;
+    const std::size_t enough = pieces_ + std::max(max_pieces_ / kShareOfPieces, std::min(max_pieces_, kFewPieces));
     for (const int of : {0, 1}) {
       const SweptSearch::Result result = searches_[of].find(free_until_, to, pieces_, enough);
       if (result.found) return know(*result.found, of);
@@ -223,11 +327,14 @@ class PairSearch {
 
   SweptSearch searches_[2];
   double resolution_;
+  double until_;
   std::size_t max_pieces_;
   const KeepGoing& keep_going_;
-  std::size_t pieces_ = 0;  // examined so far
+  std::size_t pieces_ = 0;    // examined so far
+  std::size_t recalled_ = 0;  // examined for reasons that were known
   double free_until_ = 0;
   std::optional<SweptSearch::Found> known_;
+  bool is_certain_ = true;
   int of_ = 0;
 };
 

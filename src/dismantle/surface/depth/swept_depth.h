@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/core/keep_going.h"
+#include "dismantle/surface/depth/shallow_parts.h"
 #include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
@@ -16,10 +17,17 @@ struct SweptPair {
   const SolidShape* b = nullptr;  ///< The fixed shape; never null.
   RigidTransform start;           ///< Pose of `a` in the frame of `b` at time 0.
   RigidTransform end;             ///< At time 1.
+  double until = 1;               ///< Only points that are too deep by this time are sought.
+  ///@{ What is known of the surfaces of `a` and `b` from motions before, with the same limits; may be null.
+  ShallowParts* known_a = nullptr;
+  ShallowParts* known_b = nullptr;
+  ///@}
 };
 
 /// A point that gets too deep.
 struct DeepPoint {
+  /// False where the search ended before it was known whether a point gets too deep: it counts as if one did.
+  bool is_certain = true;
   double free_until = 0;     ///< No point is deeper than the limit before this time.
   double time = 0;           ///< The point is deeper at this time.
   bool of_a = true;          ///< It is a point of the surface of `a`, inside `b`; else of `b`, inside `a`.

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/geometry/triangle.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace dismantle {
+
+/// Why no point of a part of a face gets too deep (MovingPartSearch).
+enum class ShallowReason : std::uint8_t {
+  Region,     ///< It stays in the solid's shallow region.
+  NearFaces,  ///< It stays within the limit of one face of the solid, or of that and another one.
+  Ball,       ///< A ball around it is outside.
+  Unlimited,  ///< Its points are so near in the assembled state that they have no limit.
+  Copy,       ///< A shifted copy of it is outside.
+  Unknown,    ///< The search ended before it was examined.
+};
+
+/// A part of a face during a part of a motion in which it stayed shallow, and why.
+struct ShallowPart {
+  Triangle own;            ///< Corners in the frame of the face [mm].
+  double from = 0;         ///< The beginning, as a share of the motion.
+  double to = 1;           ///< The end.
+  ShallowReason reason{};  ///< See there.
+  std::uint32_t face = 0;  ///< Of the solid; for NearFaces and Ball.
+  Vec3 shift;              ///< Of the copy [mm, frame of the solid].
+};
+
+/// How the faces of a surface were divided by searches of earlier motions of the same two shapes, with the same limits,
+/// which found that no point gets too deep. Most parts of the next motion are shallow for the same reasons; these are
+/// tested again, and are never taken for granted. Where points get too deep, it may depend on what is known which of
+/// them is found.
+class ShallowParts {
+ public:
+  /// The parts of a face; null where none are known.
+  std::vector<ShallowPart>* of(std::uint32_t face);
+  /// Replaces the parts of a face; none: they are forgotten.
+  void set(std::uint32_t face, std::vector<ShallowPart> parts);
+  /// Notes parts that took the place of others.
+  void refine(std::uint32_t face, std::vector<ShallowPart> parts);
+  /// The number of parts below which dividing a face anew is worth trying, as it was divided for another motion; 0: it
+  /// is not due. The more often that did not help, the more rarely it is.
+  std::size_t due(std::uint32_t face);
+  /// Forgets everything.
+  void clear();
+
+  /// A point that was too deep in the motion before [mm, frame of the face], and may be again.
+  std::optional<Vec3> deep;
+
+ private:
+  struct Entry {
+    std::vector<ShallowPart> parts;
+    unsigned waited = 0, wait = 1;  // times that it was asked for
+  };
+  std::unordered_map<std::uint32_t, Entry> faces_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace dismantle
