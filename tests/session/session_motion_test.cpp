@@ -70,7 +70,9 @@ TEST(SessionTakeOut, GoesOnWhereStepsEndEarly) {
   ASSERT_TRUE(session.hold(kFirst).ok());
   EXPECT_TRUE(session.drag({{2.875, -2.5625, -0.6875}, {}}, 0.01).unfinished);  // else it shows nothing
   session.release();
-  if (!session.done().empty()) ASSERT_TRUE(session.undo().ok());
+  if (!session.done().empty()) {
+    ASSERT_TRUE(session.undo().ok());
+  }
   for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{0.6, -0.4, -0.7}}) {
     ASSERT_TRUE(session.take_out(kFirst, way).ok());
     table.let_run();

@@ -25,8 +25,8 @@ constexpr std::size_t kShareOfPieces = 4, kFewPieces = 50000;
 constexpr std::size_t kKnownInPiece = 8;
 /// Where more pieces than these are new, points are looked at before all is divided.
 constexpr std::size_t kNewPieces = 1000;
-/// Of a time, as a share.
-constexpr double kRounding = 1e-6;
+/// An interval that is longer than a resolution by this share is as long.
+constexpr double kSameLength = 1e-6;
 
 /// One surface moving in the frame of the other.
 class SweptSearch {
@@ -75,7 +75,8 @@ class SweptSearch {
     return std::nullopt;
   }
 
-  /// Number of sampled points that were near the other shape, and what nodes and known parts took in their place.
+  /// What was examined apart from pieces: sampled points that were near the other shape, and as many points as nodes
+  /// and known parts took in time.
   std::size_t others() const { return samples_ + visited_ / kKnownInPiece; }
 
   /// Some point that is too deep in [from, to]; the pieces are counted.
@@ -265,7 +266,7 @@ class PairSearch {
         continue;
       }
       const double shorter = std::max(resolution_, (to - free_until_) / kPartGrowth);
-      if (to - free_until_ <= (1 + kRounding) * resolution_ || pieces_ > max_pieces_ ||
+      if (to - free_until_ <= (1 + kSameLength) * resolution_ || pieces_ > max_pieces_ ||
           (keep_going_ && !keep_going_())) {  // undecided: as if a point were deep
         is_certain_ = false;
         if (!known_) known_ = SweptSearch::Found{to, 0, {}};
