@@ -17,8 +17,10 @@ using Clock = std::chrono::steady_clock;
 
 /// A motion that was shortened this many times and is still blocked is not made.
 constexpr int kMaxShortenings = 6;
-/// After so many steps in turn, a depth that is not bounded yet counts as too deep.
-constexpr int kMaxUndecidedSteps = 150;
+/// After so many steps of a set that hardly moved, a depth that is not bounded yet counts as too deep.
+constexpr int kMaxUndecidedSteps = 30;
+/// After so many unfinished steps of such a set, its step is finished: contacts may keep each other from being used.
+constexpr int kMaxUnfinishedSteps = 60;
 
 }  // namespace
 
@@ -39,8 +41,11 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
     go(target, response == ResponseKind::Touch, result);
   }
   sweeper_.end_step();
-  undecided_steps_ = undecided_ ? undecided_steps_ + 1 : 0;
+  const bool has_moved = length(sweeper_.pose().position - result.pose.position) > sweeper_.tolerance();
+  undecided_steps_ = has_moved ? 0 : undecided_steps_ + (undecided_ ? 1 : 0);
   unfinished_ |= undecided_;
+  unfinished_steps_ = has_moved || !unfinished_ ? 0 : unfinished_steps_ + 1;
+  unfinished_ &= unfinished_steps_ <= kMaxUnfinishedSteps;
   result.pose = sweeper_.pose();
   result.reached = result.pose == target;
   result.unfinished = unfinished_ && !result.reached;
@@ -157,6 +162,7 @@ void CertificateResponse::begin() {
   stopping_.clear();
   hardly_moved_ = 0;
   unfinished_ = keeps_axes_ = false;
+  undecided_steps_ = unfinished_steps_ = 0;
   reach_ = std::numeric_limits<double>::infinity();
 }
 

@@ -45,9 +45,11 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   // not block the motion to the target.
   state.axes_chosen = std::exchange(keeps_axes_, false) || contacts_.empty();
   state.contacts_here = contacts_.empty();
-  const std::size_t limit = sweeper_.options().slide_tests;
+  const std::size_t limit = sweeper_.options().slide_tests, depth_limit = sweeper_.options().depth_tests;
   while (state.tries < kMaxTries) {
-    if (limit > 0 && state.tries >= kCertainTries && result.cost.tests + result.cost.depth_tests >= limit) {
+    const bool is_long =
+        limit > 0 && state.tries >= kCertainTries && result.cost.tests + result.cost.depth_tests >= limit;
+    if (is_long || (depth_limit > 0 && result.cost.depth_tests >= depth_limit)) {
       unfinished_ = true;
       keeps_axes_ = state.axes_chosen;
       break;
@@ -66,6 +68,8 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     const CertificateSweep found = sweep(motion, contact_window(trial), state.budget, result);
     result.clearance = found.clearance;
     if (undecided_) {  // the next step goes on where this one ended
+      // A shorter motion is decided sooner.
+      reach_ = std::max(kMinTry * tolerance, 2 * (found.complete ? found.toi : 0) * trial.travel);
       if (found.complete) make_part(motion, found.toi, kContactWindow, result);
       keeps_axes_ = state.axes_chosen;
       break;
