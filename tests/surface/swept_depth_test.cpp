@@ -348,6 +348,9 @@ TEST(ShallowParts, ForgetsAllOnceThereAreTooMany) {
   EXPECT_EQ(known.of(0), nullptr);
   ASSERT_NE(known.of(1), nullptr);
   EXPECT_EQ(known.of(1)->size(), 60000u);
+  known.refine(1, std::vector<ShallowPart>(120000));
+  EXPECT_EQ(known.of(1), nullptr);
+  known.set(1, std::vector<ShallowPart>(10));
   known.set(1, {});
   EXPECT_EQ(known.of(1), nullptr);
 }

@@ -33,6 +33,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   sweeper_.begin_step();
   unfinished_ = undecided_ = false;
   result.pose = sweeper_.pose();
+  if (undecided_steps_ == 0 && unfinished_steps_ == 0) resting_ = result.pose;
   if (result.pose == target) {
     result.reached = true;
   } else if (response == ResponseKind::Slide) {
@@ -41,7 +42,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
     go(target, response == ResponseKind::Touch, result);
   }
   sweeper_.end_step();
-  const bool has_moved = length(sweeper_.pose().position - result.pose.position) > sweeper_.tolerance();
+  const bool has_moved = sweeper_.motion_to(resting_).path_length > sweeper_.tolerance();
   undecided_steps_ = has_moved ? 0 : undecided_steps_ + (undecided_ ? 1 : 0);
   unfinished_ |= undecided_;
   unfinished_steps_ = has_moved || !unfinished_ ? 0 : unfinished_steps_ + 1;
@@ -149,8 +150,8 @@ double CertificateResponse::free_fraction(const ScrewMotion& motion, bool touch,
       break;
     }
     result.clearance = 0;
-    stop_at(found);
     if (undecided_) return 0;
+    stop_at(found);
     if (found.complete && trial.deviation == 0) break;
     if (tries == kMaxShortenings) fraction = 0;
   }

@@ -74,6 +74,7 @@ class CertificateResponse {
   unsigned hardly_moved_ = 0;  ///< Times that contacts let the set hardly move since it last did.
   bool unfinished_ = false;    ///< The last step ended at the limit of tests.
   bool undecided_ = false;     ///< It did not bound a depth within its limit, and is to end.
+  Pose resting_;               ///< The pose since which such steps, and unfinished ones, are counted.
   int undecided_steps_ = 0;    ///< Steps that ended so since the set last moved by more than a tolerance.
   int unfinished_steps_ = 0;   ///< Unfinished steps in turn since then.
   bool keeps_axes_ = false;    ///< It found contacts that were not used: the next step takes their axes as they are.

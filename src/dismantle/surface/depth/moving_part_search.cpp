@@ -146,7 +146,7 @@ std::optional<ShallowPart> MovingPartSearch::shallow_reason(const MovingPart& pa
 }
 
 bool MovingPartSearch::holds(const ShallowPart& known, const MovingPart& part) const {
-  if (known.reason == ShallowReason::Unlimited) return true;  // whatever the motion
+  if (known.reason == ShallowReason::Unlimited) return true;  // does not depend on the motion
   if (known.reason == ShallowReason::Unknown) return false;
   if (known.reason == ShallowReason::Region) return region_ && region_->contains(PartHull(part));
   const Ball ball = ball_around(part);

@@ -8,16 +8,16 @@ namespace dismantle {
 
 namespace {
 
-/// Parts of a surface: all are forgotten above this number (10 MB).
+/// Most parts that are kept of a surface (10 MB); if there are more, all are forgotten.
 constexpr std::size_t kMost = 100000;
-/// Faces of fewer parts are not divided anew; what is tried must leave less than half of them.
+/// A face with fewer parts is not subdivided again. A new subdivision is kept if it has less than half as many parts.
 constexpr std::size_t kFewParts = 16;
-/// A face is tried again after this many times at the latest.
+/// Most motions between two attempts to subdivide a face again.
 constexpr unsigned kLongestWait = 64;
 
 }  // namespace
 
-std::vector<ShallowPart>* ShallowParts::of(std::uint32_t face) {
+const std::vector<ShallowPart>* ShallowParts::of(std::uint32_t face) const {
   const auto found = faces_.find(face);
   return found == faces_.end() ? nullptr : &found->second.parts;
 }
@@ -38,6 +38,7 @@ void ShallowParts::refine(std::uint32_t face, std::vector<ShallowPart> parts) {
   Entry& entry = faces_.at(face);
   count_ += parts.size() - entry.parts.size();
   entry.parts = std::move(parts);
+  if (count_ > kMost) clear();
 }
 
 std::size_t ShallowParts::due(std::uint32_t face) {

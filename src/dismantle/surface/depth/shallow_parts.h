@@ -38,13 +38,13 @@ struct ShallowPart {
 class ShallowParts {
  public:
   /// The parts of a face; null where none are known.
-  std::vector<ShallowPart>* of(std::uint32_t face);
+  const std::vector<ShallowPart>* of(std::uint32_t face) const;
   /// Replaces the parts of a face; none: they are forgotten.
   void set(std::uint32_t face, std::vector<ShallowPart> parts);
-  /// Notes parts that took the place of others.
+  /// Replaces the parts of a face that is known by a finer subdivision.
   void refine(std::uint32_t face, std::vector<ShallowPart> parts);
-  /// The number of parts below which dividing a face anew is worth trying, as it was divided for another motion; 0: it
-  /// is not due. The more often that did not help, the more rarely it is.
+  /// A face may have been subdivided more finely, for an earlier motion, than the present one needs. Returns the number
+  /// of pieces to spend on subdividing it again, or 0 if that is not due. Attempts get rarer over time.
   std::size_t due(std::uint32_t face);
   /// Forgets everything.
   void clear();

@@ -23,7 +23,7 @@ constexpr double kTimeShare = 0.25;
 constexpr std::size_t kShareOfPieces = 4, kFewPieces = 50000;
 /// As many nodes or known parts take as long as a piece that is examined.
 constexpr std::size_t kKnownInPiece = 8;
-/// Where more pieces than these are new, points are looked at before all is divided.
+/// An attempt with known parts ends after this many new pieces; points are then sampled before the full search.
 constexpr std::size_t kNewPieces = 1000;
 /// An interval that is longer than a resolution by this share is as long.
 constexpr double kSameLength = 1e-6;
@@ -75,8 +75,7 @@ class SweptSearch {
     return std::nullopt;
   }
 
-  /// What was examined apart from pieces: sampled points that were near the other shape, and as many points as nodes
-  /// and known parts took in time.
+  /// The cost of the search apart from pieces: the points sampled, and nodes and known parts by their time.
   std::size_t others() const { return samples_ + visited_ / kKnownInPiece; }
 
   /// Some point that is too deep in [from, to]; the pieces are counted.
