@@ -101,6 +101,26 @@ TEST(StepLimit, EndsStepsOfSlideEarlyAndGoesOn) {
   }
 }
 
+TEST(StepLimit, KeepsContactsThatAreFarAheadForTheNextStep) {
+  // A block that is pushed at a wall from afar, aslant: it stops there, and slides along it.
+  const Assembly assembly = scenes::assembly(
+      {component("block", box({0, 0, 0}, {2, 2, 2})), component("wall", box({5, -20, -20}, {6, 20, 20}))});
+  const PairStates states = states_of(assembly);
+  CertificateOptions options;
+  options.slide_tests = 1;
+  Grabbed block(assembly, states, 0, options);
+  const Pose target{{20, 4, 0}, {}};
+  StepResult made;
+  int steps = 0;
+  do {
+    made = block.engine.step(target, ResponseKind::Slide);
+    ++steps;
+  } while (made.unfinished || !made.poses.empty());
+  EXPECT_LT(steps, 12);
+  EXPECT_NEAR(made.pose.position.x, 3, 0.05);
+  EXPECT_NEAR(made.pose.position.y, 4, 0.05);
+}
+
 TEST(StepLimit, TakesPartsOutInShortSteps) {
   // With a limit of 1, a step ends with the first contacts that it finds.
   const scenes::SlideScene all[] = {

@@ -266,93 +266,50 @@ TEST(FirstDeeper, DecidesTheSameForAnyPointAsForTheFirst) {
   EXPECT_GT(free, 5);
 }
 
-TEST(FirstDeeper, FindsTheSameWithPartsThatAreKnownFromOtherMotions) {
-  std::mt19937_64 random(31);
-  constexpr double kResolution = 0.002;
-  std::size_t known_cost = 0, fresh_cost = 0;
-  int deep = 0, free = 0;
-  for (int i = 0; i < 24; ++i) {
-    TriangleMesh ring = scenes::tube(2, i % 3 == 0 ? 1 : 0, -2, 2, 5 + static_cast<std::uint32_t>(i % 7));
-    if (i % 4 == 3) ring.faces.pop_back();
-    const Solid a(ring), b(scenes::box({-2, -1.5, -1}, {2, 1.5, 1}));
-    const DepthLimits limits = i % 2 == 0 ? DepthLimits{0.4 + 0.02 * i} : DepthLimits{1.1, 0.02, 0.02};
-    RigidTransform at = transform_from_pose(scenes::random_pose(random, 3.5, 1));
-    ShallowParts of_a, of_b;
-    for (int k = 0; k < 12; ++k) {
-      const RigidTransform to = transform_from_pose(scenes::random_pose(random, 0.3, 0.1)) * at;
-      SweptPair pair{&a.shape, &b.shape, at, to};
-      if (k % 3 == 2) pair.until = 0.4;
-      const auto fresh = first_deeper(pair, limits, kResolution, kMaxSweptPieces, {}, DeepSearch::First, &fresh_cost);
-      pair.known_a = &of_a;
-      pair.known_b = &of_b;
-      const auto known = first_deeper(pair, limits, kResolution, kMaxSweptPieces, {}, DeepSearch::First, &known_cost);
-      ASSERT_EQ(known.has_value(), fresh.has_value()) << i << " " << k;
-      (known ? deep : free) += 1;
-      if (!known) {
-        if (k % 3 != 2) at = to;  // as a hand moves on
-        continue;
-      }
-      EXPECT_NEAR(known->free_until, fresh->free_until, 3 * kResolution) << i << " " << k;
-      EXPECT_LE(known->free_until, pair.until);
+TEST(FirstDeeper, StopsBeforeTheLimitByNoMoreThanTheMargin) {
+  std::mt19937_64 random(41);
+  std::uniform_real_distribution<double> u(-0.6, 0.6);
+  constexpr double kMargin = 0.02;
+  int before_limit = 0, free = 0;
+  std::size_t exact_cost = 0, cost = 0;
+  for (int i = 0; i < 40; ++i) {
+    const TriangleMesh ring = scenes::tube(2, i % 3 == 0 ? 1 : 0, -2, 2, 5 + static_cast<std::uint32_t>(i % 7));
+    const TriangleMesh block = scenes::box({-2, -1.5, -1}, {2, 1.5, 1});
+    const Solid a(ring), b(block);
+    const RigidTransform start = transform_from_pose(scenes::random_pose(random, 3.5, 1));
+    const RigidTransform end = moved({u(random), u(random), u(random)}) * start;
+    const SweptPair pair{&a.shape, &b.shape, start, end};
+    // The limit is what the motion needs, or a little more.
+    double limit = 2;
+    for (double step = 1; step > 1e-3; step /= 2) limit += first_deeper(pair, {limit}, 1e-3) ? step : -step;
+    limit += 0.001 * (i % 30);
+    const auto exact = first_deeper(pair, {limit}, 1e-3, kMaxSweptPieces, {}, DeepSearch::First, &exact_cost);
+    DepthLimits limits{limit};
+    limits.margin = kMargin;
+    const auto found = first_deeper(pair, limits, 1e-3, kMaxSweptPieces, {}, DeepSearch::First, &cost);
+    if (!found) {
+      ASSERT_FALSE(exact) << i;
+      ++free;
+      continue;
     }
+    if (exact) {
+      EXPECT_LE(found->free_until, exact->time + 1e-9) << i;
+    }
+    const TriangleMesh& outer = found->of_a ? block : ring;
+    const auto depth = [&](Vec3 p) {
+      return std::abs(oracle::winding_number(outer, p)) > 0.5 ? oracle::distance(outer, p) : 0;
+    };
+    const double deep = depth(found->point);
+    ASSERT_GT(deep, limit - kMargin - 1e-9) << i;
+    if (deep > limit) continue;
+    ++before_limit;
+    const Vec3 way =
+        found->of_a ? end.translation - start.translation : inverse(end).translation - inverse(start).translation;
+    EXPECT_GT(deep, depth(found->point - found->time * way)) << i;
   }
-  EXPECT_GT(deep, 50);
-  EXPECT_GT(free, 50);
-  EXPECT_LT(known_cost, fresh_cost);
-}
-
-TEST(FirstDeeper, GoesOnWhereASearchEnded) {
-  // The end of a beam in a plate, pushed on: many points get nearly as deep as they may.
-  const Solid plate(scenes::box({-5, -5, 0}, {5, 5, 1})), beam(scenes::tube(0.4, 0, 0.5, 10, 48));
-  const DepthLimits limits{0.51, 0.01, 0.51};
-  SweptPair pair{&beam.shape, &plate.shape, {}, moved({0, 0, -0.51})};
-  std::size_t all = 0;
-  EXPECT_FALSE(first_deeper(pair, limits, 1e-3, kMaxSweptPieces, {}, DeepSearch::First, &all));
-  const std::size_t few = all / 6;
-  const auto ended = first_deeper(pair, limits, 1e-3, few);
-  ASSERT_TRUE(ended);
-  EXPECT_FALSE(ended->is_certain);
-  ShallowParts of_beam, of_plate;
-  pair.known_a = &of_beam;
-  pair.known_b = &of_plate;
-  int searches = 0;
-  for (bool is_free = false; !is_free && searches < 60; ++searches) {
-    const auto found = first_deeper(pair, limits, 1e-3, few);
-    is_free = !found;
-    EXPECT_TRUE(is_free || !found->is_certain);
-  }
-  EXPECT_GT(searches, 1);
-  EXPECT_LT(searches, 60);
-}
-
-TEST(ShallowParts, TriesFacesOfManyPartsAnewEverMoreRarely) {
-  ShallowParts known;
-  known.set(3, std::vector<ShallowPart>(10));
-  known.set(7, std::vector<ShallowPart>(100));
-  std::vector<int> due;
-  for (int i = 1; i <= 200; ++i) {
-    EXPECT_EQ(known.due(3), 0u);
-    if (known.due(7) > 0) due.push_back(i);
-  }
-  EXPECT_EQ(due, (std::vector<int>{1, 3, 7, 15, 31, 63, 127, 191}));
-  known.set(7, std::vector<ShallowPart>(40));
-  EXPECT_EQ(known.due(7), 20u);
-}
-
-TEST(ShallowParts, ForgetsAllOnceThereAreTooMany) {
-  ShallowParts known;
-  known.set(0, std::vector<ShallowPart>(60000));
-  known.set(0, std::vector<ShallowPart>(60000));  // in place of those before
-  EXPECT_NE(known.of(0), nullptr);
-  known.set(1, std::vector<ShallowPart>(60000));
-  EXPECT_EQ(known.of(0), nullptr);
-  ASSERT_NE(known.of(1), nullptr);
-  EXPECT_EQ(known.of(1)->size(), 60000u);
-  known.refine(1, std::vector<ShallowPart>(120000));
-  EXPECT_EQ(known.of(1), nullptr);
-  known.set(1, std::vector<ShallowPart>(10));
-  known.set(1, {});
-  EXPECT_EQ(known.of(1), nullptr);
+  EXPECT_GT(before_limit, 5);
+  EXPECT_GT(free, 5);
+  EXPECT_LT(cost, exact_cost);
 }
 
 TEST(FirstDeeper, AgreesWithSamplesOfRandomSolidsClosedCrackedAndOpen) {

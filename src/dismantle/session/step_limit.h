@@ -7,15 +7,15 @@
 
 namespace dismantle {
 
-/// Bounds the work of a step where a person drags: a tenth of a second where depths are hard to bound, some
+/// Bounds the work of a step where a person drags: some tens of milliseconds where depths are hard to bound, some
 /// milliseconds where a set slides along contacts. What is left is done by the next step.
 inline void limit_steps(CertificateOptions& options) {
-  options.depth_tests = 2'000;
+  options.depth_tests = 600;
   options.slide_tests = 400;
 }
 
 /// Steps to one target of a motion that no hand makes, each of which may end early.
-inline constexpr int kMaxStepsToTarget = 200;
+inline constexpr int kMaxStepsToTarget = 600;
 
 /// Makes steps to a target until one is finished. @return the last, with the poses of all
 inline StepResult whole_step(MotionEngine& engine, const Pose& target, ResponseKind response) {

@@ -179,7 +179,8 @@ void CertificateResponse::end_slide(const Pose& target, StepResult& result) {
       result.clearance = std::min(result.clearance, found.clearance);
     }
   }
-  contacts_.drop_beyond(kContactReach * tolerance);
+  // Where the step ended at the limit, the next one may need what was found ahead.
+  if (!keeps_axes_) contacts_.drop_beyond(kContactReach * tolerance);
   result.contact_points = contacts_.points(tolerance);
   // No triangles were reported for contacts of whole cylinders.
   if (!result.blocking_pairs.empty()) return;

@@ -15,7 +15,7 @@ namespace {
 /// Contacts of depths are found to within a motion of this share of the tolerance.
 constexpr double kResolution = 0.25;
 /// A sweep may examine this many points and pieces, however many the others of its step have.
-constexpr std::size_t kFewestTests = 500;
+constexpr std::size_t kFewestTests = 150;
 
 }  // namespace
 

@@ -13,6 +13,8 @@ namespace dismantle {
 
 namespace {
 
+/// A point is deeper than at the start if it is so by this share of the margin.
+constexpr double kDeeper = 0.01;
 /// Number of pieces between two calls of keep_going.
 constexpr std::size_t kAsk = 256;
 
@@ -53,10 +55,14 @@ bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
 }  // namespace
 
 bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
-  const double depth = solid_.surface().distance(point).distance;
-  if (depth <= far_limit_) return false;
-  if (depth <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
-  return solid_.winding().inside(point);
+  return is_deep(own, point, solid_.surface().distance(point).distance);
+}
+
+bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double depth) const {
+  if (depth <= far_limit_ - margin_) return false;
+  if (depth <= limit_ && far_limit_ < limit_ && solid_.surface().distance(own).distance <= limit_) return false;
+  if (!solid_.winding().inside(point)) return false;
+  return depth > far_limit_ || depth > solid_.surface().distance(start_ * own).distance + kDeeper * margin_;
 }
 
 bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
@@ -93,59 +99,59 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
                                                 std::vector<ShallowPart>* shallow) const {
   std::vector<MovingPart> parts{whole};
   std::uint32_t last = 0;
-  const auto note = [&](const MovingPart& part, ShallowPart why) {
-    if (!shallow) return;
-    why.own = part.own;
-    why.from = part.from;
-    why.to = part.to;
-    shallow->push_back(why);
+  const auto note = [&](const MovingPart& part, const ShallowProof& proof) {
+    if (shallow) shallow->push_back({part.own, part.from, part.to, proof});
   };
   while (!parts.empty()) {
     if (++pieces > max_pieces || (pieces % kAsk == 0 && keep_going_ && !keep_going_())) {
-      for (const MovingPart& left : parts) note(left, {{}, 0, 1, ShallowReason::Unknown, 0, {}});
+      for (const MovingPart& left : parts) note(left, {ShallowReason::Unknown});
       return {{}, false};
     }
     const MovingPart part = parts.back();
     parts.pop_back();
     if (region_ && region_->contains(PartHull(part))) {
-      note(part, {{}, 0, 1, ShallowReason::Region, 0, {}});
+      note(part, {ShallowReason::Region});
       continue;
     }
     const Ball ball = ball_around(part);
     const MeshDistance nearest = solid_.surface().distance(ball.center, last);
     last = nearest.face;
-    if (const std::optional<ShallowPart> why = shallow_reason(part, ball, nearest)) {
-      note(part, *why);
+    if (const std::optional<ShallowProof> proof = shallow_proof(part, ball, nearest)) {
+      note(part, *proof);
       continue;
     }
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
-    if (is_deep(own, ball.center)) return {Found{time, part.face, own}, true};
-    for (int i = 0; i < 3; ++i)
-      if (is_deep(part.own[i], ball.middle[i])) return {Found{time, part.face, part.own[i]}, true};
+    if (is_deep(own, ball.center, nearest.distance)) return {Found{time, part.face, own}, true};
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 corner = ball.middle[i];
+      if (nearest.distance + length(corner - ball.center) <= far_limit_ - margin_) continue;
+      const double distance = solid_.surface().distance(corner, nearest.face).distance;
+      if (is_deep(part.own[i], corner, distance)) return {Found{time, part.face, part.own[i]}, true};
+    }
     divide(part, nearest.face, parts);
   }
   return {};
 }
 
 /// Why no point of a part gets too deep, if that is certain.
-std::optional<ShallowPart> MovingPartSearch::shallow_reason(const MovingPart& part, const Ball& ball,
+std::optional<ShallowProof> MovingPartSearch::shallow_proof(const MovingPart& part, const Ball& ball,
                                                             const MeshDistance& nearest) const {
-  ShallowPart why{{}, 0, 1, ShallowReason::NearFaces, nearest.face, {}};
+  ShallowProof proof{ShallowReason::NearFaces, nearest.face};
   // The simple reasons first: winding numbers of open meshes are expensive.
-  if (nearest.distance + ball.radius + ball.way <= far_limit_ || near_faces(part, nearest.face)) return why;
-  why.reason = ShallowReason::Ball;
-  if (ball_outside(solid_.winding(), ball.center, ball.radius + ball.way, nearest.distance)) return why;
-  why.reason = ShallowReason::Unlimited;
-  if (is_unlimited(part)) return why;
-  why.reason = ShallowReason::Copy;
+  if (nearest.distance + ball.radius + ball.way <= far_limit_ || near_faces(part, nearest.face)) return proof;
+  proof.reason = ShallowReason::Ball;
+  if (ball_outside(solid_.winding(), ball.center, ball.radius + ball.way, nearest.distance)) return proof;
+  proof.reason = ShallowReason::Unlimited;
+  if (is_unlimited(part)) return proof;
+  proof.reason = ShallowReason::Copy;
   const std::optional<Vec3> shift = copy_outside(part, ball.center, ball.radius + ball.way, nearest.face);
   if (!shift) return std::nullopt;
-  why.shift = *shift;
-  return why;
+  proof.shift = *shift;
+  return proof;
 }
 
-bool MovingPartSearch::holds(const ShallowPart& known, const MovingPart& part) const {
+bool MovingPartSearch::holds(const ShallowProof& known, const MovingPart& part) const {
   if (known.reason == ShallowReason::Unlimited) return true;  // does not depend on the motion
   if (known.reason == ShallowReason::Unknown) return false;
   if (known.reason == ShallowReason::Region) return region_ && region_->contains(PartHull(part));
@@ -270,7 +276,7 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces) {
   const MovingPartSearch::Result result =
-      MovingPartSearch(solid, limit, limit, nullptr).find({from, from, to}, pieces, max_pieces);
+      MovingPartSearch(solid, {limit, limit, 0, {}}, nullptr).find({from, from, to}, pieces, max_pieces);
   return result.complete && !result.found;
 }
 

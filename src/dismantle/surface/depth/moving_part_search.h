@@ -17,14 +17,27 @@ namespace dismantle {
 /// first_deeper().
 class MovingPartSearch {
  public:
-  /// @param solid must outlive this @param limit of the depth [mm] @param far_limit of points that are further from
-  /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
-  /// where no point of the solid is deeper than that @param region where no point is deeper than the far limit; must
-  /// outlive this, or null, where there is little to search
-  /// @param keep_going once it returns false, searches are given up; may be empty
-  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region,
+  /// How deep points may get [mm].
+  struct Limits {
+    double limit = 0;  ///< Of all points.
+    /// Of points that are further from the surface of the solid than `limit` where their own coordinates are taken as
+    /// its; less than `limit` only where no point of the solid is deeper than that.
+    double far_limit = limit;
+    double margin = 0;     ///< See DepthLimits.
+    RigidTransform start;  ///< Where points are at time 0, in the frame of the solid.
+  };
+
+  /// @param solid must outlive this @param region where no point is deeper than the far limit; must outlive this, or
+  /// null, where there is little to search @param keep_going once it returns false, searches are given up; may be empty
+  MovingPartSearch(const SolidShape& solid, const Limits& limits, const ShallowRegion* region,
                    const KeepGoing& keep_going = {})
-      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region), keep_going_(keep_going) {}
+      : solid_(solid),
+        limit_(limits.limit),
+        far_limit_(limits.far_limit),
+        margin_(limits.margin),
+        start_(limits.start),
+        region_(region),
+        keep_going_(keep_going) {}
 
   /// A point that is too deep at a time.
   struct Found {
@@ -38,8 +51,10 @@ class MovingPartSearch {
     bool complete = true;        ///< There were not too many pieces.
   };
 
-  /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame
+  /// True if a point counts as too deep [mm, frame of the solid]. @param own the point in its own frame
   bool is_deep(Vec3 own, Vec3 point) const;
+  /// The same of a point at a known distance from the surface [mm].
+  bool is_deep(Vec3 own, Vec3 point, double distance) const;
   /// Searches a part for a point that is too deep. @param pieces is increased by the number of pieces examined; the
   /// search is given up above `max_pieces` @param shallow if not null, the parts that it was divided into are appended,
   /// with their own times; they are worth something only where nothing was found. Where the search was given up, those
@@ -47,12 +62,12 @@ class MovingPartSearch {
   Result find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces,
               std::vector<ShallowPart>* shallow = nullptr) const;
   /// True if a part stays shallow for a reason that held for it before; false says nothing.
-  bool holds(const ShallowPart& known, const MovingPart& part) const;
+  bool holds(const ShallowProof& known, const MovingPart& part) const;
 
  private:
   struct Ball;
   static Ball ball_around(const MovingPart& part);
-  std::optional<ShallowPart> shallow_reason(const MovingPart& part, const Ball& ball,
+  std::optional<ShallowProof> shallow_proof(const MovingPart& part, const Ball& ball,
                                             const MeshDistance& nearest) const;
   /// True if no point of a part is far, and near ones may be at any depth that the solid has.
   bool is_unlimited(const MovingPart& part) const;
@@ -66,6 +81,8 @@ class MovingPartSearch {
   const SolidShape& solid_;
   double limit_;
   double far_limit_;
+  double margin_;
+  RigidTransform start_;
   const ShallowRegion* region_;
   KeepGoing keep_going_;
 };

@@ -17,6 +17,15 @@ constexpr unsigned kLongestWait = 64;
 
 }  // namespace
 
+bool ShallowParts::begin(const RigidTransform& start, const RigidTransform& end) {
+  if (motion_ > 0 && start == start_ && end == end_) return true;
+  start_ = start;
+  end_ = end;
+  ++motion_;
+  ended_at.reset();
+  return false;
+}
+
 const std::vector<ShallowPart>* ShallowParts::of(std::uint32_t face) const {
   const auto found = faces_.find(face);
   return found == faces_.end() ? nullptr : &found->second.parts;
@@ -38,7 +47,23 @@ void ShallowParts::refine(std::uint32_t face, std::vector<ShallowPart> parts) {
   Entry& entry = faces_.at(face);
   count_ += parts.size() - entry.parts.size();
   entry.parts = std::move(parts);
+  entry.proved = 0;
   if (count_ > kMost) clear();
+}
+
+void ShallowParts::note_proved(std::uint32_t face, std::size_t first, double from, double to) {
+  const auto found = faces_.find(face);
+  if (found == faces_.end()) return;
+  Entry& entry = found->second;
+  entry.motion = motion_;
+  entry.proved = first;
+  entry.from = from;
+  entry.to = to;
+}
+
+std::size_t ShallowParts::proved(std::uint32_t face, double from, double to) const {
+  const Entry& entry = faces_.at(face);
+  return entry.motion == motion_ && entry.from == from && entry.to == to ? entry.proved : 0;
 }
 
 std::size_t ShallowParts::due(std::uint32_t face) {
@@ -53,6 +78,7 @@ std::size_t ShallowParts::due(std::uint32_t face) {
 
 void ShallowParts::clear() {
   faces_.clear();
+  ended_at.reset();
   count_ = 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/geometry/triangle.h"
+#include "dismantle/math/rigid_transform.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,28 +22,41 @@ enum class ShallowReason : std::uint8_t {
   Unknown,    ///< The search ended before it was examined.
 };
 
-/// A part of a face during a part of a motion in which it stayed shallow, and why.
-struct ShallowPart {
-  Triangle own;            ///< Corners in the frame of the face [mm].
-  double from = 0;         ///< The beginning, as a share of the motion.
-  double to = 1;           ///< The end.
+/// The reason with what it is about.
+struct ShallowProof {
   ShallowReason reason{};  ///< See there.
   std::uint32_t face = 0;  ///< Of the solid; for NearFaces and Ball.
-  Vec3 shift;              ///< Of the copy [mm, frame of the solid].
+  Vec3 shift{};            ///< Of the copy [mm, frame of the solid].
+};
+
+/// A part of a face during a part of a motion in which it stayed shallow.
+struct ShallowPart {
+  Triangle own;        ///< Corners in the frame of the face [mm].
+  double from = 0;     ///< The beginning, as a share of the interval in which the face was searched.
+  double to = 1;       ///< The end.
+  ShallowProof proof;  ///< Why it did.
 };
 
 /// How the faces of a surface were divided by searches of earlier motions of the same two shapes, with the same limits,
 /// which found that no point gets too deep. Most parts of the next motion are shallow for the same reasons; these are
-/// tested again, and are never taken for granted. Where points get too deep, it may depend on what is known which of
-/// them is found.
+/// tested again, and are never taken for granted, but where the motion is the same: a search that ended early goes on.
+/// Where points get too deep, it may depend on what is known which of them is found.
 class ShallowParts {
  public:
+  /// Begins a search. @param start, end the poses of the moving shape in the frame of the other one @return true if the
+  /// motion is the same as that of the search before
+  bool begin(const RigidTransform& start, const RigidTransform& end);
   /// The parts of a face; null where none are known.
   const std::vector<ShallowPart>* of(std::uint32_t face) const;
   /// Replaces the parts of a face; none: they are forgotten.
   void set(std::uint32_t face, std::vector<ShallowPart> parts);
   /// Replaces the parts of a face that is known by a finer subdivision.
   void refine(std::uint32_t face, std::vector<ShallowPart> parts);
+  /// Notes that of the first parts of a face that is known, all but those of unknown reason stay shallow in an interval
+  /// of the present motion.
+  void note_proved(std::uint32_t face, std::size_t first, double from, double to);
+  /// How many of the first parts of a face that has parts were noted so for the same interval of the same motion.
+  std::size_t proved(std::uint32_t face, double from, double to) const;
   /// A face may have been subdivided more finely, for an earlier motion, than the present one needs. Returns the number
   /// of pieces to spend on subdividing it again, or 0 if that is not due. Attempts get rarer over time.
   std::size_t due(std::uint32_t face);
@@ -51,12 +65,31 @@ class ShallowParts {
 
   /// A point that was too deep in the motion before [mm, frame of the face], and may be again.
   std::optional<Vec3> deep;
+  /// Where a search of a pair ended early.
+  struct EndedAt {
+    double free_until = 0;  ///< Both surfaces stay shallow until this time of the motion.
+    double to = 0;          ///< They were searched up to this one,
+    bool in_search = true;  ///< and that search did not end.
+    double back = 0;        ///< The search was to step back from a deep point by this much [of the motion].
+    ///@{ A point that is too deep [mm, frame of its face], if one is known.
+    bool is_deep = false;
+    bool of_a = true;
+    double time = 0;
+    std::uint32_t face = 0;
+    Vec3 own;
+    ///@}
+  };
+  std::optional<EndedAt> ended_at;  ///< Of the present motion.
 
  private:
   struct Entry {
     std::vector<ShallowPart> parts;
     unsigned waited = 0, wait = 1;  // times that it was asked for
+    std::size_t motion = 0, proved = 0;
+    double from = 0, to = 0;
   };
+  RigidTransform start_, end_;
+  std::size_t motion_ = 0;  // counts motions that differ from those before
   std::unordered_map<std::uint32_t, Entry> faces_;
   std::size_t count_ = 0;
 };

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/surface/depth/swept_search.h"
+
+#include "dismantle/narrowphase/closest_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+/// Sampled faces of a surface.
+constexpr std::size_t kSamples = 2000;
+/// As many nodes or known parts take as long as a piece that is examined.
+constexpr std::size_t kKnownInPiece = 8;
+/// An attempt with known parts ends after this many new pieces; points are then sampled before the full search.
+constexpr std::size_t kNewPieces = 1000;
+
+/// Faces of the surface during an interval of time.
+struct TimedNode {
+  NodeIndex node;
+  double from, to;
+};
+
+/// Makes the times of the parts from the first one on shares of that of a face.
+void take_shares(std::vector<ShallowPart>& parts, std::size_t first, const MovingPart& face) {
+  for (std::size_t i = first; i < parts.size(); ++i) {
+    parts[i].from = (parts[i].from - face.from) / (face.to - face.from);
+    parts[i].to = (parts[i].to - face.from) / (face.to - face.from);
+  }
+}
+
+}  // namespace
+
+InterpolatedTransform::InterpolatedTransform(const RigidTransform& start, const RigidTransform& end, double at)
+    : time(at), translation((1 - at) * start.translation + at * end.translation) {
+  for (int i = 0; i < 3; ++i) matrix.row[i] = (1 - at) * start.rotation.row[i] + at * end.rotation.row[i];
+}
+
+Aabb InterpolatedTransform::operator*(const Aabb& own) const {
+  const Vec3 center = *this * own.center(), half = own.size() / 2;
+  Vec3 reach;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& row = matrix.row[i];
+    reach[i] = std::abs(row.x) * half.x + std::abs(row.y) * half.y + std::abs(row.z) * half.z;
+  }
+  return {center - reach, center + reach};
+}
+
+SweptSearch::SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start,
+                         const RigidTransform& end, const DepthLimits& limits, double far_limit, ShallowParts* known,
+                         const KeepGoing& keep_going)
+    : own_(own),
+      other_(other),
+      start_(start),
+      end_(end),
+      is_limited_(far_limit != limits.limit),
+      region_(other.shallow_region(std::min(limits.limit, far_limit))),
+      known_(known),
+      parts_(other, {limits.limit, std::min(limits.limit, far_limit), limits.margin, start}, &region_, keep_going) {}
+
+std::optional<ShallowParts::EndedAt> SweptSearch::begin() const {
+  if (!known_ || !known_->begin(start_, end_)) return std::nullopt;
+  return std::exchange(known_->ended_at, std::nullopt);
+}
+
+std::optional<SweptSearch::Found> SweptSearch::sample(double time) const {
+  if (!is_limited_) return std::nullopt;
+  const SurfaceTree& own = own_.surface();
+  const Aabb& box = other_.surface().bounds();
+  const std::size_t stride = std::max<std::size_t>(1, own.face_count() / kSamples);
+  const InterpolatedTransform at(start_, end_, time);
+  std::uint32_t last = 0;
+  for (std::size_t f = 0; f < own.face_count(); f += stride) {
+    const Triangle& t = own.triangle(static_cast<std::uint32_t>(f));
+    for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]}) {
+      const Vec3 now = at * p;
+      if (!overlaps(box, {now, now})) continue;
+      ++samples_;
+      const MeshDistance nearest = other_.surface().distance(now, last);
+      last = nearest.face;
+      if (parts_.is_deep(p, now, nearest.distance)) return Found{time, static_cast<std::uint32_t>(f), p};
+    }
+  }
+  return std::nullopt;
+}
+
+SweptSearch::Result SweptSearch::find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+  return search(from, to, [&](const MovingPart& face) {
+    if (!known_) return parts_.find(face, pieces, max_pieces);
+    if (known_->of(face.face)) return find_in_known(face, pieces, max_pieces);
+    std::vector<ShallowPart> parts;
+    Result result = parts_.find(face, pieces, max_pieces, &parts);
+    if (result.found) parts.clear();
+    take_shares(parts, 0, face);
+    keep(face, std::move(parts));
+    return result;
+  });
+}
+
+bool SweptSearch::is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+  if (!is_limited_) return true;
+  if (!known_ || (known_->deep && is_deep(*known_->deep, to))) return false;
+  const std::size_t enough = std::min(max_pieces, pieces + kNewPieces);
+  const Result result = search(from, to, [&](const MovingPart& face) {
+    return known_->of(face.face) ? find_in_known(face, pieces, enough) : Result{{}, false};
+  });
+  return result.complete && !result.found;
+}
+
+DeepPoint SweptSearch::deep_point(const Found& found, bool of_a) const {
+  const Vec3 point = InterpolatedTransform(start_, end_, found.time) * found.own;
+  const std::uint32_t other_face = other_.surface().distance(point).face;
+  const Vec3 nearest = closest_point_of_triangle(other_.surface().triangle(other_face), point);
+  return {true, 0, found.time, of_a, of_a ? found.face : other_face, of_a ? other_face : found.face, point, nearest};
+}
+
+std::size_t SweptSearch::others() const {
+  return samples_ + visited_ / kKnownInPiece;
+}
+
+/// Visits the faces that are not certainly shallow, in parts of [from, to], as long as the results are complete and
+/// without a point.
+template <class Visit>
+SweptSearch::Result SweptSearch::search(double from, double to, const Visit& in_face) const {
+  if (!is_limited_) return {};
+  std::vector<TimedNode> left{{own_.surface().bvh().root(), from, to}};
+  while (!left.empty()) {
+    if (++visited_ > kMaxSweptPieces) return {{}, false};
+    const TimedNode piece = left.back();
+    left.pop_back();
+    const Aabb& own = own_.surface().box(piece.node);
+    const Aabb begin = at(piece.from) * own, end = at(piece.to) * own;
+    Aabb both = begin;
+    both.extend(end);
+    if (region_.contains(both)) continue;
+    const Bvh& bvh = own_.surface().bvh();
+    if (piece.node < bvh.leaf_count()) {
+      const std::uint32_t face = bvh.leaf_triangle[piece.node];
+      const Result result = in_face(part(own_.surface().triangle(face), face, piece.from, piece.to));
+      if (result.found || !result.complete) return result;
+    } else if (length(end.center() - begin.center()) > diagonal(begin)) {
+      const double middle = (piece.from + piece.to) / 2;
+      left.push_back({piece.node, middle, piece.to});
+      left.push_back({piece.node, piece.from, middle});
+    } else {
+      const BvhChildren children = bvh.children[piece.node - bvh.leaf_count()];
+      left.push_back({children.left, piece.from, piece.to});
+      left.push_back({children.right, piece.from, piece.to});
+    }
+  }
+  return {};
+}
+
+/// Searches the known parts of a face, which are divided further where their reasons do not hold.
+SweptSearch::Result SweptSearch::find_in_known(const MovingPart& face, std::size_t& pieces,
+                                               std::size_t max_pieces) const {
+  std::vector<ShallowPart> parts;
+  const std::size_t proved = known_->proved(face.face, face.from, face.to);
+  if (const std::size_t fewer = proved > 0 ? 0 : known_->due(face.face)) {
+    const Result result = parts_.find(face, pieces, std::min(max_pieces, pieces + fewer), &parts);
+    if (result.found) return result;
+    if (result.complete) {
+      take_shares(parts, 0, face);
+      keep(face, std::move(parts));
+      return result;
+    }
+    parts.clear();
+  }
+  const std::vector<ShallowPart>& known = *known_->of(face.face);
+  const double duration = face.to - face.from;
+  bool is_refined = false;
+  Result result;
+  std::size_t i = 0;
+  for (; i < known.size() && !result.found && result.complete; ++i) {
+    const ShallowPart& one = known[i];
+    if (i < proved && one.proof.reason != ShallowReason::Unknown) {
+      parts.push_back(one);
+      continue;
+    }
+    const MovingPart now = part(one.own, face.face, face.from + one.from * duration, face.from + one.to * duration);
+    ++visited_;
+    if (parts_.holds(one.proof, now)) {
+      parts.push_back(one);
+      continue;
+    }
+    const std::size_t before = parts.size();
+    result = parts_.find(now, pieces, max_pieces, &parts);
+    take_shares(parts, before, face);
+    is_refined = true;
+  }
+  if (result.found) return result;
+  // Those that are left were not tested now.
+  const std::size_t now_proved = parts.size() + std::max(i, proved) - i;
+  if (is_refined) {
+    parts.insert(parts.end(), known.begin() + static_cast<std::ptrdiff_t>(i), known.end());
+    known_->refine(face.face, std::move(parts));
+  }
+  known_->note_proved(face.face, now_proved, face.from, face.to);
+  return result;
+}
+
+/// Keeps what a search divided a face into.
+void SweptSearch::keep(const MovingPart& face, std::vector<ShallowPart> parts) const {
+  const std::size_t count = parts.size();
+  known_->set(face.face, std::move(parts));
+  known_->note_proved(face.face, count, face.from, face.to);
+}
+
+MovingPart SweptSearch::part(const Triangle& own, std::uint32_t face, double from, double to) const {
+  return {own, at(from) * own, at(to) * own, from, to, face};
+}
+
+/// Mostly the time is one of the last.
+const InterpolatedTransform& SweptSearch::at(double time) const {
+  for (const InterpolatedTransform& known : recent_)
+    if (known.time == time) return known;
+  InterpolatedTransform& oldest = recent_[next_recent_++ % recent_.size()];
+  return oldest = InterpolatedTransform(start_, end_, time);
+}
+
+}  // namespace dismantle

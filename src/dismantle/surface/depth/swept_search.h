@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/surface/depth/moving_part_search.h"
+#include "dismantle/surface/depth/swept_depth.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace dismantle {
+
+/// Where points are at one time of a motion on which they move linearly: an affine map.
+struct InterpolatedTransform {
+  double time = -1;  ///< None if negative.
+  Mat3 matrix;
+  Vec3 translation;  ///< [mm]
+
+  InterpolatedTransform() = default;
+  InterpolatedTransform(const RigidTransform& start, const RigidTransform& end, double at);
+
+  /// The place of a point [mm].
+  Vec3 operator*(Vec3 own) const { return matrix * own + translation; }
+  /// The places of a triangle [mm].
+  Triangle operator*(const Triangle& own) const { return {{*this * own[0], *this * own[1], *this * own[2]}}; }
+  /// The box around the places of the points of a box [mm].
+  Aabb operator*(const Aabb& own) const;
+};
+
+/// Searches one surface of a pair, which moves in the frame of the other shape, for points that get too deep: see
+/// first_deeper(). Times are shares of the motion.
+class SweptSearch {
+ public:
+  using Found = MovingPartSearch::Found;
+  using Result = MovingPartSearch::Result;
+
+  /// @param own, other must outlive this @param start, end the poses in the frame of the other shape @param far_limit
+  /// of the points of this surface @param known what is known of it; may be null
+  SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start, const RigidTransform& end,
+              const DepthLimits& limits, double far_limit, ShallowParts* known, const KeepGoing& keep_going);
+
+  /// Begins the search of the motion. @return where the last search of it ended
+  std::optional<ShallowParts::EndedAt> begin() const;
+  /// Notes where the search of the motion ended early.
+  void note_end(const ShallowParts::EndedAt& end) const {
+    if (known_) known_->ended_at = end;
+  }
+  /// Notes a point that is too deep, for the next motion; none: nothing is.
+  void note_deep(std::optional<Vec3> own) const {
+    if (known_) known_->deep = own;
+  }
+
+  /// True if a point of this surface is too deep at a time [mm, own frame].
+  bool is_deep(Vec3 own, double time) const {
+    return parts_.is_deep(own, InterpolatedTransform(start_, end_, time) * own);
+  }
+  /// A sampled point that is too deep at a time.
+  std::optional<Found> sample(double time) const;
+  /// Some point that is too deep in [from, to]; the pieces are counted.
+  Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const;
+  /// True if nothing gets too deep in [from, to], nearly everywhere for reasons that are known; false says nothing.
+  bool is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces) const;
+  /// A point as a DeepPoint, without the time until which nothing is deep.
+  DeepPoint deep_point(const Found& found, bool of_a) const;
+  /// The cost of the search apart from pieces: the points sampled, and nodes and known parts by their time.
+  std::size_t others() const;
+
+ private:
+  template <class Visit>
+  Result search(double from, double to, const Visit& in_face) const;
+  Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces) const;
+  void keep(const MovingPart& face, std::vector<ShallowPart> parts) const;
+  MovingPart part(const Triangle& own, std::uint32_t face, double from, double to) const;
+  const InterpolatedTransform& at(double time) const;
+
+  const SolidShape& own_;
+  const SolidShape& other_;
+  RigidTransform start_, end_;
+  bool is_limited_;
+  const ShallowRegion& region_;
+  ShallowParts* known_;
+  MovingPartSearch parts_;
+  mutable std::array<InterpolatedTransform, 8> recent_;  // of the last times
+  mutable std::size_t next_recent_ = 0;
+  mutable std::size_t samples_ = 0;
+  mutable std::size_t visited_ = 0;  // nodes and known parts
+};
+
+}  // namespace dismantle
