@@ -266,52 +266,6 @@ TEST(FirstDeeper, DecidesTheSameForAnyPointAsForTheFirst) {
   EXPECT_GT(free, 5);
 }
 
-TEST(FirstDeeper, StopsBeforeTheLimitByNoMoreThanTheMargin) {
-  std::mt19937_64 random(41);
-  std::uniform_real_distribution<double> u(-0.6, 0.6);
-  constexpr double kMargin = 0.02;
-  int before_limit = 0, free = 0;
-  std::size_t exact_cost = 0, cost = 0;
-  for (int i = 0; i < 40; ++i) {
-    const TriangleMesh ring = scenes::tube(2, i % 3 == 0 ? 1 : 0, -2, 2, 5 + static_cast<std::uint32_t>(i % 7));
-    const TriangleMesh block = scenes::box({-2, -1.5, -1}, {2, 1.5, 1});
-    const Solid a(ring), b(block);
-    const RigidTransform start = transform_from_pose(scenes::random_pose(random, 3.5, 1));
-    const RigidTransform end = moved({u(random), u(random), u(random)}) * start;
-    const SweptPair pair{&a.shape, &b.shape, start, end};
-    // The limit is what the motion needs, or a little more.
-    double limit = 2;
-    for (double step = 1; step > 1e-3; step /= 2) limit += first_deeper(pair, {limit}, 1e-3) ? step : -step;
-    limit += 0.001 * (i % 30);
-    const auto exact = first_deeper(pair, {limit}, 1e-3, kMaxSweptPieces, {}, DeepSearch::First, &exact_cost);
-    DepthLimits limits{limit};
-    limits.margin = kMargin;
-    const auto found = first_deeper(pair, limits, 1e-3, kMaxSweptPieces, {}, DeepSearch::First, &cost);
-    if (!found) {
-      ASSERT_FALSE(exact) << i;
-      ++free;
-      continue;
-    }
-    if (exact) {
-      EXPECT_LE(found->free_until, exact->time + 1e-9) << i;
-    }
-    const TriangleMesh& outer = found->of_a ? block : ring;
-    const auto depth = [&](Vec3 p) {
-      return std::abs(oracle::winding_number(outer, p)) > 0.5 ? oracle::distance(outer, p) : 0;
-    };
-    const double deep = depth(found->point);
-    ASSERT_GT(deep, limit - kMargin - 1e-9) << i;
-    if (deep > limit) continue;
-    ++before_limit;
-    const Vec3 way =
-        found->of_a ? end.translation - start.translation : inverse(end).translation - inverse(start).translation;
-    EXPECT_GT(deep, depth(found->point - found->time * way)) << i;
-  }
-  EXPECT_GT(before_limit, 5);
-  EXPECT_GT(free, 5);
-  EXPECT_LT(cost, exact_cost);
-}
-
 TEST(FirstDeeper, AgreesWithSamplesOfRandomSolidsClosedCrackedAndOpen) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> u(-1, 1);

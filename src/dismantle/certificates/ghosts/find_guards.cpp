@@ -17,8 +17,6 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
 constexpr double kTouching = 1e-6;
-/// Contacts of depths are this share of the tolerance before the limit.
-constexpr double kDepthMargin = 0.1;
 
 /// The shapes of components, each built when it is first wanted.
 class Shapes {
@@ -72,8 +70,7 @@ void limit_far_points(GuardedPair& guard, const SolidShape& a, const SolidShape&
 DepthLimits depth_limits(const GuardedPair& pair, bool a_first, double tolerance) {
   const double arcs = kArcShare * tolerance;
   const double of_first = pair.far_allowed[0] - arcs, of_second = pair.far_allowed[1] - arcs;
-  return {pair.allowed - arcs, a_first ? of_first : of_second, a_first ? of_second : of_first,
-          kDepthMargin * tolerance};
+  return {pair.allowed - arcs, a_first ? of_first : of_second, a_first ? of_second : of_first};
 }
 
 std::vector<FoundGuard> find_guards(const GuardSearch& search) {

@@ -18,9 +18,9 @@ using Clock = std::chrono::steady_clock;
 /// A motion that was shortened this many times and is still blocked is not made.
 constexpr int kMaxShortenings = 6;
 /// After so many steps of a set that hardly moved, a depth that is not bounded yet counts as too deep.
-constexpr int kMaxUndecidedSteps = 90;
+constexpr int kMaxUndecidedSteps = 150;
 /// After so many unfinished steps of such a set, its step is finished: contacts may keep each other from being used.
-constexpr int kMaxUnfinishedSteps = 150;
+constexpr int kMaxUnfinishedSteps = 250;
 
 }  // namespace
 

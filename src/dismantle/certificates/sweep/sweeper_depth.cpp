@@ -53,6 +53,11 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
 
 void CertificateSweeper::sweep_depths(const std::vector<SeenMotion>& motions, double window, CertificateSweep& result) {
   for (const SeenMotion& motion : motions) {
+    if (guarded(motion.moving, motion.fixed).guard != PairGuard::Depth) continue;
+    if (result.undecided) {  // nothing is made of this sweep: the next pair's turn comes once this one is decided
+      result.complete = false;
+      return;
+    }
     // Later contacts would be left out.
     double until = 1;
     for (const SweepContact& b : result.blocked) until = std::min(until, b.toi + window);

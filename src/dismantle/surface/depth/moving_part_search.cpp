@@ -13,8 +13,6 @@ namespace dismantle {
 
 namespace {
 
-/// A point is deeper than at the start if it is so by this share of the margin.
-constexpr double kDeeper = 0.01;
 /// Number of pieces between two calls of keep_going.
 constexpr std::size_t kAsk = 256;
 
@@ -59,10 +57,9 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
 }
 
 bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double depth) const {
-  if (depth <= far_limit_ - margin_) return false;
-  if (depth <= limit_ && far_limit_ < limit_ && solid_.surface().distance(own).distance <= limit_) return false;
-  if (!solid_.winding().inside(point)) return false;
-  return depth > far_limit_ || depth > solid_.surface().distance(start_ * own).distance + kDeeper * margin_;
+  if (depth <= far_limit_) return false;
+  if (depth <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
+  return solid_.winding().inside(point);
 }
 
 bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
@@ -125,7 +122,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     if (is_deep(own, ball.center, nearest.distance)) return {Found{time, part.face, own}, true};
     for (int i = 0; i < 3; ++i) {
       const Vec3 corner = ball.middle[i];
-      if (nearest.distance + length(corner - ball.center) <= far_limit_ - margin_) continue;
+      if (nearest.distance + length(corner - ball.center) <= far_limit_) continue;
       const double distance = solid_.surface().distance(corner, nearest.face).distance;
       if (is_deep(part.own[i], corner, distance)) return {Found{time, part.face, part.own[i]}, true};
     }
@@ -276,7 +273,7 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces) {
   const MovingPartSearch::Result result =
-      MovingPartSearch(solid, {limit, limit, 0, {}}, nullptr).find({from, from, to}, pieces, max_pieces);
+      MovingPartSearch(solid, limit, limit, nullptr).find({from, from, to}, pieces, max_pieces);
   return result.complete && !result.found;
 }
 

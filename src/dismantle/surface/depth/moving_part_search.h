@@ -17,27 +17,14 @@ namespace dismantle {
 /// first_deeper().
 class MovingPartSearch {
  public:
-  /// How deep points may get [mm].
-  struct Limits {
-    double limit = 0;  ///< Of all points.
-    /// Of points that are further from the surface of the solid than `limit` where their own coordinates are taken as
-    /// its; less than `limit` only where no point of the solid is deeper than that.
-    double far_limit = limit;
-    double margin = 0;     ///< See DepthLimits.
-    RigidTransform start;  ///< Where points are at time 0, in the frame of the solid.
-  };
-
-  /// @param solid must outlive this @param region where no point is deeper than the far limit; must outlive this, or
-  /// null, where there is little to search @param keep_going once it returns false, searches are given up; may be empty
-  MovingPartSearch(const SolidShape& solid, const Limits& limits, const ShallowRegion* region,
+  /// @param solid must outlive this @param limit of the depth [mm] @param far_limit of points that are further from
+  /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
+  /// where no point of the solid is deeper than that @param region where no point is deeper than the far limit; must
+  /// outlive this, or null, where there is little to search
+  /// @param keep_going once it returns false, searches are given up; may be empty
+  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region,
                    const KeepGoing& keep_going = {})
-      : solid_(solid),
-        limit_(limits.limit),
-        far_limit_(limits.far_limit),
-        margin_(limits.margin),
-        start_(limits.start),
-        region_(region),
-        keep_going_(keep_going) {}
+      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region), keep_going_(keep_going) {}
 
   /// A point that is too deep at a time.
   struct Found {
@@ -51,7 +38,7 @@ class MovingPartSearch {
     bool complete = true;        ///< There were not too many pieces.
   };
 
-  /// True if a point counts as too deep [mm, frame of the solid]. @param own the point in its own frame
+  /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame
   bool is_deep(Vec3 own, Vec3 point) const;
   /// The same of a point at a known distance from the surface [mm].
   bool is_deep(Vec3 own, Vec3 point, double distance) const;
@@ -81,8 +68,6 @@ class MovingPartSearch {
   const SolidShape& solid_;
   double limit_;
   double far_limit_;
-  double margin_;
-  RigidTransform start_;
   const ShallowRegion* region_;
   KeepGoing keep_going_;
 };

@@ -45,9 +45,6 @@ struct DepthLimits {
   /// `a` in `b`, and of `b` in `a`. No more than `limit`, with which they have none. Infinite for all other solids.
   double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
   ///@}
-  /// A point that gets deeper than it is at time 0 counts as too deep from this much before its limit: how close to the
-  /// limit a motion comes bounds how small the pieces of the search have to be.
-  double margin = 0;
 };
 
 /// Which point that gets too deep is sought.

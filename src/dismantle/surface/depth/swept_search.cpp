@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// Sampled faces of a surface.
+/// Most faces that are sampled of a surface.
 constexpr std::size_t kSamples = 2000;
 /// As many nodes or known parts take as long as a piece that is examined.
 constexpr std::size_t kKnownInPiece = 8;
@@ -59,7 +59,7 @@ SweptSearch::SweptSearch(const SolidShape& own, const SolidShape& other, const R
       is_limited_(far_limit != limits.limit),
       region_(other.shallow_region(std::min(limits.limit, far_limit))),
       known_(known),
-      parts_(other, {limits.limit, std::min(limits.limit, far_limit), limits.margin, start}, &region_, keep_going) {}
+      parts_(other, limits.limit, std::min(limits.limit, far_limit), &region_, keep_going) {}
 
 std::optional<ShallowParts::EndedAt> SweptSearch::begin() const {
   if (!known_ || !known_->begin(start_, end_)) return std::nullopt;
@@ -68,20 +68,32 @@ std::optional<ShallowParts::EndedAt> SweptSearch::begin() const {
 
 std::optional<SweptSearch::Found> SweptSearch::sample(double time) const {
   if (!is_limited_) return std::nullopt;
+  const InterpolatedTransform& now = at(time);
   const SurfaceTree& own = own_.surface();
-  const Aabb& box = other_.surface().bounds();
-  const std::size_t stride = std::max<std::size_t>(1, own.face_count() / kSamples);
-  const InterpolatedTransform at(start_, end_, time);
+  const Bvh& bvh = own.bvh();
+  std::vector<NodeIndex> nodes{bvh.root()};
+  std::size_t faces = 0;
   std::uint32_t last = 0;
-  for (std::size_t f = 0; f < own.face_count(); f += stride) {
-    const Triangle& t = own.triangle(static_cast<std::uint32_t>(f));
+  while (!nodes.empty() && faces < kSamples) {
+    const NodeIndex node = nodes.back();
+    nodes.pop_back();
+    ++visited_;
+    if (region_.contains(now * own.box(node))) continue;
+    if (node >= bvh.leaf_count()) {
+      const BvhChildren children = bvh.children[node - bvh.leaf_count()];
+      nodes.push_back(children.left);
+      nodes.push_back(children.right);
+      continue;
+    }
+    const std::uint32_t face = bvh.leaf_triangle[node];
+    const Triangle& t = own.triangle(face);
+    ++faces;
     for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]}) {
-      const Vec3 now = at * p;
-      if (!overlaps(box, {now, now})) continue;
       ++samples_;
-      const MeshDistance nearest = other_.surface().distance(now, last);
+      const Vec3 place = now * p;
+      const MeshDistance nearest = other_.surface().distance(place, last);
       last = nearest.face;
-      if (parts_.is_deep(p, now, nearest.distance)) return Found{time, static_cast<std::uint32_t>(f), p};
+      if (parts_.is_deep(p, place, nearest.distance)) return Found{time, face, p};
     }
   }
   return std::nullopt;
