@@ -86,6 +86,8 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
                     BatchResult& result) {
   const std::vector<Pose> poses(engine.poses().begin(), engine.poses().end());
   const double distance = std::min(0.5, 0.05 * diagonal(assembled_bounds(assembly[moving])));
+  // Seen from the origin, which may be far away, a little rotation is a long way.
+  const Vec3 center = assembled_bounds(assembly[moving]).center();
   const Assembly now = surroundings(assembly, poses, moving, distance + 2 * states.tolerance);
   const PathAuditor auditor(now);
   const Path strict = strict_path(now, states);
@@ -103,7 +105,8 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
     // A step may end early (limit_steps); the next goes on.
     for (int step = 0; step < kStuckSteps && made < kStuckProgress && (step == 0 || last.unfinished); ++step) {
       last = engine.step(target, ResponseKind::Slide);
-      made = dot(last.pose.position - pose.position, displacement) / (distance * distance);
+      const Vec3 way = transform_from_pose(last.pose) * center - transform_from_pose(pose) * center;
+      made = dot(way, displacement) / (distance * distance);
     }
     if (made < kStuckProgress) ++result.stuck;
   }
