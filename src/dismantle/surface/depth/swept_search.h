@@ -33,8 +33,8 @@ struct InterpolatedTransform {
 /// first_deeper(). Times are shares of the motion.
 class SweptSearch {
  public:
-  using Found = MovingPartSearch::Found;
-  using Result = MovingPartSearch::Result;
+  using Found = MovingPartSearch::Found;    ///< A point that is too deep.
+  using Result = MovingPartSearch::Result;  ///< The outcome of a search.
 
   /// @param own, other must outlive this @param start, end the poses in the frame of the other shape @param far_limit
   /// of the points of this surface @param known what is known of it; may be null
