@@ -15,10 +15,11 @@ namespace dismantle {
 /// Where points are at one time of a motion on which they move linearly: an affine map.
 struct InterpolatedTransform {
   double time = -1;  ///< None if negative.
-  Mat3 matrix;
+  Mat3 matrix;       ///< Its linear part.
   Vec3 translation;  ///< [mm]
 
   InterpolatedTransform() = default;
+  /// The map at a time between the two transforms.
   InterpolatedTransform(const RigidTransform& start, const RigidTransform& end, double at);
 
   /// The place of a point [mm].
