@@ -86,7 +86,7 @@ void test_for_stuck(const Assembly& assembly, const PairStates& states, Componen
                     BatchResult& result) {
   const std::vector<Pose> poses(engine.poses().begin(), engine.poses().end());
   const double distance = std::min(0.5, 0.05 * diagonal(assembled_bounds(assembly[moving])));
-  // Seen from the origin, which may be far away, a little rotation is a long way.
+  // A pose's position is that of the origin: a small rotation moves it far where the component is far from it.
   const Vec3 center = assembled_bounds(assembly[moving]).center();
   const Assembly now = surroundings(assembly, poses, moving, distance + 2 * states.tolerance);
   const PathAuditor auditor(now);

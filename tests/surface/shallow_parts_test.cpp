@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What searches for deep points keep for the next motion.
+// What a search for deep points keeps for later searches.
 #include "dismantle/surface/depth/shallow_parts.h"
 
 #include "dismantle/surface/depth/swept_depth.h"

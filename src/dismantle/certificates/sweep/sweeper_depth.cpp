@@ -23,6 +23,10 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
                                      double until, KnownDepth* known) const {
   const GuardedPair pair = guarded(motion.moving, motion.fixed);
   if (pair.guard != PairGuard::Depth) return;
+  if (result.undecided) {  // the set will not move: this pair's turn comes once the one before is decided
+    result.complete = false;
+    return;
+  }
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
   SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
@@ -53,11 +57,6 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
 
 void CertificateSweeper::sweep_depths(const std::vector<SeenMotion>& motions, double window, CertificateSweep& result) {
   for (const SeenMotion& motion : motions) {
-    if (guarded(motion.moving, motion.fixed).guard != PairGuard::Depth) continue;
-    if (result.undecided) {  // nothing is made of this sweep: the next pair's turn comes once this one is decided
-      result.complete = false;
-      return;
-    }
     // Later contacts would be left out.
     double until = 1;
     for (const SweepContact& b : result.blocked) until = std::min(until, b.toi + window);

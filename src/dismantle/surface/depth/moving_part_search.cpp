@@ -56,9 +56,9 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
   return is_deep(own, point, solid_.surface().distance(point).distance);
 }
 
-bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double depth) const {
-  if (depth <= far_limit_) return false;
-  if (depth <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
+bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double distance) const {
+  if (distance <= far_limit_) return false;
+  if (distance <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
   return solid_.winding().inside(point);
 }
 
@@ -119,12 +119,12 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     }
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
-    if (is_deep(own, ball.center, nearest.distance)) return {Found{time, part.face, own}, true};
+    if (is_deep(own, ball.center, nearest.distance)) return {TimedPoint{time, part.face, own}, true};
     for (int i = 0; i < 3; ++i) {
       const Vec3 corner = ball.middle[i];
       if (nearest.distance + length(corner - ball.center) <= far_limit_) continue;
       const double distance = solid_.surface().distance(corner, nearest.face).distance;
-      if (is_deep(part.own[i], corner, distance)) return {Found{time, part.face, part.own[i]}, true};
+      if (is_deep(part.own[i], corner, distance)) return {TimedPoint{time, part.face, part.own[i]}, true};
     }
     divide(part, nearest.face, parts);
   }

@@ -26,16 +26,11 @@ class MovingPartSearch {
                    const KeepGoing& keep_going = {})
       : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region), keep_going_(keep_going) {}
 
-  /// A point that is too deep at a time.
-  struct Found {
-    double time = 0;         ///< In the interval of the part.
-    std::uint32_t face = 0;  ///< The face that it is on.
-    Vec3 own;                ///< The point in its own frame [mm].
-  };
   /// The outcome of a search.
   struct Result {
-    std::optional<Found> found;  ///< Nothing where no point is too deep, or the search is not complete.
-    bool complete = true;        ///< There were not too many pieces.
+    std::optional<TimedPoint>
+        found;  ///< A point that is too deep. Nothing where no point is too deep, or the search is not complete.
+    bool complete = true;  ///< There were not too many pieces.
   };
 
   /// True if a point is too deep [mm, frame of the solid]. @param own the point in its own frame

@@ -22,7 +22,7 @@ enum class ShallowReason : std::uint8_t {
   Unknown,    ///< The search ended before it was examined.
 };
 
-/// The reason with what it is about.
+/// A reason, and what it refers to.
 struct ShallowProof {
   ShallowReason reason{};  ///< See there.
   std::uint32_t face = 0;  ///< Of the solid; for NearFaces and Ball.
@@ -37,10 +37,17 @@ struct ShallowPart {
   ShallowProof proof;  ///< Why it did.
 };
 
+/// A point of a surface at a time of a motion.
+struct TimedPoint {
+  double time = 0;         ///< As a share of the motion.
+  std::uint32_t face = 0;  ///< The face that it is on.
+  Vec3 own;                ///< The point in its own frame [mm].
+};
+
 /// How the faces of a surface were divided by searches of earlier motions of the same two shapes, with the same limits,
 /// which found that no point gets too deep. Most parts of the next motion are shallow for the same reasons; these are
-/// tested again, and are never taken for granted, but where the motion is the same: a search that ended early goes on.
-/// Where points get too deep, it may depend on what is known which of them is found.
+/// tested again. Only where the motion is the same as before is nothing tested twice: a search that ended early goes
+/// on. Where points get too deep, it may depend on what is known which of them is found.
 class ShallowParts {
  public:
   /// Begins a search. @param start, end the poses of the moving shape in the frame of the other one @return true if the
@@ -52,10 +59,10 @@ class ShallowParts {
   void set(std::uint32_t face, std::vector<ShallowPart> parts);
   /// Replaces the parts of a face that is known by a finer subdivision.
   void refine(std::uint32_t face, std::vector<ShallowPart> parts);
-  /// Notes that of the first parts of a face that is known, all but those of unknown reason stay shallow in an interval
+  /// Notes that the first parts of a known face, apart from those whose reason is Unknown, stay shallow in an interval
   /// of the present motion.
   void note_proved(std::uint32_t face, std::size_t first, double from, double to);
-  /// How many of the first parts of a face that has parts were noted so for the same interval of the same motion.
+  /// The number of first parts that were noted so for the same interval of the present motion. @pre the face has parts
   std::size_t proved(std::uint32_t face, double from, double to) const;
   /// A face may have been subdivided more finely, for an earlier motion, than the present one needs. Returns the number
   /// of pieces to spend on subdividing it again, or 0 if that is not due. Attempts get rarer over time.
@@ -67,17 +74,12 @@ class ShallowParts {
   std::optional<Vec3> deep;
   /// Where a search of a pair ended early.
   struct EndedAt {
-    double free_until = 0;  ///< Both surfaces stay shallow until this time of the motion.
-    double to = 0;          ///< They were searched up to this one,
-    bool in_search = true;  ///< and that search did not end.
-    double back = 0;        ///< The search was to step back from a deep point by this much [of the motion].
-    ///@{ A point that is too deep [mm, frame of its face], if one is known.
-    bool is_deep = false;
-    bool of_a = true;
-    double time = 0;
-    std::uint32_t face = 0;
-    Vec3 own;
-    ///@}
+    double free_until = 0;             ///< Both surfaces stay shallow until this time of the motion.
+    double to = 0;                     ///< They were searched up to this one,
+    bool in_search = true;             ///< and that search did not end.
+    double back = 0;                   ///< The search was to step back from a deep point by this much [of the motion].
+    std::optional<TimedPoint> deep{};  ///< A point that is too deep, if one is known.
+    bool of_a = true;                  ///< It is a point of `a`.
   };
   std::optional<EndedAt> ended_at;  ///< Of the present motion.
 

@@ -39,7 +39,7 @@ class PairSearch {
         keep_going_(keep_going) {}
 
   /// A point that is too deep at some time, found by looking at ever later times.
-  std::optional<DeepPoint> sampled() const {
+  std::optional<DeepPoint> sampled() {
     for (double time = kFirstPart * resolution_;; time *= 2) {
       for (const int of : {0, 1})
         if (const auto found = searches_[of].sample(std::min(until_, time)))
@@ -106,16 +106,11 @@ class PairSearch {
     end.to = std::min(to, until_);
     end.in_search = in_search;
     end.back = back_;
-    if (known_) {
-      end.is_deep = true;
-      end.of_a = of_ == 0;
-      end.time = known_->time;
-      end.face = known_->face;
-      end.own = known_->own;
-    }
+    end.deep = known_;
+    end.of_a = of_ == 0;
     searches_[0].note_end(end);
     is_certain_ = false;
-    if (!known_) known_ = SweptSearch::Found{end.to, 0, {}};
+    if (!known_) known_ = TimedPoint{end.to, 0, {}};
     known_->time = std::min(known_->time, end.to);
   }
 
@@ -123,10 +118,8 @@ class PairSearch {
   double resume(const ShallowParts::EndedAt& end) {
     free_until_ = end.free_until;
     back_ = end.back;
-    if (end.is_deep) {
-      known_ = SweptSearch::Found{end.time, end.face, end.own};
-      of_ = end.of_a ? 0 : 1;
-    }
+    known_ = end.deep;
+    of_ = end.of_a ? 0 : 1;
     return end.to;
   }
 
@@ -160,7 +153,7 @@ class PairSearch {
   }
 
   /// Takes a deep point at the earliest time since which it is deep, as far as halving finds it.
-  bool know(SweptSearch::Found found, int of) {
+  bool know(TimedPoint found, int of) {
     double shallow = free_until_;
     while (found.time - shallow > kTimeShare * resolution_) {
       const double middle = (shallow + found.time) / 2;
@@ -184,7 +177,7 @@ class PairSearch {
   std::size_t pieces_ = 0;    // examined so far
   std::size_t recalled_ = 0;  // examined for reasons that were known
   double free_until_ = 0;
-  std::optional<SweptSearch::Found> known_;
+  std::optional<TimedPoint> known_;
   bool is_certain_ = true;
   int of_ = 0;
 };

@@ -24,7 +24,7 @@ struct TimedNode {
   double from, to;
 };
 
-/// Makes the times of the parts from the first one on shares of that of a face.
+/// Turns the times of the parts from index `first` on into shares of the interval of a face.
 void take_shares(std::vector<ShallowPart>& parts, std::size_t first, const MovingPart& face) {
   for (std::size_t i = first; i < parts.size(); ++i) {
     parts[i].from = (parts[i].from - face.from) / (face.to - face.from);
@@ -61,12 +61,12 @@ SweptSearch::SweptSearch(const SolidShape& own, const SolidShape& other, const R
       known_(known),
       parts_(other, limits.limit, std::min(limits.limit, far_limit), &region_, keep_going) {}
 
-std::optional<ShallowParts::EndedAt> SweptSearch::begin() const {
+std::optional<ShallowParts::EndedAt> SweptSearch::begin() {
   if (!known_ || !known_->begin(start_, end_)) return std::nullopt;
   return std::exchange(known_->ended_at, std::nullopt);
 }
 
-std::optional<SweptSearch::Found> SweptSearch::sample(double time) const {
+std::optional<TimedPoint> SweptSearch::sample(double time) {
   if (!is_limited_) return std::nullopt;
   const InterpolatedTransform& now = at(time);
   const SurfaceTree& own = own_.surface();
@@ -93,26 +93,25 @@ std::optional<SweptSearch::Found> SweptSearch::sample(double time) const {
       const Vec3 place = now * p;
       const MeshDistance nearest = other_.surface().distance(place, last);
       last = nearest.face;
-      if (parts_.is_deep(p, place, nearest.distance)) return Found{time, face, p};
+      if (parts_.is_deep(p, place, nearest.distance)) return TimedPoint{time, face, p};
     }
   }
   return std::nullopt;
 }
 
-SweptSearch::Result SweptSearch::find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+SweptSearch::Result SweptSearch::find(double from, double to, std::size_t& pieces, std::size_t max_pieces) {
   return search(from, to, [&](const MovingPart& face) {
     if (!known_) return parts_.find(face, pieces, max_pieces);
     if (known_->of(face.face)) return find_in_known(face, pieces, max_pieces);
     std::vector<ShallowPart> parts;
     Result result = parts_.find(face, pieces, max_pieces, &parts);
     if (result.found) parts.clear();
-    take_shares(parts, 0, face);
     keep(face, std::move(parts));
     return result;
   });
 }
 
-bool SweptSearch::is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces) const {
+bool SweptSearch::is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces) {
   if (!is_limited_) return true;
   if (!known_ || (known_->deep && is_deep(*known_->deep, to))) return false;
   const std::size_t enough = std::min(max_pieces, pieces + kNewPieces);
@@ -122,7 +121,7 @@ bool SweptSearch::is_shallow_again(double from, double to, std::size_t& pieces, 
   return result.complete && !result.found;
 }
 
-DeepPoint SweptSearch::deep_point(const Found& found, bool of_a) const {
+DeepPoint SweptSearch::deep_point(const TimedPoint& found, bool of_a) const {
   const Vec3 point = InterpolatedTransform(start_, end_, found.time) * found.own;
   const std::uint32_t other_face = other_.surface().distance(point).face;
   const Vec3 nearest = closest_point_of_triangle(other_.surface().triangle(other_face), point);
@@ -136,46 +135,44 @@ std::size_t SweptSearch::others() const {
 /// Visits the faces that are not certainly shallow, in parts of [from, to], as long as the results are complete and
 /// without a point.
 template <class Visit>
-SweptSearch::Result SweptSearch::search(double from, double to, const Visit& in_face) const {
+SweptSearch::Result SweptSearch::search(double from, double to, const Visit& in_face) {
   if (!is_limited_) return {};
-  std::vector<TimedNode> left{{own_.surface().bvh().root(), from, to}};
-  while (!left.empty()) {
+  std::vector<TimedNode> waiting{{own_.surface().bvh().root(), from, to}};
+  while (!waiting.empty()) {
     if (++visited_ > kMaxSweptPieces) return {{}, false};
-    const TimedNode piece = left.back();
-    left.pop_back();
-    const Aabb& own = own_.surface().box(piece.node);
-    const Aabb begin = at(piece.from) * own, end = at(piece.to) * own;
+    const TimedNode next = waiting.back();
+    waiting.pop_back();
+    const Aabb& own = own_.surface().box(next.node);
+    const Aabb begin = at(next.from) * own, end = at(next.to) * own;
     Aabb both = begin;
     both.extend(end);
     if (region_.contains(both)) continue;
     const Bvh& bvh = own_.surface().bvh();
-    if (piece.node < bvh.leaf_count()) {
-      const std::uint32_t face = bvh.leaf_triangle[piece.node];
-      const Result result = in_face(part(own_.surface().triangle(face), face, piece.from, piece.to));
+    if (next.node < bvh.leaf_count()) {
+      const std::uint32_t face = bvh.leaf_triangle[next.node];
+      const Result result = in_face(part(own_.surface().triangle(face), face, next.from, next.to));
       if (result.found || !result.complete) return result;
     } else if (length(end.center() - begin.center()) > diagonal(begin)) {
-      const double middle = (piece.from + piece.to) / 2;
-      left.push_back({piece.node, middle, piece.to});
-      left.push_back({piece.node, piece.from, middle});
+      const double middle = (next.from + next.to) / 2;
+      waiting.push_back({next.node, middle, next.to});
+      waiting.push_back({next.node, next.from, middle});
     } else {
-      const BvhChildren children = bvh.children[piece.node - bvh.leaf_count()];
-      left.push_back({children.left, piece.from, piece.to});
-      left.push_back({children.right, piece.from, piece.to});
+      const BvhChildren children = bvh.children[next.node - bvh.leaf_count()];
+      waiting.push_back({children.left, next.from, next.to});
+      waiting.push_back({children.right, next.from, next.to});
     }
   }
   return {};
 }
 
 /// Searches the known parts of a face, which are divided further where their reasons do not hold.
-SweptSearch::Result SweptSearch::find_in_known(const MovingPart& face, std::size_t& pieces,
-                                               std::size_t max_pieces) const {
+SweptSearch::Result SweptSearch::find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces) {
   std::vector<ShallowPart> parts;
   const std::size_t proved = known_->proved(face.face, face.from, face.to);
   if (const std::size_t fewer = proved > 0 ? 0 : known_->due(face.face)) {
     const Result result = parts_.find(face, pieces, std::min(max_pieces, pieces + fewer), &parts);
     if (result.found) return result;
     if (result.complete) {
-      take_shares(parts, 0, face);
       keep(face, std::move(parts));
       return result;
     }
@@ -204,7 +201,7 @@ SweptSearch::Result SweptSearch::find_in_known(const MovingPart& face, std::size
     is_refined = true;
   }
   if (result.found) return result;
-  // Those that are left were not tested now.
+  // After an early end, the parts that are left were not tested.
   const std::size_t now_proved = parts.size() + std::max(i, proved) - i;
   if (is_refined) {
     parts.insert(parts.end(), known.begin() + static_cast<std::ptrdiff_t>(i), known.end());
@@ -214,19 +211,20 @@ SweptSearch::Result SweptSearch::find_in_known(const MovingPart& face, std::size
   return result;
 }
 
-/// Keeps what a search divided a face into.
-void SweptSearch::keep(const MovingPart& face, std::vector<ShallowPart> parts) const {
+/// Keeps the parts into which a search of a whole face divided it.
+void SweptSearch::keep(const MovingPart& face, std::vector<ShallowPart> parts) {
+  take_shares(parts, 0, face);
   const std::size_t count = parts.size();
   known_->set(face.face, std::move(parts));
   known_->note_proved(face.face, count, face.from, face.to);
 }
 
-MovingPart SweptSearch::part(const Triangle& own, std::uint32_t face, double from, double to) const {
+MovingPart SweptSearch::part(const Triangle& own, std::uint32_t face, double from, double to) {
   return {own, at(from) * own, at(to) * own, from, to, face};
 }
 
-/// Mostly the time is one of the last.
-const InterpolatedTransform& SweptSearch::at(double time) const {
+/// The placement of the surface at a time; most times are among the last ones.
+const InterpolatedTransform& SweptSearch::at(double time) {
   for (const InterpolatedTransform& known : recent_)
     if (known.time == time) return known;
   InterpolatedTransform& oldest = recent_[next_recent_++ % recent_.size()];

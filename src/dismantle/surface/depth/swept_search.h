@@ -34,7 +34,6 @@ struct InterpolatedTransform {
 /// first_deeper(). Times are shares of the motion.
 class SweptSearch {
  public:
-  using Found = MovingPartSearch::Found;    ///< A point that is too deep.
   using Result = MovingPartSearch::Result;  ///< The outcome of a search.
 
   /// @param own, other must outlive this @param start, end the poses in the frame of the other shape @param far_limit
@@ -43,13 +42,13 @@ class SweptSearch {
               const DepthLimits& limits, double far_limit, ShallowParts* known, const KeepGoing& keep_going);
 
   /// Begins the search of the motion. @return where the last search of it ended
-  std::optional<ShallowParts::EndedAt> begin() const;
+  std::optional<ShallowParts::EndedAt> begin();
   /// Notes where the search of the motion ended early.
-  void note_end(const ShallowParts::EndedAt& end) const {
+  void note_end(const ShallowParts::EndedAt& end) {
     if (known_) known_->ended_at = end;
   }
   /// Notes a point that is too deep, for the next motion; none: nothing is.
-  void note_deep(std::optional<Vec3> own) const {
+  void note_deep(std::optional<Vec3> own) {
     if (known_) known_->deep = own;
   }
 
@@ -58,23 +57,23 @@ class SweptSearch {
     return parts_.is_deep(own, InterpolatedTransform(start_, end_, time) * own);
   }
   /// A sampled point that is too deep at a time.
-  std::optional<Found> sample(double time) const;
+  std::optional<TimedPoint> sample(double time);
   /// Some point that is too deep in [from, to]; the pieces are counted.
-  Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces) const;
+  Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces);
   /// True if nothing gets too deep in [from, to], nearly everywhere for reasons that are known; false says nothing.
-  bool is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces) const;
+  bool is_shallow_again(double from, double to, std::size_t& pieces, std::size_t max_pieces);
   /// A point as a DeepPoint, without the time until which nothing is deep.
-  DeepPoint deep_point(const Found& found, bool of_a) const;
+  DeepPoint deep_point(const TimedPoint& found, bool of_a) const;
   /// The cost of the search apart from pieces: the points sampled, and nodes and known parts by their time.
   std::size_t others() const;
 
  private:
   template <class Visit>
-  Result search(double from, double to, const Visit& in_face) const;
-  Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces) const;
-  void keep(const MovingPart& face, std::vector<ShallowPart> parts) const;
-  MovingPart part(const Triangle& own, std::uint32_t face, double from, double to) const;
-  const InterpolatedTransform& at(double time) const;
+  Result search(double from, double to, const Visit& in_face);
+  Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces);
+  void keep(const MovingPart& face, std::vector<ShallowPart> parts);
+  MovingPart part(const Triangle& own, std::uint32_t face, double from, double to);
+  const InterpolatedTransform& at(double time);
 
   const SolidShape& own_;
   const SolidShape& other_;
@@ -83,10 +82,10 @@ class SweptSearch {
   const ShallowRegion& region_;
   ShallowParts* known_;
   MovingPartSearch parts_;
-  mutable std::array<InterpolatedTransform, 8> recent_;  // of the last times
-  mutable std::size_t next_recent_ = 0;
-  mutable std::size_t samples_ = 0;
-  mutable std::size_t visited_ = 0;  // nodes and known parts
+  std::array<InterpolatedTransform, 8> recent_;  // of the last times
+  std::size_t next_recent_ = 0;
+  std::size_t samples_ = 0;
+  std::size_t visited_ = 0;  // nodes and known parts
 };
 
 }  // namespace dismantle
