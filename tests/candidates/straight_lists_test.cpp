@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/candidates/find_straight_lists.h"
+#include "dismantle/candidates/straight_sweep.h"
+#include "dismantle/exec/host_queue.h"
 #include "dismantle/streams/guarded_pairs.h"
 #include "dismantle/streams/moving_streams.h"
 #include "tests/support/engine_scene.h"
@@ -62,7 +64,7 @@ TEST(StraightLists, ListRatesThatNoContactIsEarlierThan) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     ListedScene listed(seed, 0.2);
     const CandidateScene scene = listed.scene();
-    const FoundStraightLists lists = find_straight_lists(scene);
+    const FoundStraightLists lists = find_straight_lists(scene, Executor());
     for (int i = 0; i < 100; ++i) {
       const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.05 : 5);
       const StraightMotion motion(d);
@@ -88,24 +90,35 @@ TEST(StraightLists, ListRatesThatNoContactIsEarlierThan) {
   EXPECT_GT(apart, 1000u);
 }
 
-TEST(StraightLists, GiveTheContactsOfASearchOfTheWholeTree) {
+/// The contacts of a sweep by lists. @param most_pairs as of StraightSweep: with 0, pairs are tested one a candidate
+std::vector<CandidateContact> swept(const CandidateScene& scene, const FoundStraightLists& lists,
+                                    const std::vector<Vec3>& displacements, std::size_t most_pairs) {
+  HostQueue queue{Executor()};
+  std::vector<CandidateContact> found(displacements.size());
+  StraightSweep<HostQueue>(queue, most_pairs).run(queue, scene, {lists.near, lists.far}, displacements, found);
+  return found;
+}
+
+TEST(StraightSweep, GivesTheContactsOfASearchOfTheWholeTreeWhateverTheRoomAndTheOtherCandidates) {
   std::size_t free = 0, stopped = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     ListedScene listed(seed, 2);
     const CandidateScene scene = listed.scene();
-    for (const std::size_t most_near : {std::size_t{0}, std::size_t{7}, kMostNearLeaves}) {
-      const FoundStraightLists lists = find_straight_lists(scene, most_near);
-      EXPECT_LE(lists.near.size(), most_near);
-      for (int i = 0; i < 60; ++i) {
-        const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.3 : 30);
-        const StraightPiece piece(scene, d);
-        const CandidateContact found =
-            CandidateSearch<StraightPiece>(scene, piece).first({lists.near, lists.far}, StraightMotion(d));
+    for (const NearLimits& limits : {NearLimits{0, 0}, NearLimits{7, 3}, NearLimits{1 << 18, 0}, NearLimits{}}) {
+      const FoundStraightLists lists = find_straight_lists(scene, Executor(), limits);
+      EXPECT_LE(lists.near.size(), limits.most);
+      std::vector<Vec3> displacements;
+      for (int i = 0; i < 60; ++i) displacements.push_back(scenes::random_vector(listed.random, i % 2 == 0 ? 0.3 : 30));
+      const std::vector<CandidateContact> found = swept(scene, lists, displacements, 1 << 22);
+      EXPECT_EQ(swept(scene, lists, displacements, 0), found);
+      for (std::size_t i = 0; i < displacements.size(); ++i) {
+        const StraightPiece piece(scene, displacements[i]);
         const CandidateContact expected = CandidateSearch<StraightPiece>(scene, piece).first();
-        ASSERT_EQ(found.key == CandidateContact::kFree, expected.key == CandidateContact::kFree);
-        EXPECT_NEAR(found.toi, expected.toi, 1e-4);
-        free += found.key == CandidateContact::kFree ? 1 : 0;
-        stopped += found.key != CandidateContact::kFree && found.toi > 0 ? 1 : 0;
+        ASSERT_EQ(found[i].key == CandidateContact::kFree, expected.key == CandidateContact::kFree);
+        EXPECT_NEAR(found[i].toi, expected.toi, 1e-4);
+        EXPECT_EQ(swept(scene, lists, {displacements[i]}, 1 << 22)[0], found[i]);
+        free += found[i].key == CandidateContact::kFree ? 1 : 0;
+        stopped += found[i].key != CandidateContact::kFree && found[i].toi > 0 ? 1 : 0;
       }
     }
   }

@@ -233,25 +233,18 @@ class CandidateSearch {
   DISMANTLE_HOST_DEVICE CandidateSearch(const CandidateScene& scene, const Piece& piece)
       : scene_(scene), piece_(piece) {}
 
-  /// The first contact on a translation from the state of the lists. To be called once.
-  DISMANTLE_HOST_DEVICE CandidateContact first(const StraightLists& lists, const StraightMotion& motion) {
-    // First the pair that may meet first, so that few others have to be tested.
-    double fastest = 0;
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < lists.near.size(); ++i) {
-      if (lists.near[i].gap * fastest > motion.distance) break;
-      const double rate = lists.near[i].closing_rate(motion);
-      if (!(rate > fastest)) continue;
-      fastest = rate;
-      at = i;
-    }
-    if (fastest >= 1) test(lists.near[at].leaves);
-    for (std::size_t i = 0; fastest >= 1 && i < lists.near.size(); ++i) {
-      if (lists.near[i].gap > found_.toi * motion.distance) break;
-      const double rate = lists.near[i].closing_rate(motion);
-      const bool earlier = found_.key == CandidateContact::kFree ? rate >= 1 : rate * found_.toi > 1;
-      if (i != at && earlier) test(lists.near[i].leaves);
-    }
+  /// Goes on from a contact that is known, or from the end of the piece.
+  DISMANTLE_HOST_DEVICE CandidateSearch(const CandidateScene& scene, const Piece& piece, const CandidateContact& known)
+      : scene_(scene), piece_(piece), found_(known) {}
+
+  /// The contact of two leaves, if it is before the known one; otherwise that.
+  DISMANTLE_HOST_DEVICE CandidateContact first_of(NodePair leaves) {
+    test(leaves);
+    return found_;
+  }
+  /// The first contact of what is not listed as near, on a translation, if it is before the known one; otherwise that.
+  /// To be called once.
+  DISMANTLE_HOST_DEVICE CandidateContact first_of_far(const StraightLists& lists, const StraightMotion& motion) {
     for (const FarNodes& far : lists.far) {
       if (far.gap > found_.toi * motion.distance) break;
       open(far.nodes, contact_of(far.nodes));
@@ -270,6 +263,10 @@ class CandidateSearch {
   }
 
  private:
+  /// A contact counts as a millionth earlier. Where flat faces meet, hundreds of pairs do at the same time; then none
+  /// of them is earlier than the first that is tested.
+  static constexpr double kEarlier = 1 - 1e-6;
+
   struct Open {
     NodePair pair;
     double contact;  ///< Lower bound of the time of contact.
@@ -318,7 +315,7 @@ class CandidateSearch {
     GhostMotion moving = scene_.moving_leaf(p, rule, piece_);
     moving = {part_of(moving.triangle, 0, horizon), part_of(moving.ghost, 0, horizon)};
     const CcdResult ccd = ccd_with_ghosts(moving, scene_.fixed_leaf(p, rule));
-    if (ccd.status == CcdStatus::Contact) found_ = {horizon * ccd.toi, pair_key(p.a, p.b)};
+    if (ccd.status == CcdStatus::Contact) found_ = {kEarlier * horizon * ccd.toi, pair_key(p.a, p.b)};
   }
 
   const CandidateScene& scene_;
@@ -326,20 +323,6 @@ class CandidateSearch {
   CandidateContact found_;
   int open_count_ = 0;
   Open open_[kCandidateStackSize];
-};
-
-/// The first contacts of many translations from one state. Item: a candidate.
-struct SweepStraight {
-  CandidateScene scene;            ///< The state.
-  StraightLists lists;             ///< Of the state.
-  Span<const Vec3> displacements;  ///< Of each candidate [mm, world].
-  Span<CandidateContact> found;    ///< Output, one for each candidate.
-
-  /// Candidate i.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const StraightPiece piece(scene, displacements[i]);
-    found[i] = CandidateSearch<StraightPiece>(scene, piece).first(lists, StraightMotion(displacements[i]));
-  }
 };
 
 /// The first contacts of many screws from one state, each divided into equal pieces. Item: a candidate.

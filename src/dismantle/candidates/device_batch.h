@@ -4,6 +4,7 @@
 #include "dismantle/candidates/candidate_kernel.h"
 #include "dismantle/candidates/find_straight_lists.h"
 #include "dismantle/candidates/motion_batch.h"
+#include "dismantle/candidates/straight_sweep.h"
 #include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/streams/device/device_buffers.h"
@@ -32,7 +33,8 @@ class DeviceBatch final : public MotionBatch {
         geometry_(queue_, host_.fixed()),
         displaced_(queue_, Span<const Vec3>(guards_.ghosts().displaced)),
         margins_(queue_, Span<const float>(guards_.ghosts().margins)),
-        rule_table_(queue_, guards_.rules().table) {
+        rule_table_(queue_, guards_.rules().table),
+        straight_sweep_(queue_) {
     host_.set_margins(guards_.ghosts().margins, executor);
   }
 
@@ -69,6 +71,7 @@ class DeviceBatch final : public MotionBatch {
   bool has_lists_ = false;
   std::vector<RigidTransform> host_state_;
   std::vector<NodeIndex> host_roots_;
+  StraightSweep<Queue> straight_sweep_;
   // Of the last candidates; kept from call to call.
   DeviceArray<Vec3> displacements_;
   DeviceArray<RigidTransform> stations_;
@@ -127,7 +130,8 @@ StraightLists DeviceBatch<Queue>::straight_lists() {
                                                           moving_,
                                                           {ghosts.displaced, ghosts.margins, host_state_, host_state_},
                                                           guards_.rules(),
-                                                          transform_from_pose(start_)});
+                                                          transform_from_pose(start_)},
+                                                         executor_);
     upload(queue_, near_, Span<const NearLeaves>(found.near));
     upload(queue_, far_, Span<const FarNodes>(found.far));
     near_count_ = found.near.size();
@@ -140,8 +144,9 @@ StraightLists DeviceBatch<Queue>::straight_lists() {
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> displacements) {
   const std::size_t count = displacements.size();
+  const StraightLists lists = straight_lists();
   const Span<const Vec3> uploaded = upload(queue_, displacements_, displacements);
-  queue_.launch(count, SweepStraight{scene(), straight_lists(), uploaded, room_for(queue_, found_, count)});
+  straight_sweep_.run(queue_, scene(), lists, uploaded, room_for(queue_, found_, count));
   return brought_down_contacts(count);
 }
 
@@ -172,9 +177,9 @@ std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> ta
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::brought_down_contacts(std::size_t count) {
-  std::vector<FirstContact> contacts;
-  contacts.reserve(count);
-  for (const CandidateContact& contact : brought_down(queue_, found_, count)) contacts.push_back(contact_of(contact));
+  const std::vector<CandidateContact> found = brought_down(queue_, found_, count);
+  std::vector<FirstContact> contacts(count);
+  executor_.for_each(count, [&](std::size_t i) { contacts[i] = contact_of(found[i]); });
   return contacts;
 }
 

@@ -99,32 +99,71 @@ NearLeaves near_leaves(const CandidateScene& scene, NodePair leaves) {
   return near;
 }
 
+/// Nodes by the lower bound of their distance, then by their numbers.
+struct NearestFirst {
+  bool operator()(const FarNodes& x, const FarNodes& y) const {
+    return std::tuple(x.gap, x.nodes.a, x.nodes.b) > std::tuple(y.gap, y.nodes.a, y.nodes.b);
+  }
+};
+
+/// The nodes that may meet and have not been opened, the nearest first.
+class Opened {
+ public:
+  explicit Opened(const CandidateScene& scene) : scene_(scene) {}
+
+  void add(NodePair p) {
+    if (!scene_.can_meet(p)) return;
+    nodes_.push_back({p, gap_of(scene_.bounds[p.a], scene_.bounds[p.b])});
+    std::push_heap(nodes_.begin(), nodes_.end(), NearestFirst{});
+  }
+  bool empty() const { return nodes_.empty(); }
+  const FarNodes& nearest() const { return nodes_.front(); }
+  NodePair take() {
+    std::pop_heap(nodes_.begin(), nodes_.end(), NearestFirst{});
+    const NodePair p = nodes_.back().nodes;
+    nodes_.pop_back();
+    return p;
+  }
+  /// All of them. To be called last.
+  std::vector<FarNodes> taken_all() {
+    std::sort_heap(nodes_.begin(), nodes_.end(), NearestFirst{});
+    std::reverse(nodes_.begin(), nodes_.end());
+    return std::move(nodes_);
+  }
+
+ private:
+  const CandidateScene& scene_;
+  std::vector<FarNodes> nodes_;
+};
+
 }  // namespace
 
-FoundStraightLists find_straight_lists(const CandidateScene& scene, std::size_t most_near) {
-  FoundStraightLists found;
-  std::vector<NodePair> open;
+FoundStraightLists find_straight_lists(const CandidateScene& scene, const Executor& executor,
+                                       const NearLimits& limits) {
+  std::vector<NodePair> near;
+  Opened opened(scene);
   for (const NodeIndex moving : scene.moving_roots)
-    open.push_back({moving, static_cast<NodeIndex>(scene.bounds.size() - 1)});
-  while (!open.empty()) {
-    const NodePair p = open.back();
-    open.pop_back();
-    if (!scene.can_meet(p)) continue;
-    const double gap = gap_of(scene.bounds[p.a], scene.bounds[p.b]);
-    if (gap > 0 || found.near.size() >= most_near) {
-      found.far.push_back({p, gap});
-    } else if (scene.tree.is_leaf(p.a) && scene.tree.is_leaf(p.b)) {
-      found.near.push_back(near_leaves(scene, p));
+    opened.add({moving, static_cast<NodeIndex>(scene.bounds.size() - 1)});
+  std::size_t limit = limits.most;
+  bool apart = false;
+  while (!opened.empty() && near.size() < limit) {
+    if (!apart && opened.nearest().gap > 0) {
+      apart = true;
+      limit = std::min(limit, near.size() + near.size() / 2 + limits.apart);
+    }
+    const NodePair p = opened.take();
+    if (scene.tree.is_leaf(p.a) && scene.tree.is_leaf(p.b)) {
+      near.push_back(p);
     } else {
       const NodePairChildren next = expanded(scene.tree, scene.bounds, p);
-      for (int k = 0; k < next.count; ++k) open.push_back(next.pair[k]);
+      for (int k = 0; k < next.count; ++k) opened.add(next.pair[k]);
     }
   }
-  const auto order = [](double gap, NodePair p) { return std::tuple(gap, p.a, p.b); };
-  std::sort(found.near.begin(), found.near.end(),
-            [&](const NearLeaves& x, const NearLeaves& y) { return order(x.gap, x.leaves) < order(y.gap, y.leaves); });
-  std::sort(found.far.begin(), found.far.end(),
-            [&](const FarNodes& x, const FarNodes& y) { return order(x.gap, x.nodes) < order(y.gap, y.nodes); });
+  FoundStraightLists found{std::vector<NearLeaves>(near.size()), opened.taken_all()};
+  executor.for_each(near.size(), [&](std::size_t i) { found.near[i] = near_leaves(scene, near[i]); });
+  std::sort(found.near.begin(), found.near.end(), [](const NearLeaves& x, const NearLeaves& y) {
+    return std::tuple(x.gap, x.leaves.a, x.leaves.b) < std::tuple(y.gap, y.leaves.a, y.leaves.b);
+  });
   return found;
 }
 

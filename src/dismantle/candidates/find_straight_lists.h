@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/candidates/candidate_kernel.h"
+#include "dismantle/exec/executor.h"
 
 #include <vector>
 
@@ -13,10 +14,14 @@ struct FoundStraightLists {
   std::vector<FarNodes> far;     ///< As StraightLists::far.
 };
 
-/// Leaves that are listed at most; what is near beyond it is searched by every candidate [pairs].
-inline constexpr std::size_t kMostNearLeaves = 1 << 18;
+/// How many leaves are listed [pairs]; what is beyond is searched by every candidate.
+struct NearLimits {
+  std::size_t most = 1 << 18;   ///< In all.
+  std::size_t apart = 1 << 10;  ///< Of those that do not overlap at the start, and half as many more as do.
+};
 
 /// Finds the lists of a state. @param scene in host memory
-FoundStraightLists find_straight_lists(const CandidateScene& scene, std::size_t most_near = kMostNearLeaves);
+FoundStraightLists find_straight_lists(const CandidateScene& scene, const Executor& executor,
+                                       const NearLimits& limits = {});
 
 }  // namespace dismantle

@@ -32,7 +32,7 @@ struct SeparatingAxis {
   }
 };
 
-/// Two leaves whose bounds overlap at the start: the first moves. They meet where the ghost of one meets the other.
+/// Two leaves that are near each other at the start: the first moves. They meet where the ghost of one meets the other.
 struct NearLeaves {
   NodePair leaves;                    ///< Of the moving set and of a stationary component.
   double gap = 0;                     ///< Lower bound of both distances [mm].
@@ -50,7 +50,7 @@ struct NearLeaves {
   DISMANTLE_HOST_DEVICE static double lesser(double x, double y) { return x < y ? x : y; }
 };
 
-/// Two nodes whose bounds are apart at the start, or whose leaves are too many to be listed: the first moves.
+/// Two nodes whose leaves are not listed, as they are further away than those that are, or too many: the first moves.
 struct FarNodes {
   NodePair nodes;  ///< Of the moving set and of stationary components.
   double gap = 0;  ///< Lower bound of the distance of their bounds [mm].

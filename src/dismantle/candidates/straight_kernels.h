@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dismantle/candidates/candidate_kernel.h"
+#include "dismantle/exec/append_buffer.h"
+
+/// The first contacts of many translations from one state, in the order of these kernels: the near pair of each that
+/// may meet first is found (FindSoonest) and tested (TestSoonest); in rounds, some near pairs that may still meet
+/// before the first contact so far are listed, tested and compared (ListEarlier, TestEarlier, TakeEarliest); then comes
+/// what is far (SweepFar). So the threads of a warp test together and look for pairs together. A candidate's rounds do
+/// not depend on the other candidates.
+namespace dismantle {
+
+/// Keys that sort translations by their directions. Item: a candidate.
+struct KeyDirections {
+  static constexpr int kBits = 24;  ///< Low bits of a key: a cell of directions; above them the candidate's number.
+
+  Span<const Vec3> displacements;  ///< Of each candidate [mm, world].
+  Span<std::uint64_t> keys;        ///< Output, one for each candidate.
+
+  /// Candidate i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    keys[i] = static_cast<std::uint64_t>(i) << kBits | cell_of(displacements[i]);
+  }
+
+ private:
+  /// The cell of a direction on an octahedron that is unfolded to a square, in Morton order.
+  DISMANTLE_HOST_DEVICE static std::uint64_t cell_of(Vec3 d) {
+    const Vec3 size = absolute(d);
+    const double sum = size.x + size.y + size.z;
+    if (!(sum > 0)) return 0;
+    double x = d.x / sum, y = d.y / sum;
+    if (d.z < 0) {
+      const double folded = (1 - size.y / sum) * (x < 0 ? -1 : 1);
+      y = (1 - size.x / sum) * (y < 0 ? -1 : 1);
+      x = folded;
+    }
+    return spread(x) | spread(y) << 1;
+  }
+  /// A coordinate in [-1, 1] as an integer, with a 0 above each of its bits.
+  DISMANTLE_HOST_DEVICE static std::uint64_t spread(double x) {
+    constexpr int kHalf = 1 << (kBits / 2 - 1);
+    const double scaled = (x + 1) * kHalf;
+    std::uint64_t bits = scaled < 2 * kHalf ? static_cast<std::uint64_t>(scaled) : 2 * kHalf - 1;
+    bits = (bits | bits << 8) & 0x00ff00ff;
+    bits = (bits | bits << 4) & 0x0f0f0f0f;
+    bits = (bits | bits << 2) & 0x33333333;
+    return (bits | bits << 1) & 0x55555555;
+  }
+};
+
+/// Translations from one state.
+struct StraightBatch {
+  CandidateScene scene;              ///< The state.
+  StraightLists lists;               ///< Of the state.
+  Span<const Vec3> displacements;    ///< Of each candidate [mm, world].
+  Span<const std::uint64_t> sorted;  ///< Keys of KeyDirections: threads of a warp look at nearly the same pairs.
+
+  /// The candidate of key i.
+  DISMANTLE_HOST_DEVICE std::uint32_t candidate(std::size_t i) const {
+    return static_cast<std::uint32_t>(sorted[i] >> KeyDirections::kBits);
+  }
+  /// The contact of two leaves in a candidate's motion, if it is before a known one; otherwise that.
+  DISMANTLE_HOST_DEVICE CandidateContact contact(std::uint32_t candidate, NodePair leaves,
+                                                 const CandidateContact& known) const {
+    const StraightPiece piece(scene, displacements[candidate]);
+    return CandidateSearch<StraightPiece>(scene, piece, known).first_of(leaves);
+  }
+};
+
+/// The near pair that may meet first.
+struct SoonestPair {
+  std::uint32_t near;  ///< Its number in the list; that of all pairs if none may meet.
+  double rate;         ///< No pair has a higher one.
+};
+
+/// The rate that a pair must exceed to meet within a share `toi` of a motion; a little less, for rounding.
+DISMANTLE_HOST_DEVICE inline double least_rate(double toi) {
+  return (1 - 1e-12) / toi;
+}
+
+/// Item: a key.
+struct FindSoonest {
+  StraightBatch batch;        ///< The translations.
+  Span<SoonestPair> soonest;  ///< Output, one for each candidate.
+
+  /// The candidate of key i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const std::uint32_t candidate = batch.candidate(i);
+    const StraightMotion motion(batch.displacements[candidate]);
+    const Span<const NearLeaves> near = batch.lists.near;
+    SoonestPair first{static_cast<std::uint32_t>(near.size()), least_rate(1)};
+    for (std::uint32_t k = 0; k < near.size() && near[k].gap * first.rate <= motion.distance; ++k) {
+      const double rate = near[k].closing_rate(motion);
+      if (rate > first.rate) first = {k, rate};
+    }
+    soonest[candidate] = first;
+  }
+};
+
+/// Item: a key.
+struct TestSoonest {
+  StraightBatch batch;                  ///< The translations.
+  Span<const SoonestPair> soonest;      ///< Of each candidate.
+  Span<CandidateContact> found;         ///< Output: the contact of that pair, one for each candidate.
+  Span<std::uint32_t> next;             ///< Output: 0, one for each candidate.
+  AppendView<std::uint32_t> undecided;  ///< Output: candidates that other near pairs may stop before.
+
+  /// The candidate of key i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const std::uint32_t candidate = batch.candidate(i);
+    const SoonestPair soonest_pair = soonest[candidate];
+    CandidateContact contact;
+    if (soonest_pair.near < batch.lists.near.size())
+      contact = batch.contact(candidate, batch.lists.near[soonest_pair.near].leaves, {});
+    found[candidate] = contact;
+    next[candidate] = 0;
+    if (soonest_pair.rate > least_rate(contact.toi)) undecided.append_together(candidate);
+  }
+};
+
+/// A near pair that may stop a candidate before its first contact so far.
+struct EarlierPair {
+  std::uint32_t candidate;   ///< The candidate.
+  std::uint32_t near;        ///< The pair's number in the list.
+  CandidateContact contact;  ///< Its contact, or the first so far.
+};
+
+/// The pairs listed for a candidate: EarlierPairs.
+struct EarlierRange {
+  std::uint64_t begin = 0, end = 0;  ///< Their numbers.
+};
+
+/// Begins a list. One item.
+struct ForgetListed {
+  std::uint64_t* listed;  ///< Output: 0.
+
+  /// The item.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const { *listed = 0; }
+};
+
+/// Lists pairs in the order of the near list. Item: an undecided candidate.
+struct ListEarlier {
+  StraightBatch batch;                   ///< The translations.
+  Span<const std::uint32_t> undecided;   ///< Candidates.
+  Span<const SoonestPair> soonest;       ///< Of each candidate.
+  Span<const CandidateContact> found;    ///< Of each candidate: the first contact so far.
+  std::uint32_t most;                    ///< Pairs that are listed for a candidate at most.
+  Span<std::uint32_t> next;              ///< Of each candidate: the near pair to begin with, and output: to go on with.
+  AppendView<EarlierPair> pairs;         ///< Output; there must be room.
+  Span<EarlierRange> ranges;             ///< Output, one for each undecided candidate.
+  AppendView<std::uint32_t> unfinished;  ///< Output: candidates with more pairs than were listed.
+
+  /// Undecided candidate i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const std::uint32_t candidate = undecided[i];
+    std::uint32_t count = 0;
+    std::uint32_t after = next[candidate];
+    for (std::uint32_t k = after; count < most && find(candidate, k); after = ++k) ++count;
+    const std::uint64_t begin = pairs.take(count);
+    ranges[i] = {begin, begin + count};
+    std::uint32_t k = next[candidate];
+    for (std::uint32_t listed = 0; listed < count && find(candidate, k); ++k, ++listed)
+      pairs.put(begin + listed, {candidate, k, found[candidate]});
+    next[candidate] = after;
+    if (count == most) unfinished.append_together(candidate);
+  }
+
+ private:
+  /// Goes on to the next near pair that may be earlier. @return false if there is none
+  DISMANTLE_HOST_DEVICE bool find(std::uint32_t candidate, std::uint32_t& k) const {
+    const StraightMotion motion(batch.displacements[candidate]);
+    const double toi = found[candidate].toi, reach = toi * motion.distance, least = least_rate(toi);
+    const Span<const NearLeaves> near = batch.lists.near;
+    for (; k < near.size() && near[k].gap <= reach; ++k)
+      if (k != soonest[candidate].near && near[k].closing_rate(motion) > least) return true;
+    return false;
+  }
+};
+
+/// Item: a listed pair.
+struct TestEarlier {
+  StraightBatch batch;      ///< The translations.
+  Span<EarlierPair> pairs;  ///< Their contacts are set.
+
+  /// Pair i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    EarlierPair& pair = pairs[i];
+    pair.contact = batch.contact(pair.candidate, batch.lists.near[pair.near].leaves, pair.contact);
+  }
+};
+
+/// Item: an undecided candidate.
+struct TakeEarliest {
+  Span<const std::uint32_t> undecided;  ///< Candidates.
+  Span<const EarlierRange> ranges;      ///< Of each undecided candidate.
+  Span<const EarlierPair> pairs;        ///< All that were listed.
+  Span<CandidateContact> found;         ///< Of each candidate: the first contact so far.
+
+  /// Undecided candidate i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    CandidateContact& earliest = found[undecided[i]];
+    for (std::uint64_t k = ranges[i].begin; k < ranges[i].end; ++k)
+      if (pairs[k].contact.toi < earliest.toi) earliest = pairs[k].contact;
+  }
+};
+
+/// Item: a key.
+struct SweepFar {
+  StraightBatch batch;           ///< The translations.
+  Span<CandidateContact> found;  ///< Of each candidate: that of near pairs, and output: of all.
+
+  /// The candidate of key i.
+  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    const std::uint32_t candidate = batch.candidate(i);
+    const StraightMotion motion(batch.displacements[candidate]);
+    const Span<const FarNodes> far = batch.lists.far;
+    const CandidateContact known = found[candidate];
+    if (far.empty() || far[0].gap > known.toi * motion.distance) return;
+    const StraightPiece piece(batch.scene, batch.displacements[candidate]);
+    found[candidate] = CandidateSearch<StraightPiece>(batch.scene, piece, known).first_of_far(batch.lists, motion);
+  }
+};
+
+}  // namespace dismantle
