@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/candidates/straight_lists.h"
+#include "dismantle/candidates/near_lists.h"
 #include "dismantle/streams/narrow_phase_kernel.h"
 
 namespace dismantle {
@@ -172,6 +172,14 @@ class TurningPiece {
     }
     return times;
   }
+  /// Lower bound of the time at which near leaves meet; kNever if they do not on this piece.
+  DISMANTLE_HOST_DEVICE double contact_of_near(const CandidateScene& scene, const NearLeaves& near,
+                                               const NearLevels& levels) const {
+    const GhostMotion moving = scene.moving_leaf(near.leaves, scene.rule_of(near.leaves), *this);
+    const double first = apart_until(moving.ghost, near.of_moving_ghost, levels.of_moving_ghost);
+    const double second = apart_until(moving.triangle, near.of_fixed_ghost, levels.of_fixed_ghost);
+    return first < second ? first : second;
+  }
   /// As StraightPiece::motion().
   DISMANTLE_HOST_DEVICE TriangleMotion motion(const CandidateScene& scene, NodeIndex leaf) const {
     return moved(scene.assembled, scene.faces[leaf], 0);
@@ -182,6 +190,22 @@ class TurningPiece {
   }
 
  private:
+  /// The time until which one of two axes certainly separates. Between its values at both ends, a gap is never smaller
+  /// than by linear interpolation.
+  DISMANTLE_HOST_DEVICE static double apart_until(const TriangleMotion& motion, const SeparatingAxis (&axes)[2],
+                                                  const double (&levels)[2]) {
+    double until = 0;
+    for (int k = 0; k < 2 && axes[k].separates(); ++k) {
+      const double at_start = axes[k].gap_left(motion.t0, levels[k]), at_end = axes[k].gap_left(motion.t1, levels[k]);
+      if (!(at_start > 0)) continue;
+      if (at_end > 0) return OverlapTimes::kNever;
+      const double closed = (1 - kClosingRounding) * at_start / (at_start - at_end);
+      until = closed > until ? closed : until;
+    }
+    return until;
+  }
+  static constexpr double kClosingRounding = 1e-12;  // more than that of a quotient
+
   DISMANTLE_HOST_DEVICE TriangleMotion moved(Span<const Vec3> assembled, const Face& face, std::uint32_t slot) const {
     TriangleMotion m;
     for (int k = 0; k < 3; ++k) {
@@ -223,6 +247,19 @@ class TurningPiece {
 /// tree above the components, and each level leaves one pair on the stack.
 inline constexpr int kCandidateStackSize = 224;
 
+/// How far the points of the moving set are from where they were at the state of the lists, at most, on a piece of a
+/// screw [mm].
+struct Reach {
+  double start, end;  ///< At its ends. A point of a chord is between them.
+
+  /// Until a time of the piece.
+  DISMANTLE_HOST_DEVICE double until(double time) const {
+    if (time >= 1) return start > end ? start : end;
+    const double there = (1 - time) * start + time * end;
+    return start > there ? start : there;
+  }
+};
+
 /// The search for the first contact of the moving set on one piece of a motion: depth-first, the pair that may meet
 /// earlier first, without pairs that meet later than the first known contact.
 /// @tparam Piece StraightPiece or TurningPiece
@@ -244,12 +281,30 @@ class CandidateSearch {
   }
   /// The first contact of what is not listed as near, on a translation, if it is before the known one; otherwise that.
   /// To be called once.
-  DISMANTLE_HOST_DEVICE CandidateContact first_of_far(const StraightLists& lists, const StraightMotion& motion) {
+  DISMANTLE_HOST_DEVICE CandidateContact first_of_far(const NearLists& lists, const StraightMotion& motion) {
     for (const FarNodes& far : lists.far) {
       if (far.gap > found_.toi * motion.distance) break;
       open(far.nodes, contact_of(far.nodes));
       for (NodePair leaves; next_leaves(leaves);) test(leaves);
     }
+    return found_;
+  }
+  /// The first contact of near pairs. To be called once.
+  DISMANTLE_HOST_DEVICE CandidateContact first_of_near(const NearLists& lists, const Reach& reach) {
+    // First the pair that may meet first; most often that is the contact, and no other is earlier.
+    std::size_t soonest = 0;
+    double least = OverlapTimes::kNever;
+    for (std::size_t i = 0; i < lists.near.size() && lists.near[i].gap <= reach.until(least); ++i) {
+      const double contact = piece_.contact_of_near(scene_, lists.near[i], lists.levels[i]);
+      if (!(contact < least)) continue;
+      least = contact;
+      soonest = i;
+    }
+    if (!worth(least)) return found_;
+    test(lists.near[soonest].leaves);
+    // On a GPU, the threads of a warp look for their next pairs together, and then test them together.
+    for (std::size_t i = 0; worth(least) && next_near(lists, reach, i); ++i)
+      if (i != soonest) test(lists.near[i].leaves);
     return found_;
   }
   /// The first contact, as a fraction of the piece. To be called once.
@@ -272,6 +327,13 @@ class CandidateSearch {
     double contact;  ///< Lower bound of the time of contact.
   };
 
+  /// Goes on to the next near pair that may meet before the first known contact. @return false if there is none
+  DISMANTLE_HOST_DEVICE bool next_near(const NearLists& lists, const Reach& reach, std::size_t& i) const {
+    const double limit = reach.until(found_.toi);
+    for (; i < lists.near.size() && lists.near[i].gap <= limit; ++i)
+      if (worth(piece_.contact_of_near(scene_, lists.near[i], lists.levels[i]))) return true;
+    return false;
+  }
   /// Expands pairs until the next one is of two leaves. On a GPU, the threads of a warp do this together, and then test
   /// their leaves together (Aila and Laine 2009). @return false if there is none
   DISMANTLE_HOST_DEVICE bool next_leaves(NodePair& leaves) {
@@ -325,10 +387,17 @@ class CandidateSearch {
   Open open_[kCandidateStackSize];
 };
 
+/// A station of a screw: the end of one of its pieces.
+struct ScrewStation {
+  RigidTransform pose;  ///< Of the moving set: world from assembled.
+  double reach = 0;     ///< How far a point of the moving set is from where it started, at most [mm].
+};
+
 /// The first contacts of many screws from one state, each divided into equal pieces. Item: a candidate.
 struct SweepTurning {
-  CandidateScene scene;                 ///< The state.
-  Span<const RigidTransform> stations;  ///< World from assembled at the ends of the pieces, candidate by candidate.
+  CandidateScene scene;                      ///< The state.
+  NearLists lists;                           ///< Of the state.
+  Span<const ScrewStation> stations;         ///< Candidate by candidate, the start first.
   Span<const std::uint32_t> stations_begin;  ///< First station of each candidate; one more at the end.
   Span<CandidateContact> found;              ///< Output, one for each candidate.
 
@@ -337,12 +406,24 @@ struct SweepTurning {
     const std::uint32_t begin = stations_begin[i], pieces = stations_begin[i + 1] - begin - 1;
     found[i] = {};
     for (std::uint32_t k = 0; k < pieces; ++k) {
-      const TurningPiece piece(scene, stations[begin + k], stations[begin + k + 1]);
-      const CandidateContact contact = CandidateSearch<TurningPiece>(scene, piece).first();
+      const CandidateContact contact = first(stations[begin + k], stations[begin + k + 1]);
       if (contact.key == CandidateContact::kFree) continue;
       found[i] = {(k + contact.toi) / pieces, contact.key};
       return;
     }
+  }
+
+ private:
+  /// The first contact on a piece.
+  DISMANTLE_HOST_DEVICE CandidateContact first(const ScrewStation& start, const ScrewStation& end) const {
+    const TurningPiece piece(scene, start.pose, end.pose);
+    const Reach reach{start.reach, end.reach};
+    CandidateContact near;
+    if (lists.hold_within(start.reach)) {
+      near = CandidateSearch<TurningPiece>(scene, piece).first_of_near(lists, reach);
+      if (lists.hold_within(reach.until(near.toi))) return near;
+    }
+    return CandidateSearch<TurningPiece>(scene, piece, near).first();
   }
 };
 

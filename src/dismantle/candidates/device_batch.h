@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/candidates/candidate_kernel.h"
-#include "dismantle/candidates/find_straight_lists.h"
+#include "dismantle/candidates/find_near_lists.h"
 #include "dismantle/candidates/motion_batch.h"
 #include "dismantle/candidates/straight_sweep.h"
 #include "dismantle/engine/chords.h"
@@ -43,10 +43,12 @@ class DeviceBatch final : public MotionBatch {
   std::vector<FirstContact> screw_contacts(Span<const Pose> targets) override;
 
  private:
+  static constexpr double kReachRounding = 1 + 1e-9;  // more than the rounding of a distance
+
   double path_deviation() const { return kArcShare * tolerance_; }
   CandidateScene scene() const;
-  StraightLists straight_lists();
-  std::vector<Pose> stations_to(const Pose& target) const;
+  NearLists near_lists();
+  std::vector<ScrewStation> stations_to(const Pose& target) const;
   std::vector<FirstContact> brought_down_contacts(std::size_t count);
   FirstContact contact_of(const CandidateContact& found) const;
 
@@ -65,7 +67,8 @@ class DeviceBatch final : public MotionBatch {
   DeviceArray<Kdop16> bounds_;
   DeviceArray<NodeIndex> moving_roots_;
   DeviceArray<std::uint32_t> motion_class_;
-  DeviceArray<NearLeaves> near_;  // of the state, once straight_contacts() wanted them
+  DeviceArray<NearLeaves> near_;  // of the state, once candidates wanted them
+  DeviceArray<NearLevels> levels_;
   DeviceArray<FarNodes> far_;
   std::size_t near_count_ = 0, far_count_ = 0;
   bool has_lists_ = false;
@@ -74,7 +77,7 @@ class DeviceBatch final : public MotionBatch {
   StraightSweep<Queue> straight_sweep_;
   // Of the last candidates; kept from call to call.
   DeviceArray<Vec3> displacements_;
-  DeviceArray<RigidTransform> stations_;
+  DeviceArray<ScrewStation> stations_;
   DeviceArray<std::uint32_t> station_begin_;
   DeviceArray<CandidateContact> found_;
   std::vector<std::uint32_t> moving_;  // motion_class_ on the host
@@ -117,34 +120,36 @@ CandidateScene DeviceBatch<Queue>::scene() const {
 }
 
 template <class Queue>
-StraightLists DeviceBatch<Queue>::straight_lists() {
+NearLists DeviceBatch<Queue>::near_lists() {
   if (!has_lists_) {
     const AssemblyTriangles& fixed = host_.fixed();
     const GhostVertices& ghosts = guards_.ghosts();
-    const FoundStraightLists found = find_straight_lists({BvhView(fixed.bvh),
-                                                          host_.bounds(),
-                                                          fixed.vertices,
-                                                          host_.vertices_t0(),
-                                                          fixed.faces,
-                                                          host_roots_,
-                                                          moving_,
-                                                          {ghosts.displaced, ghosts.margins, host_state_, host_state_},
-                                                          guards_.rules(),
-                                                          transform_from_pose(start_)},
-                                                         executor_);
+    const FoundNearLists found = find_near_lists({BvhView(fixed.bvh),
+                                                  host_.bounds(),
+                                                  fixed.vertices,
+                                                  host_.vertices_t0(),
+                                                  fixed.faces,
+                                                  host_roots_,
+                                                  moving_,
+                                                  {ghosts.displaced, ghosts.margins, host_state_, host_state_},
+                                                  guards_.rules(),
+                                                  transform_from_pose(start_)},
+                                                 executor_);
     upload(queue_, near_, Span<const NearLeaves>(found.near));
+    upload(queue_, levels_, Span<const NearLevels>(found.levels));
     upload(queue_, far_, Span<const FarNodes>(found.far));
     near_count_ = found.near.size();
     far_count_ = found.far.size();
     has_lists_ = true;
   }
-  return {near_.view().subspan(0, near_count_), far_.view().subspan(0, far_count_)};
+  return {near_.view().subspan(0, near_count_), levels_.view().subspan(0, near_count_),
+          far_.view().subspan(0, far_count_)};
 }
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3> displacements) {
   const std::size_t count = displacements.size();
-  const StraightLists lists = straight_lists();
+  const NearLists lists = near_lists();
   const Span<const Vec3> uploaded = upload(queue_, displacements_, displacements);
   straight_sweep_.run(queue_, scene(), lists, uploaded, room_for(queue_, found_, count));
   return brought_down_contacts(count);
@@ -152,26 +157,37 @@ std::vector<FirstContact> DeviceBatch<Queue>::straight_contacts(Span<const Vec3>
 
 /// The poses that divide the screw into pieces with chords near enough to the arcs; the start first.
 template <class Queue>
-std::vector<Pose> DeviceBatch<Queue>::stations_to(const Pose& target) const {
+std::vector<ScrewStation> DeviceBatch<Queue>::stations_to(const Pose& target) const {
+  const RigidTransform start = transform_from_pose(start_);
+  const Vec3 center = start * set_.center;
   const Screw screw = screw_between(start_, target);
-  const double rho = screw_radius(screw, transform_from_pose(start_) * set_.center, set_.radius);
+  const double rho = screw_radius(screw, center, set_.radius);
   const int pieces = chord_count(screw_chord_deviation(screw, rho), path_deviation());
-  std::vector<Pose> stations;
-  for (int k = 0; k <= pieces; ++k) stations.push_back(pose_between(start_, target, static_cast<double>(k) / pieces));
+  std::vector<ScrewStation> stations;
+  for (int k = 0; k <= pieces; ++k) {
+    const double share = static_cast<double>(k) / pieces;
+    const RigidTransform pose = transform_from_pose(pose_between(start_, target, share));
+    // A point moves as the center does, and turns about it.
+    const double turned = 2 * std::sin(0.5 * share * screw.angle) * set_.radius;
+    stations.push_back({pose, kReachRounding * (length(pose * set_.center - center) + turned)});
+  }
   return stations;
 }
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> targets) {
-  std::vector<RigidTransform> stations;
+  std::vector<ScrewStation> stations;
   std::vector<std::uint32_t> begin{0};
   for (const Pose& target : targets) {
-    for (const Pose& station : stations_to(target)) stations.push_back(transform_from_pose(station));
+    const std::vector<ScrewStation> added = stations_to(target);
+    stations.insert(stations.end(), added.begin(), added.end());
     begin.push_back(static_cast<std::uint32_t>(stations.size()));
   }
-  const Span<const RigidTransform> uploaded = upload(queue_, stations_, Span<const RigidTransform>(stations));
+  const NearLists lists = near_lists();
+  const Span<const ScrewStation> uploaded = upload(queue_, stations_, Span<const ScrewStation>(stations));
   const Span<const std::uint32_t> begins = upload(queue_, station_begin_, Span<const std::uint32_t>(begin));
-  queue_.launch(targets.size(), SweepTurning{scene(), uploaded, begins, room_for(queue_, found_, targets.size())});
+  queue_.launch(targets.size(),
+                SweepTurning{scene(), lists, uploaded, begins, room_for(queue_, found_, targets.size())});
   return brought_down_contacts(targets.size());
 }
 

@@ -52,7 +52,7 @@ struct KeyDirections {
 /// Translations from one state.
 struct StraightBatch {
   CandidateScene scene;              ///< The state.
-  StraightLists lists;               ///< Of the state.
+  NearLists lists;                   ///< Of the state.
   Span<const Vec3> displacements;    ///< Of each candidate [mm, world].
   Span<const std::uint64_t> sorted;  ///< Keys of KeyDirections: threads of a warp look at nearly the same pairs.
 
@@ -68,10 +68,21 @@ struct StraightBatch {
   }
 };
 
-/// The near pair that may meet first.
-struct SoonestPair {
-  std::uint32_t near;  ///< Its number in the list; that of all pairs if none may meet.
-  double rate;         ///< No pair has a higher one.
+/// The near pairs that may meet first.
+struct SoonestPairs {
+  static constexpr int kCount = 4;  ///< Where the first does not meet, another one near it does.
+
+  std::uint32_t near[kCount];  ///< Their numbers in the list, the one of the highest rate first; then kNone.
+  double rate;                 ///< No pair has a higher one.
+
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};  ///< No pair.
+
+  /// True if a pair is one of them.
+  DISMANTLE_HOST_DEVICE bool has(std::uint32_t pair) const {
+    bool found = false;
+    for (const std::uint32_t k : near) found = found || k == pair;
+    return found;
+  }
 };
 
 /// The rate that a pair must exceed to meet within a share `toi` of a motion; a little less, for rounding.
@@ -81,18 +92,31 @@ DISMANTLE_HOST_DEVICE inline double least_rate(double toi) {
 
 /// Item: a key.
 struct FindSoonest {
-  StraightBatch batch;        ///< The translations.
-  Span<SoonestPair> soonest;  ///< Output, one for each candidate.
+  StraightBatch batch;         ///< The translations.
+  Span<SoonestPairs> soonest;  ///< Output, one for each candidate.
 
   /// The candidate of key i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::uint32_t candidate = batch.candidate(i);
     const StraightMotion motion(batch.displacements[candidate]);
     const Span<const NearLeaves> near = batch.lists.near;
-    SoonestPair first{static_cast<std::uint32_t>(near.size()), least_rate(1)};
+    SoonestPairs first{{}, least_rate(1)};
+    double rates[SoonestPairs::kCount];
+    for (int i = 0; i < SoonestPairs::kCount; ++i) {
+      first.near[i] = SoonestPairs::kNone;
+      rates[i] = least_rate(1);
+    }
     for (std::uint32_t k = 0; k < near.size() && near[k].gap * first.rate <= motion.distance; ++k) {
       const double rate = near[k].closing_rate(motion);
-      if (rate > first.rate) first = {k, rate};
+      if (!(rate > rates[SoonestPairs::kCount - 1])) continue;
+      int at = SoonestPairs::kCount - 1;
+      for (; at > 0 && rate > rates[at - 1]; --at) {
+        rates[at] = rates[at - 1];
+        first.near[at] = first.near[at - 1];
+      }
+      rates[at] = rate;
+      first.near[at] = k;
+      first.rate = rates[0];
     }
     soonest[candidate] = first;
   }
@@ -101,21 +125,23 @@ struct FindSoonest {
 /// Item: a key.
 struct TestSoonest {
   StraightBatch batch;                  ///< The translations.
-  Span<const SoonestPair> soonest;      ///< Of each candidate.
-  Span<CandidateContact> found;         ///< Output: the contact of that pair, one for each candidate.
+  Span<const SoonestPairs> soonest;     ///< Of each candidate.
+  Span<CandidateContact> found;         ///< Output: the first contact of these pairs, one for each candidate.
   Span<std::uint32_t> next;             ///< Output: 0, one for each candidate.
   AppendView<std::uint32_t> undecided;  ///< Output: candidates that other near pairs may stop before.
 
   /// The candidate of key i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::uint32_t candidate = batch.candidate(i);
-    const SoonestPair soonest_pair = soonest[candidate];
+    const SoonestPairs& pairs = soonest[candidate];
+    const StraightMotion motion(batch.displacements[candidate]);
     CandidateContact contact;
-    if (soonest_pair.near < batch.lists.near.size())
-      contact = batch.contact(candidate, batch.lists.near[soonest_pair.near].leaves, {});
+    for (const std::uint32_t k : pairs.near)
+      if (k != SoonestPairs::kNone && batch.lists.near[k].closing_rate(motion) > least_rate(contact.toi))
+        contact = batch.contact(candidate, batch.lists.near[k].leaves, contact);
     found[candidate] = contact;
     next[candidate] = 0;
-    if (soonest_pair.rate > least_rate(contact.toi)) undecided.append_together(candidate);
+    if (pairs.rate > least_rate(contact.toi)) undecided.append_together(candidate);
   }
 };
 
@@ -143,7 +169,7 @@ struct ForgetListed {
 struct ListEarlier {
   StraightBatch batch;                   ///< The translations.
   Span<const std::uint32_t> undecided;   ///< Candidates.
-  Span<const SoonestPair> soonest;       ///< Of each candidate.
+  Span<const SoonestPairs> soonest;      ///< Of each candidate.
   Span<const CandidateContact> found;    ///< Of each candidate: the first contact so far.
   std::uint32_t most;                    ///< Pairs that are listed for a candidate at most.
   Span<std::uint32_t> next;              ///< Of each candidate: the near pair to begin with, and output: to go on with.
@@ -173,7 +199,7 @@ struct ListEarlier {
     const double toi = found[candidate].toi, reach = toi * motion.distance, least = least_rate(toi);
     const Span<const NearLeaves> near = batch.lists.near;
     for (; k < near.size() && near[k].gap <= reach; ++k)
-      if (k != soonest[candidate].near && near[k].closing_rate(motion) > least) return true;
+      if (near[k].closing_rate(motion) > least && !soonest[candidate].has(k)) return true;
     return false;
   }
 };

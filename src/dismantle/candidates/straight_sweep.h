@@ -19,7 +19,7 @@ class StraightSweep {
 
   /// Finds the first contacts of translations. @param displacements on the device [mm, world]
   /// @param found output, one for each displacement
-  void run(Queue& queue, const CandidateScene& scene, const StraightLists& lists, Span<const Vec3> displacements,
+  void run(Queue& queue, const CandidateScene& scene, const NearLists& lists, Span<const Vec3> displacements,
            Span<CandidateContact> found);
 
  private:
@@ -37,7 +37,7 @@ class StraightSweep {
   std::size_t most_pairs_;
   DeviceArray<std::uint64_t> keys_, sorted_;
   DeviceArray<std::byte> sort_scratch_;
-  DeviceArray<SoonestPair> soonest_;
+  DeviceArray<SoonestPairs> soonest_;
   DeviceArray<std::uint32_t> next_, undecided_[2];
   DeviceArray<EarlierRange> ranges_;
   DeviceArray<EarlierPair> pairs_;
@@ -45,12 +45,12 @@ class StraightSweep {
 };
 
 template <class Queue>
-void StraightSweep<Queue>::run(Queue& queue, const CandidateScene& scene, const StraightLists& lists,
+void StraightSweep<Queue>::run(Queue& queue, const CandidateScene& scene, const NearLists& lists,
                                Span<const Vec3> displacements, Span<CandidateContact> found) {
   const std::size_t count = displacements.size();
   if (count == 0) return;
   const StraightBatch batch{scene, lists, displacements, sorted_by_direction(queue, displacements)};
-  const Span<SoonestPair> soonest = room_for(queue, soonest_, count);
+  const Span<SoonestPairs> soonest = room_for(queue, soonest_, count);
   const Span<std::uint32_t> next = room_for(queue, next_, count);
   Span<std::uint32_t> undecided = room_for(queue, undecided_[0], count);
   Span<std::uint32_t> unfinished = room_for(queue, undecided_[1], count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/candidates/find_straight_lists.h"
+#include "dismantle/candidates/find_near_lists.h"
 #include "dismantle/candidates/straight_sweep.h"
 #include "dismantle/exec/host_queue.h"
 #include "dismantle/streams/guarded_pairs.h"
@@ -59,12 +59,12 @@ struct ListedScene {
   std::vector<NodeIndex> roots;
 };
 
-TEST(StraightLists, ListRatesThatNoContactIsEarlierThan) {
+TEST(NearLists, ListRatesThatNoContactIsEarlierThan) {
   std::size_t contacts = 0, apart = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     ListedScene listed(seed, 0.2);
     const CandidateScene scene = listed.scene();
-    const FoundStraightLists lists = find_straight_lists(scene, Executor());
+    const FoundNearLists lists = find_near_lists(scene, Executor());
     for (int i = 0; i < 100; ++i) {
       const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.05 : 5);
       const StraightMotion motion(d);
@@ -91,11 +91,12 @@ TEST(StraightLists, ListRatesThatNoContactIsEarlierThan) {
 }
 
 /// The contacts of a sweep by lists. @param most_pairs as of StraightSweep: with 0, pairs are tested one a candidate
-std::vector<CandidateContact> swept(const CandidateScene& scene, const FoundStraightLists& lists,
+std::vector<CandidateContact> swept(const CandidateScene& scene, const FoundNearLists& lists,
                                     const std::vector<Vec3>& displacements, std::size_t most_pairs) {
   HostQueue queue{Executor()};
   std::vector<CandidateContact> found(displacements.size());
-  StraightSweep<HostQueue>(queue, most_pairs).run(queue, scene, {lists.near, lists.far}, displacements, found);
+  StraightSweep<HostQueue>(queue, most_pairs)
+      .run(queue, scene, {lists.near, lists.levels, lists.far}, displacements, found);
   return found;
 }
 
@@ -105,7 +106,7 @@ TEST(StraightSweep, GivesTheContactsOfASearchOfTheWholeTreeWhateverTheRoomAndThe
     ListedScene listed(seed, 2);
     const CandidateScene scene = listed.scene();
     for (const NearLimits& limits : {NearLimits{0, 0}, NearLimits{7, 3}, NearLimits{1 << 18, 0}, NearLimits{}}) {
-      const FoundStraightLists lists = find_straight_lists(scene, Executor(), limits);
+      const FoundNearLists lists = find_near_lists(scene, Executor(), limits);
       EXPECT_LE(lists.near.size(), limits.most);
       std::vector<Vec3> displacements;
       for (int i = 0; i < 60; ++i) displacements.push_back(scenes::random_vector(listed.random, i % 2 == 0 ? 0.3 : 30));

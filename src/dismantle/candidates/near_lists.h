@@ -3,7 +3,9 @@
 
 #include "dismantle/bvh/bvh_traverse.h"
 #include "dismantle/core/span.h"
+#include "dismantle/geometry/triangle_mesh.h"
 #include "dismantle/math/vec3.h"
+#include "dismantle/narrowphase/separating_axis.h"
 
 #include <limits>
 
@@ -23,12 +25,25 @@ struct StraightMotion {
 /// a translation after which they may meet: below 1 they do not meet.
 struct SeparatingAxis {
   Vec3 normal;  ///< From the stationary object to the moving one, divided by the gap [1/mm].
-  /// Share of the translation's length that covers rounding [1/mm]; infinite without an axis.
+  /// Share of the translation's length, or of a position, that covers rounding [1/mm]; infinite without an axis.
   double slack = std::numeric_limits<double>::infinity();
 
+  /// False if no axis was found.
+  DISMANTLE_HOST_DEVICE bool separates() const { return slack < std::numeric_limits<double>::infinity(); }
   /// The rate along this axis.
   DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
     return slack * motion.distance - dot(motion.displacement, normal);
+  }
+  /// Lower bound of the gap of the moving triangle where it has moved to, as a share of that at the start.
+  /// @param level of the stationary object @pre separates()
+  DISMANTLE_HOST_DEVICE double gap_left(const Triangle& moved, double level) const {
+    double left = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : moved.corner) {
+      const Vec3 size = absolute(p);
+      const double above = dot(normal, p) - slack * (size.x + size.y + size.z);
+      left = above < left ? above : left;
+    }
+    return left - level;
   }
 };
 
@@ -50,17 +65,29 @@ struct NearLeaves {
   DISMANTLE_HOST_DEVICE static double lesser(double x, double y) { return x < y ? x : y; }
 };
 
+/// The levels of the stationary objects along the axes of NearLeaves: upper bounds of their positions along the
+/// normals.
+struct NearLevels {
+  ///@{ As the axes of these names.
+  double of_moving_ghost[2] = {}, of_fixed_ghost[2] = {};
+  ///@}
+};
+
 /// Two nodes whose leaves are not listed, as they are further away than those that are, or too many: the first moves.
 struct FarNodes {
   NodePair nodes;  ///< Of the moving set and of stationary components.
   double gap = 0;  ///< Lower bound of the distance of their bounds [mm].
 };
 
-/// All that the moving set may meet on a translation from one state, found once for all translations from it. Every
-/// pair of leaves that is tested is in `near` or below one of `far`.
-struct StraightLists {
-  Span<const NearLeaves> near;  ///< By ascending gap.
-  Span<const FarNodes> far;     ///< By ascending gap.
+/// All that the moving set may meet on a motion from one state, found once for all motions from it. Every pair of
+/// leaves that is tested is in `near` or below one of `far`.
+struct NearLists {
+  Span<const NearLeaves> near;    ///< By ascending gap.
+  Span<const NearLevels> levels;  ///< Of the same leaves.
+  Span<const FarNodes> far;       ///< By ascending gap.
+
+  /// True if nothing that is far is met before a point of the moving set has moved so far [mm].
+  DISMANTLE_HOST_DEVICE bool hold_within(double distance) const { return far.empty() || far[0].gap > distance; }
 };
 
 }  // namespace dismantle

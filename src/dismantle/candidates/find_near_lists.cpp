@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/candidates/find_straight_lists.h"
+#include "dismantle/candidates/find_near_lists.h"
 
 #include <algorithm>
 #include <array>
@@ -65,17 +65,21 @@ double find_axes(const Triangle& moving, const Triangle& fixed, SeparatingAxis (
   double size = 0;
   for (const Triangle* triangle : {&moving, &fixed})
     for (const Vec3& p : triangle->corner) size = std::max(size, length(p));
-  std::array<Gap, 11> gaps;
+  std::array<Gap, 17> gaps;
   std::size_t count = 0;
   const auto add = [&](Vec3 direction) {
     if (const std::optional<Gap> gap = gap_along(direction, moving, fixed, kSlack * size)) gaps[count++] = *gap;
   };
   const Vec3 of_moving[3] = {moving[1] - moving[0], moving[2] - moving[1], moving[0] - moving[2]};
   const Vec3 of_fixed[3] = {fixed[1] - fixed[0], fixed[2] - fixed[1], fixed[0] - fixed[2]};
-  add(cross(of_moving[0], of_moving[1]));
-  add(cross(of_fixed[0], of_fixed[1]));
+  const Vec3 normal_of_moving = cross(of_moving[0], of_moving[1]), normal_of_fixed = cross(of_fixed[0], of_fixed[1]);
+  add(normal_of_moving);
+  add(normal_of_fixed);
   for (const Vec3& edge : of_moving)
     for (const Vec3& other : of_fixed) add(cross(edge, other));
+  // Triangles of one plane are separated within it.
+  for (const Vec3& edge : of_moving) add(cross(edge, normal_of_moving));
+  for (const Vec3& other : of_fixed) add(cross(other, normal_of_fixed));
   if (count == 0) return 0;
   const Gap* widest = &gaps[0];
   for (std::size_t i = 1; i < count; ++i)
@@ -97,6 +101,26 @@ NearLeaves near_leaves(const CandidateScene& scene, NodePair leaves) {
   near.gap = std::min(find_axes(moving.ghost.t0, fixed.triangle.t0, near.of_moving_ghost),
                       find_axes(moving.triangle.t0, fixed.ghost.t0, near.of_fixed_ghost));
   return near;
+}
+
+double level_of(const Triangle& fixed, const SeparatingAxis& axis) {
+  if (!axis.separates()) return 0;
+  double level = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : fixed.corner) {
+    const Vec3 size = absolute(p);
+    level = std::max(level, dot(axis.normal, p) + axis.slack * (size.x + size.y + size.z));
+  }
+  return level;
+}
+
+NearLevels near_levels(const CandidateScene& scene, const NearLeaves& near) {
+  const GhostMotion fixed = scene.fixed_leaf(near.leaves, scene.rule_of(near.leaves));
+  NearLevels levels;
+  for (int k = 0; k < 2; ++k) {
+    levels.of_moving_ghost[k] = level_of(fixed.triangle.t0, near.of_moving_ghost[k]);
+    levels.of_fixed_ghost[k] = level_of(fixed.ghost.t0, near.of_fixed_ghost[k]);
+  }
+  return levels;
 }
 
 /// Nodes by the lower bound of their distance, then by their numbers.
@@ -138,8 +162,7 @@ class Opened {
 
 }  // namespace
 
-FoundStraightLists find_straight_lists(const CandidateScene& scene, const Executor& executor,
-                                       const NearLimits& limits) {
+FoundNearLists find_near_lists(const CandidateScene& scene, const Executor& executor, const NearLimits& limits) {
   std::vector<NodePair> near;
   Opened opened(scene);
   for (const NodeIndex moving : scene.moving_roots)
@@ -159,11 +182,12 @@ FoundStraightLists find_straight_lists(const CandidateScene& scene, const Execut
       for (int k = 0; k < next.count; ++k) opened.add(next.pair[k]);
     }
   }
-  FoundStraightLists found{std::vector<NearLeaves>(near.size()), opened.taken_all()};
+  FoundNearLists found{std::vector<NearLeaves>(near.size()), std::vector<NearLevels>(near.size()), opened.taken_all()};
   executor.for_each(near.size(), [&](std::size_t i) { found.near[i] = near_leaves(scene, near[i]); });
   std::sort(found.near.begin(), found.near.end(), [](const NearLeaves& x, const NearLeaves& y) {
     return std::tuple(x.gap, x.leaves.a, x.leaves.b) < std::tuple(y.gap, y.leaves.a, y.leaves.b);
   });
+  executor.for_each(near.size(), [&](std::size_t i) { found.levels[i] = near_levels(scene, found.near[i]); });
   return found;
 }
 

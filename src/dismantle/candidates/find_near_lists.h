@@ -8,10 +8,13 @@
 
 namespace dismantle {
 
-/// StraightLists and what they hold.
-struct FoundStraightLists {
-  std::vector<NearLeaves> near;  ///< As StraightLists::near.
-  std::vector<FarNodes> far;     ///< As StraightLists::far.
+/// NearLists and what they hold.
+struct FoundNearLists {
+  ///@{ As NearLists has them.
+  std::vector<NearLeaves> near;
+  std::vector<NearLevels> levels;
+  std::vector<FarNodes> far;
+  ///@}
 };
 
 /// How many leaves are listed [pairs]; what is beyond is searched by every candidate.
@@ -21,7 +24,6 @@ struct NearLimits {
 };
 
 /// Finds the lists of a state. @param scene in host memory
-FoundStraightLists find_straight_lists(const CandidateScene& scene, const Executor& executor,
-                                       const NearLimits& limits = {});
+FoundNearLists find_near_lists(const CandidateScene& scene, const Executor& executor, const NearLimits& limits = {});
 
 }  // namespace dismantle
